@@ -1,0 +1,128 @@
+// The C API: checks nothing that its contract leaves to the caller, translates views, calls the
+// recording pages.
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <new>
+
+#include "engine/stages.h"
+#include "engine/support.h"
+
+namespace vkh {
+namespace {
+
+static_assert(sizeof(VkhReport) == sizeof(gpu::Report));
+static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witness));
+static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
+static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
+static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
+static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_WARM_START == gpu::kUseWarmStart);
+static_assert(VKH_STATUS_MEMORY == gpu::kStatusMemory &&
+              VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords);
+
+bool load_functions(const VkhDeviceInfo& info, DeviceFunctions& vk) {
+  const auto get_device_proc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+      info.getInstanceProcAddr(info.instance, "vkGetDeviceProcAddr"));
+  bool complete = get_device_proc != nullptr;
+#define VKH_LOAD(name)                                                                         \
+  vk.name = reinterpret_cast<PFN_vk##name>(complete ? get_device_proc(info.device, "vk" #name) \
+                                                    : nullptr);                                \
+  complete = complete && vk.name != nullptr;
+  VKH_DEVICE_FUNCTIONS(VKH_LOAD)
+#undef VKH_LOAD
+  return complete;
+}
+
+Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
+  return {.vertex_count = p.a.vertexCount,
+          .face_count = p.a.faceCount,
+          .cull_tolerance = p.cullTolerance,
+          .b = view_hierarchy(p.b),
+          .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount)};
+}
+
+bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize range) {
+  return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
+         face_count <= gpu::kMaxTriangles && vertex_count * sizeof(gpu::vec3) <= range &&
+         face_count * sizeof(gpu::Node) <= range;
+}
+
+}  // namespace
+}  // namespace vkh
+
+VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context) {
+  *context = nullptr;
+  if (vkhQuerySupport(&info->device, nullptr, 0) != VKH_SUCCESS) return VKH_ERROR_UNSUPPORTED;
+  auto* created = new (std::nothrow) VkhContext_T;
+  if (created == nullptr) return VKH_ERROR_PIPELINE;
+  created->device = info->device.device;
+  created->limits = vkh::device_limits(info->device);
+  if (!vkh::load_functions(info->device, created->vk)) {
+    delete created;
+    return VKH_ERROR_UNSUPPORTED;
+  }
+  if (vkh::create_kernels(*created, info->pipelineCache, info->switches) != VK_SUCCESS) {
+    vkhDestroyContext(created);
+    return VKH_ERROR_PIPELINE;
+  }
+  *context = created;
+  return VKH_SUCCESS;
+}
+
+void vkhDestroyContext(VkhContext context) {
+  if (context == nullptr) return;
+  vkh::destroy_kernels(*context);
+  delete context;
+}
+
+VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
+                                      VkhHierarchyRequirements* requirements) {
+  if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
+    return VKH_ERROR_TOO_LARGE;
+  *requirements = {vkh::hierarchy_size(faceCount), vkh::scratch_size(vertexCount, faceCount)};
+  return VKH_SUCCESS;
+}
+
+VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
+                                      VkhWorkspaceRequirements* requirements) {
+  if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
+    return VKH_ERROR_TOO_LARGE;
+  const uint32_t largest = vkh::largest_capacity(context->limits);
+  // A frontier is refined whole while four times its length fits; few pairs hold more than 2^18
+  // candidates at once.
+  const uint32_t recommended = std::min(largest, std::max(2 * faceCount, 1u << 20));
+  *requirements = {vkh::workspace_size(vertexCount, faceCount, vkh::kSmallestCapacity),
+                   vkh::workspace_size(vertexCount, faceCount, recommended),
+                   vkh::workspace_size(vertexCount, faceCount, largest)};
+  return VKH_SUCCESS;
+}
+
+void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
+                          VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {
+  hierarchy->faceCount = mesh->faceCount;
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_build(rec, *mesh, vkh::view_scratch(*scratch, mesh->vertexCount, mesh->faceCount),
+                    vkh::view_hierarchy(*hierarchy));
+}
+
+void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                 VkhProfile* profile) {
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  const vkh::Problem p = vkh::view_problem(*context, *problem);
+  vkh::record_load(rec, problem->a, p.ws.positions, p.ws.faces);
+  vkh::record_seed(rec, p);
+}
+
+void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                   uint32_t waves, VkhProfile* profile) {
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  const vkh::Problem p = vkh::view_problem(*context, *problem);
+  for (uint32_t wave = 0; wave < waves; ++wave) vkh::record_wave(rec, p);
+}
+
+void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile) {
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_report(rec, vkh::view_problem(*context, *problem),
+                     {buffer, offset, sizeof(VkhReport)});
+}

@@ -1,0 +1,85 @@
+// B's hierarchy: a linear BVH over Morton-sorted triangles, built and refitted on the GPU.
+#include <algorithm>
+
+#include "engine/stages.h"
+
+namespace vkh {
+namespace {
+
+// A binding that covers [offset, offset + bytes) of a buffer and starts at a multiple of 256 bytes;
+// `skip` is how far into it the range starts.
+struct AlignedRange {
+  Slice<uint32_t> words;
+  uint32_t skip;
+};
+
+AlignedRange align(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
+  const VkDeviceSize start = offset / 256 * 256;
+  const VkDeviceSize end = (offset + bytes + 3) / 4 * 4;
+  return {{buffer, start, end - start}, static_cast<uint32_t>(offset - start)};
+}
+
+// Boxes over runs of 16, 256, 4096, ... triangles, until one box is left.
+void record_pyramid(Recorder& rec, const BuildScratch& s, const Hierarchy& h) {
+  gpu::PyramidPush push{.from_triangles = 1, .from = 0, .from_count = h.face_count, .to = 0};
+  while (push.from_count > 1) {
+    const uint32_t level = (push.from_count + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
+    rec.run<k::BvhPyramid>({.triangles = h.triangles, .boxes = s.pyramid}, push, Items{level});
+    push = {.from_triangles = 0, .from = push.to, .from_count = level, .to = push.to + level};
+  }
+}
+
+}  // namespace
+
+void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::vec3>& positions,
+                 const Slice<gpu::uvec3>& faces) {
+  const bool is_16bit = mesh.indexType == VK_INDEX_TYPE_UINT16;
+  const VkDeviceSize index_bytes = 3ull * mesh.faceCount * (is_16bit ? 2 : 4);
+  const VkDeviceSize vertex_bytes =
+      static_cast<VkDeviceSize>(mesh.vertexCount - 1) * mesh.vertexStride + 12;
+  const AlignedRange vertices = align(mesh.vertexBuffer, mesh.vertexOffset, vertex_bytes);
+  const AlignedRange indices = align(mesh.indexBuffer, mesh.indexOffset, index_bytes);
+  const gpu::LoadPush push{.vertex_word = vertices.skip / 4,
+                           .stride_words = mesh.vertexStride / 4,
+                           .vertex_count = mesh.vertexCount,
+                           .index_half = indices.skip / 2,
+                           .index_count = 3 * mesh.faceCount,
+                           .index_is_16bit = is_16bit ? 1u : 0u};
+  rec.run<k::MeshLoad>({.vertex_words = vertices.words,
+                        .index_words = indices.words,
+                        .positions = positions,
+                        .indices = Slice<uint32_t>{faces.buffer, faces.offset, faces.size}},
+                       push, Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
+}
+
+void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
+  const gpu::CountPush count{b.faceCount};
+  const Items faces{b.faceCount};
+  record_load(rec, b, s.positions, s.faces);
+  const VkDeviceSize half_box = s.centroid_box.size / 2;
+  rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset, half_box}, 0xffffffffu,
+           Order::kIndependent);
+  rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset + half_box, half_box}, 0,
+           Order::kIndependent);
+  rec.run<k::BvhBox>({.positions = s.positions, .faces = s.faces, .box = s.centroid_box}, count,
+                     faces);
+  rec.run<k::BvhMorton>({.positions = s.positions,
+                         .faces = s.faces,
+                         .box = s.centroid_box,
+                         .keys = s.keys[0],
+                         .values = s.values[0]},
+                        count, faces);
+  rec.stage("morton");
+  record_sort(rec, s, b.faceCount);
+  rec.stage("sort");
+  rec.run<k::BvhLeaves>(
+      {.positions = s.positions, .faces = s.faces, .values = s.values[0], .triangles = h.triangles},
+      count, faces);
+  rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
+  record_pyramid(rec, s, h);
+  rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = s.pyramid, .nodes = h.nodes}, count,
+                       faces);
+  rec.stage("hierarchy");
+}
+
+}  // namespace vkh

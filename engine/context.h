@@ -1,0 +1,57 @@
+// A context: the pipelines of every kernel on the caller's device, and the Vulkan functions that
+// recording needs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/slice.h"
+#include "engine/vkhausdorff.h"
+
+namespace vkh {
+
+#define VKH_DEVICE_FUNCTIONS(X) \
+  X(CreateDescriptorSetLayout)  \
+  X(DestroyDescriptorSetLayout) \
+  X(CreatePipelineLayout)       \
+  X(DestroyPipelineLayout)      \
+  X(CreateShaderModule)         \
+  X(DestroyShaderModule)        \
+  X(CreateComputePipelines)     \
+  X(DestroyPipeline)            \
+  X(CmdBindPipeline)            \
+  X(CmdDispatch)                \
+  X(CmdDispatchIndirect)        \
+  X(CmdFillBuffer)              \
+  X(CmdPushConstants)           \
+  X(CmdPushDescriptorSetKHR)    \
+  X(CmdPipelineBarrier2KHR)     \
+  X(CmdWriteTimestamp2KHR)
+
+// No prototypes are linked against: the loader belongs to the caller.
+struct DeviceFunctions {
+#define VKH_DECLARE(name) PFN_vk##name name = nullptr;
+  VKH_DEVICE_FUNCTIONS(VKH_DECLARE)
+#undef VKH_DECLARE
+};
+
+struct KernelPipeline {
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+};
+
+constexpr uint32_t kMaxKernels = 64;
+
+struct Limits {
+  VkDeviceSize storage_range = 0;  // bytes of one binding
+};
+
+}  // namespace vkh
+
+struct VkhContext_T {
+  VkDevice device = VK_NULL_HANDLE;
+  vkh::DeviceFunctions vk;
+  vkh::Limits limits;
+  std::array<vkh::KernelPipeline, vkh::kMaxKernels> kernels{};
+};

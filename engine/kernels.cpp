@@ -1,0 +1,105 @@
+#include "engine/kernels.h"
+
+#include <array>
+#include <span>
+
+namespace vkh {
+namespace {
+
+struct KernelSource {
+  std::span<const uint32_t> words;
+  std::span<const Binding> bindings;
+  uint32_t push_bytes;
+};
+
+template <class Push>
+constexpr uint32_t push_size() {
+  return static_cast<uint32_t>(sizeof(Push));
+}
+template <>
+constexpr uint32_t push_size<NoPush>() {
+  return 0;
+}
+
+std::array<KernelSource, kKernelCount> kernel_sources() {
+  return {{
+#define VKH_SOURCE(K) {k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
+      VKH_KERNELS(VKH_SOURCE)
+#undef VKH_SOURCE
+  }};
+}
+
+VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, KernelPipeline& out) {
+  std::array<VkDescriptorSetLayoutBinding, 32> bindings{};
+  uint32_t count = 0;
+  for (const Binding& b : source.bindings) {
+    bindings[count++] = {b.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                         VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  }
+  VkDescriptorSetLayoutCreateInfo set{};
+  set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+  set.bindingCount = count;
+  set.pBindings = bindings.data();
+  VkResult result = c.vk.CreateDescriptorSetLayout(c.device, &set, nullptr, &out.set_layout);
+  if (result != VK_SUCCESS) return result;
+
+  const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, source.push_bytes};
+  VkPipelineLayoutCreateInfo layout{};
+  layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout.setLayoutCount = 1;
+  layout.pSetLayouts = &out.set_layout;
+  layout.pushConstantRangeCount = source.push_bytes > 0 ? 1 : 0;
+  layout.pPushConstantRanges = &push;
+  return c.vk.CreatePipelineLayout(c.device, &layout, nullptr, &out.layout);
+}
+
+VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
+                         uint32_t switches, KernelPipeline& out) {
+  VkShaderModuleCreateInfo module_info{};
+  module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  module_info.codeSize = source.words.size_bytes();
+  module_info.pCode = source.words.data();
+  VkShaderModule shader = VK_NULL_HANDLE;
+  VkResult result = c.vk.CreateShaderModule(c.device, &module_info, nullptr, &shader);
+  if (result != VK_SUCCESS) return result;
+
+  const VkSpecializationMapEntry entry{0, 0, sizeof(switches)};
+  const VkSpecializationInfo specialisation{1, &entry, sizeof(switches), &switches};
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = shader;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialisation;
+  info.layout = out.layout;
+  result = c.vk.CreateComputePipelines(c.device, cache, 1, &info, nullptr, &out.pipeline);
+  c.vk.DestroyShaderModule(c.device, shader, nullptr);
+  return result;
+}
+
+}  // namespace
+
+VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches) {
+  const auto sources = kernel_sources();
+  for (uint32_t i = 0; i < kKernelCount; ++i) {
+    KernelPipeline& kernel = context.kernels[i];
+    VkResult result = create_layouts(context, sources[i], kernel);
+    if (result == VK_SUCCESS)
+      result = create_pipeline(context, sources[i], cache, switches, kernel);
+    if (result != VK_SUCCESS) return result;
+  }
+  return VK_SUCCESS;
+}
+
+void destroy_kernels(VkhContext_T& context) {
+  for (KernelPipeline& kernel : context.kernels) {
+    context.vk.DestroyPipeline(context.device, kernel.pipeline, nullptr);
+    context.vk.DestroyPipelineLayout(context.device, kernel.layout, nullptr);
+    context.vk.DestroyDescriptorSetLayout(context.device, kernel.set_layout, nullptr);
+    kernel = {};
+  }
+}
+
+}  // namespace vkh

@@ -1,0 +1,32 @@
+// The report: the witness certified against every triangle of B, and the interval as it stands.
+#include "engine/stages.h"
+
+namespace vkh {
+
+void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
+  const Workspace& ws = p.ws;
+  rec.run<k::ReportBegin>({.control = ws.control,
+                           .lower_bits = ws.lower_bits,
+                           .frontier = ws.frontier,
+                           .splits = ws.splits,
+                           .points = ws.points,
+                           .survivors = ws.survivors,
+                           .centroids = ws.centroids,
+                           .positions = ws.positions,
+                           .faces = ws.faces,
+                           .vertex_nearest = ws.vertex_nearest},
+                          {}, Groups{1});
+  rec.run<k::ReportLower>(
+      {.control = ws.control, .triangles = p.b.triangles, .lower_bits = ws.lower_bits},
+      gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
+  rec.run<k::ReportWrite>({.control = ws.control,
+                           .lower_bits = ws.lower_bits,
+                           .positions = ws.positions,
+                           .faces = ws.faces,
+                           .triangles = p.b.triangles,
+                           .report = report},
+                          {}, Groups{1});
+  rec.stage("report");
+}
+
+}  // namespace vkh

@@ -1,0 +1,140 @@
+#include "engine/support.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "shaders/gpu_types.h"
+
+namespace vkh {
+namespace {
+
+constexpr const char* kExtensions[] = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
+                                       VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+constexpr uint32_t kDescriptors = 16;
+
+struct DeviceFacts {
+  VkPhysicalDeviceProperties2 properties{};
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  VkPhysicalDevicePushDescriptorPropertiesKHR push{};
+  VkPhysicalDeviceFeatures2 features{};
+  VkPhysicalDeviceScalarBlockLayoutFeatures scalar{};
+  VkPhysicalDeviceSynchronization2Features synchronization{};
+  std::vector<VkExtensionProperties> extensions;
+};
+
+template <class F>
+F load(const VkhDeviceInfo& info, const char* name) {
+  return reinterpret_cast<F>(info.getInstanceProcAddr(info.instance, name));
+}
+
+void query_properties(const VkhDeviceInfo& info, DeviceFacts& facts) {
+  facts.properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  facts.subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  facts.push.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR;
+  facts.properties.pNext = &facts.subgroup;
+  facts.subgroup.pNext = &facts.push;
+  load<PFN_vkGetPhysicalDeviceProperties2>(info, "vkGetPhysicalDeviceProperties2")(
+      info.physicalDevice, &facts.properties);
+}
+
+void query_features(const VkhDeviceInfo& info, DeviceFacts& facts) {
+  facts.features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  facts.scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
+  facts.synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
+  facts.features.pNext = &facts.scalar;
+  facts.scalar.pNext = &facts.synchronization;
+  load<PFN_vkGetPhysicalDeviceFeatures2>(info, "vkGetPhysicalDeviceFeatures2")(info.physicalDevice,
+                                                                               &facts.features);
+}
+
+void query_extensions(const VkhDeviceInfo& info, DeviceFacts& facts) {
+  const auto enumerate =
+      load<PFN_vkEnumerateDeviceExtensionProperties>(info, "vkEnumerateDeviceExtensionProperties");
+  uint32_t count = 0;
+  enumerate(info.physicalDevice, nullptr, &count, nullptr);
+  facts.extensions.resize(count);
+  enumerate(info.physicalDevice, nullptr, &count, facts.extensions.data());
+}
+
+bool has_extension(const DeviceFacts& facts, const char* name) {
+  for (const VkExtensionProperties& e : facts.extensions) {
+    if (std::strcmp(e.extensionName, name) == 0) return true;
+  }
+  return false;
+}
+
+class Reasons {
+ public:
+  void unless(bool met, const std::string& reason) {
+    if (met) return;
+    if (!text_.empty()) text_ += "; ";
+    text_ += reason;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void check_limits(const DeviceFacts& facts, Reasons& reasons) {
+  const VkPhysicalDeviceLimits& limits = facts.properties.properties.limits;
+  reasons.unless(facts.properties.properties.apiVersion >= VK_API_VERSION_1_2,
+                 "Vulkan 1.2 is missing");
+  reasons.unless(limits.maxComputeWorkGroupInvocations >= gpu::kSortGroup,
+                 "workgroups of 256 are not possible");
+  reasons.unless(limits.maxComputeSharedMemorySize >= 18 * 1024,
+                 "18 KiB of shared memory are missing");
+  reasons.unless(limits.minStorageBufferOffsetAlignment <= 256,
+                 "storage buffer offsets need more than 256 bytes");
+  reasons.unless(limits.maxPerStageDescriptorStorageBuffers >= kDescriptors &&
+                     facts.push.maxPushDescriptors >= kDescriptors,
+                 "16 storage buffers a kernel are not possible");
+}
+
+void check_subgroups(const DeviceFacts& facts, Reasons& reasons) {
+  constexpr VkSubgroupFeatureFlags needed =
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
+      VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  const VkPhysicalDeviceSubgroupProperties& s = facts.subgroup;
+  reasons.unless((s.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                     (s.supportedOperations & needed) == needed,
+                 "subgroup ballot, arithmetic and shuffle in compute shaders are missing");
+  reasons.unless(s.subgroupSize >= 8 && s.subgroupSize <= 64,
+                 "subgroups are " + std::to_string(s.subgroupSize) + " wide, not 8 to 64");
+}
+
+}  // namespace
+
+Limits device_limits(const VkhDeviceInfo& info) {
+  DeviceFacts facts;
+  query_properties(info, facts);
+  return {.storage_range = facts.properties.properties.limits.maxStorageBufferRange};
+}
+
+}  // namespace vkh
+
+const char* const* vkhGetRequiredExtensions(uint32_t* count) {
+  *count = static_cast<uint32_t>(std::size(vkh::kExtensions));
+  return vkh::kExtensions;
+}
+
+VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity) {
+  vkh::DeviceFacts facts;
+  vkh::query_properties(*info, facts);
+  vkh::query_features(*info, facts);
+  vkh::query_extensions(*info, facts);
+  vkh::Reasons why;
+  vkh::check_limits(facts, why);
+  vkh::check_subgroups(facts, why);
+  why.unless(facts.scalar.scalarBlockLayout == VK_TRUE, "scalarBlockLayout is missing");
+  why.unless(facts.synchronization.synchronization2 == VK_TRUE, "synchronization2 is missing");
+  for (const char* name : vkh::kExtensions) {
+    why.unless(vkh::has_extension(facts, name), std::string(name) + " is missing");
+  }
+  if (capacity > 0) {
+    std::strncpy(reasons, why.text().c_str(), capacity);
+    reasons[capacity - 1] = '\0';
+  }
+  return why.text().empty() ? VKH_SUCCESS : VKH_ERROR_UNSUPPORTED;
+}

@@ -1,0 +1,10 @@
+// What a device must have, and what of it the engine makes use of.
+#pragma once
+
+#include "engine/context.h"
+
+namespace vkh {
+
+Limits device_limits(const VkhDeviceInfo& info);
+
+}  // namespace vkh

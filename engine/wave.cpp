@@ -1,0 +1,103 @@
+// One wave: every refined candidate becomes four, every new point is queried, every child bounded,
+// most of them closed.
+#include "engine/stages.h"
+
+namespace vkh {
+namespace {
+
+void record_plan(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run<k::WavePlan>({.control = ws.control,
+                        .dispatches = ws.dispatches,
+                        .frontier = ws.frontier,
+                        .splits = ws.splits,
+                        .points = ws.points,
+                        .survivors = ws.survivors,
+                        .centroids = ws.centroids,
+                        .positions = ws.positions,
+                        .faces = ws.faces,
+                        .vertex_nearest = ws.vertex_nearest},
+                       {}, Groups{1});
+  rec.stage("plan");
+}
+
+void record_subdivide(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run_indirect<k::WaveSubdivide>({.control = ws.control,
+                                      .frontier = ws.frontier,
+                                      .positions = ws.positions,
+                                      .faces = ws.faces,
+                                      .nodes = p.b.nodes,
+                                      .triangles = p.b.triangles,
+                                      .splits = ws.splits,
+                                      .points = ws.points},
+                                     {}, ws.dispatch(gpu::kDispatchSubdivide));
+  rec.stage("subdivide");
+}
+
+void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points,
+                  gpu::QueryPush push, uint32_t dispatch) {
+  rec.run_indirect<k::WaveQuery>(
+      {.control = p.ws.control, .nodes = p.b.nodes, .triangles = p.b.triangles, .points = points},
+      push, p.ws.dispatch(dispatch));
+  rec.stage("query");
+}
+
+void record_filter(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run_indirect<k::WaveFilter>({.control = ws.control,
+                                   .frontier = ws.frontier,
+                                   .positions = ws.positions,
+                                   .faces = ws.faces,
+                                   .nodes = p.b.nodes,
+                                   .triangles = p.b.triangles,
+                                   .vertex_nearest = ws.vertex_nearest,
+                                   .splits = ws.splits,
+                                   .points = ws.points,
+                                   .survivors = ws.survivors,
+                                   .centroids = ws.centroids},
+                                  {}, ws.dispatch(gpu::kDispatchFilter));
+  rec.run<k::WaveSurvivors>({.control = ws.control, .dispatches = ws.dispatches}, {}, Groups{1});
+  rec.stage("filter");
+}
+
+void record_bound(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run_indirect<k::WaveBound>({.control = ws.control,
+                                  .frontier = ws.frontier,
+                                  .positions = ws.positions,
+                                  .faces = ws.faces,
+                                  .nodes = p.b.nodes,
+                                  .triangles = p.b.triangles,
+                                  .vertex_nearest = ws.vertex_nearest,
+                                  .splits = ws.splits,
+                                  .points = ws.points,
+                                  .survivors = ws.survivors,
+                                  .centroids = ws.centroids},
+                                 {}, ws.dispatch(gpu::kDispatchBound));
+  rec.stage("bound");
+}
+
+void record_defer(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run_indirect<k::WaveDefer>({.control = ws.control,
+                                  .frontier = ws.frontier,
+                                  .positions = ws.positions,
+                                  .faces = ws.faces},
+                                 {}, ws.dispatch(gpu::kDispatchDefer));
+  rec.stage("defer");
+}
+
+}  // namespace
+
+void record_wave(Recorder& rec, const Problem& p) {
+  record_plan(rec, p);
+  record_subdivide(rec, p);
+  record_query(rec, p, p.ws.points, {.centroids = 0}, gpu::kDispatchQueryPoints);
+  record_filter(rec, p);
+  record_query(rec, p, p.ws.centroids, {.centroids = 1}, gpu::kDispatchQueryCentroids);
+  record_bound(rec, p);
+  record_defer(rec, p);
+}
+
+}  // namespace vkh

@@ -1,0 +1,140 @@
+#include "engine/workspace.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vkh {
+namespace {
+
+// The largest value that minStorageBufferOffsetAlignment may have.
+constexpr VkDeviceSize kAlignment = 256;
+
+// Hands out one stream after the other; without a buffer it only adds up.
+class Suballocator {
+ public:
+  explicit Suballocator(const VkhMemory& memory) : memory_(memory) {}
+
+  template <class T>
+  void operator()(Slice<T>& slice, uint64_t count) {
+    const VkDeviceSize size = std::max<uint64_t>(count, 1) * sizeof(T);
+    slice = {memory_.buffer, memory_.offset + used_, size};
+    used_ += (size + kAlignment - 1) / kAlignment * kAlignment;
+  }
+  VkDeviceSize used() const { return used_; }
+
+ private:
+  VkhMemory memory_;
+  VkDeviceSize used_ = 0;
+};
+
+void list(Suballocator& take, Hierarchy& h, uint32_t face_count) {
+  take(h.nodes, std::max(face_count, 2u) - 1);
+  take(h.triangles, face_count);
+  h.face_count = face_count;
+}
+
+void list(Suballocator& take, BuildScratch& s, uint32_t vertex_count, uint32_t face_count) {
+  const uint64_t blocks = (face_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
+  take(s.positions, vertex_count);
+  take(s.faces, face_count);
+  take(s.centroid_box, 1);
+  take(s.pyramid, pyramid_size(face_count));
+  for (int side = 0; side < 2; ++side) {
+    take(s.keys[side], face_count);
+    take(s.values[side], face_count);
+  }
+  take(s.counts, blocks * gpu::kSortDigits);
+  take(s.totals, gpu::kSortDigits);
+}
+
+void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face_count,
+          uint32_t capacity) {
+  // Refined candidates of a wave: wave_plan keeps deferred + 4 parents <= capacity.
+  const uint64_t parents = capacity / 4 + 1;
+  take(w.control, 1);
+  take(w.dispatches, gpu::kDispatchCount);
+  take(w.positions, vertex_count);
+  take(w.faces, face_count);
+  take(w.vertex_nearest, vertex_count);
+  take(w.vertex_distance, vertex_count);
+  take(w.frontier, 2ull * capacity);
+  take(w.splits, parents);
+  take(w.points, 3 * parents);
+  take(w.survivors, capacity);
+  take(w.centroids, capacity);
+  take(w.lower_bits, 1);
+  w.capacity = capacity;
+}
+
+}  // namespace
+
+uint32_t pyramid_size(uint32_t face_count) {
+  uint32_t boxes = 0;
+  for (uint32_t level = face_count; level > 1;) {
+    level = (level + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
+    boxes += level;
+  }
+  return boxes;
+}
+
+VkDeviceSize hierarchy_size(uint32_t face_count) {
+  Suballocator count({});
+  Hierarchy h;
+  list(count, h, face_count);
+  return count.used();
+}
+
+VkDeviceSize scratch_size(uint32_t vertex_count, uint32_t face_count) {
+  Suballocator count({});
+  BuildScratch s;
+  list(count, s, vertex_count, face_count);
+  return count.used();
+}
+
+VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity) {
+  Suballocator count({});
+  Workspace w;
+  list(count, w, vertex_count, face_count, capacity);
+  return count.used();
+}
+
+uint32_t largest_capacity(const Limits& limits) {
+  const VkDeviceSize reach = limits.storage_range / (2 * sizeof(gpu::Candidate));
+  return static_cast<uint32_t>(std::min<VkDeviceSize>(reach, 1u << 28));
+}
+
+uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,
+                      VkDeviceSize bytes) {
+  uint32_t fits = 0;
+  uint32_t too_many = largest_capacity(limits) + 1;
+  while (too_many - fits > 1) {
+    const uint32_t middle = fits + (too_many - fits) / 2;
+    (workspace_size(vertex_count, face_count, middle) <= bytes ? fits : too_many) = middle;
+  }
+  return fits;
+}
+
+Hierarchy view_hierarchy(const VkhHierarchy& hierarchy) {
+  Suballocator take(hierarchy.memory);
+  Hierarchy h;
+  list(take, h, hierarchy.faceCount);
+  return h;
+}
+
+BuildScratch view_scratch(const VkhMemory& memory, uint32_t vertex_count, uint32_t face_count) {
+  Suballocator take(memory);
+  BuildScratch s;
+  list(take, s, vertex_count, face_count);
+  return s;
+}
+
+Workspace view_workspace(const VkhMemory& memory, const Limits& limits, uint32_t vertex_count,
+                         uint32_t face_count) {
+  Suballocator take(memory);
+  Workspace w;
+  list(take, w, vertex_count, face_count,
+       capacity_for(limits, vertex_count, face_count, memory.size));
+  return w;
+}
+
+}  // namespace vkh

@@ -1,0 +1,67 @@
+// The caller's memory as streams. Each list is walked by the size query and by the suballocation,
+// so that they cannot disagree: a new stream is one line in it.
+#pragma once
+
+#include "engine/context.h"
+#include "shaders/gpu_types.h"
+
+namespace vkh {
+
+// B's hierarchy, kept between runs.
+struct Hierarchy {
+  Slice<gpu::Node> nodes;
+  Slice<gpu::Triangle> triangles;
+  uint32_t face_count = 0;
+};
+
+// What building it needs besides.
+struct BuildScratch {
+  Slice<gpu::vec3> positions;
+  Slice<gpu::uvec3> faces;
+  Slice<gpu::CentroidBox> centroid_box;
+  Slice<gpu::Box> pyramid;
+  Slice<uint32_t> keys[2], values[2];  // the sort's two sides
+  Slice<uint32_t> counts, totals;
+};
+
+// One run.
+struct Workspace {
+  Slice<gpu::Control> control;
+  Slice<gpu::Dispatch> dispatches;
+  Slice<gpu::vec3> positions;  // of A
+  Slice<gpu::uvec3> faces;     // of A
+  Slice<uint32_t> vertex_nearest;
+  Slice<float> vertex_distance;
+  Slice<gpu::Candidate> frontier;  // two halves of `capacity`
+  Slice<uint32_t> splits;
+  Slice<gpu::Point> points;
+  Slice<uint32_t> survivors;
+  Slice<gpu::Point> centroids;
+  Slice<uint32_t> lower_bits;
+  uint32_t capacity = 0;
+
+  Slice<gpu::Dispatch> dispatch(uint32_t which) const {
+    return {dispatches.buffer, dispatches.offset + which * sizeof(gpu::Dispatch),
+            sizeof(gpu::Dispatch)};
+  }
+};
+
+// Boxes of all levels of the pyramid over `face_count` triangles.
+uint32_t pyramid_size(uint32_t face_count);
+VkDeviceSize hierarchy_size(uint32_t face_count);
+VkDeviceSize scratch_size(uint32_t vertex_count, uint32_t face_count);
+VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity);
+
+// Candidates in each half of the frontier that fit `bytes`, at most what the device's bindings
+// reach; 0 if not even the fixed streams fit.
+uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,
+                      VkDeviceSize bytes);
+uint32_t largest_capacity(const Limits& limits);
+constexpr uint32_t kSmallestCapacity = 64;
+
+Hierarchy view_hierarchy(const VkhHierarchy& hierarchy);
+BuildScratch view_scratch(const VkhMemory& memory, uint32_t vertex_count, uint32_t face_count);
+Workspace view_workspace(const VkhMemory& memory, const Limits& limits, uint32_t vertex_count,
+                         uint32_t face_count);
+
+}  // namespace vkh

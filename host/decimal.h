@@ -1,0 +1,24 @@
+// Doubles as decimals that never lie: rounded exactly, in the direction that is asked for.
+#pragma once
+
+#include <string>
+
+namespace vkh {
+
+enum class Rounding { kDown, kUp };  ///< towards minus or plus infinity
+
+inline constexpr int kJsonDigits = 17;  ///< enough to tell any two doubles apart
+
+/// `value` with at most `digits` (>= 1) significant digits, as a JSON number without trailing
+/// zeros. Exact: the printed decimal is <= value (kDown) or >= value (kUp), by less than one unit
+/// of its last digit, and equal where it can be. "inf", "-inf" or "nan" for what is no number.
+std::string decimal(double value, int digits, Rounding rounding);
+
+/// The double itself, readable by strtod and by Python's float.fromhex: "0x1.8p-3".
+std::string hex_float(double value);
+
+/// How many significant digits of `value` matter beside an uncertainty of `gap`: up to two past
+/// gap's first digit, 3 to 17 in all.
+int digits_that_matter(double value, double gap);
+
+}  // namespace vkh

@@ -1,0 +1,26 @@
+// What the outside world can do wrong. host/ throws these; main catches once and maps them to exit
+// codes.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace vkh {
+
+/// A file, mesh or array that cannot be accepted. One line: file, place, what is wrong, what was
+/// expected.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A Vulkan device or driver that is missing, lacks a feature, was lost or ran out of memory.
+struct DeviceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A command line or option that makes no sense.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace vkh

@@ -1,0 +1,117 @@
+#include "host/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vkh {
+namespace {
+
+Box join(const Box& x, const Box& y) {
+  Box joint;
+  for (int i = 0; i < 3; ++i) {
+    joint.lo[i] = std::min(x.lo[i], y.lo[i]);
+    joint.hi[i] = std::max(x.hi[i], y.hi[i]);
+  }
+  return joint;
+}
+
+// Largest |coordinate - centre|. Halves are subtracted, so that 1e308 does not overflow.
+double half_reach(const Box& box, const glm::dvec3& centre) {
+  double reach = 0;
+  for (int i = 0; i < 3; ++i) {
+    reach = std::max(
+        {reach, std::abs(box.lo[i] / 2 - centre[i] / 2), std::abs(box.hi[i] / 2 - centre[i] / 2)});
+  }
+  return reach;
+}
+
+// 2^exponent brings 2 * half_reach to (1/2, 1].
+int exponent_for(double half) {
+  if (half == 0) return 0;
+  int exponent = 0;
+  const double fraction = std::frexp(half, &exponent);
+  return -(exponent + 1) + (fraction == 0.5 ? 1 : 0);
+}
+
+// 2^exponent in two steps: one could leave the range of double on the way.
+double scaled(double x, int exponent) {
+  return std::ldexp(std::ldexp(x, exponent / 2), exponent - exponent / 2);
+}
+
+// Stores `given` and returns how far that displaced it, rounded up: the rounding to float32
+// exactly, that of the subtraction by its bound (2^-53 relative, taken twice over; scaling is exact
+// but for underflow, which the last term takes).
+double store(double given, double centre, int exponent, float& stored) {
+  const double exact = scaled(given - centre, exponent);
+  stored = static_cast<float>(exact);
+  const double subtraction = centre == 0 ? 0 : std::abs(exact) * 0x1p-52;
+  return std::abs(static_cast<double>(stored) - exact) + subtraction +
+         (exact == 0 && given == centre ? 0 : 0x1p-1000);
+}
+
+double store_mesh(const Mesh& mesh, const Frame& frame, std::vector<float>& stored) {
+  stored.resize(3 * mesh.vertices.size());
+  double worst2 = 0;
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    double sum2 = 0;
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<size_t>(i);
+      const double off =
+          store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored[3 * v + k]);
+      sum2 += off * off;
+    }
+    worst2 = std::max(worst2, sum2);
+  }
+  return std::sqrt(worst2) * (1 + 0x1p-50);
+}
+
+Frame frame_around(const Mesh& a, const Mesh& b, const Box& joint, const glm::dvec3& centre) {
+  Frame frame;
+  frame.centre = centre;
+  frame.exponent = exponent_for(half_reach(joint, centre));
+  frame.displacement_a = store_mesh(a, frame, frame.a);
+  frame.displacement_b = store_mesh(b, frame, frame.b);
+  return frame;
+}
+
+}  // namespace
+
+Box bounding_box(const Mesh& mesh) {
+  Box box{mesh.vertices.front(), mesh.vertices.front()};
+  for (const glm::dvec3& v : mesh.vertices) box = join(box, {v, v});
+  return box;
+}
+
+double diagonal(const Box& box) {
+  return 2 * std::hypot(box.hi.x / 2 - box.lo.x / 2, box.hi.y / 2 - box.lo.y / 2,
+                        box.hi.z / 2 - box.lo.z / 2);
+}
+
+double Frame::to_frame(double length) const { return scaled(length, exponent); }
+
+double Frame::length_down(double frame_length) const {
+  const double length = scaled(frame_length, -exponent);
+  return scaled(length, exponent) > frame_length ? std::nextafter(length, 0.0) : length;
+}
+
+double Frame::length_up(double frame_length) const {
+  const double length = scaled(frame_length, -exponent);
+  return scaled(length, exponent) < frame_length
+             ? std::nextafter(length, std::numeric_limits<double>::infinity())
+             : length;
+}
+
+Frame make_frame(const Mesh& a, const Mesh& b) {
+  const Box joint = join(bounding_box(a), bounding_box(b));
+  const glm::dvec3 centre = joint.lo / 2.0 + joint.hi / 2.0;
+  // Around the origin the meshes may use only part of [-1, 1]; a quarter of it costs two bits and
+  // is worth being exact.
+  if (half_reach(joint, glm::dvec3(0)) <= 4 * half_reach(joint, centre)) {
+    Frame frame = frame_around(a, b, joint, glm::dvec3(0));
+    if (frame.displacement() < 0x1p-60) return frame;
+  }
+  return frame_around(a, b, joint, centre);
+}
+
+}  // namespace vkh

@@ -1,0 +1,40 @@
+// The frame in which the device works: coordinates of order 1, float32, and what storing them so
+// displaced.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "host/mesh.h"
+
+namespace vkh {
+
+struct Box {
+  glm::dvec3 lo, hi;
+};
+Box bounding_box(const Mesh& mesh);
+double diagonal(const Box& box);  ///< rounded to nearest; overflows and underflows only if the
+                                  ///< diagonal itself does
+
+/// frame = (given - centre) * 2^exponent, rounded to float32; |frame coordinate| <= 1.
+struct Frame {
+  glm::dvec3 centre{};
+  int exponent = 0;
+  std::vector<float> a, b;  ///< three per vertex
+  /// Largest distance of a stored vertex from the exact one, in frame units, rounded up. h is
+  /// 1-Lipschitz in both.
+  double displacement_a = 0, displacement_b = 0;
+
+  double displacement() const { return displacement_a + displacement_b; }
+  double to_frame(double length) const;
+  /// A length of the frame in the files' units. Exact unless it underflows; then 0 or the smallest
+  /// double.
+  double length_down(double frame_length) const;
+  double length_up(double frame_length) const;
+};
+
+/// Prefers centre 0, which keeps float32 files near the origin exact; else the middle of the joint
+/// box.
+Frame make_frame(const Mesh& a, const Mesh& b);
+
+}  // namespace vkh

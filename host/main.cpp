@@ -1,0 +1,352 @@
+// The program: reads what people typed, runs the solver, prints one answer, and turns whatever went
+// wrong into one line on stderr and an exit code.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+#include "host/decimal.h"
+#include "host/default_pair.h"
+#include "host/device.h"
+#include "host/doctor.h"
+#include "host/error.h"
+#include "host/mesh_io.h"
+#include "host/options.h"
+#include "host/report_print.h"
+#include "host/solver.h"
+
+namespace vkh {
+namespace {
+
+enum ExitCode {
+  kExitClosed = 0,
+  kExitUsage = 2,
+  kExitNotClosed = 3,
+  kExitBadInput = 4,
+  kExitDevice = 5,
+  kExitInternal = 70,  ///< a bug of ours; sysexits.h's EX_SOFTWARE
+};
+
+/// As typed.
+struct Arguments {
+  std::string file_a, file_b;
+  std::string tolerance = "1e-6", device, memory, time, waves;
+  std::vector<std::string> disabled;
+  bool json = false, verbose = false, symmetric = false;
+  std::string json_file;  ///< empty: JSON goes to stdout
+};
+
+/// Understood, before any file or device is touched.
+struct Request {
+  Tolerance tolerance;
+  SolveOptions options;
+};
+
+// A signal handler can reach nothing but a global. The first Ctrl-C ends the run with the interval
+// that it has; the second meets the default handler, which kills.
+volatile std::sig_atomic_t g_interrupted = 0;
+
+extern "C" void on_interrupt(int signal) {
+  g_interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// A line on stderr that rewrites itself, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const char* direction)
+      : direction_(direction), shown_(isatty(STDERR_FILENO) == 1) {}
+  ~ProgressLine() {
+    if (drawn_) std::fputs("\r\033[K", stderr);
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Progress& p) {
+    constexpr double kRedrawMs = 100;
+    if (!shown_ || (drawn_ && ms_since(last_) < kRedrawMs)) return;
+    std::fprintf(stderr, "\r\033[K%s  wave %u  %llu candidates  [%s, %s]  gap %.2e", direction_,
+                 p.wave, static_cast<unsigned long long>(p.candidates),
+                 decimal(p.lower, 7, Rounding::kDown).c_str(),
+                 decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
+    std::fflush(stderr);
+    drawn_ = true;
+    last_ = Clock::now();
+  }
+
+ private:
+  const char* direction_;
+  bool shown_;
+  bool drawn_ = false;
+  Clock::time_point last_;
+};
+
+void check_switches(const std::vector<std::string>& disabled) {
+  const std::vector<std::string> known = switch_names();
+  for (const std::string& name : disabled) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string list;
+    for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
+    throw UsageError("--disable '" + name + "': expected one of " + list);
+  }
+}
+
+Request understand(const Arguments& arguments) {
+  Request request;
+  request.tolerance = parse_tolerance(arguments.tolerance);
+  SolveOptions& options = request.options;
+  options.tolerance = request.tolerance.value;
+  options.tolerance_is_absolute = request.tolerance.is_absolute;
+  if (!arguments.memory.empty()) options.memory_bytes = parse_memory(arguments.memory);
+  if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
+  if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
+  check_switches(arguments.disabled);
+  options.disabled = arguments.disabled;
+  for (const std::string& input : {arguments.file_a, arguments.file_b}) {
+    std::error_code none;
+    if (arguments.json_file.empty() || input.empty()) continue;
+    if (input == arguments.json_file ||
+        std::filesystem::equivalent(input, arguments.json_file, none)) {
+      throw UsageError("--json '" + arguments.json_file + "' would overwrite an input mesh");
+    }
+  }
+  return request;
+}
+
+Report solve(Solver& solver, const Mesh& a, const Mesh& b, SolveOptions options,
+             const char* direction) {
+  ProgressLine line(direction);
+  options.progress = [&line](const Progress& progress) {
+    line.show(progress);
+    return g_interrupted == 0;
+  };
+  return solver.distance(a, b, options);
+}
+
+/// The way back has the way there's tolerance, which is a fraction of A's diagonal, and what is
+/// left of the time.
+SolveOptions options_back(SolveOptions options, const Report& there, double elapsed_s) {
+  constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
+  // A mesh that is one point has no diagonal, so the tolerance is 0, which the solver refuses.
+  options.tolerance = std::max(there.tolerance, std::numeric_limits<double>::min());
+  options.tolerance_is_absolute = true;
+  options.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
+  return options;
+}
+
+std::vector<std::string> input_notes(const MeshPair& pair) {
+  std::vector<std::string> notes;
+  for (const std::string& note : pair.a.notes) notes.push_back("A: " + note);
+  for (const std::string& note : pair.b.notes) notes.push_back("B: " + note);
+  return notes;
+}
+
+Answer answer_for(const Arguments& arguments, const Request& request, const MeshPair& pair,
+                  double load_ms) {
+  const auto setup_start = Clock::now();
+  Device device({.selector = arguments.device});
+  Solver solver(device);
+  const double setup_ms = ms_since(setup_start);
+
+  Answer answer{.file_a = pair.a.name,
+                .file_b = pair.b.name,
+                .tolerance = request.tolerance,
+                .notes = input_notes(pair),
+                .a_to_b = {},
+                .b_to_a = {}};
+  const auto start = Clock::now();
+  answer.a_to_b = solve(solver, pair.a, pair.b, request.options, "h(A,B)");
+  if (arguments.symmetric) {
+    const SolveOptions back = options_back(request.options, answer.a_to_b, ms_since(start) / 1000);
+    answer.b_to_a = solve(solver, pair.b, pair.a, back, "h(B,A)");
+  }
+  for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (report == nullptr) continue;
+    report->times.load_ms = load_ms;
+    report->times.setup_ms = setup_ms;
+  }
+  return answer;
+}
+
+void check_written(std::ostream& out, const std::string& where) {
+  if (!out.flush()) throw UsageError("cannot write the answer to " + where);
+}
+
+void print(const Arguments& arguments, const Answer& answer) {
+  // The file first: whoever reads standard output may close it early, and that ends the program.
+  if (!arguments.json_file.empty()) {
+    std::ofstream file(arguments.json_file);
+    file << to_json(answer) << '\n';
+    check_written(file, arguments.json_file);
+  }
+  if (arguments.json && arguments.json_file.empty()) {
+    std::cout << to_json(answer) << '\n';
+
+  } else {
+    print_table(std::cout, answer, arguments.verbose);
+  }
+  check_written(std::cout, "standard output");
+}
+
+/// An answer that took an hour must not meet a folder that is not there.
+void check_writable(const std::string& path) {
+  if (path.empty()) return;
+  std::error_code none;
+  const bool existed = std::filesystem::exists(path, none);
+  if (!std::ofstream(path, std::ios::app)) {
+    throw UsageError("--json '" + path + "': cannot be opened for writing");
+  }
+  if (!existed) std::filesystem::remove(path, none);
+}
+
+template <typename Load>
+int run_pair(const Arguments& arguments, Load load) {
+  std::signal(SIGINT, on_interrupt);
+  const Request request = understand(arguments);
+  check_writable(arguments.json_file);
+  const auto start = Clock::now();
+  const MeshPair pair = load();
+  const Answer answer = answer_for(arguments, request, pair, ms_since(start));
+  print(arguments, answer);
+  return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
+}
+
+int run_distance(const Arguments& arguments) {
+  return run_pair(arguments, [&] {
+    Mesh a = read_mesh(arguments.file_a);
+    Mesh b = read_mesh(arguments.file_b);
+    return MeshPair{std::move(a), std::move(b)};
+  });
+}
+
+int run_demo(const Arguments& arguments) { return run_pair(arguments, default_pair); }
+
+int run_doctor(const Arguments& arguments) {
+  const bool passed = examine_devices(std::cout, arguments.device);
+  check_written(std::cout, "standard output");
+  if (!passed) throw DeviceError("the self-check failed: do not trust this device or driver");
+  return kExitClosed;
+}
+
+void add_device_option(CLI::App& command, Arguments& arguments) {
+  command.add_option("--device", arguments.device,
+                     "An index from 'doctor', gpu, cpu, or part of a name [best: discrete, "
+                     "integrated, virtual, CPU]");
+}
+
+void add_run_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("--tol", arguments.tolerance,
+                     "Width of the interval: fraction of A's bounding-box diagonal (1e-6), percent "
+                     "of it (0.1%) or the files' own units (0.01abs) [1e-6]");
+  add_device_option(command, arguments);
+  command.add_option(
+      "--memory", arguments.memory,
+      "Device memory for the search, such as 512MiB or 2GiB [chosen from the meshes]");
+  command.add_option("--time", arguments.time,
+                     "End the search after so long, such as 250ms, 10s or 2min [never]");
+  command.add_option("--waves", arguments.waves, "End the search after so many waves [never]")
+      ->type_name("N");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--json",
+          [&arguments](const std::vector<std::string>& file) {
+            arguments.json = true;
+            arguments.json_file = file.empty() ? "" : file.front();
+          },
+          "Print one JSON object instead of the table, or beside it into FILE")
+      ->type_name("[FILE]")
+      ->expected(0, 1);
+  command
+      .add_option("--disable", arguments.disabled, "Switch off parts of the method, by name: a,b")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_flag("--verbose", arguments.verbose,
+                   "Also print stages, waves and culled candidates");
+  command.add_flag("--symmetric", arguments.symmetric,
+                   "Both directions: the interval of max(h(A,B), h(B,A))");
+}
+
+/// CLI11 says that a command is missing where one was misspelt.
+std::string usage_message(const CLI::ParseError& error, int argc, char** argv) {
+  const bool misspelt = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && argc > 1;
+  static constexpr std::array kCommands = {"distance", "demo", "doctor"};
+  if (misspelt &&
+      std::find(kCommands.begin(), kCommands.end(), std::string(argv[1])) == kCommands.end()) {
+    return "unknown command '" + std::string(argv[1]) + "': expected distance, demo or doctor";
+  }
+  return std::string(error.what()) + " (see vkhausdorff --help)";
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Encloses the directed Hausdorff distance h(A,B) of two triangle meshes in a "
+      "certified interval.",
+      "vkhausdorff");
+  app.set_version_flag("--version", std::string("vkhausdorff ") + program_version());
+  app.footer(
+      "Exit codes: 0 closed, 2 usage, 3 not closed within the budget (the interval is still "
+      "true), 4 bad input, 5 device or driver.");
+  app.require_subcommand(1);
+  Arguments arguments;
+  CLI::App* distance = app.add_subcommand("distance", "Distance of two mesh files");
+  distance->add_option("A", arguments.file_a, "Mesh to start from (OBJ, STL, PLY, OFF)")
+      ->required();
+  distance->add_option("B", arguments.file_b, "Mesh to go to")->required();
+  add_run_options(*distance, arguments);
+  CLI::App* demo = app.add_subcommand("demo", "Distance of a built-in pair");
+  add_run_options(*demo, arguments);
+  CLI::App* doctor = app.add_subcommand("doctor", "Devices, drivers and a self-check");
+  add_device_option(*doctor, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(usage_message(error, argc, argv));
+  }
+  if (distance->parsed()) return run_distance(arguments);
+  return demo->parsed() ? run_demo(arguments) : run_doctor(arguments);
+}
+
+int complain(std::string message, ExitCode code) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fprintf(stderr, "vkhausdorff: %s\n", message.c_str());
+  return code;
+}
+
+int run_and_catch(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const UsageError& error) {
+    return complain(error.what(), kExitUsage);
+  } catch (const InputError& error) {
+    return complain(error.what(), kExitBadInput);
+  } catch (const DeviceError& error) {
+    return complain(error.what(), kExitDevice);
+  } catch (const std::bad_alloc&) {
+    return complain("this machine has not enough memory for these meshes", kExitDevice);
+  } catch (const std::exception& error) {
+    return complain(std::string("internal error: ") + error.what(), kExitInternal);
+  } catch (...) {
+    return complain("internal error", kExitInternal);
+  }
+}
+
+}  // namespace
+}  // namespace vkh
+
+int main(int argc, char** argv) { return vkh::run_and_catch(argc, argv); }

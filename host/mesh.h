@@ -1,0 +1,41 @@
+// A triangle mesh as given, ready for the solver: finite coordinates, indices in range, at least
+// one face, and no vertex that no face uses.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace vkh {
+
+/// What was counted while a mesh was accepted; all of it is reported, none of it changes the
+/// geometry but the unreferenced vertices, which are not part of a mesh and are dropped.
+struct MeshCounts {
+  uint64_t vertices = 0;      ///< referenced vertices, kept
+  uint64_t faces = 0;         ///< triangles, after polygons were fanned
+  uint64_t unreferenced = 0;  ///< vertices that no face uses, dropped
+  uint64_t degenerate =
+      0;  ///< faces whose corners are collinear or coincide; kept as segments or points
+  uint64_t duplicate = 0;  ///< faces whose three positions are those of an earlier face; kept
+  uint64_t polygons = 0;   ///< faces of more than three corners that were fanned into triangles
+};
+
+/// Coordinates are float64, so that float32 and float64 input are both held exactly. Face i is the
+/// i-th triangle of the input (polygons fanned in place); degenerate and duplicate faces stay, so
+/// that indices match the input.
+struct Mesh {
+  std::string name;  ///< the file's path, or what a caller named it; starts every error line
+  std::vector<glm::dvec3> vertices;
+  std::vector<glm::uvec3> faces;
+  MeshCounts counts;
+  std::vector<std::string>
+      notes;  ///< one line each, for people: "3 polygons were fanned into triangles"
+};
+
+/// Checks and cleans a mesh: drops unreferenced vertices, counts degenerate and duplicate faces.
+/// Throws InputError that names the element if a referenced coordinate is not finite, an index is
+/// out of range or there is no face. `faces` index into `vertices`.
+Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces);
+
+}  // namespace vkh

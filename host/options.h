@@ -1,0 +1,28 @@
+// Quantities as people type them: tolerances, sizes of memory, times. All throw UsageError, naming
+// the option, what was typed and what was expected.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace vkh {
+
+struct Tolerance {
+  std::string requested;  ///< as typed
+  double value = 0;       ///< a fraction of diag(A), or in the files' units
+  bool is_absolute = false;
+};
+
+/// "1e-6": a fraction of diag(A); "0.1%": percent of diag(A); "0.01abs": in the files' own units.
+Tolerance parse_tolerance(const std::string& text);
+
+/// "2GiB", "512MiB", "1.5GB", or a plain number of bytes; at least one byte.
+uint64_t parse_memory(const std::string& text);
+
+/// A whole number from 0 to 2^32 - 1.
+uint32_t parse_waves(const std::string& text);
+
+/// Seconds: "10s", "250ms", "2min", "1h", or a plain number of seconds; more than zero.
+double parse_time(const std::string& text);
+
+}  // namespace vkh

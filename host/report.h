@@ -1,0 +1,95 @@
+// What a run answers: a certified interval, its witness, why it ended and what it cost.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "host/mesh.h"
+
+namespace vkh {
+
+/// Why a run ended. Every status comes with a true interval; only kClosed promises its width.
+enum class Status {
+  kClosed,     ///< upper - lower <= tolerance
+  kPrecision,  ///< what is left cannot be decided in this arithmetic; the interval is the honest,
+               ///< wider one
+  kTime,       ///< the time budget ended
+  kWaves,      ///< the wave budget ended
+  kMemory,     ///< candidates were spilled and could not be refined
+  kCancelled,  ///< the caller asked for the end
+};
+const char* status_name(
+    Status status);  ///< "closed", "precision", "time", "waves", "memory", "cancelled"
+
+/// A point on a face, in the files' own coordinates.
+struct SurfacePoint {
+  uint64_t face = 0;
+  glm::dvec3 barycentric{};
+  glm::dvec3 point{};
+};
+
+/// GPU time and counts of one stage, summed over the run.
+struct StageStats {
+  std::string name;
+  double gpu_ms = 0;
+  uint64_t dispatches = 0;
+  uint64_t items_in = 0;   ///< what the stage worked on; 0 where the stage has no count
+  uint64_t items_out = 0;  ///< what it passed on
+};
+
+/// How many candidates each bound of the cascade closed.
+struct CullHistogram {
+  uint64_t exact = 0, u1 = 0, u2 = 0, ha = 0, u3 = 0, u4 = 0;
+  uint64_t lower_raised = 0;  ///< dropped later, because lower had risen past their u
+  uint64_t precision = 0;     ///< closed at their u because nothing finer can be decided
+};
+
+/// One row per wave, for the table under --verbose and for plots.
+struct WaveStats {
+  uint32_t wave = 0;
+  uint64_t parents = 0, candidates = 0, queries = 0, survivors = 0, deferred = 0;
+  double lower = 0, upper = 0;  ///< heuristic while running, in the files' units
+};
+
+struct DeviceDescription {
+  uint32_t index = 0;
+  std::string name, driver, type;  ///< type: "discrete", "integrated", "virtual", "cpu", "other"
+  std::string api_version;
+  uint64_t memory_bytes = 0;  ///< largest device-local heap
+  bool usable = false;
+  std::string reason;  ///< why it is not usable; empty otherwise
+};
+
+struct Times {
+  double load_ms = 0;       ///< files to meshes (filled by the CLI)
+  double setup_ms = 0;      ///< instance, device and pipelines (filled by the CLI)
+  double upload_ms = 0;     ///< meshes to device buffers, frame included
+  double hierarchy_ms = 0;  ///< GPU: B's hierarchy
+  double solve_ms = 0;      ///< GPU: seed and waves and report, without the hierarchy
+  double wall_ms = 0;       ///< host clock around Solver::distance
+};
+
+struct Report {
+  Status status = Status::kClosed;
+  double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
+  double diagonal_a = 0;        ///< of A's bounding box
+  double tolerance = 0;         ///< absolute, in the files' units
+  SurfacePoint witness_a, witness_b;
+  MeshCounts mesh_a, mesh_b;
+  DeviceDescription device;
+  uint64_t workspace_bytes = 0;
+  uint32_t waves = 0;
+  uint64_t candidates = 0, queries = 0, peak_frontier = 0;
+  CullHistogram culled;
+  std::vector<StageStats> stages;
+  std::vector<WaveStats> wave_stats;
+  Times times;
+  std::vector<std::string> switched_off;  ///< names given to --disable
+
+  double gap() const { return diagonal_a > 0 ? (upper - lower) / diagonal_a : upper - lower; }
+};
+
+}  // namespace vkh

@@ -1,0 +1,159 @@
+#include "host/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <string>
+
+#include "host/error.h"
+
+namespace vkh {
+namespace {
+
+constexpr VkBufferUsageFlags kWorking =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr uint32_t kFirstWaves = 8;
+constexpr uint32_t kMoreWaves = 8;
+
+double now_ms() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
+
+void check_engine(VkhResult result, const char* what) {
+  if (result == VKH_SUCCESS) return;
+  const char* reason = result == VKH_ERROR_TOO_LARGE ? "too large for the device's buffer bindings"
+                       : result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
+                                                         : "the driver refused a pipeline";
+  throw DeviceError(std::string(what) + ": " + reason);
+}
+
+struct MeshBytes {
+  VkDeviceSize vertices, faces;
+  explicit MeshBytes(const Mesh& m)
+      : vertices(aligned(m.vertices.size() * 12)), faces(aligned(m.faces.size() * 12)) {}
+  VkDeviceSize total() const { return vertices + faces; }
+};
+
+VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const Mesh& m) {
+  return {buffer,
+          offset,
+          12,
+          static_cast<uint32_t>(m.vertices.size()),
+          buffer,
+          offset + MeshBytes(m).vertices,
+          VK_INDEX_TYPE_UINT32,
+          static_cast<uint32_t>(m.faces.size())};
+}
+
+void write(std::byte* to, const std::vector<float>& positions, const Mesh& m) {
+  std::memcpy(to, positions.data(), positions.size() * sizeof(float));
+  std::memcpy(to + MeshBytes(m).vertices, m.faces.data(), m.faces.size() * sizeof(m.faces[0]));
+}
+
+// Makes what one stage wrote visible to the next: copies before and after the engine's commands.
+void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStageFlags to) {
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  vk.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, to, 0, 1, &barrier, 0,
+                        nullptr, 0, nullptr);
+}
+
+}  // namespace
+
+Runner::Runner(const Device& device)
+    : device_(device), submitter_(device), names_(Submitter::kTimestamps) {}
+
+VkhContext Runner::context_for(uint32_t switches) {
+  const auto known = contexts_.find(switches);
+  if (known != contexts_.end()) return known->second.get();
+  const VkhContextCreateInfo info{device_.engine_info(), VK_NULL_HANDLE, switches};
+  VkhContext context = nullptr;
+  check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
+  contexts_.emplace(switches, ContextHandle(context, vkhDestroyContext));
+  return context;
+}
+
+void Runner::upload(const RunInput& in) {
+  const VkDeviceSize bytes_a = MeshBytes(*in.a).total();
+  const VkDeviceSize bytes = bytes_a + MeshBytes(*in.b).total();
+  grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+  grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
+  write(staging_.mapped(), in.frame->a, *in.a);
+  write(staging_.mapped() + bytes_a, in.frame->b, *in.b);
+  problem_.a = view(meshes_.handle(), 0, *in.a);
+  mesh_b_ = view(meshes_.handle(), bytes_a, *in.b);
+}
+
+void Runner::place(const RunInput& in, RunOutput& out) {
+  VkhHierarchyRequirements hierarchy{};
+  check_engine(
+      vkhGetHierarchyRequirements(context_, mesh_b_.vertexCount, mesh_b_.faceCount, &hierarchy),
+      "mesh B");
+  VkhWorkspaceRequirements workspace{};
+  check_engine(vkhGetWorkspaceRequirements(context_, problem_.a.vertexCount, problem_.a.faceCount,
+                                           &workspace),
+               "mesh A");
+  VkDeviceSize bytes = in.memory_bytes == 0 ? workspace.recommended : in.memory_bytes;
+  bytes = std::clamp(bytes, workspace.minimum, workspace.maximum);
+  out.workspace_bytes = bytes;
+  grow(hierarchy_, device_, hierarchy.hierarchySize, kWorking, Placement::kDevice);
+  grow(workspace_, device_, std::max(bytes, hierarchy.scratchSize), kWorking, Placement::kDevice);
+  grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
+  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+       Placement::kReadback);
+  problem_.b = {{hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount};
+  problem_.workspace = {workspace_.handle(), 0, bytes};
+  problem_.cullTolerance = in.cull_tolerance;
+  scratch_ = {workspace_.handle(), 0, workspace_.size()};
+}
+
+void Runner::record_start(VkCommandBuffer commands, const RunInput& in) {
+  const VkBufferCopy copy{0, 0, MeshBytes(*in.a).total() + MeshBytes(*in.b).total()};
+  device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &problem_.b, &scratch_, &profile_);
+  vkhCmdBegin(context_, commands, &problem_, &profile_);
+}
+
+void Runner::submit(RunOutput& out) {
+  submitter_.submit_and_wait({});
+  std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
+  const std::vector<double> ms = submitter_.read_timestamps(profile_.count);
+  for (uint32_t i = 1; i < profile_.count; ++i) {
+    if (names_[i] != nullptr) out.stages.push_back({names_[i], ms[i] - ms[i - 1]});
+  }
+}
+
+RunOutput Runner::run(const RunInput& in) {
+  RunOutput out;
+  context_ = context_for(in.switches);
+  const double start = now_ms();
+  upload(in);
+  place(in, out);
+  out.upload_ms = now_ms() - start;
+  bool first = true;
+  bool wanted = true;
+  do {
+    const VkCommandBuffer commands = submitter_.begin();
+    profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
+    if (first) record_start(commands, in);
+    vkhCmdAdvance(context_, commands, &problem_, first ? kFirstWaves : kMoreWaves, &profile_);
+    vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, &profile_);
+    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
+    const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
+    device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
+    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+    submit(out);
+    first = false;
+    wanted = in.advanced(out.report);
+  } while (wanted && out.report.status == VKH_STATUS_RUNNING);
+  return out;
+}
+
+}  // namespace vkh

@@ -1,0 +1,66 @@
+// One run on the device: buffers, submissions, timestamps. host/solver.cpp gives it a frame and
+// reads its report.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "engine/vkhausdorff.h"
+#include "host/frame.h"
+#include "host/memory.h"
+
+namespace vkh {
+
+/// Pipelines for one set of switches; destroyed with the handle.
+using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
+
+struct RunInput {
+  const Frame* frame = nullptr;
+  const Mesh* a = nullptr;
+  const Mesh* b = nullptr;
+  uint32_t switches = VKH_SWITCH_ALL;
+  uint64_t memory_bytes = 0;  ///< 0: recommended
+  float cull_tolerance = 0;
+  /// Called after each submission with the report so far; false ends the run.
+  std::function<bool(const VkhReport&)> advanced;
+};
+
+struct StageTime {
+  const char* name;
+  double ms;
+};
+
+struct RunOutput {
+  VkhReport report{};
+  std::vector<StageTime> stages;  ///< one per timestamp interval, in order
+  uint64_t workspace_bytes = 0;
+  double upload_ms = 0;  ///< host: buffers and copying into them
+};
+
+/// Keeps contexts and buffers between runs.
+class Runner {
+ public:
+  explicit Runner(const Device& device);
+  RunOutput run(const RunInput& input);
+
+ private:
+  VkhContext context_for(uint32_t switches);
+  void upload(const RunInput& input);
+  void place(const RunInput& input, RunOutput& output);
+  void record_start(VkCommandBuffer commands, const RunInput& input);
+  void submit(RunOutput& output);
+
+  const Device& device_;
+  std::map<uint32_t, ContextHandle> contexts_;
+  Submitter submitter_;
+  Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_;
+  VkhContext context_ = nullptr;
+  VkhMesh mesh_b_{};
+  VkhProblem problem_{};
+  VkhMemory scratch_{};
+  VkhProfile profile_{};
+  std::vector<const char*> names_;
+};
+
+}  // namespace vkh

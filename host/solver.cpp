@@ -1,0 +1,211 @@
+#include "host/solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "host/closest.h"
+#include "host/error.h"
+#include "host/frame.h"
+#include "host/run.h"
+
+namespace vkh {
+namespace {
+
+constexpr std::pair<const char*, uint32_t> kSwitches[] = {
+    {"centroid", VKH_SWITCH_CENTROID},
+    {"parent_samples", VKH_SWITCH_PARENT_SAMPLES},
+    {"tolerance_cull", VKH_SWITCH_TOLERANCE_CULL},
+    {"thin", VKH_SWITCH_THIN},
+    {"u3", VKH_SWITCH_PAIRS},
+    {"u4", VKH_SWITCH_U4},
+    {"warm_start", VKH_SWITCH_WARM_START}};
+
+// What float32 in a frame of order 1 can hold apart from a lower bound at a sample that is no
+// vertex of A: the rounding of its position (2^-23 sqrt 3) and of its certificate.
+constexpr double kLowerMargin = 2.5e-7;
+// Below this, rounding alone keeps candidates open: asking for less would refine noise.
+constexpr double kToleranceFloor = 4e-7;
+
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+uint32_t switches_without(const std::vector<std::string>& disabled) {
+  uint32_t on = VKH_SWITCH_ALL;
+  for (const std::string& name : disabled) {
+    const auto* found = std::find_if(std::begin(kSwitches), std::end(kSwitches),
+                                     [&](const auto& s) { return name == s.first; });
+    if (found == std::end(kSwitches)) throw UsageError("no switch is called '" + name + "'");
+    on &= ~found->second;
+  }
+  return on;
+}
+
+struct Interval {
+  double lower, upper;
+};
+
+// From the frame's certified floats to the files' units, widened by the displacement of the stored
+// coordinates. The joint diagonal bounds any distance, also before the first bounds exist.
+Interval to_files(const VkhReport& r, const Frame& frame, double joint_diagonal) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double moved = std::nextafter(frame.displacement(), infinity);
+  const double lower = std::max(0.0, std::nextafter(static_cast<double>(r.lower) - moved, 0.0));
+  const double upper = std::nextafter(static_cast<double>(r.upper) + moved, infinity);
+  const double upper_given = std::min(frame.length_up(upper), joint_diagonal * (1 + 0x1p-40));
+  return {frame.length_down(r.lower > 0 ? lower : 0.0), upper_given};
+}
+
+double joint_diagonal(const Mesh& a, const Mesh& b) {
+  Box x = bounding_box(a);
+  const Box y = bounding_box(b);
+  for (int i = 0; i < 3; ++i) {
+    x.lo[i] = std::min(x.lo[i], y.lo[i]);
+    x.hi[i] = std::max(x.hi[i], y.hi[i]);
+  }
+  return diagonal(x);
+}
+
+Status status_of(const VkhReport& r, bool closed) {
+  if (closed) return Status::kClosed;
+  return r.status == VKH_STATUS_MEMORY ? Status::kMemory : Status::kPrecision;
+}
+
+void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
+  out.waves = r.waves;
+  out.candidates = r.candidateTotal;
+  out.queries = r.queryTotal;
+  out.peak_frontier = r.peakFrontier;
+  const uint32_t* c = r.culled;
+  out.culled = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+  const uint32_t recorded = r.waves > 0 ? r.waves - 1 : 0;
+  const uint32_t first = recorded > VKH_MAX_WAVE_RECORDS ? recorded - VKH_MAX_WAVE_RECORDS : 0;
+  for (uint32_t w = first; w < recorded; ++w) {
+    const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
+    out.wave_stats.push_back({w, rec.parents, rec.candidates, rec.queries, rec.survivors,
+                              rec.deferred, frame.length_down(static_cast<double>(rec.lower)),
+                              frame.length_up(static_cast<double>(rec.upper))});
+  }
+}
+
+void fill_stages(const RunOutput& run, Report& out) {
+  for (const StageTime& s : run.stages) {
+    auto at = std::find_if(out.stages.begin(), out.stages.end(),
+                           [&](const StageStats& x) { return x.name == s.name; });
+    if (at == out.stages.end())
+      at = out.stages.insert(out.stages.end(), StageStats{s.name, 0, 0, 0, 0});
+    at->gpu_ms += s.ms;
+    ++at->dispatches;
+    const bool building = at->name == "morton" || at->name == "sort" || at->name == "hierarchy";
+    (building ? out.times.hierarchy_ms : out.times.solve_ms) += s.ms;
+  }
+}
+
+void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out) {
+  if (r.witnessFaceA >= a.faces.size() || r.witnessFaceB >= b.faces.size()) return;
+  const double one = 1 << 20;
+  const double v = r.witnessBarycentric[0] / one;
+  const double w = r.witnessBarycentric[1] / one;
+  const glm::uvec3 fa = a.faces[r.witnessFaceA];
+  const glm::dvec3 p = (1 - v - w) * a.vertices[fa.x] + v * a.vertices[fa.y] + w * a.vertices[fa.z];
+  out.witness_a = {r.witnessFaceA, {1 - v - w, v, w}, p};
+  const glm::uvec3 fb = b.faces[r.witnessFaceB];
+  const ClosestPoint q = closest_point(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
+  out.witness_b = {r.witnessFaceB, q.barycentric, q.point};
+}
+
+}  // namespace
+
+std::vector<std::string> switch_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, bit] : kSwitches) names.emplace_back(name);
+  return names;
+}
+
+struct Solver::Impl {
+  explicit Impl(Device& d) : device(d), runner(d) {}
+  Device& device;
+  Runner runner;
+};
+
+Solver::Solver(Device& device) : impl_(std::make_unique<Impl>(device)) {}
+Solver::~Solver() = default;
+
+namespace {
+
+// Watches the budgets between submissions and tells the caller how far the run is.
+struct Watch {
+  const SolveOptions& options;
+  const Frame& frame;
+  double diagonal_a, joint;
+  Clock::time_point start;
+  Status ended = Status::kClosed;
+
+  bool operator()(const VkhReport& r) {
+    if (r.status != VKH_STATUS_RUNNING) return false;
+    const Interval now = to_files(r, frame, joint);
+    const double gap =
+        diagonal_a > 0 ? (now.upper - now.lower) / diagonal_a : now.upper - now.lower;
+    if (options.progress && !options.progress({r.waves, r.remaining, now.lower, now.upper, gap})) {
+      ended = Status::kCancelled;
+    } else if (ms_since(start) > 1000 * options.time_limit_s) {
+      ended = Status::kTime;
+    } else if (r.waves >= options.wave_limit) {
+      ended = Status::kWaves;
+    } else {
+      return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace
+
+Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+  const auto start = Clock::now();
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
+    throw UsageError("the tolerance must be positive and finite");
+  const uint32_t switches = switches_without(options.disabled);
+  const Frame frame = make_frame(a, b);
+  Report out;
+  out.diagonal_a = diagonal(bounding_box(a));
+  out.tolerance =
+      options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
+  const double joint = joint_diagonal(a, b);
+  const double tolerance = frame.to_frame(out.tolerance);
+  const double spare = tolerance - 2 * frame.displacement() - kLowerMargin;
+  RunInput in{.frame = &frame,
+              .a = &a,
+              .b = &b,
+              .switches = switches,
+              .memory_bytes = options.memory_bytes,
+              .cull_tolerance = static_cast<float>(std::max(spare, kToleranceFloor)),
+              .advanced = {}};
+  Watch watch{options, frame, out.diagonal_a, joint, start};
+  in.advanced = [&](const VkhReport& r) { return watch(r); };
+  const double framed_ms = ms_since(start);
+  const RunOutput run = impl_->runner.run(in);
+
+  const Interval interval = to_files(run.report, frame, joint);
+  out.lower = interval.lower;
+  out.upper = interval.upper;
+  const bool closed = out.upper - out.lower <= out.tolerance;
+  const bool budget = run.report.status == VKH_STATUS_RUNNING && watch.ended != Status::kClosed;
+  out.status = budget && !closed ? watch.ended : status_of(run.report, closed);
+  out.device = impl_->device.description();
+  out.mesh_a = a.counts;
+  out.mesh_b = b.counts;
+  out.workspace_bytes = run.workspace_bytes;
+  out.switched_off = options.disabled;
+  fill_counts(run.report, frame, out);
+  fill_stages(run, out);
+  fill_witness(run.report, a, b, out);
+  out.times.upload_ms = framed_ms + run.upload_ms;
+  out.times.wall_ms = ms_since(start);
+  return out;
+}
+
+}  // namespace vkh

@@ -1,0 +1,71 @@
+// The Vulkan functions that host/ calls, loaded at run time: a machine without a loader gets a
+// sentence, not a linker error.
+#pragma once
+
+#ifndef VK_NO_PROTOTYPES
+#define VK_NO_PROTOTYPES
+#endif
+#include <vulkan/vulkan.h>
+
+namespace vkh {
+
+#define VKH_GLOBAL_API(X) \
+  X(CreateInstance)       \
+  X(EnumerateInstanceLayerProperties)
+
+#define VKH_INSTANCE_API(X)                 \
+  X(DestroyInstance)                        \
+  X(EnumeratePhysicalDevices)               \
+  X(GetPhysicalDeviceProperties2)           \
+  X(GetPhysicalDeviceMemoryProperties)      \
+  X(GetPhysicalDeviceQueueFamilyProperties) \
+  X(CreateDevice)
+
+#define VKH_DEVICE_API(X)        \
+  X(DestroyDevice)               \
+  X(GetDeviceQueue)              \
+  X(DeviceWaitIdle)              \
+  X(CreateBuffer)                \
+  X(DestroyBuffer)               \
+  X(GetBufferMemoryRequirements) \
+  X(AllocateMemory)              \
+  X(FreeMemory)                  \
+  X(BindBufferMemory)            \
+  X(MapMemory)                   \
+  X(CreateCommandPool)           \
+  X(DestroyCommandPool)          \
+  X(AllocateCommandBuffers)      \
+  X(ResetCommandPool)            \
+  X(BeginCommandBuffer)          \
+  X(EndCommandBuffer)            \
+  X(CmdCopyBuffer)               \
+  X(CmdPipelineBarrier)          \
+  X(CmdResetQueryPool)           \
+  X(QueueSubmit)                 \
+  X(CreateFence)                 \
+  X(DestroyFence)                \
+  X(ResetFences)                 \
+  X(WaitForFences)               \
+  X(CreateQueryPool)             \
+  X(DestroyQueryPool)            \
+  X(GetQueryPoolResults)
+
+struct VulkanApi {
+  PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
+  PFN_vkGetDeviceProcAddr GetDeviceProcAddr = nullptr;
+#define VKH_MEMBER(name) PFN_vk##name name = nullptr;
+  VKH_GLOBAL_API(VKH_MEMBER)
+  VKH_INSTANCE_API(VKH_MEMBER)
+  VKH_DEVICE_API(VKH_MEMBER)
+#undef VKH_MEMBER
+};
+
+/// Opens the loader. Throws DeviceError if there is none.
+VulkanApi load_vulkan();
+void load_instance(VulkanApi& vk, VkInstance instance);
+void load_device(VulkanApi& vk, VkDevice device);
+
+/// Throws DeviceError: "`what` failed: VK_ERROR_...".
+void check(VkResult result, const char* what);
+
+}  // namespace vkh

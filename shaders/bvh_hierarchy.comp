@@ -1,0 +1,75 @@
+// What: the topology of B's hierarchy over the sorted Morton keys, every inner node at once (Karras 2012, "Maximizing
+// Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Ties are broken by position, so that keys are distinct
+// and a path from the root shares a prefix that grows by a bit a level (kStackDepth).
+// In: keys[count], sorted. Out: nodes[max(count - 1, 1)] but their boxes.
+// A child of at most kLeafTriangles triangles is referenced as a leaf; its own inner nodes stay behind, unreachable.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+#include "shaders/lib/invocation.glsl"
+
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) readonly buffer Keys { uint keys[]; };
+layout(scalar, binding = 1) buffer Nodes { Node nodes[]; };
+layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+
+// Length of the common prefix of keys i and j; -1 where j is out of range.
+int prefix(int i, int j) {
+  if (j < 0 || j >= int(push.count)) return -1;
+  uint difference = keys[i] ^ keys[j];
+  if (difference != 0u) return 31 - findMSB(difference);
+  return 32 + 31 - findMSB(uint(i ^ j));
+}
+
+// The other end of the range that node i covers, and the direction it grows in.
+int range_end(int i, int direction) {
+  int least = prefix(i, i - direction);
+  int reach = 2;
+  while (prefix(i, i + reach * direction) > least) reach *= 2;
+  int length = 0;
+  for (int step_size = reach >> 1; step_size >= 1; step_size >>= 1) {
+    if (prefix(i, i + (length + step_size) * direction) > least) length += step_size;
+  }
+  return i + length * direction;
+}
+
+// The last triangle of the first child of a node over [first, last].
+int split_of(int first, int last) {
+  int shared_bits = prefix(first, last);
+  int split = first;
+  int step_size = last - first;
+  do {
+    step_size = (step_size + 1) >> 1;
+    if (split + step_size < last && prefix(first, split + step_size) > shared_bits) split += step_size;
+  } while (step_size > 1);
+  return split;
+}
+
+// Reference to the child over [first, last] whose inner node would be `inner`.
+uint child_over(int first, int last, uint inner) {
+  uint triangle_count = uint(last - first + 1);
+  if (triangle_count <= kLeafTriangles) return kLeafFlag | ((triangle_count - 1u) << 28) | uint(first);
+  return inner;
+}
+
+void main() {
+  int i = int(item_index());
+  if (i >= max(int(push.count) - 1, 1)) return;
+  if (push.count == 1u) {  // one leaf, and an empty box beside it (bvh_refit)
+    nodes[0].child0 = kLeafFlag;
+    nodes[0].child1 = kLeafFlag;
+    nodes[0].first = 0u;
+    nodes[0].last = 0u;
+    return;
+  }
+  int direction = prefix(i, i + 1) > prefix(i, i - 1) ? 1 : -1;
+  int end = range_end(i, direction);
+  int first = min(i, end);
+  int last = max(i, end);
+  int split = split_of(first, last);
+  nodes[i].child0 = child_over(first, split, uint(split));
+  nodes[i].child1 = child_over(split + 1, last, uint(split + 1));
+  nodes[i].first = uint(first);
+  nodes[i].last = uint(last);
+}

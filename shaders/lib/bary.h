@@ -1,0 +1,169 @@
+// A candidate's corners: dyadic barycentric integers in its root triangle, so that subdivision is exact.
+// A corner is (j, k): root.a + (j ab + k ac) / kBaryOne.
+#ifndef VKH_SHADERS_LIB_BARY_H
+#define VKH_SHADERS_LIB_BARY_H
+
+#include "shaders/lib/triangle.h"
+
+VKH_LIB_BEGIN
+
+struct Bary3 {
+  uvec2 a, b, c;
+};
+
+VKH_FN Bary3 whole_root() {
+  Bary3 t;
+  t.a = uvec2(0u, 0u);
+  t.b = uvec2(kBaryOne, 0u);
+  t.c = uvec2(0u, kBaryOne);
+  return t;
+}
+
+// Six integers of 21 bits in four words: j0 k0 j1 k1 j2 k2 from bit 0 up.
+VKH_FN uvec4 pack_corners(Bary3 t) {
+  uvec4 w;
+  w.x = t.a.x | (t.a.y << 21);
+  w.y = (t.a.y >> 11) | (t.b.x << 10) | (t.b.y << 31);
+  w.z = (t.b.y >> 1) | (t.c.x << 20);
+  w.w = (t.c.x >> 12) | (t.c.y << 9);
+  return w;
+}
+
+VKH_FN Bary3 unpack_corners(uvec4 w) {
+  const uint mask = (1u << 21) - 1u;
+  Bary3 t;
+  t.a = uvec2(w.x & mask, ((w.x >> 21) | (w.y << 11)) & mask);
+  t.b = uvec2((w.y >> 10) & mask, ((w.y >> 31) | (w.z << 1)) & mask);
+  t.c = uvec2(((w.z >> 20) | (w.w << 12)) & mask, (w.w >> 9) & mask);
+  return t;
+}
+
+// j / kBaryOne is exact; a product, a product and a sum round: off by at most 3 ulp of |ab| + |ac| weighted, and the edges
+// themselves by one more. `position_slack` is that bound.
+VKH_FN vec3 place(uvec2 corner, vec3 ab, vec3 ac) {
+  const float unit = 1.0f / float(kBaryOne);  // uncertified: a power of two, exact
+  return (float(corner.x) * unit) * ab + (float(corner.y) * unit) * ac;
+}
+
+VKH_FN Corners place_corners(Bary3 t, vec3 ab, vec3 ac) {
+  Corners p;
+  p.a = place(t.a, ab, ac);
+  p.b = place(t.b, ab, ac);
+  p.c = place(t.c, ab, ac);
+  return p;
+}
+
+// How far a placed corner can lie from the exact one, in the root's frame: weights sum to at most 1, each edge is off by one
+// rounding, each product by one, the sum by one: 3 ulp of the longer edge.
+VKH_FN float position_slack(vec3 ab, vec3 ac) {
+  return round_up(kUlp * 3.25f * max(norm_up(ab), norm_up(ac)), 4.0f);
+}
+
+// ---- subdivision: 1 -> 4 ----------------------------------------------------------------------------------------
+// A split is a code. 0: midpoints, new point i in the middle of the edge opposite corner i. Otherwise double longest-edge
+// bisection, 1 + x + 3 y + 9 z: bisect the edge opposite corner x (new point 3), then each half at the edge opposite its
+// corner y (new point 4) or z (new point 5). Points 0..2 are the corners.
+
+VKH_CONST uint kSplitMidpoint = 0u;
+VKH_CONST uint kSplitNone = 0xffffffffu;  // not split: closed before its subdivision
+
+VKH_FN uint pick(uvec3 t, uint i) { return i == 0u ? t.x : (i == 1u ? t.y : t.z); }
+
+// One half of triangle t, bisected at the middle m of the edge opposite corner `opposite`. Both halves keep t's orientation.
+VKH_FN uvec3 bisected(uvec3 t, uint opposite, uint m, uint side) {
+  uint a = pick(t, opposite);
+  uint b = pick(t, opposite == 2u ? 0u : opposite + 1u);
+  uint c = pick(t, opposite == 0u ? 2u : opposite - 1u);
+  return side == 0u ? uvec3(a, b, m) : uvec3(a, m, c);
+}
+
+VKH_FN uint bisection_code(uint x, uint y, uint z) { return 1u + x + 3u * y + 9u * z; }
+
+// Which of the six points are the corners of child 0..3.
+VKH_FN uvec3 child_points(uint split, uint child) {
+  if (split == kSplitMidpoint) {
+    if (child == 0u) return uvec3(0u, 5u, 4u);
+    if (child == 1u) return uvec3(5u, 1u, 3u);
+    if (child == 2u) return uvec3(4u, 3u, 2u);
+    return uvec3(3u, 4u, 5u);
+  }
+  uint code = split - 1u;
+  uint half_side = child >> 1;
+  uvec3 half_points = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, half_side);
+  uint inner = half_side == 0u ? (code / 3u) % 3u : code / 9u;  // uncertified: integers
+  return bisected(half_points, inner, 4u + half_side, child & 1u);
+}
+
+VKH_FN uvec2 middle(uvec2 p, uvec2 q) { return uvec2((p.x + q.x) >> 1, (p.y + q.y) >> 1); }
+
+VKH_FN bool has_middle(uvec2 p, uvec2 q) { return (((p.x + q.x) | (p.y + q.y)) & 1u) == 0u; }
+
+VKH_FN uvec2 corner_of(Bary3 t, uint i) { return i == 0u ? t.a : (i == 1u ? t.b : t.c); }
+
+struct Bary6 {
+  Bary3 corner, fresh;
+};
+
+VKH_FN uvec2 point_of(Bary6 p, uint i) {
+  return i < 3u ? corner_of(p.corner, i) : corner_of(p.fresh, i - 3u);
+}
+
+VKH_FN uvec2 middle_of(Bary6 p, uvec3 t, uint opposite) {
+  return middle(point_of(p, pick(t, opposite == 2u ? 0u : opposite + 1u)),
+                point_of(p, pick(t, opposite == 0u ? 2u : opposite - 1u)));
+}
+
+// The six points of a split, all of them exact if can_split.
+VKH_FN Bary6 split_points(Bary3 t, uint split) {
+  Bary6 p;
+  p.corner = t;
+  if (split == kSplitMidpoint) {
+    p.fresh.a = middle(t.b, t.c);
+    p.fresh.b = middle(t.c, t.a);
+    p.fresh.c = middle(t.a, t.b);
+    return p;
+  }
+  uint code = split - 1u;
+  p.fresh = t;
+  p.fresh.a = middle_of(p, uvec3(0u, 1u, 2u), code % 3u);
+  uvec3 half0 = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, 0u);
+  uvec3 half1 = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, 1u);
+  uvec2 m0 = middle_of(p, half0, (code / 3u) % 3u);  // uncertified: integers
+  uvec2 m1 = middle_of(p, half1, code / 9u);         // uncertified: integers
+  p.fresh.b = m0;
+  p.fresh.c = m1;
+  return p;
+}
+
+VKH_FN bool edge_has_middle(Bary6 p, uvec3 t, uint opposite) {
+  return has_middle(point_of(p, pick(t, opposite == 2u ? 0u : opposite + 1u)),
+                    point_of(p, pick(t, opposite == 0u ? 2u : opposite - 1u)));
+}
+
+// Whether every new point of the split is an integer; where it is not, the bits have run out.
+VKH_FN bool can_split(Bary3 t, uint split) {
+  if (split == kSplitMidpoint)
+    return has_middle(t.b, t.c) && has_middle(t.c, t.a) && has_middle(t.a, t.b);
+  uint code = split - 1u;
+  Bary6 p = split_points(t, split);
+  uvec3 all = uvec3(0u, 1u, 2u);
+  if (!edge_has_middle(p, all, code % 3u)) return false;
+  return edge_has_middle(p, bisected(all, code % 3u, 3u, 0u), (code / 3u) % 3u) &&  // uncertified: integers
+         edge_has_middle(p, bisected(all, code % 3u, 3u, 1u), code / 9u);           // uncertified: integers
+}
+
+VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {
+  Bary3 t;
+  t.a = point_of(p, points.x);
+  t.b = point_of(p, points.y);
+  t.c = point_of(p, points.z);
+  return t;
+}
+
+// A dyadic point next to the centroid; inside the root, and inside t but for the rounding to an integer.
+VKH_FN uvec2 centroid_of(Bary3 t) {
+  return uvec2((t.a.x + t.b.x + t.c.x) / 3u, (t.a.y + t.b.y + t.c.y) / 3u);  // uncertified: integers
+}
+
+VKH_LIB_END
+#endif

@@ -1,0 +1,52 @@
+// Outward-rounded float32 arithmetic: the only file that may divide or take a root.
+//
+// The model is the precision table of the Vulkan specification ("Precision and Operation of SPIR-V Instructions"), not
+// one device's behaviour:
+//   + - *         correctly rounded, in a direction that is not defined: |fl(x) - x| <= kUlp |x|
+//   /             2.5 ulp for divisors in [2^-126, 2^126]
+//   inversesqrt   2 ulp; sqrt(x) is 1 / inversesqrt(x), so 4.5 ulp and a rounding: under 6 ulp
+//   results below 2^-126 may be flushed to zero
+// One ulp is at most kUlp times the value. A product and a sum may be contracted to one rounding; no bound here needs
+// them not to be, and none needs them to be.
+#ifndef VKH_SHADERS_LIB_CERTIFIED_H
+#define VKH_SHADERS_LIB_CERTIFIED_H
+
+#include "shaders/lib/glsl.h"
+
+VKH_LIB_BEGIN
+
+VKH_CONST float kUlp = 1.1920929e-7f;  // 2^-23
+
+// Absorbs every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that are added in one
+// formula stay under this. Coordinates are of order 1 (host/frame.h), so it is 2^-40 of an ulp.
+VKH_CONST float kTiny = 8.6736174e-19f;  // 2^-60
+
+// Denominators under this are squares of lengths under 2^-48, far below an ulp of the coordinates: such an edge is
+// treated as a point. It also keeps quotients under 2^49, so that no product of them overflows.
+VKH_CONST float kSmallSquare = 1.2621774e-29f;  // 2^-96
+
+// Smallest float that is sure to be >= x for x >= 0 with a relative error of up to n * kUlp (n <= 64); the product's own
+// rounding and the flush are included.
+VKH_FN float round_up(float x, float n) { return x * (1.0f + (n + 2.0f) * kUlp) + kTiny; }
+
+// Likewise <= x, and never below 0.
+VKH_FN float round_down(float x, float n) { return max(x * (1.0f - (n + 2.0f) * kUlp) - kTiny, 0.0f); }
+
+// >= sqrt(x) for x >= 0 that is itself >= the square that is meant (see dot_up).
+VKH_FN float sqrt_up(float x) { return round_up(sqrt(x), 6.0f); }
+
+// <= sqrt(x), likewise.
+VKH_FN float sqrt_down(float x) { return round_down(sqrt(x), 6.0f); }
+
+// >= |v|. Three products and two sums: 3 ulp on the square, so under 2 on the root, whose own error sqrt_up covers.
+VKH_FN float norm_up(vec3 v) { return round_up(sqrt(dot(v, v)), 8.0f); }
+
+// <= |v|.
+VKH_FN float norm_down(vec3 v) { return round_down(sqrt(dot(v, v)), 8.0f); }
+
+// a / b where b is a square, 0 where b is too small to mean anything. Not certified: a quotient only places a point, and
+// any point in its range is right.
+VKH_FN float ratio(float a, float b) { return b > kSmallSquare ? a / b : 0.0f; }
+
+VKH_LIB_END
+#endif

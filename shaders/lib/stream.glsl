@@ -1,0 +1,32 @@
+// Appending to streams and raising maxima in the control block, one atomic a subgroup. Include after `control` is
+// declared. The subgroup's size is read, never assumed.
+// Every invocation of the subgroup calls these together; one that has nothing to give passes false or 0.
+#ifndef VKH_SHADERS_LIB_STREAM_GLSL
+#define VKH_SHADERS_LIB_STREAM_GLSL
+
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+
+// Reserves a place in stream `which` for every invocation that keeps something.
+uint stream_append(uint which, bool keep) {
+  uvec4 keepers = subgroupBallot(keep);
+  uint base = 0u;
+  if (subgroupElect()) base = atomicAdd(control.count[which], subgroupBallotBitCount(keepers));
+  return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(keepers);
+}
+
+// maximum[which] = max(maximum[which], value), for value >= 0.
+void raise(uint which, float value) {
+  float highest = subgroupMax(value);
+  if (subgroupElect() && highest > 0.0) {
+    atomicMax(control.maximum[which], floatBitsToUint(highest));
+  }
+}
+
+void count_culled(uint why, bool culled) {
+  uint n = subgroupBallotBitCount(subgroupBallot(culled));
+  if (subgroupElect() && n > 0u) atomicAdd(control.culled[why], n);
+}
+
+#endif

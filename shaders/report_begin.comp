@@ -1,0 +1,27 @@
+// What: adopts the last wave's witness and clears the certified lower bound. One invocation.
+// In: the streams of the last wave. Out: control.witness; report.lower as the bits of a huge float.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+
+layout(local_size_x = 1) in;
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) writeonly buffer LowerBits { uint lower_bits[]; };
+layout(scalar, binding = 2) readonly buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 3) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 4) readonly buffer Points { Point points[]; };
+layout(scalar, binding = 5) readonly buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
+layout(scalar, binding = 7) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 8) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[]; };
+
+#include "shaders/lib/candidate.glsl"
+#include "shaders/lib/child.glsl"
+#include "shaders/lib/witness.glsl"
+
+void main() {
+  adopt_witness();
+  lower_bits[0] = floatBitsToUint(3.0e38);
+}

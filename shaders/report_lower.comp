@@ -1,0 +1,28 @@
+// What: the certified lower bound: the smallest distance of the witness from any triangle of B, each rounded down. Every
+// triangle is visited, so nothing rests on the hierarchy or on the walks that found the witness.
+// In: control.witness, triangles. Out: lower_bits[0].
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shaders/lib/invocation.glsl"
+#include "shaders/lib/lower.h"
+
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 2) buffer LowerBits { uint lower_bits[]; };
+layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+
+void main() {
+  // Invocations past the end repeat the last triangle: every one takes part in the subgroup's minimum.
+  uint i = min(item_index(), push.count - 1u);
+  vec3 p = control.witness.position;
+  Corners s;
+  s.a = triangles[i].a - p;
+  s.b = triangles[i].b - p;
+  s.c = triangles[i].c - p;
+  float d = subgroupMin(triangle_distance_down(s));
+  if (subgroupElect()) atomicMin(lower_bits[0], floatBitsToUint(d));
+}

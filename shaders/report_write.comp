@@ -1,0 +1,59 @@
+// What: the report. One invocation. In: control, lower_bits from report_lower. Out: report.
+// lower: the witness's certified distance, less how far its rounded position can lie from the point of A that it stands for.
+// upper: the largest u of everything that was dropped, spilled or is still open; without bound while faces of A wait.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+
+layout(local_size_x = 1) in;
+layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer LowerBits { uint lower_bits[]; };
+layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
+
+#include "shaders/lib/bary.h"
+
+// A vertex of A stands at its exact place; another sample was placed in its root's frame and moved to the meshes' by one more
+// rounding.
+float witness_slack(Witness w) {
+  bool vertex = w.j == kBaryOne || w.k == kBaryOne || w.j + w.k == 0u;
+  if (vertex) return 0.0;
+  uvec3 f = faces[w.root];
+  vec3 o = positions[f.x];
+  return round_up(position_slack(positions[f.y] - o, positions[f.z] - o) + kUlp * norm_up(w.position), 4.0);
+}
+
+uint remaining() {
+  uint open = control.status == kStatusRunning ? control.count[kCountNext] : 0u;
+  if (control.status == kStatusMemory) open = control.count[kCountFrontier];
+  return open + (control.face_count - control.root_cursor);
+}
+
+float upper_bound() {
+  if (control.wave == 0u || control.root_cursor < control.face_count) return 3.0e38;
+  uint bits = max(max(control.maximum[kMaxDropped], control.maximum[kMaxSpilled]), control.maximum[kMaxNext]);
+  return uintBitsToFloat(bits);
+}
+
+void main() {
+  Witness w = control.witness;
+  float lower = round_down(max(uintBitsToFloat(lower_bits[0]) - witness_slack(w), 0.0), 1.0);
+  report.lower = lower;
+  report.upper = max(upper_bound(), lower);
+  report.status = control.status;
+  report.wave = control.wave;
+  report.witness = w;
+  report.witness_face = triangles[w.nearest].face;
+  report.remaining = remaining();
+  // The last recorded wave is only closed by the plan after it: its work is added here.
+  uint candidates = control.status == kStatusRunning ? 4u * control.parents + control.roots : 0u;
+  uint queries = control.status == kStatusRunning ? 3u * control.parents + control.count[kCountSurvivors] : 0u;
+  report.candidate_total = control.candidate_total + candidates;
+  report.query_total = control.query_total + queries;
+  report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);
+  for (int i = 0; i < 8; ++i) report.culled[i] = control.culled[i];
+  for (int i = 0; i < 64; ++i) report.waves[i] = control.waves[i];
+}

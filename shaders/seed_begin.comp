@@ -1,0 +1,31 @@
+// What: the control block's first state. One invocation. In: push. Out: control.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+
+layout(local_size_x = 1) in;
+layout(scalar, binding = 0) writeonly buffer ControlBlock { Control control; };
+layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
+
+void main() {
+  for (int i = 0; i < 3; ++i) control.count[i] = 0u;
+  for (int i = 0; i < 5; ++i) control.maximum[i] = 0u;
+  for (int i = 0; i < 8; ++i) control.culled[i] = 0u;
+  control.parity = 0u;
+  control.wave = 0u;
+  control.status = kStatusRunning;
+  control.root_cursor = 0u;
+  control.roots = 0u;
+  control.parents = 0u;
+  control.deferred = 0u;
+  control.witness_point = kNone;
+  control.witness_centroid = kNone;
+  control.cull_tolerance = push.cull_tolerance;
+  control.witness = Witness(vec3(0.0), -1.0, kNone, 0u, 0u, kNone);
+  control.capacity = push.capacity;
+  control.face_count = push.face_count;
+  control.candidate_total = 0u;
+  control.query_total = 0u;
+  control.peak_frontier = 0u;
+}

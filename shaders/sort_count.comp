@@ -1,0 +1,28 @@
+// What: how often each digit occurs in each block of keys. Out: counts[digit * blocks + block].
+// Radix sort, first of three kernels a pass: count, scan, scatter.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+#include "shaders/lib/invocation.glsl"
+
+layout(local_size_x = kSortGroup) in;
+layout(scalar, binding = 0) readonly buffer Keys { uint keys[]; };
+layout(scalar, binding = 1) writeonly buffer Counts { uint counts[]; };
+layout(scalar, push_constant) uniform PushBlock { SortPush push; };
+
+shared uint histogram[kSortDigits];
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  uint block = workgroup_index();
+  if (block >= push.blocks) return;
+  histogram[lane] = 0u;
+  barrier();
+  for (uint round = 0u; round < kSortRounds; ++round) {
+    uint i = block * kSortBlock + round * kSortGroup + lane;
+    if (i < push.count) atomicAdd(histogram[(keys[i] >> push.shift) & 255u], 1u);
+  }
+  barrier();
+  counts[lane * push.blocks + block] = histogram[lane];
+}

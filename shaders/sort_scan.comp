@@ -1,0 +1,39 @@
+// What: where each block's keys of a digit start among all keys of that digit, and how many keys have it.
+// In: counts[digit * blocks + block]. Out: counts, summed exclusively along each digit; totals[digit].
+// One workgroup a digit.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+
+layout(local_size_x = kSortGroup) in;
+layout(scalar, binding = 0) buffer Counts { uint counts[]; };
+layout(scalar, binding = 1) writeonly buffer Totals { uint totals[]; };
+layout(scalar, push_constant) uniform PushBlock { SortPush push; };
+
+shared uint sums[kSortGroup];
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  uint row = gl_WorkGroupID.x * push.blocks;
+  uint per_lane = (push.blocks + kSortGroup - 1u) / kSortGroup;  // uncertified: integers
+  uint begin = min(lane * per_lane, push.blocks);
+  uint end = min(begin + per_lane, push.blocks);
+  uint sum = 0u;
+  for (uint i = begin; i < end; ++i) sum += counts[row + i];
+  sums[lane] = sum;
+  barrier();
+  for (uint reach = 1u; reach < kSortGroup; reach *= 2u) {
+    uint before = lane >= reach ? sums[lane - reach] : 0u;
+    barrier();
+    sums[lane] += before;
+    barrier();
+  }
+  uint running = sums[lane] - sum;
+  for (uint i = begin; i < end; ++i) {
+    uint here = counts[row + i];
+    counts[row + i] = running;
+    running += here;
+  }
+  if (lane == kSortGroup - 1u) totals[gl_WorkGroupID.x] = sums[lane];
+}

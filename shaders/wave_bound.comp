@@ -1,0 +1,124 @@
+// What: the hard half of the cascade, over the wave's survivors: ha with the centroid's triangle, u3 over every pair of known
+// triangles, u4; what is still open enters the next frontier. Culls against the newest lower bound.
+// In: survivors, centroids (queried). Out: frontier's writing half. Every closed child's u is kept (kMaxDropped), every
+// open one's too (kMaxNext). Also finds the wave's witness among the centroids.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lib/invocation.glsl"
+#include "shaders/gpu_types.h"
+
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 7) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
+layout(scalar, binding = 9) readonly buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 10) readonly buffer Centroids { Point centroids[]; };
+
+#include "shaders/lib/bvh.glsl"
+#include "shaders/lib/candidate.glsl"
+#include "shaders/lib/child.glsl"
+#include "shaders/lib/stream.glsl"
+
+struct Verdict {
+  float upper;
+  uint by;  // kCull*
+};
+
+// u3: pairs (i, j) of known triangles. A pair cannot beat the better of its two distances at the worst corner, so most pairs
+// cost three minima.
+void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], vec3 origin, float shift, float threshold, inout Verdict v) {
+  for (uint i = 1u; i < known.count; ++i) {
+    Surface s = make_surface(local_triangle(known.triangle[i], origin), t.radius);
+    for (uint j = 0u; j < i; ++j) {
+      if (v.upper <= threshold) return;
+      if (max3(min(d[i], d[j])) + shift >= v.upper) continue;
+      Surface r = make_surface(local_triangle(known.triangle[j], origin), t.radius);
+      float u3 = round_up(bound_pair(t, s, d[i], r, d[j]) + shift, 1.0f);
+      if (u3 < v.upper) v = Verdict(u3, kCullU3);
+    }
+  }
+}
+
+// u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the shortest edge.
+Surface closest_point_surface(Patch t, vec3 corner, uint triangle, vec3 origin) {
+  Surface s = make_surface(local_triangle(triangle, origin), t.radius);
+  vec3 q = corner - closest_point(corner, s.at).offset;
+  s.at.a = q;
+  s.at.b = q;
+  s.at.c = q;
+  return s;
+}
+
+void bound_u4(Patch t, uvec3 nearest, vec3 origin, float shift, inout Verdict v) {
+  uint opposite = opposite_longest(Corners(t.at.a, t.at.b, t.at.c));
+  Surface s[3];
+  s[0] = closest_point_surface(t, t.at.a, nearest.x, origin);
+  s[1] = closest_point_surface(t, t.at.b, nearest.y, origin);
+  s[2] = closest_point_surface(t, t.at.c, nearest.z, origin);
+  for (uint k = 0u; k < 3u; ++k) {
+    if (k == opposite) continue;
+    vec3 da = corner_distances(t, s[opposite]);
+    vec3 db = corner_distances(t, s[k]);
+    float u4 = round_up(bound_pair(t, s[opposite], da, s[k], db) + shift, 1.0f);
+    if (u4 < v.upper) v = Verdict(u4, kCullU4);
+  }
+}
+
+Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold) {
+  Patch t = make_patch(place_corners(c.at, root.ab, root.ac));
+  float shift = position_slack(root.ab, root.ac);
+  Known known;
+  known.count = 0u;
+  know(known, centre);
+  know(known, c.nearest.x);
+  know(known, c.nearest.y);
+  know(known, c.nearest.z);
+  if ((kSwitches & kUseParentSamples) != 0u) know_parent_samples(code, known);
+
+  Verdict v = Verdict(c.upper, kCullLowerRaised);
+  vec3 d[kMaxKnown];
+  vec3 own = vec3(3.0e38);
+  for (uint k = 0u; k < known.count; ++k) {
+    d[k] = corner_distances(t, make_surface(local_triangle(known.triangle[k], root.origin), t.radius));
+    own = min(own, d[k]);
+    float ha = round_up(bound_single(d[k]) + shift, 1.0f);
+    if (ha < v.upper) v = Verdict(ha, kCullHa);
+  }
+  float simple = round_up(min(bound_u1(t, own), bound_u2(t, own)) + shift, 1.0f);
+  if (simple < v.upper) v = Verdict(simple, kCullU2);
+  if (v.upper <= threshold) return v;
+  if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, root.origin, shift, threshold, v);
+  if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, root.origin, shift, v);
+  return v;
+}
+
+void main() {
+  uint i = item_index();
+  bool mine = i < control.count[kCountSurvivors];
+  float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
+  Verdict v = Verdict(0.0, kCullCount);
+  Candidate next;
+  if (mine) {
+    Point asked = centroids[i];
+    if (asked.distance == uintBitsToFloat(control.maximum[kMaxLower])) atomicMin(control.witness_centroid, i);
+    Child c = load_child(survivors[i]);
+    uint centre = (kSwitches & kUseCentroid) != 0u ? asked.nearest : kNone;
+    v = bound_child(survivors[i], c, load_root(c.root), centre, threshold);
+    next = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
+  }
+  bool closed = mine && v.upper <= threshold;
+  bool open = mine && !closed;
+  for (uint why = kCullU2; why <= kCullLowerRaised; ++why) count_culled(why, closed && v.by == why);
+  raise(kMaxDropped, closed ? v.upper : 0.0);
+  raise(kMaxNext, open ? v.upper : 0.0);
+  uint slot = stream_append(kCountNext, open);
+  if (open) frontier[writing(slot)] = next;
+}

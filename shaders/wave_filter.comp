@@ -1,0 +1,103 @@
+// What: the cheap half of the cascade, over every child of the wave: exact case, u1, u2, ha with the triangles already known.
+// In: the refined candidates, their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
+// its centroid as a query that starts from the best single triangle. Every closed child's u is kept (kMaxDropped).
+// Also finds the wave's witness among the new points.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lib/invocation.glsl"
+#include "shaders/gpu_types.h"
+
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 7) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
+layout(scalar, binding = 9) writeonly buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 10) writeonly buffer Centroids { Point centroids[]; };
+
+#include "shaders/lib/bvh.glsl"
+#include "shaders/lib/candidate.glsl"
+#include "shaders/lib/child.glsl"
+#include "shaders/lib/stream.glsl"
+
+struct Verdict {
+  float upper;
+  uint by;         // kCull*
+  uint best;       // triangle of the best ha
+};
+
+// Measures T against the next known triangle: keeps the smallest ha, and the corners' own distances for u1 and u2.
+void measure(Patch t, Child c, uint triangle, vec3 origin, inout vec3 own, inout Verdict v, inout float ha) {
+  vec3 d = corner_distances(t, make_surface(local_triangle(triangle, origin), t.radius));
+  own = min(own, d);
+  float h = bound_single(d);
+  if (h < ha) {
+    ha = h;
+    v.best = triangle;
+  }
+}
+
+Verdict filter_child(uint code, Child c, Root root, float threshold) {
+  Patch t = make_patch(place_corners(c.at, root.ab, root.ac));
+  float shift = position_slack(root.ab, root.ac);
+  Known known;
+  known.count = 0u;
+  know(known, c.nearest.x);
+  know(known, c.nearest.y);
+  know(known, c.nearest.z);
+  uint own_count = known.count;
+  if ((kSwitches & kUseParentSamples) != 0u) know_parent_samples(code, known);
+
+  Verdict v = Verdict(c.upper, kCullU1, c.nearest.x);
+  vec3 own = vec3(3.0e38);
+  float ha = 3.0e38;
+  for (uint k = 0u; k < known.count; ++k) {
+    if (k == own_count && v.upper <= threshold) return v;
+    measure(t, c, known.triangle[k], root.origin, own, v, ha);
+    if (k + 1u == own_count) {
+      float u1 = round_up(bound_u1(t, own) + shift, 1.0f);
+      float u2 = round_up(bound_u2(t, own) + shift, 1.0f);
+      v.by = own_count == 1u ? kCullExact : u1 <= threshold ? kCullU1 : u2 <= threshold ? kCullU2 : kCullHa;
+      v.upper = min(v.upper, min(u1, u2));
+    }
+    if (k + 1u >= own_count) v.upper = min(v.upper, round_up(ha + shift, 1.0f));
+  }
+  return v;
+}
+
+void find_witness(uint code) {
+  if (is_root(code) || (code & 3u) == 3u) return;
+  uint point = 3u * (code >> 2) + (code & 3u);
+  if (points[point].distance == uintBitsToFloat(control.maximum[kMaxLower])) atomicMin(control.witness_point, point);
+}
+
+void main() {
+  uint code = item_index();
+  bool mine = code < 4u * control.parents + control.roots && (is_root(code) || splits[code >> 2] != kSplitNone);
+  float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
+  Verdict v = Verdict(0.0, kCullCount, kNone);
+  vec3 centre = vec3(0.0);
+  if (mine) {
+    find_witness(code);
+    Child c = load_child(code);
+    Root root = load_root(c.root);
+    v = filter_child(code, c, root, threshold);
+    centre = global_position(root, centroid_of(c.at));
+  }
+  bool closed = mine && v.upper <= threshold;
+  bool open = mine && !closed;
+  for (uint why = kCullExact; why <= kCullHa; ++why) count_culled(why, closed && v.by == why);
+  raise(kMaxDropped, closed ? v.upper : 0.0);
+  uint slot = stream_append(kCountSurvivors, open);
+  if (open) {
+    survivors[slot] = code;
+    centroids[slot] = Point(centre, v.best, (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0);
+  }
+}

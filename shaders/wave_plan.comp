@@ -1,0 +1,103 @@
+// What: everything that a wave decides as a whole: adopts the last wave's witness, flips the frontier's halves, tests for the
+// end, shares the room out between refined, deferred and newly admitted candidates, writes every indirect size.
+// One invocation. After the end it writes zeros, so that recorded waves cost empty dispatches only.
+// Invariant: deferred + 4 parents + roots <= capacity, so no stream of the wave can overflow.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/gpu_types.h"
+
+layout(local_size_x = 1) in;
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
+layout(scalar, binding = 2) readonly buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 3) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 4) readonly buffer Points { Point points[]; };
+layout(scalar, binding = 5) readonly buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
+layout(scalar, binding = 7) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 8) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[]; };
+
+#include "shaders/lib/candidate.glsl"
+#include "shaders/lib/child.glsl"
+#include "shaders/lib/witness.glsl"
+
+Dispatch groups_for(uint items) {
+  uint groups = (items + kGroupSize - 1u) / kGroupSize;  // uncertified: integers
+  uint x = min(groups, kMaxGroupsX);
+  return Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);  // uncertified: integers
+}
+
+// Adds what the wave before this one did to the totals.
+void close_wave() {
+  if (control.wave == 0u) return;
+  uint w = (control.wave - 1u) % kMaxWaveRecords;
+  uint candidates = 4u * control.parents + control.roots;
+  uint queries = 3u * control.parents + control.count[kCountSurvivors];
+  float upper = uintBitsToFloat(max(control.maximum[kMaxNext], max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
+  control.waves[w] = WaveRecord(control.parents, candidates, queries, control.count[kCountSurvivors], control.deferred,
+                                uintBitsToFloat(control.maximum[kMaxLower]), upper);
+  control.candidate_total += candidates;
+  control.query_total += queries;
+}
+
+void flip() {
+  control.parity = 1u - control.parity;
+  control.count[kCountFrontier] = control.count[kCountNext];
+  control.count[kCountNext] = 0u;
+  control.count[kCountSurvivors] = 0u;
+  control.maximum[kMaxFrontier] = control.maximum[kMaxNext];
+  control.maximum[kMaxNext] = 0u;
+  control.peak_frontier = max(control.peak_frontier, control.count[kCountFrontier]);
+}
+
+// A refined candidate leaves at most four where it was one.
+void share_room() {
+  uint held = control.count[kCountFrontier];
+  control.parents = min(held, (control.capacity - held) / 3u);  // uncertified: integers
+  control.deferred = held - control.parents;
+  uint room = control.capacity - control.deferred - 4u * control.parents;
+  control.roots = min(control.face_count - control.root_cursor, room);
+  control.root_cursor += control.roots;
+}
+
+// All that is left is within the tolerance: what culling would find out with one more wave.
+bool within_tolerance() {
+  return control.root_cursor == control.face_count && control.count[kCountFrontier] > 0u &&
+         uintBitsToFloat(control.maximum[kMaxFrontier]) <=
+             uintBitsToFloat(control.maximum[kMaxLower]) + control.cull_tolerance;
+}
+
+void end_if_done() {
+  if (within_tolerance() && control.roots == 0u) {
+    control.maximum[kMaxDropped] = max(control.maximum[kMaxDropped], control.maximum[kMaxFrontier]);
+    control.status = control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+    return;
+  }
+  if (control.parents + control.roots > 0u) return;
+  if (control.count[kCountFrontier] > 0u) {
+    control.maximum[kMaxSpilled] = max(control.maximum[kMaxSpilled], control.maximum[kMaxFrontier]);
+    control.status = kStatusMemory;
+  } else {
+    control.status = control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+  }
+}
+
+void main() {
+  if (control.status == kStatusRunning) {
+    adopt_witness();
+    close_wave();
+    flip();
+    share_room();
+    end_if_done();
+  }
+  bool running = control.status == kStatusRunning;
+  uint parents = running ? control.parents : 0u;
+  uint children = running ? 4u * control.parents + control.roots : 0u;
+  if (running) control.wave += 1u;
+  dispatches[kDispatchSubdivide] = groups_for(parents);
+  dispatches[kDispatchQueryPoints] = groups_for(3u * parents);
+  dispatches[kDispatchFilter] = groups_for(children);
+  dispatches[kDispatchDefer] = groups_for(running ? control.deferred : 0u);
+}

@@ -1,0 +1,79 @@
+// What: chooses each refined candidate's split and writes its three new points as queries.
+// Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1 -> 4.
+// In: frontier[0, parents). Out: splits; points[3 i + k], started from the best triangle known to the candidate.
+// A candidate that the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lib/invocation.glsl"
+#include "shaders/gpu_types.h"
+
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 6) writeonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
+
+#include "shaders/lib/bvh.glsl"
+#include "shaders/lib/candidate.glsl"
+#include "shaders/lib/stream.glsl"
+
+// The code of the candidate's split; kSplitNone where the barycentric bits have run out.
+uint choose_split(Bary3 at, Root root) {
+  Corners t = place_corners(at, root.ab, root.ac);
+  if ((kSwitches & kUseThin) != 0u && quality(t) < kThinQuality) {
+    uint x = opposite_longest(t);
+    Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
+    uvec3 all = uvec3(0u, 1u, 2u);
+    uint y = opposite_longest(place_corners(child_of(first, bisected(all, x, 3u, 0u)), root.ab, root.ac));
+    uint z = opposite_longest(place_corners(child_of(first, bisected(all, x, 3u, 1u)), root.ab, root.ac));
+    uint code = bisection_code(x, y, z);
+    if (can_split(at, code)) return code;
+  }
+  return can_split(at, kSplitMidpoint) ? kSplitMidpoint : kSplitNone;
+}
+
+uint best_start(Candidate c, vec3 p) {
+  if ((kSwitches & kUseWarmStart) == 0u) return kNone;
+  Nearest best = Nearest(kNone, 3.0e38);
+  try_triangle(p, c.nearest.x, best);
+  if (c.nearest.y != c.nearest.x) try_triangle(p, c.nearest.y, best);
+  if (c.nearest.z != c.nearest.x && c.nearest.z != c.nearest.y) try_triangle(p, c.nearest.z, best);
+  if (c.nearest_centroid != kNone) try_triangle(p, c.nearest_centroid, best);
+  return best.triangle;
+}
+
+void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
+  Bary6 six = split_points(at, split == kSplitNone ? kSplitMidpoint : split);
+  for (uint k = 0u; k < 3u; ++k) {
+    vec3 p = global_position(root, corner_of(six.fresh, k));
+    // A negative distance tells the query to skip the point.
+    points[3u * i + k] = split == kSplitNone ? Point(p, kNone, -1.0) : Point(p, best_start(c, p), 0.0);
+  }
+}
+
+void main() {
+  uint i = item_index();
+  bool mine = i < control.parents;
+  Candidate c = frontier[reading(mine ? i : 0u)];
+  bool closed = mine && c.upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
+  uint split = kSplitNone;
+  if (mine) {
+    Bary3 at = unpack_corners(c.corners);
+    Root root = load_root(c.root);
+    // Where the candidate is this small and still open, it is rounding that holds its u up: no split helps.
+    bool tiny = enclosing_radius_up(place_corners(at, root.ab, root.ac)) < 0.03125 * control.cull_tolerance;
+    if (!closed && !tiny) split = choose_split(at, root);
+    splits[i] = split;
+    write_points(i, c, at, root, split);
+  }
+  bool ended = mine && split == kSplitNone;
+  count_culled(kCullLowerRaised, closed);
+  count_culled(kCullPrecision, ended && !closed);
+  raise(kMaxDropped, ended ? c.upper : 0.0);
+}

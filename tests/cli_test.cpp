@@ -1,0 +1,364 @@
+// The program as people and scripts meet it: exit codes, purity of stdout, JSON, spellings. Runs
+// the real program, $VKH_PROGRAM, on files written here.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+#include <sys/types.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "host/report_print.h"
+#include "host/solver.h"
+#include "tests/support/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using namespace vkh::test;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string rectangle(double width, double z) {
+  std::ostringstream obj;
+  obj << "v 0 0 " << z << "\nv " << width << " 0 " << z << "\nv " << width << " 1 " << z
+      << "\nv 0 1 " << z << "\nf 1 2 3\nf 1 3 4\n";
+  return obj.str();
+}
+
+/// Unit squares a quarter apart: both directions are 1/4.
+std::string square_a() { return write_file("a.obj", rectangle(1, 0)); }
+std::string square_b() { return write_file("b.obj", rectangle(1, 0.25)); }
+/// In the unit square's plane and twice as long: 0 from the square to it, 1 from it to the square.
+std::string long_rectangle() { return write_file("long.obj", rectangle(2, 0)); }
+
+json parse_only_line(const std::string& text) {
+  REQUIRE(!text.empty());
+  CHECK(text.back() == '\n');
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  REQUIRE(json::accept(text));
+  return json::parse(text);
+}
+
+Words keys(const json& object) {
+  Words names;
+  for (const auto& item : object.items()) names.push_back(item.key());
+  return names;
+}
+
+Words sorted(Words names) {
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+double hex(const json& object, const char* key) {
+  return std::strtod(object.at(key).get<std::string>().c_str(), nullptr);
+}
+
+void check_interval(const json& object, double truth) {
+  const double lower = hex(object, "lower_hex"), upper = hex(object, "upper_hex");
+  CHECK(lower <= truth);
+  CHECK(truth <= upper);
+  CHECK(object.at("lower").get<double>() <= lower);
+  CHECK(object.at("upper").get<double>() >= upper);
+  CHECK(object.at("lower").get<double>() == doctest::Approx(lower).epsilon(1e-15));
+  CHECK(object.at("upper").get<double>() == doctest::Approx(upper).epsilon(1e-15));
+  if (object.at("status") == "closed") {
+    CHECK(upper - lower <= object.at("tolerance").at("absolute").get<double>() * (1 + 1e-15));
+  }
+}
+
+/// One line on stderr, nothing on stdout.
+void check_refused(const Words& words, int exit_code, const std::string& mentions) {
+  const Outcome outcome = run(words);
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == exit_code);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.starts_with("vkhausdorff: "));
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(outcome.err.find(mentions) != std::string::npos);
+  CHECK(outcome.err.find("internal error") == std::string::npos);
+}
+
+TEST_CASE("usage errors: exit code 2 and one line") {
+  const Words pair = {"distance", square_a(), square_b()};
+  check_refused({}, 2, "subcommand");
+  check_refused({"distanse", "a", "b"}, 2, "'distanse': expected distance");
+  check_refused({"distance"}, 2, "A is required");
+  check_refused({"distance", square_a()}, 2, "B is required");
+  check_refused(pair + Words{"third.obj"}, 2, "third.obj");
+  check_refused(pair + Words{"--frobnicate"}, 2, "--frobnicate");
+  for (const char* tol : {"0", "-1", "nan", "inf", "1e-6mm", "abs", "%", "1,5", "1e-400", ""}) {
+    check_refused(pair + Words{"--tol", tol}, 2, "--tol");
+  }
+  for (const char* memory : {"0", "2G", "-1MiB", "much", "1e30TiB", "0.1"}) {
+    check_refused(pair + Words{"--memory", memory}, 2, "--memory");
+  }
+  for (const char* time : {"0", "-1s", "1d", "inf", "soon"}) {
+    check_refused(pair + Words{"--time", time}, 2, "--time");
+  }
+  for (const char* waves : {"-1", "1.5", "4294967296", "few"}) {
+    check_refused(pair + Words{"--waves", waves}, 2, "--waves");
+  }
+  check_refused(pair + Words{"--disable", "gravity"}, 2, "'gravity': expected one of");
+  check_refused(pair + Words{"--json", folder() / "no/such/folder.json"}, 2, "--json");
+}
+
+TEST_CASE("JSON never overwrites an input") {
+  const std::string a = square_a(), before = read_file(a);
+  check_refused({"distance", a, square_b(), "--json", a}, 2, "overwrite");
+  fs::create_symlink(a, folder() / "link.obj");
+  check_refused({"distance", a, square_b(), "--json", folder() / "link.obj"}, 2, "overwrite");
+  CHECK(read_file(a) == before);
+}
+
+TEST_CASE("bad input: exit code 4, one line that names the file") {
+  const std::string a = square_a();
+  const std::string empty = write_file("empty.obj", "");
+  const std::string out_of_range = write_file("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  const std::string not_a_number = write_file("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string points = write_file("points.obj", "v 0 0 0\nv 1 0 0\n");
+  for (const std::string& bad :
+       {folder() / "missing.obj", empty, out_of_range, not_a_number, points}) {
+    check_refused({"distance", bad, a}, 4, bad);
+    check_refused({"distance", a, bad, "--json"}, 4, bad);
+  }
+  // A refused run leaves no file behind.
+  const std::string out = folder() / "refused.json";
+  check_refused({"distance", a, empty, "--json", out}, 4, empty);
+  CHECK(!fs::exists(out));
+}
+
+TEST_CASE("a device that is not there: exit code 5") {
+  check_refused({"distance", square_a(), square_b(), "--device", "no such device"}, 5, "device");
+  check_refused({"distance", square_a(), square_b(), "--device", "12345"}, 5, "device");
+}
+
+TEST_CASE("help and version are answers, not errors") {
+  const Outcome help = run({"--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.out.find("distance") != std::string::npos);
+  CHECK(help.out.find("doctor") != std::string::npos);
+  CHECK(run({"distance", "--help"}).out.find("--tol") != std::string::npos);
+  const Outcome version = run({"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK(version.out == std::string("vkhausdorff ") + vkh::program_version() + "\n");
+}
+
+const Words kDistanceKeys =
+    sorted({"schema",    "version",       "status",          "stop_reason",  "lower",
+            "lower_hex", "upper",         "upper_hex",       "gap",          "tolerance",
+            "witness",   "mesh_a",        "mesh_b",          "device",       "times",
+            "stages",    "culled",        "waves",           "wave_stats",   "candidates",
+            "queries",   "peak_frontier", "workspace_bytes", "switched_off", "notes"});
+
+TEST_CASE("distance --json: one object of the schema and nothing else on stdout") {
+  const std::string a = square_a(), b = square_b();
+  for (const Words& words : {Words{"distance", a, b, "--json"}, Words{"distance", "--json", a, b},
+                             Words{"distance", a, b, "--json", "--verbose"}}) {
+    const Outcome outcome = run(words);
+    REQUIRE(outcome.exit_code == 0);
+    const json r = parse_only_line(outcome.out);
+    CHECK(keys(r) == kDistanceKeys);
+    CHECK(r["schema"] == "vkhausdorff.distance/1");
+    CHECK(r["version"] == vkh::program_version());
+    CHECK(r["status"] == "closed");
+    check_interval(r, 0.25);
+    CHECK(keys(r["tolerance"]) == sorted({"requested", "absolute", "diagonal_of", "diagonal_a"}));
+    CHECK(keys(r["mesh_a"]) == sorted({"file", "vertices", "faces", "unreferenced", "degenerate",
+                                       "duplicate", "polygons"}));
+    CHECK(r["mesh_a"]["file"] == a);
+    CHECK(r["mesh_a"]["faces"] == 2);
+    CHECK(r["mesh_a"]["vertices"] == 4);
+    CHECK(r["mesh_b"]["file"] == b);
+    CHECK(r["device"]["name"].get<std::string>() != "");
+    CHECK(keys(r["times"]) ==
+          sorted({"load_ms", "setup_ms", "upload_ms", "hierarchy_ms", "solve_ms", "wall_ms"}));
+    CHECK(r["times"]["load_ms"].get<double>() > 0);
+    CHECK(r["times"]["setup_ms"].get<double>() > 0);
+    CHECK(keys(r["culled"]) ==
+          sorted({"exact", "u1", "u2", "ha", "u3", "u4", "lower_raised", "precision"}));
+    CHECK(r["switched_off"].empty());
+  }
+}
+
+TEST_CASE("the witness proves lower") {
+  const json r = parse_only_line(run({"distance", square_a(), square_b(), "--json"}).out);
+  const json &a = r["witness"]["a"], &b = r["witness"]["b"];
+  CHECK(a["face"].get<uint64_t>() < 2);
+  CHECK(b["face"].get<uint64_t>() < 2);
+  double weight = 0, squared = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    weight += a["barycentric"][i].get<double>();
+    const double d = a["point"][i].get<double>() - b["point"][i].get<double>();
+    squared += d * d;
+  }
+  CHECK(weight == doctest::Approx(1));
+  CHECK(std::sqrt(squared) == doctest::Approx(0.25).epsilon(1e-5));
+  CHECK(std::sqrt(squared) >= hex(r, "lower_hex") * (1 - 1e-6));
+}
+
+TEST_CASE("the table says interval, tolerance, meshes and device") {
+  const std::string a = square_a();
+  const Outcome outcome = run({"distance", a, square_b()});
+  CHECK(outcome.exit_code == 0);
+  for (const std::string& word :
+       {std::string("interval"), std::string("closed"), std::string("1e-6 of diag(A)"), a,
+        std::string("2 faces"), std::string("witness"), std::string("device")}) {
+    CAPTURE(word);
+    CHECK(outcome.out.find(word) != std::string::npos);
+  }
+  CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 15);
+  const Outcome verbose = run({"distance", a, square_b(), "--verbose"});
+  CHECK(verbose.out.find("candidates closed by") != std::string::npos);
+}
+
+TEST_CASE("--json FILE: the table on stdout, the object in the file") {
+  const std::string file = folder() / "out.json";
+  const Outcome outcome = run({"distance", square_a(), square_b(), "--json", file});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.find("interval") != std::string::npos);
+  CHECK(!json::accept(outcome.out));
+  check_interval(parse_only_line(read_file(file)), 0.25);
+}
+
+TEST_CASE("an answer that cannot be written is an error") {
+  if (!fs::exists("/dev/full")) return;
+  const Outcome outcome = run({"distance", square_a(), square_b()}, "/dev/full");
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.err.find("cannot write") != std::string::npos);
+}
+
+TEST_CASE("a file name that is no UTF-8 does not cost the JSON") {
+  const std::string odd = write_file("caf\xe9.obj", rectangle(1, 0));
+  const json r = parse_only_line(run({"distance", odd, square_b(), "--json"}).out);
+  check_interval(r, 0.25);
+}
+
+TEST_CASE("tolerance spellings resolve to the same thing and are echoed") {
+  const double diagonal = std::sqrt(2.0);
+  struct Spelling {
+    const char* text;
+    double absolute;
+  };
+  for (const Spelling& s : {Spelling{"1e-3", 1e-3 * diagonal}, Spelling{"0.1%", 1e-3 * diagonal},
+                            Spelling{"0.02abs", 0.02}, Spelling{"0.02 abs", 0.02}}) {
+    CAPTURE(s.text);
+    const Words words = {"distance", square_a(), square_b(), "--tol", s.text};
+    const json r = parse_only_line(run(words + Words{"--json"}).out);
+    const json& tolerance = r["tolerance"];
+    CHECK(tolerance["requested"] == s.text);
+    CHECK(tolerance["absolute"].get<double>() == doctest::Approx(s.absolute).epsilon(1e-12));
+    CHECK(tolerance["diagonal_a"].get<double>() == doctest::Approx(diagonal).epsilon(1e-12));
+    CHECK(tolerance["diagonal_of"].is_null() == (std::string(s.text).back() == 's'));
+    check_interval(r, 0.25);
+    const std::string table = run(words).out;
+    CHECK(table.find(std::string(s.text).back() == 's' ? "as asked" : s.text) != std::string::npos);
+    CHECK(table.find("diag(A) = 1.41421356") != std::string::npos);
+  }
+}
+
+TEST_CASE("a mesh against itself is [0, nearly 0]") {
+  const std::string a = square_a();
+  for (const Words& words :
+       {Words{"distance", a, a, "--json"}, Words{"distance", a, a, "--json", "--symmetric"}}) {
+    const Outcome outcome = run(words);
+    CHECK(outcome.exit_code == 0);
+    const json r = parse_only_line(outcome.out);
+    CHECK(r["lower"] == 0);
+    CHECK(r["lower_hex"] == "0x0p+0");
+    check_interval(r, 0);
+  }
+}
+
+TEST_CASE("--symmetric: the larger of two directions, and both of them") {
+  const std::string a = square_a(), b = long_rectangle();
+  const Outcome outcome = run({"distance", a, b, "--symmetric", "--json"});
+  CHECK(outcome.exit_code == 0);
+  const json r = parse_only_line(outcome.out);
+  CHECK(r["schema"] == "vkhausdorff.symmetric/1");
+  CHECK(r["status"] == "closed");
+  check_interval(r, 1);
+  REQUIRE(r["directed"].size() == 2);
+  const json &there = r["directed"][0], &back = r["directed"][1];
+  CHECK(keys(there) == kDistanceKeys);
+  CHECK(keys(back) == kDistanceKeys);
+  CHECK(there["mesh_a"]["file"] == a);
+  CHECK(back["mesh_a"]["file"] == b);
+  check_interval(there, 0);
+  check_interval(back, 1);
+  // One tolerance for both, from the diagonal of the first mesh.
+  const double absolute = r["tolerance"]["absolute"].get<double>();
+  CHECK(absolute == doctest::Approx(1e-6 * std::sqrt(2.0)).epsilon(1e-12));
+  CHECK(there["tolerance"]["absolute"].get<double>() == absolute);
+  CHECK(back["tolerance"]["absolute"].get<double>() == absolute);
+  CHECK(there["tolerance"]["diagonal_of"] == "mesh_a");
+  CHECK(back["tolerance"]["diagonal_of"] == "mesh_b");
+  const std::string table = run({"distance", a, b, "--symmetric"}).out;
+  CHECK(table.find("h(A,B)  ") != std::string::npos);
+  CHECK(table.find("h(B,A)  ") != std::string::npos);
+}
+
+TEST_CASE("switches are echoed, one option or several, before or after the files") {
+  const Words names = vkh::switch_names();
+  REQUIRE(names.size() >= 2);
+  const std::string a = square_a(), b = square_b(), both = names[0] + "," + names[1];
+  for (const Words& words :
+       {Words{"distance", a, b, "--json", "--disable", both},
+        Words{"distance", "--disable", both, a, b, "--json"},
+        Words{"distance", a, b, "--json", "--disable", names[0], "--disable", names[1]}}) {
+    const json r = parse_only_line(run(words).out);
+    CHECK(r["switched_off"] == Words{names[0], names[1]});
+    check_interval(r, 0.25);
+  }
+}
+
+TEST_CASE("a budget that is too small: exit code 3 and a true interval") {
+  const json closed = parse_only_line(run({"demo", "--tol", "1e-3", "--json"}).out);
+  REQUIRE(closed["status"] == "closed");
+  const Outcome outcome = run({"demo", "--tol", "1e-7", "--waves", "1", "--json"});
+  CHECK(outcome.exit_code == 3);
+  const json r = parse_only_line(outcome.out);
+  CHECK(r["status"] == "waves");
+  CHECK(hex(r, "upper_hex") - hex(r, "lower_hex") > r["tolerance"]["absolute"].get<double>());
+  // Two true intervals of one number meet.
+  CHECK(hex(r, "lower_hex") <= hex(closed, "upper_hex"));
+  CHECK(hex(closed, "lower_hex") <= hex(r, "upper_hex"));
+  const Outcome table = run({"demo", "--tol", "1e-7", "--waves", "1"});
+  CHECK(table.exit_code == 3);
+  CHECK(table.out.find("NOT CLOSED") != std::string::npos);
+}
+
+TEST_CASE("the first Ctrl-C ends a run with the interval that it has") {
+  const Running running = start({"demo", "--tol", "1e-12", "--json"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  kill(running.process, SIGINT);
+  const Outcome outcome = finish(running);
+  CHECK(outcome.signal == 0);
+  CHECK(outcome.exit_code == 3);
+  const json r = parse_only_line(outcome.out);
+  CHECK(r["status"] == "cancelled");
+  CHECK(hex(r, "lower_hex") <= hex(r, "upper_hex"));
+}
+
+TEST_CASE("doctor lists devices and passes its own check") {
+  const Outcome outcome = run({"doctor"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  for (const std::string word : {"usable", "chosen", "driver", "loader", "self-check", "passed"}) {
+    CAPTURE(word);
+    CHECK(outcome.out.find(word) != std::string::npos);
+  }
+}
+
+}  // namespace

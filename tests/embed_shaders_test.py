@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""tools/embed_shaders.py on shaders that keep its convention and on shaders that break it.
+
+A kernel that breaks it must stop the build with a message that names the shader and the block.
+"""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+EMBED = Path(__file__).resolve().parent.parent / "tools" / "embed_shaders.py"
+
+HEAD = """#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types : require
+layout(local_size_x = 64) in;
+struct Item { float a; uint b; };
+"""
+KEYS = "layout(scalar, set = 0, binding = 0) buffer KeysBlock { uint keys[]; };"
+MAIN = "void main() { %s }"
+
+# What is wrong: (declarations, main's body, what the message must say).
+BROKEN = {
+    "two members": (
+        "layout(scalar, set = 0, binding = 0) buffer TwoBlock { uint n; uint keys[]; };", "",
+        "block TwoBlock: has 2 members (n, keys)"),
+    "another set": (
+        "layout(scalar, set = 1, binding = 0) buffer SetBlock { uint keys[]; };", "",
+        "block SetBlock: is in set 1"),
+    "a gap": (
+        KEYS + "layout(scalar, set = 0, binding = 2) buffer GapBlock { uint far[]; };", "",
+        "block GapBlock: far has binding 2 where 1 is next"),
+    "one binding twice": (
+        KEYS + "layout(scalar, set = 0, binding = 0) buffer AgainBlock { uint again[]; };", "",
+        "block AgainBlock: again has binding 0 where 1 is next"),
+    "one name twice": (
+        KEYS + "layout(scalar, set = 0, binding = 1) buffer SameBlock { uint keys[]; } same;", "",
+        "blocks share a member name"),
+    "no buffers": ("", "", "has no buffers"),
+    "std430 struct": (
+        "struct Pad { float a; vec3 b; };"
+        "layout(std430, set = 0, binding = 0) buffer PadBlock { Pad pads[]; };", "",
+        "block PadBlock: gpu::Pad.b stands at 16, scalar layout has 4"),
+    "std430 array": (
+        "layout(std430, set = 0, binding = 0) buffer WideBlock { vec3 wide[]; };", "",
+        "block WideBlock: array stride 16 of gpu::vec3, scalar layout has 12"),
+    "a uniform block": (
+        KEYS + "layout(scalar, set = 0, binding = 1) uniform UboBlock { Item item; };", "",
+        "block UboBlock: is no storage buffer"),
+    "an image": (
+        KEYS + "layout(set = 0, binding = 1, r32ui) uniform uimage2D picture;", "",
+        "block picture: is no storage buffer"),
+    "an array of blocks": (
+        "layout(scalar, set = 0, binding = 0) buffer ManyBlock { uint keys[]; } many[2];", "",
+        "block many: an array of blocks"),
+    "a matrix": (
+        "struct Turn { mat3 m; };"
+        "layout(scalar, set = 0, binding = 0) buffer TurnBlock { Turn turns[]; };", "",
+        "block TurnBlock: gpu::Turn.m: a type (SPIR-V opcode 24)"),
+    "a half": (
+        "struct Half { float16_t h; };"
+        "layout(scalar, set = 0, binding = 0) buffer HalfBlock { Half halves[]; };", "",
+        "block HalfBlock: gpu::Half.h: a 16-bit scalar"),
+    "a bool": (
+        "struct Flag { uint n; bool on; };"
+        "layout(scalar, set = 0, binding = 0) buffer FlagBlock { Flag flags[]; };",
+        "Flag f = flags[0]; f.n = 1; flags[1] = f;",
+        "block FlagBlock: gpu::Flag has a bool"),
+    "an extent that is a specialisation constant": (
+        "layout(constant_id = 1) const uint kExtent = 4; struct Row { uint cells[kExtent]; };"
+        "layout(scalar, set = 0, binding = 0) buffer RowBlock { Row rows[]; };", "",
+        "block RowBlock: gpu::Row.cells: an array whose extent is a specialisation constant"),
+    "132 bytes of push constants": (
+        KEYS + "struct Large { uint words[33]; };"
+        "layout(scalar, push_constant) uniform LargeBlock { Large push; };", "",
+        "block LargeBlock: has 132 bytes of push constants, over 128"),
+    "push constants that are no struct": (
+        KEYS + "layout(scalar, push_constant) uniform BareBlock { uint push; };", "",
+        "block BareBlock: holds uint32_t; push one struct"),
+    "push constants of two members": (
+        KEYS + "layout(scalar, push_constant) uniform PairBlock { Item push; uint more; };", "",
+        "block PairBlock: has 2 members (push, more)"),
+}
+
+
+class EmbedShaders(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.dir = Path(self.folder.name)
+
+    def embed(self, declarations, body="", head=HEAD, flags=()):
+        """Compiles and embeds try_it.comp; the result of embed_shaders.py."""
+        source, spv = self.dir / "try_it.comp", self.dir / "try_it.spv"
+        source.write_text(head + declarations + MAIN % body)
+        glslang = ["glslangValidator", "--quiet", "--target-env", "vulkan1.2", *flags]
+        compiled = subprocess.run([*glslang, "-o", spv, source], capture_output=True, text=True)
+        self.assertEqual(compiled.returncode, 0, compiled.stdout)
+        command = [sys.executable, "-B", EMBED, "kernel", spv, self.dir]
+        return subprocess.run(command, capture_output=True, text=True)
+
+    def header(self, *args, **kwargs):
+        result = self.embed(*args, **kwargs)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return (self.dir / "try_it.h").read_text()
+
+    def test_every_breach_names_shader_and_block(self):
+        for what, (declarations, body, message) in BROKEN.items():
+            with self.subTest(what):
+                result = self.embed(declarations, body)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertIn(f"shaders/try_it.comp: {message}", result.stderr)
+                self.assertFalse((self.dir / "try_it.h").exists())
+
+    def test_stripped_names_are_an_error(self):
+        result = self.embed(KEYS, flags=["-g0"])
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("stripped", result.stderr)
+
+    def test_argument_types(self):
+        kinds = {
+            "Item items[]": "Slice<gpu::Item>> items",
+            "Item one": "Slice<gpu::Item>> one",
+            "uint keys[]": "Slice<uint32_t>> keys",
+            "int signs[16]": "Slice<int32_t>> signs",
+            "float heights[]": "Slice<float>> heights",
+            "double exact[]": "Slice<double>> exact",
+            "uint64_t codes[]": "Slice<uint64_t>> codes",
+            "uint16_t indices[]": "Slice<uint16_t>> indices",
+            "vec3 points[]": "Slice<gpu::vec3>> points",
+            "uvec4 corners[]": "Slice<gpu::uvec4>> corners",
+        }
+        for declared, expected in kinds.items():
+            with self.subTest(declared):
+                block = "layout(scalar, set = 0, binding = 0) buffer Block { %s; };" % declared
+                self.assertIn(f"Required<{expected};", self.header(block))
+
+    def test_read_only_and_binding_order(self):
+        header = self.header(
+            "layout(scalar, set = 0, binding = 1) readonly buffer BBlock { uint b[]; };"
+            "layout(scalar, set = 0, binding = 0) writeonly buffer ABlock { uint a[]; };")
+        self.assertIn('{0, "a", false},\n      {1, "b", true},', header)
+        self.assertLess(header.index("> a;"), header.index("> b;"))
+
+    def test_struct_layout(self):
+        header = self.header(
+            "struct Inner { vec3 p; uint n; };"
+            "struct Outer {"
+            "  uint first; Inner inner[2]; double exact; float grid[2][3]; uint8_t tail; };"
+            "layout(scalar, set = 0, binding = 0) buffer Block { Outer outer; };")
+        for name, offset, kind in [("first", 0, "uint32_t"), ("inner", 4, "gpu::Inner[2]"),
+                                   ("exact", 40, "double"), ("grid", 48, "float[2][3]"),
+                                   ("tail", 72, "uint8_t")]:
+            self.assertIn(f"offsetof(gpu::Outer, {name}) == {offset},", header)
+            self.assertIn(f"std::is_same_v<decltype(gpu::Outer::{name}), {kind}>", header)
+        self.assertIn("sizeof(gpu::Outer) == 80,", header)  # rounded up to the double's alignment
+        self.assertIn("sizeof(gpu::Inner) == 16,", header)
+
+    def test_local_size(self):
+        specialised = HEAD.replace("(local_size_x = 64)", "(local_size_x_id = 3, local_size_y = 2)")
+        self.assertIn("kLocalSize[3] = {64, 1, 1}", self.header(KEYS))
+        self.assertIn("kLocalSize[3] = {1, 2, 1}", self.header(KEYS, head=specialised))
+
+    def test_push(self):
+        push = "layout(scalar, push_constant) uniform PushBlock { Item push; };"
+        self.assertIn("using Push = NoPush;", self.header(KEYS))
+        self.assertIn("using Push = gpu::Item;", self.header(KEYS + push))
+
+    def test_an_equal_header_keeps_its_time(self):
+        self.header(KEYS, "keys[0] = 1;")
+        before = (self.dir / "try_it.h").stat().st_mtime_ns
+        source = (self.dir / "try_it.cpp").read_text()
+        self.header(KEYS, "keys[0] = 2;")
+        self.assertEqual((self.dir / "try_it.h").stat().st_mtime_ns, before)
+        self.assertNotEqual((self.dir / "try_it.cpp").read_text(), source)
+
+
+if __name__ == "__main__":
+    unittest.main()

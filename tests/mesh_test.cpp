@@ -1,0 +1,123 @@
+// make_mesh: what it drops and refuses, and its counts against exact arithmetic.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "host/mesh.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "host/error.h"
+
+namespace {
+
+using vkh::InputError;
+using vkh::Mesh;
+using Vertices = std::vector<glm::dvec3>;
+using Faces = std::vector<glm::uvec3>;
+
+uint64_t degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return vkh::make_mesh("m", {a, b, c}, {{0, 1, 2}}).counts.degenerate;
+}
+
+}  // namespace
+
+TEST_CASE("make_mesh drops what no face uses, in order, and only that must be finite") {
+  const double nan = std::nan("");
+  const Mesh mesh = vkh::make_mesh(
+      "m", {{nan, 0, 0}, {1, 0, 0}, {0, INFINITY, 0}, {0, 1, 0}, {0, 0, 1}}, {{4, 3, 1}});
+  CHECK(mesh.vertices == Vertices{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  CHECK(mesh.faces == Faces{{2, 1, 0}});
+  CHECK(mesh.counts.unreferenced == 2);
+  CHECK_THROWS_WITH(vkh::make_mesh("m", {{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}),
+                    "m: vertex 1: (nan, 0, 0) is not finite; expected finite coordinates");
+  CHECK_THROWS_WITH(vkh::make_mesh("m", Vertices(8), {{0, 1, 2}, {0, 99, 7}}),
+                    "m: face 1: index 99 of 8 vertices; expected indices below 8");
+  CHECK_THROWS_AS(vkh::make_mesh("m", Vertices(8), {}), InputError);
+}
+
+TEST_CASE("make_mesh counts duplicates by position, in any order") {
+  const Vertices cube = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  const Mesh mesh =
+      vkh::make_mesh("m", cube, {{0, 1, 2}, {2, 1, 0}, {3, 4, 2}, {0, 1, 5}, {0, 0, 1}, {1, 1, 0}});
+  CHECK(mesh.counts.duplicate == 2);
+  CHECK(mesh.counts.degenerate == 2);
+  CHECK(mesh.faces.size() == 6);
+}
+
+TEST_CASE("collinearity is exact at every scale") {
+  for (int scale = -1070; scale <= 1015; scale += 5) {
+    CAPTURE(scale);
+    const auto at = [&](double x, double y, double z) {
+      return glm::dvec3(std::ldexp(x, scale), std::ldexp(y, scale), std::ldexp(z, scale));
+    };
+    CHECK(degenerate(at(1, 2, 3), at(2, 4, 6), at(3, 6, 9)) == 1);
+    CHECK(degenerate(at(1, 2, 3), at(2, 4, 6), at(3, 6, 10)) == 0);
+    glm::dvec3 off_line = at(3, 6, 9);
+    off_line.y = std::nextafter(off_line.y, 0.0);
+    CHECK(degenerate(at(1, 2, 3), at(2, 4, 6), off_line) == 0);
+  }
+  const double huge = 1.7976931348623157e308, tiny = 5e-324;
+  CHECK(degenerate({-huge, -huge, -huge}, {0, 0, 0}, {huge, huge, huge}) == 1);
+  CHECK(degenerate({-huge, -huge, -huge}, {0, tiny, 0}, {huge, huge, huge}) == 0);
+  CHECK(degenerate({0, 0, 0}, {tiny, 0, 0}, {huge, 0, 0}) == 1);
+  CHECK(degenerate({0, 0, 0}, {tiny, 0, 0}, {huge, 0, tiny}) == 0);
+}
+
+TEST_CASE("collinearity agrees with integer arithmetic") {
+  // 62-bit products of 30-bit steps from a 50-bit base: the differences are exact in int64, the
+  // cross product in __int128, and floating point alone cannot tell.
+  std::mt19937_64 random(7);
+  const auto draw = [&](int64_t bound) {
+    return std::uniform_int_distribution<int64_t>(-bound, bound)(random);
+  };
+  uint64_t lines = 0;
+  for (int round = 0; round < 200000; ++round) {
+    int64_t base[3], u[3], v[3];
+    const int64_t s = draw(1000), t = draw(1000);
+    const int64_t nudge = round % 2 == 0 ? 0 : draw(1);
+    for (int i = 0; i < 3; ++i) {
+      base[i] = draw(int64_t{1} << 50);
+      const int64_t step = draw(int64_t{1} << 20);
+      u[i] = s * step;
+      v[i] = t * step + (i == round % 3 ? nudge : 0);
+    }
+    glm::dvec3 a{}, b{}, c{};
+    bool zero = true;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      a[i] = static_cast<double>(base[i]);
+      b[i] = static_cast<double>(base[i] + u[i]);
+      c[i] = static_cast<double>(base[i] + v[i]);
+      zero = zero && static_cast<__int128>(u[i]) * v[j] == static_cast<__int128>(u[j]) * v[i];
+    }
+    lines += zero ? 1 : 0;
+    const uint64_t found = degenerate(a, b, c);
+    if (found != (zero ? 1u : 0u)) FAIL("round " << round);
+  }
+  CHECK(lines > 100000);
+  CHECK(lines < 180000);
+}
+
+TEST_CASE("collinearity is exact where the differences themselves are rounded") {
+  // Points k * direction with k of 33 bits at exponents far apart: each coordinate is exact, their
+  // differences are not. Near 2^-530 their products underflow besides.
+  std::mt19937_64 random(8);
+  std::uniform_int_distribution<int64_t> wide(int64_t{1} << 32, int64_t{1} << 33);
+  std::uniform_int_distribution<int64_t> narrow(1, 1 << 19);
+  std::uniform_int_distribution<int> apart(-40, 40);
+  for (int round = 0; round < 50000; ++round) {
+    const int scale = round % 2 == 0 ? 0 : -560 - round % 40;
+    const glm::dvec3 direction(narrow(random), -narrow(random), narrow(random));
+    std::array<glm::dvec3, 3> points;
+    for (glm::dvec3& p : points) {
+      p = direction * std::ldexp(static_cast<double>(wide(random)), scale + apart(random));
+    }
+    if (points[0] == points[1] || points[1] == points[2] || points[2] == points[0]) continue;
+    if (degenerate(points[0], points[1], points[2]) != 1) FAIL("on the line, round " << round);
+    double& moved = points[static_cast<size_t>(round % 3)][round / 3 % 3];
+    moved = std::nextafter(moved, INFINITY);
+    if (degenerate(points[0], points[1], points[2]) != 0) FAIL("off the line, round " << round);
+  }
+}

@@ -1,0 +1,81 @@
+// What needs no program to run: quantities as typed, the interval of two directions, odd reports.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "host/error.h"
+#include "host/options.h"
+#include "host/report_print.h"
+
+namespace {
+
+using nlohmann::json;
+
+TEST_CASE("quantities") {
+  CHECK(vkh::parse_memory("4096") == 4096);
+  CHECK(vkh::parse_memory("2GiB") == 2ull << 30);
+  CHECK(vkh::parse_memory("1.5kb") == 1500);
+  CHECK(vkh::parse_memory("0.5 MiB") == 1u << 19);
+  CHECK(vkh::parse_time("250ms") == 0.25);
+  CHECK(vkh::parse_time("2min") == 120);
+  CHECK(vkh::parse_time("1h") == 3600);
+  CHECK(vkh::parse_time("10") == 10);
+  CHECK(vkh::parse_waves("4294967295") == 4294967295u);
+  CHECK(vkh::parse_tolerance("5%").value == 0.05);
+  CHECK(vkh::parse_tolerance("0.01abs").is_absolute);
+  CHECK_THROWS_AS(vkh::parse_memory("0x10"), vkh::UsageError);
+  CHECK_THROWS_AS(vkh::parse_time("1 fortnight"), vkh::UsageError);
+  CHECK_THROWS_AS(vkh::parse_tolerance("1e-6 %abs"), vkh::UsageError);
+}
+
+vkh::Report directed(vkh::Status status, double lower, double upper) {
+  vkh::Report r;
+  r.status = status;
+  r.lower = lower;
+  r.upper = upper;
+  r.tolerance = 0.01;
+  r.diagonal_a = 10;
+  return r;
+}
+
+vkh::Interval both(const vkh::Report& there, const vkh::Report& back) {
+  vkh::Answer answer;
+  answer.a_to_b = there;
+  answer.b_to_a = back;
+  return interval_of(answer);
+}
+
+TEST_CASE("a symmetric interval is closed by what decides it") {
+  using vkh::Status;
+  const vkh::Report closed = directed(Status::kClosed, 1, 1.005);
+  CHECK(both(closed, directed(Status::kClosed, 0.2, 0.21)).status == Status::kClosed);
+  CHECK(both(closed, directed(Status::kTime, 0, 0.9)).status == Status::kClosed);
+  CHECK(both(directed(Status::kTime, 0, 0.9), closed).status == Status::kClosed);
+  const vkh::Interval open = both(closed, directed(Status::kTime, 0, 2));
+  CHECK(open.status == Status::kTime);
+  CHECK(open.lower == 1);
+  CHECK(open.upper == 2);
+  CHECK(open.gap == 0.1);
+  CHECK(both(directed(Status::kWaves, 0, 3), directed(Status::kTime, 0, 2)).status ==
+        Status::kWaves);
+  CHECK(both(directed(Status::kWaves, 0, 2), directed(Status::kTime, 0, 3)).status ==
+        Status::kTime);
+}
+
+TEST_CASE("an upper bound that is still infinite is null in JSON and inf in hex") {
+  vkh::Answer answer;
+  answer.a_to_b = directed(vkh::Status::kCancelled, 0.5, std::numeric_limits<double>::infinity());
+  const json r = json::parse(to_json(answer));
+  CHECK(r["upper"].is_null());
+  CHECK(r["upper_hex"] == "inf");
+  CHECK(r["gap"].is_null());
+  CHECK(r["status"] == "cancelled");
+  std::ostringstream table;
+  print_table(table, answer, true);
+  CHECK(table.str().find(", inf]") != std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,19 @@
+// Every test program's main: doctest's, and a failure if the validation layer said anything.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "tests/support/kernel_bench.h"
+
+namespace vkh::test {
+bool device_was_made();
+uint32_t validation_messages();
+}  // namespace vkh::test
+
+int main(int argc, char** argv) {
+  const int result = doctest::Context(argc, argv).run();
+  const uint32_t messages = vkh::test::validation_messages();
+  if (messages > 0) std::fprintf(stderr, "%u messages of the validation layer\n", messages);
+  return result != 0 ? result : (messages > 0 ? 1 : 0);
+}

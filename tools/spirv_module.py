@@ -1,0 +1,76 @@
+"""The declarations of a SPIR-V module, read straight from its words."""
+
+import struct
+from collections import defaultdict
+
+# The few words of the SPIR-V 1.5 specification that reflection needs.
+OP_NAME, OP_MEMBER_NAME, OP_EXECUTION_MODE, OP_EXECUTION_MODE_ID = 5, 6, 16, 331
+OP_TYPE_BOOL, OP_TYPE_INT, OP_TYPE_FLOAT, OP_TYPE_VECTOR = 20, 21, 22, 23
+OP_TYPE_ARRAY, OP_TYPE_RUNTIME_ARRAY, OP_TYPE_STRUCT, OP_TYPE_POINTER = 28, 29, 30, 32
+OP_CONSTANT, OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT, OP_SPEC_CONSTANT_COMPOSITE = 43, 44, 50, 51
+OP_VARIABLE, OP_DECORATE, OP_MEMBER_DECORATE = 59, 71, 72
+TYPES = range(19, 40)
+MODE_LOCAL_SIZE, MODE_LOCAL_SIZE_ID = 17, 38
+ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 6, 11, 24, 33, 34, 35
+BUILT_IN_WORKGROUP_SIZE = 25
+UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER = 0, 2, 9, 12
+INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # what the host binds
+
+
+def literal_string(words):
+    return struct.pack(f"<{len(words)}I", *words).split(b"\0", 1)[0].decode()
+
+
+class Module:
+    """The declarations of one SPIR-V module, by id."""
+
+    def __init__(self, words):
+        if len(words) < 5 or words[0] != 0x07230203:
+            raise ValueError("not a SPIR-V module of this machine's byte order")
+        self.names, self.member_names = {}, defaultdict(dict)
+        self.decorations, self.member_decorations = defaultdict(dict), defaultdict(dict)
+        self.types, self.constants, self.composites = {}, {}, {}
+        self.variables, self.local_size = [], None
+        at = 5
+        while at < len(words):
+            count, op = words[at] >> 16, words[at] & 0xFFFF
+            self._declare(op, words[at + 1 : at + count])
+            at += count
+        self._find_local_size()
+
+    def _declare(self, op, args):
+        if op == OP_NAME:
+            self.names[args[0]] = literal_string(args[1:])
+        elif op == OP_MEMBER_NAME:
+            self.member_names[args[0]][args[1]] = literal_string(args[2:])
+        elif op == OP_DECORATE:
+            self.decorations[args[0]][args[1]] = args[2] if len(args) > 2 else True
+        elif op == OP_MEMBER_DECORATE:
+            value = args[3] if len(args) > 3 else True
+            self.member_decorations[args[0], args[1]][args[2]] = value
+        elif op in TYPES:
+            self.types[args[0]] = (op, args[1:])
+        elif op in (OP_CONSTANT, OP_SPEC_CONSTANT):
+            self.constants[args[1]] = (args[2], op == OP_SPEC_CONSTANT)
+        elif op in (OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT_COMPOSITE):
+            self.composites[args[1]] = args[2:]
+        elif op == OP_VARIABLE:
+            self.variables.append((args[1], args[0], args[2]))  # id, pointer type, storage class
+        elif op in (OP_EXECUTION_MODE, OP_EXECUTION_MODE_ID):
+            if args[1] == MODE_LOCAL_SIZE:
+                self.local_size = [("value", n) for n in args[2:5]]
+            elif args[1] == MODE_LOCAL_SIZE_ID:
+                self.local_size = [("id", i) for i in args[2:5]]
+
+    def offset(self, struct_id, index):
+        return self.member_decorations[struct_id, index].get(OFFSET)
+
+    def _find_local_size(self):
+        """glslang writes local_size_x_id as the constant WorkgroupSize, which wins."""
+        for i, members in self.composites.items():
+            if self.decorations[i].get(BUILT_IN) == BUILT_IN_WORKGROUP_SIZE:
+                self.local_size = [("id", m) for m in members]
+        if self.local_size is None:
+            raise ValueError("no local size: is this a compute shader?")
+        resolve = {"id": lambda n: self.constants[n][0], "value": lambda n: n}
+        self.local_size = [resolve[kind](n) for kind, n in self.local_size]
