@@ -17,7 +17,11 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
                            .vertex_nearest = ws.vertex_nearest},
                           {}, Groups{1});
   rec.run<k::ReportLower>(
-      {.control = ws.control, .triangles = p.b.triangles, .lower_bits = ws.lower_bits},
+      {.control = ws.control,
+       .triangles = p.b.triangles,
+       .lower_bits = ws.lower_bits,
+       .positions = ws.positions,
+       .faces = ws.faces},
       gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
   rec.run<k::ReportWrite>({.control = ws.control,
                            .lower_bits = ws.lower_bits,

@@ -183,7 +183,7 @@ Loop PartBuilder::thread(const Loop& bottom, const Thread& thread) {
   const auto count = static_cast<uint32_t>(bottom.size());
   const double z = vertices_[bottom[0]].z;
   const double root = std::sqrt(glm::dot(plan(bottom[0]), plan(bottom[0])));
-  const Loop top = ring(root, z + thread.pitch * (thread.turns + 1), count);
+  Loop top = ring(root, z + thread.pitch * (thread.turns + 1), count);
   const uint32_t end = thread.turns * count;
 
   std::array<std::vector<uint32_t>, 4> strands;
@@ -259,6 +259,7 @@ BoltHoles bolt_holes(PartBuilder& part) {
   for (uint32_t k = 0; k < kHoles; ++k) {
     const dvec2 centre = kPitchRadius * direction((k + 0.5) / kHoles);
     std::vector<Loop> loops;
+    loops.reserve(kProfile.size());
     for (const dvec2& p : kProfile) loops.push_back(part.circle({centre, p.x, kColumns}, p.y));
     part.chain(loops, centre);
     holes.tops.push_back(loops.front());

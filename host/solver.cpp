@@ -22,11 +22,11 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
     {"u4", VKH_SWITCH_U4},
     {"warm_start", VKH_SWITCH_WARM_START}};
 
-// What float32 in a frame of order 1 can hold apart from a lower bound at a sample that is no
-// vertex of A: the rounding of its position (2^-23 sqrt 3) and of its certificate.
-constexpr double kLowerMargin = 2.5e-7;
-// Below this, rounding alone keeps candidates open: asking for less would refine noise.
-constexpr double kToleranceFloor = 4e-7;
+// A sample that is no vertex of A is queried at its position rounded to float32, up to sqrt(3) 2^-24 off: by so much the lower
+// bound that steers the run can be above the one that is certified in the end.
+constexpr double kLowerMargin = 1.1e-7;
+// Below this, that rounding alone would keep candidates open: asking for less would refine noise.
+constexpr double kToleranceFloor = 1.1e-7;
 
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) {

@@ -16,14 +16,10 @@ layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
 
 #include "shaders/lib/bary.h"
 
-// A vertex of A stands at its exact place; another sample was placed in its root's frame and moved to the meshes' by one more
-// rounding.
 float witness_slack(Witness w) {
-  bool vertex = w.j == kBaryOne || w.k == kBaryOne || w.j + w.k == 0u;
-  if (vertex) return 0.0;
   uvec3 f = faces[w.root];
-  vec3 o = positions[f.x];
-  return round_up(position_slack(positions[f.y] - o, positions[f.z] - o) + kUlp * norm_up(w.position), 4.0);
+  Root root = make_root(Corners(positions[f.x], positions[f.y], positions[f.z]));
+  return place_corners(root, whole_root()).slack;
 }
 
 uint remaining() {
@@ -40,7 +36,7 @@ float upper_bound() {
 
 void main() {
   Witness w = control.witness;
-  float lower = round_down(max(uintBitsToFloat(lower_bits[0]) - witness_slack(w), 0.0), 1.0);
+  float lower = max(next_down(uintBitsToFloat(lower_bits[0])) - 2.0 * witness_slack(w) - kTiny, 0.0);
   report.lower = lower;
   report.upper = max(upper_bound(), lower);
   report.status = control.status;

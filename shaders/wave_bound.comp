@@ -32,49 +32,56 @@ struct Verdict {
   uint by;  // kCull*
 };
 
+Surface surface_of(uint triangle, Placement placed) {
+  return make_surface(triangle_corners(triangle), placed.origin, placed.reach, sharp_distances());
+}
+
 // u3: pairs (i, j) of known triangles. A pair cannot beat the better of its two distances at the worst corner, so most pairs
 // cost three minima.
-void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], vec3 origin, float shift, float threshold, inout Verdict v) {
+void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], Placement placed, float threshold, inout Verdict v) {
   for (uint i = 1u; i < known.count; ++i) {
-    Surface s = make_surface(local_triangle(known.triangle[i], origin), t.radius);
+    Surface s = surface_of(known.triangle[i], placed);
     for (uint j = 0u; j < i; ++j) {
       if (v.upper <= threshold) return;
-      if (max3(min(d[i], d[j])) + shift >= v.upper) continue;
-      Surface r = make_surface(local_triangle(known.triangle[j], origin), t.radius);
-      float u3 = round_up(bound_pair(t, s, d[i], r, d[j]) + shift, 1.0f);
+      if (max3(min(d[i], d[j])) + placed.slack >= v.upper) continue;
+      Surface r = surface_of(known.triangle[j], placed);
+      float u3 = round_up(bound_pair(t, s, d[i], r, d[j]) + placed.slack, 1.0f);
       if (u3 < v.upper) v = Verdict(u3, kCullU3);
     }
   }
 }
 
 // u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the shortest edge.
-Surface closest_point_surface(Patch t, vec3 corner, uint triangle, vec3 origin) {
-  Surface s = make_surface(local_triangle(triangle, origin), t.radius);
-  vec3 q = corner - closest_point(corner, s.at).offset;
-  s.at.a = q;
-  s.at.b = q;
-  s.at.c = q;
+Surface closest_point_surface(Two3 corner, uint triangle, Placement placed) {
+  Surface s = surface_of(triangle, placed);
+  Two3 offset = offset_from(corner, s, closest_point(rounded(corner), s.at));
+  s.a = two_difference(corner, offset);  // its own rounding is under the slack, which counts for this point and for the next
+  s.b = s.a;
+  s.c = s.a;
+  s.at = Corners(rounded(s.a), rounded(s.a), rounded(s.a));
+  s.slack = round_up(2.0f * s.slack, 2.0f);
   return s;
 }
 
-void bound_u4(Patch t, uvec3 nearest, vec3 origin, float shift, inout Verdict v) {
+void bound_u4(Patch t, uvec3 nearest, Placement placed, inout Verdict v) {
   uint opposite = opposite_longest(Corners(t.at.a, t.at.b, t.at.c));
   Surface s[3];
-  s[0] = closest_point_surface(t, t.at.a, nearest.x, origin);
-  s[1] = closest_point_surface(t, t.at.b, nearest.y, origin);
-  s[2] = closest_point_surface(t, t.at.c, nearest.z, origin);
+  s[0] = closest_point_surface(t.a, nearest.x, placed);
+  s[1] = closest_point_surface(t.b, nearest.y, placed);
+  s[2] = closest_point_surface(t.c, nearest.z, placed);
   for (uint k = 0u; k < 3u; ++k) {
     if (k == opposite) continue;
     vec3 da = corner_distances(t, s[opposite]);
     vec3 db = corner_distances(t, s[k]);
-    float u4 = round_up(bound_pair(t, s[opposite], da, s[k], db) + shift, 1.0f);
+    float u4 = round_up(bound_pair(t, s[opposite], da, s[k], db) + placed.slack, 1.0f);
     if (u4 < v.upper) v = Verdict(u4, kCullU4);
   }
 }
 
 Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold) {
-  Patch t = make_patch(place_corners(c.at, root.ab, root.ac));
-  float shift = position_slack(root.ab, root.ac);
+  Placement placed = place_corners(root, c.at);
+  Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
+  float shift = placed.slack;
   Known known;
   known.count = 0u;
   know(known, centre);
@@ -87,7 +94,7 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   vec3 d[kMaxKnown];
   vec3 own = vec3(3.0e38);
   for (uint k = 0u; k < known.count; ++k) {
-    d[k] = corner_distances(t, make_surface(local_triangle(known.triangle[k], root.origin), t.radius));
+    d[k] = corner_distances(t, surface_of(known.triangle[k], placed));
     own = min(own, d[k]);
     float ha = round_up(bound_single(d[k]) + shift, 1.0f);
     if (ha < v.upper) v = Verdict(ha, kCullHa);
@@ -95,8 +102,8 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   float simple = round_up(min(bound_u1(t, own), bound_u2(t, own)) + shift, 1.0f);
   if (simple < v.upper) v = Verdict(simple, kCullU2);
   if (v.upper <= threshold) return v;
-  if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, root.origin, shift, threshold, v);
-  if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, root.origin, shift, v);
+  if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, placed, threshold, v);
+  if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, placed, v);
   return v;
 }
 

@@ -34,8 +34,8 @@ struct Verdict {
 };
 
 // Measures T against the next known triangle: keeps the smallest ha, and the corners' own distances for u1 and u2.
-void measure(Patch t, Child c, uint triangle, vec3 origin, inout vec3 own, inout Verdict v, inout float ha) {
-  vec3 d = corner_distances(t, make_surface(local_triangle(triangle, origin), t.radius));
+void measure(Patch t, uint triangle, Placement placed, inout vec3 own, inout Verdict v, inout float ha) {
+  vec3 d = corner_distances(t, make_surface(triangle_corners(triangle), placed.origin, placed.reach, sharp_distances()));
   own = min(own, d);
   float h = bound_single(d);
   if (h < ha) {
@@ -45,8 +45,9 @@ void measure(Patch t, Child c, uint triangle, vec3 origin, inout vec3 own, inout
 }
 
 Verdict filter_child(uint code, Child c, Root root, float threshold) {
-  Patch t = make_patch(place_corners(c.at, root.ab, root.ac));
-  float shift = position_slack(root.ab, root.ac);
+  Placement placed = place_corners(root, c.at);
+  Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
+  float shift = placed.slack;
   Known known;
   known.count = 0u;
   know(known, c.nearest.x);
@@ -60,7 +61,7 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
   float ha = 3.0e38;
   for (uint k = 0u; k < known.count; ++k) {
     if (k == own_count && v.upper <= threshold) return v;
-    measure(t, c, known.triangle[k], root.origin, own, v, ha);
+    measure(t, known.triangle[k], placed, own, v, ha);
     if (k + 1u == own_count) {
       float u1 = round_up(bound_u1(t, own) + shift, 1.0f);
       float u2 = round_up(bound_u2(t, own) + shift, 1.0f);
@@ -89,7 +90,7 @@ void main() {
     Child c = load_child(code);
     Root root = load_root(c.root);
     v = filter_child(code, c, root, threshold);
-    centre = global_position(root, centroid_of(c.at));
+    centre = rounded(place(root, centroid_of(c.at)));
   }
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;

@@ -25,13 +25,13 @@ layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
 
 // The code of the candidate's split; kSplitNone where the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
-  Corners t = place_corners(at, root.ab, root.ac);
+  Corners t = place_corners(root, at).at;
   if ((kSwitches & kUseThin) != 0u && quality(t) < kThinQuality) {
     uint x = opposite_longest(t);
     Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
     uvec3 all = uvec3(0u, 1u, 2u);
-    uint y = opposite_longest(place_corners(child_of(first, bisected(all, x, 3u, 0u)), root.ab, root.ac));
-    uint z = opposite_longest(place_corners(child_of(first, bisected(all, x, 3u, 1u)), root.ab, root.ac));
+    uint y = opposite_longest(place_corners(root, child_of(first, bisected(all, x, 3u, 0u))).at);
+    uint z = opposite_longest(place_corners(root, child_of(first, bisected(all, x, 3u, 1u))).at);
     uint code = bisection_code(x, y, z);
     if (can_split(at, code)) return code;
   }
@@ -51,7 +51,7 @@ uint best_start(Candidate c, vec3 p) {
 void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
   Bary6 six = split_points(at, split == kSplitNone ? kSplitMidpoint : split);
   for (uint k = 0u; k < 3u; ++k) {
-    vec3 p = global_position(root, corner_of(six.fresh, k));
+    vec3 p = rounded(place(root, corner_of(six.fresh, k)));
     // A negative distance tells the query to skip the point.
     points[3u * i + k] = split == kSplitNone ? Point(p, kNone, -1.0) : Point(p, best_start(c, p), 0.0);
   }
@@ -67,7 +67,7 @@ void main() {
     Bary3 at = unpack_corners(c.corners);
     Root root = load_root(c.root);
     // Where the candidate is this small and still open, it is rounding that holds its u up: no split helps.
-    bool tiny = enclosing_radius_up(place_corners(at, root.ab, root.ac)) < 0.03125 * control.cull_tolerance;
+    bool tiny = enclosing_radius_up(place_corners(root, at).at) < 0.03125 * control.cull_tolerance;
     if (!closed && !tiny) split = choose_split(at, root);
     splits[i] = split;
     write_points(i, c, at, root, split);

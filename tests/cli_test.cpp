@@ -1,6 +1,5 @@
 // The program as people and scripts meet it: exit codes, purity of stdout, JSON, spellings. Runs
 // the real program, $VKH_PROGRAM, on files written here.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 #include <sys/types.h>
 

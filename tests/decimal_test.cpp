@@ -1,5 +1,4 @@
 // Printed decimals against exact rationals: outward, and by less than one unit of the last digit.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "host/decimal.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,5 @@
 // The generated pair of `vkhausdorff demo`: a closed part with CAD's thin triangles and its
 // simplified twin, the same to the last bit everywhere.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "host/default_pair.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,4 @@
 // The mesh readers: the coordinates as given in every format, and errors that name their place.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "host/mesh_io.h"
 
 #include <doctest/doctest.h>

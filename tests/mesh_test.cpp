@@ -1,5 +1,4 @@
 // make_mesh: what it drops and refuses, and its counts against exact arithmetic.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include "host/mesh.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,4 @@
 // The oracles against closed forms, exact arithmetic, CGAL and the two solvers of peers.csv.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // What needs no program to run: quantities as typed, the interval of two directions, odd reports.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <limits>

@@ -38,25 +38,56 @@ VKH_FN Bary3 unpack_corners(uvec4 w) {
   return t;
 }
 
-// j / kBaryOne is exact; a product, a product and a sum round: off by at most 3 ulp of |ab| + |ac| weighted, and the edges
-// themselves by one more. `position_slack` is that bound.
-VKH_FN vec3 place(uvec2 corner, vec3 ab, vec3 ac) {
-  const float unit = 1.0f / float(kBaryOne);  // uncertified: a power of two, exact
-  return (float(corner.x) * unit) * ab + (float(corner.y) * unit) * ac;
+// A root triangle of A: a corner and the two edges from it, to 48 bits.
+struct Root {
+  vec3 origin;
+  Two3 ab, ac;
+};
+
+VKH_FN Root make_root(Corners t) {
+  Root r;
+  r.origin = t.a;
+  r.ab = two_sum(t.b, -t.a);
+  r.ac = two_sum(t.c, -t.a);
+  return r;
 }
 
-VKH_FN Corners place_corners(Bary3 t, vec3 ab, vec3 ac) {
-  Corners p;
-  p.a = place(t.a, ab, ac);
-  p.b = place(t.b, ab, ac);
-  p.c = place(t.c, ab, ac);
+// A power of two, so that j * kBaryUnit is exact.
+VKH_CONST float kBaryUnit = 9.5367431640625e-7f;  // 2^-20 = 1 / kBaryOne
+
+// A point of the root in the frame of the meshes; off by 8 kUlp2 of the root's coordinates (`reach` of make_placement).
+VKH_FN Two3 place(Root r, uvec2 point) {
+  return two_combination(two(r.origin), float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit, r.ac);
+}
+
+// A candidate around its first corner.
+struct Placement {
+  Two3 origin;
+  Two3 b, c;     // the other corners from the first
+  Corners at;    // rounded; a is 0
+  float slack;   // how far a computed corner, or a cut between two, can lie from the exact one
+  float reach;   // >= the largest coordinate magnitude of the root
+};
+
+// From corner to corner along the root's edges: the integers' difference is exact.
+VKH_FN Two3 step_between(uvec2 from, uvec2 to, Root r) {
+  float x = float(int(to.x) - int(from.x)) * kBaryUnit;
+  float y = float(int(to.y) - int(from.y)) * kBaryUnit;
+  return two_combination(two(vec3(0.0f, 0.0f, 0.0f)), x, r.ab, y, r.ac);
+}
+
+// Corners are off by 8 kUlp2 reach (place), steps by as much, cuts by 6 kUlp2 of a step more.
+VKH_FN Placement place_corners(Root r, Bary3 t) {
+  Placement p;
+  p.origin = place(r, t.a);
+  p.b = step_between(t.a, t.b, r);
+  p.c = step_between(t.a, t.c, r);
+  p.at.a = vec3(0.0f, 0.0f, 0.0f);
+  p.at.b = rounded(p.b);
+  p.at.c = rounded(p.c);
+  p.reach = round_up(norm_up(r.origin) + norm_up(r.ab.hi) + norm_up(r.ac.hi), 3.0f);
+  p.slack = round_up(24.0f * kUlp2 * p.reach, 3.0f);
   return p;
-}
-
-// How far a placed corner can lie from the exact one, in the root's frame: weights sum to at most 1, each edge is off by one
-// rounding, each product by one, the sum by one: 3 ulp of the longer edge.
-VKH_FN float position_slack(vec3 ab, vec3 ac) {
-  return round_up(kUlp * 3.25f * max(norm_up(ab), norm_up(ac)), 4.0f);
 }
 
 // ---- subdivision: 1 -> 4 ----------------------------------------------------------------------------------------

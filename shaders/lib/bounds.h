@@ -11,42 +11,26 @@
 
 VKH_LIB_BEGIN
 
-// T and the largest distance of its corners from the local origin.
+// T around a local origin: its corners to 48 bits and, for lengths and for steering, rounded.
 struct Patch {
+  Two3 a, b, c;
   Corners at;
-  float radius;
 };
 
-// S likewise, with the slack that its distances from points of T need.
-struct Surface {
-  Corners at;
-  float slack;
-};
-
-VKH_FN Patch make_patch(Corners t) {
+VKH_FN Patch make_patch(Two3 a, Two3 b, Two3 c) {
   Patch p;
-  p.at = t;
-  p.radius = radius_up(t);
+  p.a = a;
+  p.b = b;
+  p.c = c;
+  p.at.a = rounded(a);
+  p.at.b = rounded(b);
+  p.at.c = rounded(c);
   return p;
-}
-
-// `p_radius` >= every |p| whose distance will be asked. The points that bound_pair puts on T's edges lie within
-// 5 ulp of the patch radius of the exact ones (2 + 2 for the weighted edge, 1 for the sum); that is taken here, once.
-VKH_FN Surface make_surface(Corners s, float p_radius) {
-  Surface f;
-  f.at = s;
-  f.slack = distance_slack(p_radius, radius_up(s)) + round_up(5.25f * kUlp * p_radius, 4.0f);
-  return f;
-}
-
-VKH_FN float surface_distance_up(vec3 p, Surface s) {
-  return round_up(distance_up(closest_point(p, s.at)) + s.slack, 1.0f);
 }
 
 // d(corner, S) for each corner of T.
 VKH_FN vec3 corner_distances(Patch t, Surface s) {
-  return vec3(surface_distance_up(t.at.a, s), surface_distance_up(t.at.b, s),
-              surface_distance_up(t.at.c, s));
+  return vec3(surface_distance_up(t.a, s), surface_distance_up(t.b, s), surface_distance_up(t.c, s));
 }
 
 VKH_FN float max3(vec3 d) { return max(d.x, max(d.y, d.z)); }
@@ -69,14 +53,21 @@ VKH_FN float bound_u2(Patch t, vec3 d) {
 }
 
 VKH_FN float pick3(vec3 v, uint i) { return i == 0u ? v.x : (i == 1u ? v.y : v.z); }
-VKH_FN vec3 corner_at(Corners t, uint i) { return i == 0u ? t.a : (i == 1u ? t.b : t.c); }
+VKH_FN Two3 corner_at(Patch t, uint i) {
+  Two3 p = t.a;
+  if (i == 1u) p = t.b;
+  if (i == 2u) p = t.c;
+  return p;
+}
 
 // One edge of T, from a corner nearer to S to one nearer to R, cut where the distances even out if both were linear. Any cut is
-// right, as both pieces use it; at the cut, the larger of the two distances counts.
-VKH_FN float cut_distance(vec3 from, vec3 to, float excess_from, float excess_to, Surface s, Surface r) {
+// right, as both pieces use it; at the cut, the larger of the two distances counts. The cut is off by 6 kUlp2 of T's radius, which
+// is under 2^-41 of the surfaces' slack and of T: placement_slack takes it.
+VKH_FN float cut_distance(Two3 from, Two3 to, float excess_from, float excess_to, Surface s, Surface r) {
   float gap = abs(excess_from) + abs(excess_to);
   float cut = gap > kTiny ? min(abs(excess_from) / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
-  vec3 p = from + cut * (to - from);
+  Two3 none = two(vec3(0.0f, 0.0f, 0.0f));
+  Two3 p = two_combination(from, cut, two_difference(to, from), 0.0f, none);
   return max(surface_distance_up(p, s), surface_distance_up(p, r));
 }
 
@@ -91,10 +82,10 @@ VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
   uint alone = na == nb ? 2u : (na == nc ? 1u : 0u);
   uint i = alone == 2u ? 0u : alone + 1u;
   uint j = alone == 0u ? 2u : alone - 1u;
-  vec3 p = corner_at(t.at, alone);
+  Two3 p = corner_at(t, alone);
   float corners = max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
-  float ci = cut_distance(p, corner_at(t.at, i), pick3(excess, alone), pick3(excess, i), s, r);
-  float cj = cut_distance(p, corner_at(t.at, j), pick3(excess, alone), pick3(excess, j), s, r);
+  float ci = cut_distance(p, corner_at(t, i), pick3(excess, alone), pick3(excess, i), s, r);
+  float cj = cut_distance(p, corner_at(t, j), pick3(excess, alone), pick3(excess, j), s, r);
   return max(corners, max(ci, cj));
 }
 

@@ -10,22 +10,14 @@
 uint reading(uint i) { return control.parity * control.capacity + i; }
 uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
 
-// A root triangle of A: its first corner is the local origin.
-struct Root {
-  vec3 origin, ab, ac;
-};
-
 Root load_root(uint face) {
   uvec3 f = faces[face];
-  Root r;
-  r.origin = positions[f.x];
-  r.ab = positions[f.y] - r.origin;
-  r.ac = positions[f.z] - r.origin;
-  return r;
+  Corners t;
+  t.a = positions[f.x];
+  t.b = positions[f.y];
+  t.c = positions[f.z];
+  return make_root(t);
 }
-
-// The position of a point of the root in the frame of the meshes, rounded; for steering and for queries.
-vec3 global_position(Root r, uvec2 point) { return r.origin + place(point, r.ab, r.ac); }
 
 // Candidates with u <= this are closed: they can never widen the interval beyond the tolerance. `tolerant` is the switch
 // kUseToleranceCull; without it only what is under the lower bound is closed.
@@ -33,5 +25,8 @@ float cull_threshold(bool tolerant) {
   float lower = uintBitsToFloat(control.maximum[kMaxLower]);
   return tolerant ? lower + control.cull_tolerance : lower;
 }
+
+// Whether 14 ulp of the distances at hand are more than a twentieth of the tolerance.
+bool sharp_distances() { return 3.0e-5 * uintBitsToFloat(control.maximum[kMaxLower]) > control.cull_tolerance; }
 
 #endif

@@ -44,6 +44,11 @@ VKH_FN float norm_up(vec3 v) { return round_up(sqrt(dot(v, v)), 8.0f); }
 // <= |v|.
 VKH_FN float norm_down(vec3 v) { return round_down(sqrt(dot(v, v)), 8.0f); }
 
+// A float above x and one below it, for x >= 0: the neighbours where x is normal; around 0, where results may be flushed, kTiny
+// above and 0 below.
+VKH_FN float next_up(float x) { return x > kTiny ? uintBitsToFloat(floatBitsToUint(x) + 1u) : 2.0f * kTiny; }
+VKH_FN float next_down(float x) { return x > kTiny ? uintBitsToFloat(floatBitsToUint(x) - 1u) : 0.0f; }
+
 // a / b where b is a square, 0 where b is too small to mean anything. Not certified: a quotient only places a point, and
 // any point in its range is right.
 VKH_FN float ratio(float a, float b) { return b > kSmallSquare ? a / b : 0.0f; }

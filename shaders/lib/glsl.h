@@ -4,6 +4,7 @@
 #define VKH_SHADERS_LIB_GLSL_H
 
 #ifdef __cplusplus
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -16,8 +17,11 @@
 #define VKH_LIB_END }
 #define VKH_FN inline
 #define VKH_OUT(type) type&
+#define VKH_PRECISE
 namespace vkh::lib {
 using uint = uint32_t;
+inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
+inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
 using glm::abs;
 using glm::clamp;
 using glm::cross;
@@ -39,5 +43,6 @@ using glm::vec3;
 #define VKH_LIB_END
 #define VKH_FN
 #define VKH_OUT(type) out type
+#define VKH_PRECISE precise
 #endif
 #endif

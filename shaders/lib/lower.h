@@ -9,35 +9,73 @@
 
 VKH_LIB_BEGIN
 
-// The bound for direction r, p at the origin; the corners are off by one rounding each, `radius` >= |corner|.
-// A product s.r is off by 3 ulp of |s| |r|, the rounded corner by one more.
-VKH_FN float separation_down(Corners s, float radius, vec3 r) {
-  float reach = min(dot(-s.a, r), min(dot(-s.b, r), dot(-s.c, r)));
+// The bound from `reach` <= min (p - s).r.
+VKH_FN float separation_down(float reach, vec3 r) {
   float length_up = norm_up(r);
-  float exact_at_least = reach - round_up(4.25f * kUlp * radius * length_up, 4.0f);
-  if (!(exact_at_least > 0.0f) || length_up < 1e-16f) return 0.0f;
-  return round_down(exact_at_least / length_up, 4.0f);
+  if (!(reach > 0.0f) || length_up < 1e-15f) return 0.0f;
+  return quotient_down(reach, length_up);
 }
 
-// r without its component along e. Done on an offset that is already nearly orthogonal to e, it leaves an error relative to
-// |r|, where the offset's own was relative to |e|.
-VKH_FN vec3 without(vec3 r, vec3 e) { return r - ratio(dot(r, e), dot(e, e)) * e; }
+// In plain floats, p at the origin: off by 3 ulp of |s| |r| and an ulp of |s| for its own rounding. Good to 1e-6 of S's size.
+VKH_FN float coarse_distance_down(Surface s, vec3 r) {
+  float farthest = min(dot(-s.at.a, r), min(dot(-s.at.b, r), dot(-s.at.c, r)));
+  float off = round_up(4.25f * kUlp * radius_up(s.at) * norm_up(r) + s.slack * norm_up(r), 8.0f);
+  return separation_down(round_down(farthest, 1.0f) - off, r);
+}
 
-// <= d(0, S). Tried are the offset from the closest point found (right for a corner), that made orthogonal to each edge (right
-// for an edge) and to the plane (right for the interior).
-VKH_FN float triangle_distance_down(Corners s) {
-  vec3 zero = vec3(0.0f, 0.0f, 0.0f);
-  float radius = radius_up(s);
-  vec3 ab = s.b - s.a;
-  vec3 ac = s.c - s.a;
-  vec3 bc = s.c - s.b;
-  vec3 h = without(without(ac, ab), ab);
-  vec3 r = closest_point(zero, s).offset;
-  float best = separation_down(s, radius, r);
-  best = max(best, separation_down(s, radius, without(r, ab)));
-  best = max(best, separation_down(s, radius, without(r, ac)));
-  best = max(best, separation_down(s, radius, without(r, bc)));
-  return max(best, separation_down(s, radius, without(without(without(r, ab), h), ab)));
+// What must be taken from r so that it is orthogonal to u, and to v too where `both`.
+VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool both) {
+  float uu = dot(u.hi, u.hi);
+  float x = rounded(two_dot(r, u));
+  vec3 correction = ratio(x, uu) * u.hi;
+  if (both) {
+    float along = ratio(dot(v.hi, u.hi), uu);
+    vec3 h = v.hi - along * u.hi;
+    float y = rounded(two_dot(r, v)) - along * x;
+    correction = correction + ratio(y, dot(h, h)) * h;
+  }
+  return correction;
+}
+
+// The offset made orthogonal, to 48 bits: the second correction is of the order of an ulp of r, so that its own rounding does
+// not matter.
+VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool both) {
+  Two3 r = two(offset);
+  r.hi = r.hi - orthogonal_correction(r, u, v, both);
+  r.lo = -orthogonal_correction(r, u, v, both);
+  return r;
+}
+
+// The bound for a direction of 48 bits, to 48 bits of S's size and an ulp of the distance.
+VKH_FN float fine_separation_down(Surface s, Two3 r) {
+  float farthest = min(-rounded(two_dot(s.a, r)), min(-rounded(two_dot(s.b, r)), -rounded(two_dot(s.c, r))));
+  float length = sharp_norm_up(r);
+  if (!(farthest > 0.0f) || length < 1e-15f) return 0.0f;
+  float off = round_up((9.0f * kUlp2 * radius_up(s.at) + s.slack) * length, 8.0f);
+  float reach = next_down(next_down(farthest) - off);
+  return reach > 0.0f ? quotient_down(reach, length) : 0.0f;
+}
+
+// <= d(origin, S). A corner is separated along the offset, an edge by what is orthogonal to it, the inside by the normal; where
+// the closest point lies next to a border, rounding may have named the wrong one, so all are tried.
+VKH_FN float fine_distance_down(Surface s, Closest c) {
+  vec3 offset = rounded(offset_from(two(vec3(0.0f, 0.0f, 0.0f)), s, c));
+  Two3 ab = two_difference(s.b, s.a);
+  Two3 ac = two_difference(s.c, s.a);
+  Two3 bc = two_difference(s.c, s.b);
+  float best = fine_separation_down(s, two(offset));
+  best = max(best, fine_separation_down(s, orthogonal(offset, ab, ac, true)));
+  best = max(best, fine_separation_down(s, orthogonal(offset, ab, ac, false)));
+  best = max(best, fine_separation_down(s, orthogonal(offset, ac, ab, false)));
+  return max(best, fine_separation_down(s, orthogonal(offset, bc, ac, false)));
+}
+
+// <= d(origin, S). Precise only where it has to be: a triangle that is farther than `enough` by plain floats stays at that.
+VKH_FN float triangle_distance_down(Surface s, float enough) {
+  Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
+  float coarse = coarse_distance_down(s, c.offset);
+  if (coarse >= enough) return coarse;
+  return max(coarse, fine_distance_down(s, c));
 }
 
 VKH_LIB_END

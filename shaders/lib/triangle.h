@@ -2,7 +2,7 @@
 #ifndef VKH_SHADERS_LIB_TRIANGLE_H
 #define VKH_SHADERS_LIB_TRIANGLE_H
 
-#include "shaders/lib/certified.h"
+#include "shaders/lib/two_float.h"
 
 VKH_LIB_BEGIN
 
@@ -10,28 +10,39 @@ struct Corners {
   vec3 a, b, c;
 };
 
-// Closest point of a triangle as an offset: offset = p - q for a q = a + v ab + w ac of the triangle with 0 <= v, w and
-// v + w <= 1 exactly, so that |p - q| bounds the distance from above whatever rounding did to v and w.
+// The closest point found on a triangle, as base + v (end - base) + w (c - base): base is a, or b on edge bc; end is b, or c on
+// edges ac and bc; w is 0 on an edge. 0 <= v, w and v + w <= 1 hold exactly, so the point lies in the triangle whatever
+// rounding did to v and w, and its distance bounds d(p, S) from above.
 struct Closest {
-  vec3 offset;
+  vec3 offset;  // from the point to p, in plain floats: steers
   float distance2;
+  uint feature;  // kEdgeAb, kEdgeAc, kEdgeBc, kInside
+  float v, w;
 };
+
+VKH_CONST uint kEdgeAb = 0u;
+VKH_CONST uint kEdgeAc = 1u;
+VKH_CONST uint kEdgeBc = 2u;
+VKH_CONST uint kInside = 3u;
 
 VKH_FN Closest closer(Closest x, Closest y) {
   if (y.distance2 < x.distance2) return y;
   return x;
 }
 
-VKH_FN Closest closest_on_segment(vec3 from_start, vec3 edge, float t) {
+VKH_FN Closest closest_on_edge(vec3 from_start, vec3 edge, float t, uint feature) {
   Closest c;
-  c.offset = from_start - clamp(t, 0.0f, 1.0f) * edge;
+  c.v = clamp(t, 0.0f, 1.0f);
+  c.w = 0.0f;
+  c.feature = feature;
+  c.offset = from_start - c.v * edge;
   c.distance2 = dot(c.offset, c.offset);
   return c;
 }
 
-// The closest point found. All three edges are tried, and the interior in the orthogonal frame (ab, h) with h the altitude
-// from ab to c: Gram-Schmidt is backward stable, so a needle or a cap costs a few ulp of its longest edge, where the normal
-// equations would lose a factor (longest edge / altitude)^2. Degenerate triangles fall to their edges or to a point.
+// All three edges are tried, and the interior in the orthogonal frame (ab, h) with h the altitude from ab to c: Gram-Schmidt
+// is backward stable, so a needle or a cap costs a few ulp of its longest edge, where the normal equations would lose a
+// factor (longest edge / altitude)^2. Degenerate triangles fall to their edges or to a point.
 VKH_FN Closest closest_point(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -46,38 +57,67 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
   float w = ratio(dot(ap, h), hh);
   float v = x - w * s;
 
-  Closest best = closest_on_segment(ap, ab, x);
-  best = closer(best, closest_on_segment(ap, ac, ratio(dot(ap, ac), dot(ac, ac))));
-  best = closer(best, closest_on_segment(bp, bc, ratio(dot(bp, bc), dot(bc, bc))));
+  Closest best = closest_on_edge(ap, ab, x, kEdgeAb);
+  best = closer(best, closest_on_edge(ap, ac, ratio(dot(ap, ac), dot(ac, ac)), kEdgeAc));
+  best = closer(best, closest_on_edge(bp, bc, ratio(dot(bp, bc), dot(bc, bc)), kEdgeBc));
   // 4 kUlp under 1, so that v + w <= 1 holds for the exact sum too.
   if (hh > kSmallSquare && v >= 0.0f && w >= 0.0f && v + w <= 1.0f - 4.0f * kUlp) {
     Closest inner;
     inner.offset = (ap - v * ab) - w * ac;
     inner.distance2 = dot(inner.offset, inner.offset);
+    inner.feature = kInside;
+    inner.v = v;
+    inner.w = w;
     best = closer(best, inner);
   }
   return best;
 }
 
 // Largest distance of a corner from the local origin.
-VKH_FN float radius_up(Corners t) {
-  return max(norm_up(t.a), max(norm_up(t.b), norm_up(t.c)));
+VKH_FN float radius_up(Corners t) { return max(norm_up(t.a), max(norm_up(t.b), norm_up(t.c))); }
+
+// A triangle of B around a local origin near the points that it is measured from: its corners to 48 bits, and rounded to
+// find the closest point with.
+struct Surface {
+  Two3 a, b, c;
+  Corners at;
+  float slack;  // what offset_from leaves out: see make_surface
+  bool sharp;   // whether a distance's own rounding matters, so that it is taken to 4 ulp instead of 14
+};
+
+// `reach` >= the largest coordinate magnitude of origin and corners, so that the corners are off by 2 kUlp2 reach each.
+// offset_from then adds: two edges (2 kUlp2 of their ends, at most 4 reach), the combination (4 kUlp2 of at most 5 radius and p).
+VKH_FN Surface make_surface(Corners triangle, Two3 origin, float reach, bool sharp) {
+  Surface s;
+  s.sharp = sharp;
+  s.a = two_difference(two(triangle.a), origin);
+  s.b = two_difference(two(triangle.b), origin);
+  s.c = two_difference(two(triangle.c), origin);
+  s.at.a = rounded(s.a);
+  s.at.b = rounded(s.b);
+  s.at.c = rounded(s.c);
+  s.slack = round_up(kUlp2 * (12.0f * reach + 24.0f * radius_up(s.at)), 4.0f);
+  return s;
 }
 
-// What |offset| can lack of the distance from p to the exact triangle, for |p| <= p_radius and corners within s_radius of
-// the local origin, each off by one rounding (b - origin).
-//   corners off by a rounding:                      1 s_radius
-//   ap, bp = p - a:                                 1 (p_radius + s_radius)
-//   ab, ac, bc, two roundings after weighting, the weights summing to at most 1, |ab| <= 2 s_radius:
-//                                                   2 * 2 s_radius
-//   the two subtractions of the offset:             (p_radius + 3 s_radius) + the result's own, which norm_up's margin takes
-// Sum: 2 p_radius + 9 s_radius ulps; a little is added for second-order terms.
-VKH_FN float distance_slack(float p_radius, float s_radius) {
-  return round_up(kUlp * (2.25f * p_radius + 9.25f * s_radius), 4.0f);
+// p - q for the point q that `c` names, off by s.slack.
+VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
+  Two3 base = s.a;
+  Two3 end = s.b;
+  if (c.feature == kEdgeBc) base = s.b;
+  if (c.feature == kEdgeAc || c.feature == kEdgeBc) end = s.c;
+  Two3 u = two_difference(end, base);
+  Two3 v = two_difference(s.c, base);
+  Two3 from_base = two_difference(p, base);
+  return two_combination(from_base, -c.v, u, -c.w, v);
 }
 
-// d(p, S) <= the result, without distance_slack.
-VKH_FN float distance_up(Closest c) { return round_up(sqrt(c.distance2), 9.0f); }
+// >= d(p, S), for p taken as it is.
+VKH_FN float surface_distance_up(Two3 p, Surface s) {
+  Two3 offset = offset_from(p, s, closest_point(rounded(p), s.at));
+  if (s.sharp) return next_up(sharp_norm_up(offset) + s.slack);
+  return round_up(norm_up(rounded(offset)) + s.slack, 3.0f);
+}
 
 // Altitude on the longest edge over the longest edge, eq. 3 of the paper. Steers subdivision only.
 VKH_FN float quality(Corners t) {

@@ -1,38 +1,81 @@
 #include "tests/support/kernel_bench.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace vkh::test {
+namespace {
 
-Device& test_device() {
-  static Device device(
-      {.selector = std::getenv("VKH_TEST_DEVICE") ? std::getenv("VKH_TEST_DEVICE") : "",
-       .validation = std::getenv("VKH_VALIDATION") != nullptr});
+const char* environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+// Pipelines take longer than most tests, so each set of switches is compiled once a program.
+struct TestDevice {
+  Device device{{.selector = environment("VKH_TEST_DEVICE"),
+                 .validation = *environment("VKH_VALIDATION") != '\0'}};
+  std::map<uint32_t, VkhContext> contexts;
+
+  ~TestDevice() {
+    for (const auto& [switches, context] : contexts) vkhDestroyContext(context);
+  }
+};
+
+std::optional<TestDevice>& made() {
+  static std::optional<TestDevice> device;
   return device;
 }
 
-KernelBench::KernelBench(uint32_t switches) : submitter_(test_device()) {
-  const VkhContextCreateInfo info{test_device().engine_info(), VK_NULL_HANDLE, switches};
-  if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
+VkhContext context_for(uint32_t switches) {
+  Device& device = test_device();
+  VkhContext& context = made()->contexts[switches];
+  const VkhContextCreateInfo info{device.engine_info(), VK_NULL_HANDLE, switches};
+  if (context == nullptr && vkhCreateContext(&info, &context) != VKH_SUCCESS)
+    throw std::runtime_error("no context");
+  return context;
 }
 
-KernelBench::~KernelBench() { vkhDestroyContext(context_); }
+}  // namespace
 
-VkBuffer KernelBench::reserve(const void* content, size_t bytes) {
+Device& test_device() {
+  if (!made()) made().emplace();
+  return made()->device;
+}
+
+uint32_t validation_messages() { return made() ? made()->device.validation_messages() : 0; }
+
+KernelBench::KernelBench(uint32_t switches)
+    : submitter_(test_device()), context_(context_for(switches)) {}
+
+VkBuffer KernelBench::reserve_bytes(const void* content, size_t bytes) {
   constexpr VkBufferUsageFlags usage =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  buffers_.emplace_back(test_device(), bytes, usage, Placement::kReadback);
-  std::memcpy(buffers_.back().mapped(), content, bytes);
+  buffers_.emplace_back(test_device(), bytes + kGuardBytes, usage, Placement::kReadback);
+  std::memset(buffers_.back().mapped(), kGarbage, bytes + kGuardBytes);
+  if (content != nullptr) std::memcpy(buffers_.back().mapped(), content, bytes);
   return buffers_.back().handle();
 }
 
-const std::byte* KernelBench::read(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize) {
+const std::byte* KernelBench::mapped(VkBuffer buffer) const {
   for (const Buffer& b : buffers_) {
-    if (b.handle() == buffer) return b.mapped() + offset;
+    if (b.handle() == buffer) return b.mapped();
   }
   throw std::runtime_error("not a buffer of this bench");
+}
+
+void KernelBench::check_guards() const {
+  for (const Buffer& b : buffers_) {
+    const std::byte* end = b.mapped() + b.size();
+    if (std::any_of(end - kGuardBytes, end, [](std::byte x) { return x != std::byte{kGarbage}; }))
+      throw std::runtime_error("a kernel wrote behind the end of a buffer of " +
+                               std::to_string(b.size() - kGuardBytes) + " bytes");
+  }
 }
 
 void KernelBench::run(const std::function<void(Recorder&)>& record) {
@@ -47,6 +90,39 @@ void KernelBench::run(const std::function<void(Recorder&)>& record) {
                                         VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
                                         nullptr);
   submitter_.submit_and_wait({});
+  check_guards();
+}
+
+BenchMesh put_mesh(KernelBench& bench, const Mesh& mesh) {
+  std::vector<float> positions;
+  for (const glm::dvec3& v : mesh.vertices) {
+    for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(v[i]));
+  }
+  std::vector<uint32_t> corners;
+  for (const glm::uvec3& f : mesh.faces) corners.insert(corners.end(), {f.x, f.y, f.z});
+  BenchMesh on{bench.put(positions), bench.put(corners), {}};
+  on.view = {on.vertices.buffer,
+             0,
+             12,
+             static_cast<uint32_t>(mesh.vertices.size()),
+             on.indices.buffer,
+             0,
+             VK_INDEX_TYPE_UINT32,
+             static_cast<uint32_t>(mesh.faces.size())};
+  return on;
+}
+
+BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh) {
+  const BenchMesh b = put_mesh(bench, mesh);
+  const uint32_t faces = b.view.faceCount;
+  const Slice<uint32_t> kept = bench.garbage<uint32_t>(hierarchy_size(faces) / 4);
+  const Slice<uint32_t> spare =
+      bench.garbage<uint32_t>(scratch_size(b.view.vertexCount, faces) / 4);
+  const BuiltHierarchy built{
+      view_hierarchy({{kept.buffer, 0, kept.size}, faces}),
+      view_scratch({spare.buffer, 0, spare.size}, b.view.vertexCount, faces)};
+  bench.run([&](Recorder& rec) { record_build(rec, b.view, built.scratch, built.hierarchy); });
+  return built;
 }
 
 }  // namespace vkh::test

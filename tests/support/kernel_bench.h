@@ -1,49 +1,86 @@
 // Runs single kernels and recording pages on the test device: vectors in, vectors out.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <vector>
 
-#include "engine/recorder.h"
+#include "engine/stages.h"
 #include "host/memory.h"
+#include "host/mesh.h"
 
 namespace vkh::test {
 
-/// The device of this test program, made once, with the validation layer if VKH_VALIDATION is set.
-/// The program's exit code is not 0 if the layer said anything (tests/support/main.cpp).
+/// The device of this test program, made once, with the validation layer if VKH_VALIDATION is set
+/// and not empty. VKH_TEST_DEVICE selects another than the best one.
 Device& test_device();
+
+/// What the layer has said so far; 0 if no device was made. Any message fails the program
+/// (main.cpp).
+uint32_t validation_messages();
 
 class KernelBench {
  public:
   explicit KernelBench(uint32_t switches = VKH_SWITCH_ALL);
-  ~KernelBench();
   KernelBench(const KernelBench&) = delete;
   KernelBench& operator=(const KernelBench&) = delete;
 
-  /// A buffer of its own that holds `content` (at least one element).
+  /// A buffer of its own that holds `content`, or one element that is zero if that is empty.
   template <class T>
-  Slice<T> put(std::vector<T> content) {
-    if (content.empty()) content.resize(1);
-    return {reserve(content.data(), content.size() * sizeof(T)), 0, content.size() * sizeof(T)};
+  Slice<T> put(const std::vector<T>& content) {
+    const T zero{};
+    return reserve<T>(content.empty() ? &zero : content.data(), content.size());
+  }
+  /// Likewise, `count` elements of garbage: what a kernel must not rely on.
+  template <class T>
+  Slice<T> garbage(size_t count) {
+    return reserve<T>(nullptr, count);
   }
   template <class T>
-  std::vector<T> get(const Slice<T>& slice) {
+  std::vector<T> get(const Slice<T>& slice) const {
     std::vector<T> content(slice.size / sizeof(T));
-    std::memcpy(content.data(), read(slice.buffer, slice.offset, slice.size), slice.size);
+    std::memcpy(static_cast<void*>(content.data()), mapped(slice.buffer) + slice.offset,
+                content.size() * sizeof(T));
     return content;
   }
-  /// Records with `record`, submits and waits.
+
+  /// Records with `record`, submits and waits. Throws if anything wrote behind the end of a buffer.
   void run(const std::function<void(Recorder&)>& record);
   VkhContext context() const { return context_; }
 
  private:
-  VkBuffer reserve(const void* content, size_t bytes);
-  const std::byte* read(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
+  static constexpr int kGarbage = 0xa5;
+  // Behind every buffer, within its allocation: a stray write is seen, not lost.
+  static constexpr size_t kGuardBytes = 4096;
+
+  template <class T>
+  Slice<T> reserve(const T* content, size_t count) {
+    const size_t bytes = std::max<size_t>(count, 1) * sizeof(T);
+    return {reserve_bytes(content, bytes), 0, bytes};
+  }
+  VkBuffer reserve_bytes(const void* content, size_t bytes);
+  const std::byte* mapped(VkBuffer buffer) const;
+  void check_guards() const;
 
   Submitter submitter_;
-  VkhContext context_ = nullptr;
+  VkhContext context_;
   std::vector<Buffer> buffers_;
 };
+
+/// A mesh on the bench, rounded to float32.
+struct BenchMesh {
+  Slice<float> vertices;
+  Slice<uint32_t> indices;
+  VkhMesh view{};
+};
+BenchMesh put_mesh(KernelBench& bench, const Mesh& mesh);
+
+/// The hierarchy of a mesh, built; the scratch as the build left it.
+struct BuiltHierarchy {
+  Hierarchy hierarchy;
+  BuildScratch scratch;
+};
+BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh);
 
 }  // namespace vkh::test

@@ -6,11 +6,6 @@
 
 #include "tests/support/kernel_bench.h"
 
-namespace vkh::test {
-bool device_was_made();
-uint32_t validation_messages();
-}  // namespace vkh::test
-
 int main(int argc, char** argv) {
   const int result = doctest::Context(argc, argv).run();
   const uint32_t messages = vkh::test::validation_messages();
