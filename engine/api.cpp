@@ -37,6 +37,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   return {.vertex_count = p.a.vertexCount,
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
+          .two_float = p.twoFloat != VK_FALSE,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount)};
 }
@@ -109,7 +110,7 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
                  VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem p = vkh::view_problem(*context, *problem);
-  vkh::record_load(rec, problem->a, p.ws.positions, p.ws.faces);
+  vkh::record_load(rec, problem->a, p.ws.vertices, p.ws.faces);
   vkh::record_seed(rec, p);
 }
 

@@ -31,23 +31,28 @@ void record_pyramid(Recorder& rec, const BuildScratch& s, const Hierarchy& h) {
 
 }  // namespace
 
-void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::vec3>& positions,
+void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces) {
   const bool is_16bit = mesh.indexType == VK_INDEX_TYPE_UINT16;
   const VkDeviceSize index_bytes = 3ull * mesh.faceCount * (is_16bit ? 2 : 4);
   const VkDeviceSize vertex_bytes =
       static_cast<VkDeviceSize>(mesh.vertexCount - 1) * mesh.vertexStride + 12;
-  const AlignedRange vertices = align(mesh.vertexBuffer, mesh.vertexOffset, vertex_bytes);
+  const AlignedRange high = align(mesh.vertexBuffer, mesh.vertexOffset, vertex_bytes);
+  const bool has_low = mesh.vertexLowBuffer != VK_NULL_HANDLE;
+  const AlignedRange low = has_low ? align(mesh.vertexLowBuffer, mesh.vertexLowOffset, vertex_bytes) : high;
   const AlignedRange indices = align(mesh.indexBuffer, mesh.indexOffset, index_bytes);
-  const gpu::LoadPush push{.vertex_word = vertices.skip / 4,
+  const gpu::LoadPush push{.vertex_word = high.skip / 4,
                            .stride_words = mesh.vertexStride / 4,
                            .vertex_count = mesh.vertexCount,
                            .index_half = indices.skip / 2,
                            .index_count = 3 * mesh.faceCount,
-                           .index_is_16bit = is_16bit ? 1u : 0u};
-  rec.run<k::MeshLoad>({.vertex_words = vertices.words,
+                           .index_is_16bit = is_16bit ? 1u : 0u,
+                           .has_low = has_low ? 1u : 0u,
+                           .low_word = low.skip / 4};
+  rec.run<k::MeshLoad>({.vertex_words = high.words,
                         .index_words = indices.words,
-                        .positions = positions,
+                        .low_words = low.words,
+                        .vertices = vertices,
                         .indices = Slice<uint32_t>{faces.buffer, faces.offset, faces.size}},
                        push, Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
 }
@@ -55,15 +60,15 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::vec3>& pos
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
   const gpu::CountPush count{b.faceCount};
   const Items faces{b.faceCount};
-  record_load(rec, b, s.positions, s.faces);
+  record_load(rec, b, s.vertices, s.faces);
   const VkDeviceSize half_box = s.centroid_box.size / 2;
   rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset, half_box}, 0xffffffffu,
            Order::kIndependent);
   rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset + half_box, half_box}, 0,
            Order::kIndependent);
-  rec.run<k::BvhBox>({.positions = s.positions, .faces = s.faces, .box = s.centroid_box}, count,
+  rec.run<k::BvhBox>({.vertices = s.vertices, .faces = s.faces, .box = s.centroid_box}, count,
                      faces);
-  rec.run<k::BvhMorton>({.positions = s.positions,
+  rec.run<k::BvhMorton>({.vertices = s.vertices,
                          .faces = s.faces,
                          .box = s.centroid_box,
                          .keys = s.keys[0],
@@ -72,9 +77,12 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   rec.stage("morton");
   record_sort(rec, s, b.faceCount);
   rec.stage("sort");
-  rec.run<k::BvhLeaves>(
-      {.positions = s.positions, .faces = s.faces, .values = s.values[0], .triangles = h.triangles},
-      count, faces);
+  rec.run<k::BvhLeaves>({.vertices = s.vertices,
+                         .faces = s.faces,
+                         .values = s.values[0],
+                         .triangles = h.triangles,
+                         .triangle_lows = h.triangle_lows},
+                        count, faces);
   rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
   record_pyramid(rec, s, h);
   rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = s.pyramid, .nodes = h.nodes}, count,

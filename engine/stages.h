@@ -8,7 +8,7 @@
 namespace vkh {
 
 // A mesh of the caller's into packed positions and indices.
-void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::vec3>& positions,
+void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
 // Sorts scratch.keys[0] with scratch.values[0], stable, ascending; the result is on side 0 again.
@@ -21,6 +21,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
   float cull_tolerance = 0;
+  bool two_float = false;
   Hierarchy b;
   Workspace ws;
 };

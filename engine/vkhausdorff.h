@@ -110,6 +110,10 @@ typedef struct VkhMesh {
   VkDeviceSize indexOffset; /* bytes */
   VkIndexType indexType;
   uint32_t faceCount; /* 1 .. 2^28 */
+  /* May be null: a vertex is then its float32 position. Otherwise a vertex is the exact sum of that and of three more float32 at
+   * vertexLowOffset + i * vertexStride, each at most half an ulp of its high part: 48-bit coordinates. Usage as above. */
+  VkBuffer vertexLowBuffer;
+  VkDeviceSize vertexLowOffset; /* bytes, a multiple of 4 */
 } VkhMesh;
 
 /* A range of a buffer that the caller owns. offset: a multiple of 256 bytes. Usage: STORAGE_BUFFER,
@@ -168,8 +172,11 @@ typedef struct VkhProblem {
   VkhMesh a;
   VkhHierarchy b;
   VkhMemory workspace;
-  float cullTolerance; /* >= 0, in the coordinates' units: candidates within it of the lower bound
-                          are closed */
+  /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. */
+  float cullTolerance;
+  /* Use the vertices' low parts, and steer by 48-bit positions: where there are low parts, and for tolerances under about 1e-6 of
+   * the coordinates' magnitude. The interval is certified either way, for the vertices that this selects. */
+  VkBool32 twoFloat;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.

@@ -14,7 +14,7 @@ void record_plan(Recorder& rec, const Problem& p) {
                         .points = ws.points,
                         .survivors = ws.survivors,
                         .centroids = ws.centroids,
-                        .positions = ws.positions,
+                        .vertices = ws.vertices,
                         .faces = ws.faces,
                         .vertex_nearest = ws.vertex_nearest},
                        {}, Groups{1});
@@ -25,7 +25,7 @@ void record_subdivide(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveSubdivide>({.control = ws.control,
                                       .frontier = ws.frontier,
-                                      .positions = ws.positions,
+                                      .vertices = ws.vertices,
                                       .faces = ws.faces,
                                       .nodes = p.b.nodes,
                                       .triangles = p.b.triangles,
@@ -38,7 +38,11 @@ void record_subdivide(Recorder& rec, const Problem& p) {
 void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points,
                   gpu::QueryPush push, uint32_t dispatch) {
   rec.run_indirect<k::WaveQuery>(
-      {.control = p.ws.control, .nodes = p.b.nodes, .triangles = p.b.triangles, .points = points},
+      {.control = p.ws.control,
+       .nodes = p.b.nodes,
+       .triangles = p.b.triangles,
+       .points = points,
+       .triangle_lows = p.b.triangle_lows},
       push, p.ws.dispatch(dispatch));
   rec.stage("query");
 }
@@ -47,7 +51,7 @@ void record_filter(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveFilter>({.control = ws.control,
                                    .frontier = ws.frontier,
-                                   .positions = ws.positions,
+                                   .vertices = ws.vertices,
                                    .faces = ws.faces,
                                    .nodes = p.b.nodes,
                                    .triangles = p.b.triangles,
@@ -55,7 +59,8 @@ void record_filter(Recorder& rec, const Problem& p) {
                                    .splits = ws.splits,
                                    .points = ws.points,
                                    .survivors = ws.survivors,
-                                   .centroids = ws.centroids},
+                                   .centroids = ws.centroids,
+                                   .triangle_lows = p.b.triangle_lows},
                                   {}, ws.dispatch(gpu::kDispatchFilter));
   rec.run<k::WaveSurvivors>({.control = ws.control, .dispatches = ws.dispatches}, {}, Groups{1});
   rec.stage("filter");
@@ -65,7 +70,7 @@ void record_bound(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveBound>({.control = ws.control,
                                   .frontier = ws.frontier,
-                                  .positions = ws.positions,
+                                  .vertices = ws.vertices,
                                   .faces = ws.faces,
                                   .nodes = p.b.nodes,
                                   .triangles = p.b.triangles,
@@ -73,7 +78,8 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .splits = ws.splits,
                                   .points = ws.points,
                                   .survivors = ws.survivors,
-                                  .centroids = ws.centroids},
+                                  .centroids = ws.centroids,
+                                  .triangle_lows = p.b.triangle_lows},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
 }
@@ -82,7 +88,7 @@ void record_defer(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveDefer>({.control = ws.control,
                                   .frontier = ws.frontier,
-                                  .positions = ws.positions,
+                                  .vertices = ws.vertices,
                                   .faces = ws.faces},
                                  {}, ws.dispatch(gpu::kDispatchDefer));
   rec.stage("defer");

@@ -30,12 +30,13 @@ class Suballocator {
 void list(Suballocator& take, Hierarchy& h, uint32_t face_count) {
   take(h.nodes, std::max(face_count, 2u) - 1);
   take(h.triangles, face_count);
+  take(h.triangle_lows, face_count);
   h.face_count = face_count;
 }
 
 void list(Suballocator& take, BuildScratch& s, uint32_t vertex_count, uint32_t face_count) {
   const uint64_t blocks = (face_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
-  take(s.positions, vertex_count);
+  take(s.vertices, vertex_count);
   take(s.faces, face_count);
   take(s.centroid_box, 1);
   take(s.pyramid, pyramid_size(face_count));
@@ -53,7 +54,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   const uint64_t parents = capacity / 4 + 1;
   take(w.control, 1);
   take(w.dispatches, gpu::kDispatchCount);
-  take(w.positions, vertex_count);
+  take(w.vertices, vertex_count);
   take(w.faces, face_count);
   take(w.vertex_nearest, vertex_count);
   take(w.vertex_distance, vertex_count);

@@ -11,12 +11,13 @@ namespace vkh {
 struct Hierarchy {
   Slice<gpu::Node> nodes;
   Slice<gpu::Triangle> triangles;
+  Slice<gpu::TriangleLow> triangle_lows;
   uint32_t face_count = 0;
 };
 
 // What building it needs besides.
 struct BuildScratch {
-  Slice<gpu::vec3> positions;
+  Slice<gpu::Vertex> vertices;
   Slice<gpu::uvec3> faces;
   Slice<gpu::CentroidBox> centroid_box;
   Slice<gpu::Box> pyramid;
@@ -28,7 +29,7 @@ struct BuildScratch {
 struct Workspace {
   Slice<gpu::Control> control;
   Slice<gpu::Dispatch> dispatches;
-  Slice<gpu::vec3> positions;  // of A
+  Slice<gpu::Vertex> vertices;  // of A
   Slice<gpu::uvec3> faces;     // of A
   Slice<uint32_t> vertex_nearest;
   Slice<float> vertex_distance;

@@ -39,26 +39,27 @@ double scaled(double x, int exponent) {
   return std::ldexp(std::ldexp(x, exponent / 2), exponent - exponent / 2);
 }
 
-// Stores `given` and returns how far that displaced it, rounded up: the rounding to float32
-// exactly, that of the subtraction by its bound (2^-53 relative, taken twice over; scaling is exact
-// but for underflow, which the last term takes).
-double store(double given, double centre, int exponent, float& stored) {
+// Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly, the rounding of the
+// subtraction by its bound (2^-53 relative, taken twice over; scaling is exact but for underflow, which the last term takes).
+double store(double given, double centre, int exponent, float& high, float& low) {
   const double exact = scaled(given - centre, exponent);
-  stored = static_cast<float>(exact);
+  high = static_cast<float>(exact);
+  low = static_cast<float>(exact - static_cast<double>(high));
+  const double left = std::abs((exact - static_cast<double>(high)) - static_cast<double>(low));
   const double subtraction = centre == 0 ? 0 : std::abs(exact) * 0x1p-52;
-  return std::abs(static_cast<double>(stored) - exact) + subtraction +
-         (exact == 0 && given == centre ? 0 : 0x1p-1000);
+  return left + subtraction + (exact == 0 && given == centre ? 0 : 0x1p-1000);
 }
 
-double store_mesh(const Mesh& mesh, const Frame& frame, std::vector<float>& stored) {
-  stored.resize(3 * mesh.vertices.size());
+double store_mesh(const Mesh& mesh, Frame& frame, Frame::Stored& stored) {
+  stored.high.resize(3 * mesh.vertices.size());
+  stored.low.resize(3 * mesh.vertices.size());
   double worst2 = 0;
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     double sum2 = 0;
     for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<size_t>(i);
-      const double off =
-          store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored[3 * v + k]);
+      const size_t k = 3 * v + static_cast<size_t>(i);
+      const double off = store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored.high[k], stored.low[k]);
+      frame.has_low = frame.has_low || stored.low[k] != 0;
       sum2 += off * off;
     }
     worst2 = std::max(worst2, sum2);
@@ -109,7 +110,7 @@ Frame make_frame(const Mesh& a, const Mesh& b) {
   // is worth being exact.
   if (half_reach(joint, glm::dvec3(0)) <= 4 * half_reach(joint, centre)) {
     Frame frame = frame_around(a, b, joint, glm::dvec3(0));
-    if (frame.displacement() < 0x1p-60) return frame;
+    if (!frame.has_low && frame.displacement() < 0x1p-60) return frame;
   }
   return frame_around(a, b, joint, centre);
 }

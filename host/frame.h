@@ -16,11 +16,15 @@ Box bounding_box(const Mesh& mesh);
 double diagonal(const Box& box);  ///< rounded to nearest; overflows and underflows only if the
                                   ///< diagonal itself does
 
-/// frame = (given - centre) * 2^exponent, rounded to float32; |frame coordinate| <= 1.
+/// frame = (given - centre) * 2^exponent, as a sum of two float32, high and low; |frame coordinate| <= 1.
 struct Frame {
   glm::dvec3 centre{};
   int exponent = 0;
-  std::vector<float> a, b;  ///< three per vertex
+  struct Stored {
+    std::vector<float> high, low;  ///< three per vertex
+  };
+  Stored a, b;
+  bool has_low = false;  ///< some low part is not 0
   /// Largest distance of a stored vertex from the exact one, in frame units, rounded up. h is
   /// 1-Lipschitz in both.
   double displacement_a = 0, displacement_b = 0;
@@ -33,8 +37,8 @@ struct Frame {
   double length_up(double frame_length) const;
 };
 
-/// Prefers centre 0, which keeps float32 files near the origin exact; else the middle of the joint
-/// box.
+/// Prefers centre 0 where that keeps every coordinate in its high part: float32 files near the origin; else the middle of
+/// the joint box.
 Frame make_frame(const Mesh& a, const Mesh& b);
 
 }  // namespace vkh

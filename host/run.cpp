@@ -31,27 +31,33 @@ void check_engine(VkhResult result, const char* what) {
   throw DeviceError(std::string(what) + ": " + reason);
 }
 
+// High parts, low parts, faces, one after the other.
 struct MeshBytes {
   VkDeviceSize vertices, faces;
   explicit MeshBytes(const Mesh& m)
       : vertices(aligned(m.vertices.size() * 12)), faces(aligned(m.faces.size() * 12)) {}
-  VkDeviceSize total() const { return vertices + faces; }
+  VkDeviceSize total() const { return 2 * vertices + faces; }
 };
 
-VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const Mesh& m) {
-  return {buffer,
-          offset,
-          12,
-          static_cast<uint32_t>(m.vertices.size()),
-          buffer,
-          offset + MeshBytes(m).vertices,
-          VK_INDEX_TYPE_UINT32,
-          static_cast<uint32_t>(m.faces.size())};
+VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const Mesh& m, bool has_low) {
+  const MeshBytes bytes(m);
+  return {.vertexBuffer = buffer,
+          .vertexOffset = offset,
+          .vertexStride = 12,
+          .vertexCount = static_cast<uint32_t>(m.vertices.size()),
+          .indexBuffer = buffer,
+          .indexOffset = offset + 2 * bytes.vertices,
+          .indexType = VK_INDEX_TYPE_UINT32,
+          .faceCount = static_cast<uint32_t>(m.faces.size()),
+          .vertexLowBuffer = has_low ? buffer : VK_NULL_HANDLE,
+          .vertexLowOffset = offset + bytes.vertices};
 }
 
-void write(std::byte* to, const std::vector<float>& positions, const Mesh& m) {
-  std::memcpy(to, positions.data(), positions.size() * sizeof(float));
-  std::memcpy(to + MeshBytes(m).vertices, m.faces.data(), m.faces.size() * sizeof(m.faces[0]));
+void write(std::byte* to, const Frame::Stored& stored, const Mesh& m) {
+  const MeshBytes bytes(m);
+  std::memcpy(to, stored.high.data(), stored.high.size() * sizeof(float));
+  std::memcpy(to + bytes.vertices, stored.low.data(), stored.low.size() * sizeof(float));
+  std::memcpy(to + 2 * bytes.vertices, m.faces.data(), m.faces.size() * sizeof(m.faces[0]));
 }
 
 // Makes what one stage wrote visible to the next: copies before and after the engine's commands.
@@ -86,8 +92,8 @@ void Runner::upload(const RunInput& in) {
   grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
   write(staging_.mapped(), in.frame->a, *in.a);
   write(staging_.mapped() + bytes_a, in.frame->b, *in.b);
-  problem_.a = view(meshes_.handle(), 0, *in.a);
-  mesh_b_ = view(meshes_.handle(), bytes_a, *in.b);
+  problem_.a = view(meshes_.handle(), 0, *in.a, in.frame->has_low);
+  mesh_b_ = view(meshes_.handle(), bytes_a, *in.b, in.frame->has_low);
 }
 
 void Runner::place(const RunInput& in, RunOutput& out) {
@@ -110,6 +116,7 @@ void Runner::place(const RunInput& in, RunOutput& out) {
   problem_.b = {{hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount};
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
+  problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
 }
 

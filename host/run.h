@@ -22,6 +22,7 @@ struct RunInput {
   uint32_t switches = VKH_SWITCH_ALL;
   uint64_t memory_bytes = 0;  ///< 0: recommended
   float cull_tolerance = 0;
+  bool two_float = false;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
 };

@@ -22,11 +22,13 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
     {"u4", VKH_SWITCH_U4},
     {"warm_start", VKH_SWITCH_WARM_START}};
 
-// A sample that is no vertex of A is queried at its position rounded to float32, up to sqrt(3) 2^-24 off: by so much the lower
-// bound that steers the run can be above the one that is certified in the end.
-constexpr double kLowerMargin = 1.1e-7;
-// Below this, that rounding alone would keep candidates open: asking for less would refine noise.
-constexpr double kToleranceFloor = 1.1e-7;
+// Without low parts, a sample that is no vertex of A is queried at its position rounded to float32, up to sqrt(3) 2^-24 off: by
+// so much the lower bound that steers the run can be above the one that is certified in the end.
+constexpr double kRoundedPosition = 1.1e-7;
+// Tolerances from here on can afford that.
+constexpr double kPlainTolerance = 8 * kRoundedPosition;
+// 48-bit arithmetic in a frame of order 1 leaves less than this; asking for less would refine noise.
+constexpr double kToleranceFloor = 1e-11;
 
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) {
@@ -176,13 +178,15 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
       options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
   const double joint = joint_diagonal(a, b);
   const double tolerance = frame.to_frame(out.tolerance);
-  const double spare = tolerance - 2 * frame.displacement() - kLowerMargin;
+const bool two_float = frame.has_low || tolerance < kPlainTolerance;
+  const double spare = tolerance - 2 * frame.displacement() - (two_float ? kToleranceFloor : kRoundedPosition);
   RunInput in{.frame = &frame,
               .a = &a,
               .b = &b,
               .switches = switches,
               .memory_bytes = options.memory_bytes,
               .cull_tolerance = static_cast<float>(std::max(spare, kToleranceFloor)),
+              .two_float = two_float,
               .advanced = {}};
   Watch watch{options, frame, out.diagonal_a, joint, start};
   in.advanced = [&](const VkhReport& r) { return watch(r); };

@@ -1,4 +1,4 @@
-// What: the box of the centroids of B's faces. In: positions, indices. Out: box, as ordered bits; it must start empty
+// What: the box of the centroids of B's faces. In: vertices, indices. Out: box, as ordered bits; it must start empty
 // (lo all ones, hi zero). Max and min only, so the result does not depend on scheduling.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -9,7 +9,7 @@
 #include "shaders/lib/morton.h"
 
 layout(local_size_x = kGroupSize) in;
-layout(scalar, binding = 0) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) buffer BoxBlock { CentroidBox box; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
@@ -17,7 +17,7 @@ layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 void main() {
   // Invocations past the end repeat the last face: every one takes part in the subgroup's reductions.
   uvec3 f = faces[min(item_index(), push.count - 1u)];
-  vec3 centre = (positions[f.x] + positions[f.y] + positions[f.z]) * (1.0f / 3.0f);  // uncertified: order only
+  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) * (1.0f / 3.0f);  // uncertified: order only
   vec3 lo = subgroupMin(centre);
   vec3 hi = subgroupMax(centre);
   if (!subgroupElect()) return;

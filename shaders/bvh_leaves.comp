@@ -1,4 +1,4 @@
-// What: B's triangles in Morton order. In: values (sorted face numbers), positions, faces. Out: triangles.
+// What: B's triangles in Morton order. In: values (sorted face numbers), vertices, faces. Out: triangles, triangle_lows.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -6,10 +6,11 @@
 #include "shaders/lib/invocation.glsl"
 
 layout(local_size_x = kGroupSize) in;
-layout(scalar, binding = 0) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) readonly buffer Values { uint values[]; };
 layout(scalar, binding = 3) buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 4) writeonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 void main() {
@@ -17,8 +18,9 @@ void main() {
   if (i >= push.count) return;
   uint face = values[i];
   uvec3 f = faces[face];
-  triangles[i].a = positions[f.x];
-  triangles[i].b = positions[f.y];
-  triangles[i].c = positions[f.z];
+  triangles[i].a = vertices[f.x].hi;
+  triangles[i].b = vertices[f.y].hi;
+  triangles[i].c = vertices[f.z].hi;
   triangles[i].face = face;
+  triangle_lows[i] = TriangleLow(vertices[f.x].lo, vertices[f.y].lo, vertices[f.z].lo);
 }

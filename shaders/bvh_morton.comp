@@ -1,4 +1,4 @@
-// What: a Morton code for each face of B. In: positions, faces, box of the centroids. Out: keys[i], values[i] = i.
+// What: a Morton code for each face of B. In: vertices, faces, box of the centroids. Out: keys[i], values[i] = i.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -6,7 +6,7 @@
 #include "shaders/lib/morton.h"
 
 layout(local_size_x = kGroupSize) in;
-layout(scalar, binding = 0) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) readonly buffer BoxBlock { CentroidBox box; };
 layout(scalar, binding = 3) writeonly buffer Keys { uint keys[]; };
@@ -22,7 +22,7 @@ void main() {
   uint i = item_index();
   if (i >= push.count) return;
   uvec3 f = faces[i];
-  vec3 centre = (positions[f.x] + positions[f.y] + positions[f.z]) * (1.0f / 3.0f);  // uncertified: order only
+  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) * (1.0f / 3.0f);  // uncertified: order only
   vec3 lo = corner(box.lo);
   vec3 extent = corner(box.hi) - lo;
   float side = max(extent.x, max(extent.y, extent.z));

@@ -124,6 +124,17 @@ struct Triangle {
   uint spare1;
 };
 
+// A vertex as an unevaluated sum hi + lo, about 48 bits a coordinate; lo is 0 where the caller gave none.
+struct Vertex {
+  vec3 hi;
+  vec3 lo;
+};
+
+// The low parts of a Triangle's corners.
+struct TriangleLow {
+  vec3 a, b, c;
+};
+
 // A sub-triangle of A that is still undecided: 40 bytes.
 struct Candidate {
   uvec4 corners;         // three dyadic barycentric pairs, see lib/bary.h
@@ -137,6 +148,7 @@ struct Candidate {
 struct Point {
   vec3 position;
   uint nearest;  // in: start triangle or kNone; out: closest triangle
+  vec3 position_lo;
   float distance;
 };
 
@@ -172,6 +184,7 @@ struct Control {
   uint witness_point;     // smallest index of a new point whose distance is the new lower; kNone
   uint witness_centroid;  // likewise, of a centroid
   float cull_tolerance;
+  uint two_float;  // the meshes have low parts
   Witness witness;
   uint capacity;    // of each half of the frontier
   uint face_count;  // of A
@@ -217,6 +230,8 @@ struct LoadPush {
   uint index_half;     // where the first index starts, in 2-byte units
   uint index_count;    // 3 * faces
   uint index_is_16bit;
+  uint has_low;    // low parts are given,
+  uint low_word;   // and start here, with the same stride
 };
 
 struct CountPush {
@@ -246,6 +261,7 @@ struct BeginPush {
   uint capacity;
   uint face_count;
   float cull_tolerance;
+  uint two_float;
 };
 
 #ifdef __cplusplus

@@ -13,7 +13,7 @@ layout(scalar, binding = 3) readonly buffer Splits { uint splits[]; };
 layout(scalar, binding = 4) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 5) readonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
-layout(scalar, binding = 7) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 7) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 8) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[]; };
 

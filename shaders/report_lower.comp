@@ -14,16 +14,13 @@ layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 2) buffer LowerBits { uint lower_bits[]; };
-layout(scalar, binding = 3) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 5) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
-Corners triangle_corners(uint i) { return Corners(triangles[i].a, triangles[i].b, triangles[i].c); }
-
-Root load_root(uint face) {
-  uvec3 f = faces[face];
-  return make_root(Corners(positions[f.x], positions[f.y], positions[f.z]));
-}
+#include "shaders/lib/root.glsl"
+#include "shaders/lib/surface.glsl"
 
 void main() {
   // Invocations past the end repeat the last triangle: every one takes part in the subgroup's minimum.
@@ -31,8 +28,8 @@ void main() {
   Witness w = control.witness;
   Root root = load_root(w.root);
   Two3 p = place(root, uvec2(w.j, w.k));
-  float reach = norm_up(root.origin) + norm_up(root.ab.hi) + norm_up(root.ac.hi);
-  Surface s = make_surface(triangle_corners(i), p, reach, true);
+  float reach = norm_up(root.origin.hi) + norm_up(root.ab.hi) + norm_up(root.ac.hi);
+  Surface s = load_surface(i, p, reach, true);
   // A triangle farther than the steering distance by a margin does not decide the minimum.
   float d = subgroupMin(triangle_distance_down(s, 1.0001 * w.distance));
   if (subgroupElect()) atomicMin(lower_bits[0], floatBitsToUint(d));

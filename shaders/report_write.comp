@@ -1,5 +1,5 @@
 // What: the report. One invocation. In: control, lower_bits from report_lower. Out: report.
-// lower: the witness's certified distance, less how far its rounded position can lie from the point of A that it stands for.
+// lower: the witness's certified distance, less how far its 48-bit position can lie from the point of A that it stands for.
 // upper: the largest u of everything that was dropped, spilled or is still open; without bound while faces of A wait.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -9,17 +9,15 @@
 layout(local_size_x = 1) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer LowerBits { uint lower_bits[]; };
-layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
 
-#include "shaders/lib/bary.h"
+#include "shaders/lib/root.glsl"
 
 float witness_slack(Witness w) {
-  uvec3 f = faces[w.root];
-  Root root = make_root(Corners(positions[f.x], positions[f.y], positions[f.z]));
-  return place_corners(root, whole_root()).slack;
+  return place_corners(load_root(w.root), whole_root()).slack;
 }
 
 uint remaining() {

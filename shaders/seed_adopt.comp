@@ -5,7 +5,7 @@
 #include "shaders/gpu_types.h"
 
 layout(local_size_x = 1) in;
-layout(scalar, binding = 0) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) readonly buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 3) buffer ControlBlock { Control control; };
@@ -14,7 +14,7 @@ void main() {
   uint face = control.witness_point / 3u;  // uncertified: integers
   uint corner = control.witness_point % 3u;
   uint vertex = faces[face][corner];
-  control.witness = Witness(positions[vertex], uintBitsToFloat(control.maximum[kMaxLower]), face,
+  control.witness = Witness(vertices[vertex].hi, uintBitsToFloat(control.maximum[kMaxLower]), face,
                             corner == 1u ? kBaryOne : 0u, corner == 2u ? kBaryOne : 0u,
                             vertex_nearest[vertex]);
   control.witness_point = kNone;

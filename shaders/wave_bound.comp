@@ -12,7 +12,7 @@ layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
-layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
@@ -21,8 +21,10 @@ layout(scalar, binding = 7) readonly buffer Splits { uint splits[]; };
 layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 9) readonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 10) readonly buffer Centroids { Point centroids[]; };
+layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/stream.glsl"
@@ -33,7 +35,7 @@ struct Verdict {
 };
 
 Surface surface_of(uint triangle, Placement placed) {
-  return make_surface(triangle_corners(triangle), placed.origin, placed.reach, sharp_distances());
+  return load_surface(triangle, placed.origin, placed.reach, sharp_distances());
 }
 
 // u3: pairs (i, j) of known triangles. A pair cannot beat the better of its two distances at the worst corner, so most pairs

@@ -10,7 +10,7 @@ layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
-layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 
 #include "shaders/lib/candidate.glsl"

@@ -12,7 +12,7 @@ layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
-layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
@@ -21,8 +21,10 @@ layout(scalar, binding = 7) readonly buffer Splits { uint splits[]; };
 layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 9) writeonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 10) writeonly buffer Centroids { Point centroids[]; };
+layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/stream.glsl"
@@ -35,7 +37,7 @@ struct Verdict {
 
 // Measures T against the next known triangle: keeps the smallest ha, and the corners' own distances for u1 and u2.
 void measure(Patch t, uint triangle, Placement placed, inout vec3 own, inout Verdict v, inout float ha) {
-  vec3 d = corner_distances(t, make_surface(triangle_corners(triangle), placed.origin, placed.reach, sharp_distances()));
+  vec3 d = corner_distances(t, load_surface(triangle, placed.origin, placed.reach, sharp_distances()));
   own = min(own, d);
   float h = bound_single(d);
   if (h < ha) {
@@ -84,13 +86,13 @@ void main() {
   bool mine = code < 4u * control.parents + control.roots && (is_root(code) || splits[code >> 2] != kSplitNone);
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   Verdict v = Verdict(0.0, kCullCount, kNone);
-  vec3 centre = vec3(0.0);
+  Two3 centre = two(vec3(0.0));
   if (mine) {
     find_witness(code);
     Child c = load_child(code);
     Root root = load_root(c.root);
     v = filter_child(code, c, root, threshold);
-    centre = rounded(place(root, centroid_of(c.at)));
+    centre = place(root, centroid_of(c.at));
   }
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;
@@ -99,6 +101,6 @@ void main() {
   uint slot = stream_append(kCountSurvivors, open);
   if (open) {
     survivors[slot] = code;
-    centroids[slot] = Point(centre, v.best, (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0);
+    centroids[slot] = Point(centre.hi, v.best, centre.lo, (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0);
   }
 }

@@ -11,9 +11,11 @@ layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 3) buffer Points { Point points[]; };
+layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/surface.glsl"
 #include "shaders/lib/stream.glsl"
 
 void main() {
@@ -22,7 +24,7 @@ void main() {
   float d = 0.0;
   if (i < count && points[i].distance >= 0.0) {
     Nearest found = nearest_triangle(points[i].position, points[i].nearest);
-    d = sqrt(found.distance2);  // uncertified: steers; the report certifies the witness
+    d = steering_distance(Two3(points[i].position, points[i].position_lo), found.triangle, found.distance2);
     points[i].nearest = found.triangle;
     points[i].distance = d;
   }

@@ -12,7 +12,7 @@ layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
-layout(scalar, binding = 2) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
@@ -51,9 +51,10 @@ uint best_start(Candidate c, vec3 p) {
 void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
   Bary6 six = split_points(at, split == kSplitNone ? kSplitMidpoint : split);
   for (uint k = 0u; k < 3u; ++k) {
-    vec3 p = rounded(place(root, corner_of(six.fresh, k)));
+    Two3 p = place(root, corner_of(six.fresh, k));
     // A negative distance tells the query to skip the point.
-    points[3u * i + k] = split == kSplitNone ? Point(p, kNone, -1.0) : Point(p, best_start(c, p), 0.0);
+    points[3u * i + k] = split == kSplitNone ? Point(p.hi, kNone, p.lo, -1.0)
+                                                : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
   }
 }
 
@@ -67,7 +68,7 @@ void main() {
     Bary3 at = unpack_corners(c.corners);
     Root root = load_root(c.root);
     // Where the candidate is this small and still open, it is rounding that holds its u up: no split helps.
-    bool tiny = enclosing_radius_up(place_corners(root, at).at) < 0.03125 * control.cull_tolerance;
+    bool tiny = enclosing_radius_up(place_corners(root, at).at) < 0.03125 * effective_tolerance();
     if (!closed && !tiny) split = choose_split(at, root);
     splits[i] = split;
     write_points(i, c, at, root, split);

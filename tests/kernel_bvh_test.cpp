@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "tests/support/kernel_bench.h"
 #include "tests/support/shapes.h"
@@ -19,7 +20,7 @@ constexpr uint32_t kAwkwardSizes[] = {1,  2,  3,  4,  5,   6,   7,   8,    9,   
                                       17, 63, 64, 65, 255, 256, 257, 2047, 2048, 2049};
 
 struct NamedMesh {
-  const char* name;
+  std::string name;
   Mesh mesh;
 };
 

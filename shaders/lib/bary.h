@@ -40,15 +40,15 @@ VKH_FN Bary3 unpack_corners(uvec4 w) {
 
 // A root triangle of A: a corner and the two edges from it, to 48 bits.
 struct Root {
-  vec3 origin;
+  Two3 origin;
   Two3 ab, ac;
 };
 
-VKH_FN Root make_root(Corners t) {
+VKH_FN Root make_root(Two3 a, Two3 b, Two3 c) {
   Root r;
-  r.origin = t.a;
-  r.ab = two_sum(t.b, -t.a);
-  r.ac = two_sum(t.c, -t.a);
+  r.origin = a;
+  r.ab = two_difference(b, a);
+  r.ac = two_difference(c, a);
   return r;
 }
 
@@ -57,7 +57,7 @@ VKH_CONST float kBaryUnit = 9.5367431640625e-7f;  // 2^-20 = 1 / kBaryOne
 
 // A point of the root in the frame of the meshes; off by 8 kUlp2 of the root's coordinates (`reach` of make_placement).
 VKH_FN Two3 place(Root r, uvec2 point) {
-  return two_combination(two(r.origin), float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit, r.ac);
+  return two_combination(r.origin, float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit, r.ac);
 }
 
 // A candidate around its first corner.
@@ -85,7 +85,7 @@ VKH_FN Placement place_corners(Root r, Bary3 t) {
   p.at.a = vec3(0.0f, 0.0f, 0.0f);
   p.at.b = rounded(p.b);
   p.at.c = rounded(p.c);
-  p.reach = round_up(norm_up(r.origin) + norm_up(r.ab.hi) + norm_up(r.ac.hi), 3.0f);
+  p.reach = round_up(norm_up(r.origin.hi) + norm_up(r.ab.hi) + norm_up(r.ac.hi), 8.0f);
   p.slack = round_up(24.0f * kUlp2 * p.reach, 3.0f);
   return p;
 }

@@ -87,12 +87,12 @@ struct Surface {
 
 // `reach` >= the largest coordinate magnitude of origin and corners, so that the corners are off by 2 kUlp2 reach each.
 // offset_from then adds: two edges (2 kUlp2 of their ends, at most 4 reach), the combination (4 kUlp2 of at most 5 radius and p).
-VKH_FN Surface make_surface(Corners triangle, Two3 origin, float reach, bool sharp) {
+VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, Two3 origin, float reach, bool sharp) {
   Surface s;
   s.sharp = sharp;
-  s.a = two_difference(two(triangle.a), origin);
-  s.b = two_difference(two(triangle.b), origin);
-  s.c = two_difference(two(triangle.c), origin);
+  s.a = two_difference(a, origin);
+  s.b = two_difference(b, origin);
+  s.c = two_difference(c, origin);
   s.at.a = rounded(s.a);
   s.at.b = rounded(s.b);
   s.at.c = rounded(s.c);

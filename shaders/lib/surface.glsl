@@ -1,0 +1,26 @@
+// Triangles of B as surfaces to measure against, low parts included where the meshes have them.
+// Include after `triangles`, `triangle_lows` and `control` are declared.
+#ifndef VKH_SHADERS_LIB_SURFACE_GLSL
+#define VKH_SHADERS_LIB_SURFACE_GLSL
+
+#include "shaders/lib/triangle.h"
+
+Surface load_surface(uint i, Two3 origin, float reach, bool sharp) {
+  TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
+  if (control.two_float != 0u) {
+    low.a = triangle_lows[i].a;
+    low.b = triangle_lows[i].b;
+    low.c = triangle_lows[i].c;
+  }
+  return make_surface(Two3(triangles[i].a, low.a), Two3(triangles[i].b, low.b), Two3(triangles[i].c, low.c), origin,
+                      reach, sharp);
+}
+
+// The distance of p from triangle i for steering: where the meshes have low parts, a float32 position is not good enough.
+float steering_distance(Two3 p, uint i, float distance2) {
+  if (control.two_float == 0u) return sqrt(distance2);  // uncertified: steers; the report certifies the witness
+  Surface s = load_surface(i, p, 1.0, true);
+  return surface_distance_up(two(vec3(0.0)), s);
+}
+
+#endif

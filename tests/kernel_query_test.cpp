@@ -1,0 +1,258 @@
+// The walks through B's hierarchy against brute force in double precision.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "host/round_to_float.h"
+#include "tests/support/closest.h"
+#include "tests/support/kernel_bench.h"
+#include "tests/support/shapes.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+Mesh stored(Mesh mesh) {
+  for (glm::dvec3& v : mesh.vertices) v = round_to_float(v);
+  return mesh;
+}
+
+glm::dvec3 position(const gpu::vec3& p) { return glm::dvec3(glm::vec3(p.x, p.y, p.z)); }
+
+Mesh coincident(uint32_t count) {
+  const Mesh one = single_triangle({0.25, 0.5, 0.125}, {0.75, 0.5, 0}, {0.5, 0.0, 0.5});
+  return make_mesh("coincident", one.vertices, std::vector<glm::uvec3>(count, one.faces[0]));
+}
+
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+std::vector<NamedMesh> targets() {
+  std::vector<NamedMesh> all;
+  for (const uint32_t count : {1u, 2u, 3u, 4u, 5u, 63u, 64u, 65u, 700u})
+    all.push_back({"soup", soup(40 + count, count)});
+  all.push_back({"coincident", coincident(2000)});
+  all.push_back({"clusters", joined(coincident(300), translated(coincident(500), {0.5, 0.5, 0}))});
+  all.push_back({"needles", needles(41, 300)});
+  all.push_back({"slivers", slivers(42, 300)});
+  all.push_back({"caps", caps(43, 300)});
+  all.push_back({"degenerate", degenerate_faces(44, 300)});
+  all.push_back({"sphere", icosphere(1.0, 3)});
+  all.push_back({"flat", square_patch(16, 0.0)});
+  for (NamedMesh& target : all) target.mesh = stored(target.mesh);
+  return all;
+}
+
+/// Points everywhere, on the mesh's corners and next to its edges and faces.
+std::vector<gpu::vec3> queries(const Mesh& mesh, uint32_t count) {
+  Random random(count);
+  std::vector<gpu::vec3> points;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto [a, b, c] = corners(mesh, random.below(static_cast<uint32_t>(mesh.faces.size())));
+    const double u = random.unit(), v = (1 - u) * random.unit();
+    const glm::dvec3 on = a + u * (b - a) + (i % 2 == 0 ? v : 0.0) * (c - a);
+    const double away = std::pow(10.0, random.range(-7.0, 0.0));
+    const glm::dvec3 p = i % 4 == 0   ? random.in_cube(1.0)
+                         : i % 4 == 1 ? a
+                                      : on + away * random.direction();
+    points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  return points;
+}
+
+/// A walk's distance may be off by its own arithmetic, and so may the triangle that it prefers:
+/// coordinates are of order 1, so 1e-6 is 8 units in the last place of one.
+double allowed(double distance) { return 1e-5 * distance + 1e-6; }
+
+void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu::Triangle>& sorted,
+                   uint32_t nearest, float distance) {
+  REQUIRE(nearest < sorted.size());
+  const double least = point_mesh_distance(p, mesh);
+  const auto [a, b, c] = corners(mesh, sorted[nearest].face);
+  const double there = point_triangle_distance(p, a, b, c);
+  const double found = static_cast<double>(distance);
+  CHECK_MESSAGE(std::abs(found - least) <= allowed(least), found << " for " << least);
+  CHECK_MESSAGE(there - least <= allowed(least), "a triangle at " << there << ", not " << least);
+}
+
+// --- wave_query ---
+
+constexpr uint32_t kSkipped = 5;  // every so many-th point is not to be queried
+
+struct Query {
+  std::vector<gpu::Point> before, after;
+  gpu::Control control;
+};
+
+/// Garbage but for what the kernel reads.
+gpu::Control blank_control() {
+  gpu::Control control;
+  std::memset(static_cast<void*>(&control), 0xa5, sizeof(control));
+  control.maximum[gpu::kMaxLower] = 0;
+  return control;
+}
+
+Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32_t count,
+                     bool centroids) {
+  Query q;
+  q.control = blank_control();
+  q.control.count[gpu::kCountSurvivors] = centroids ? count : 0;
+  q.control.parents = centroids ? 0 : count / 3;
+  Random random(count);
+  for (const gpu::vec3& p : queries(mesh, count)) {
+    const uint32_t start = random.below(2) == 0 ? gpu::kNone : random.below(h.face_count);
+    const bool skipped = q.before.size() % kSkipped == 3;
+    q.before.push_back({p, start, skipped ? -1.0f : 0.0f});
+  }
+  const auto points = bench.put(q.before);
+  const auto control = bench.put(std::vector<gpu::Control>{q.control});
+  bench.run([&](Recorder& rec) {
+    rec.run<k::WaveQuery>(
+        {.control = control, .nodes = h.nodes, .triangles = h.triangles, .points = points},
+        gpu::QueryPush{centroids ? 1u : 0u}, Items{count + 100});
+  });
+  q.after = bench.get(points);
+  q.control = bench.get(control)[0];
+  return q;
+}
+
+void check_wave_query(KernelBench& bench, const Mesh& mesh, uint32_t count, bool centroids) {
+  CAPTURE(count);
+  const Hierarchy h = build_hierarchy(bench, mesh).hierarchy;
+  const auto sorted = bench.get(h.triangles);
+  const Query q = run_wave_query(bench, mesh, h, count, centroids);
+  float largest = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const gpu::Point& p = q.after[i];
+    if (q.before[i].distance < 0) {
+      CHECK(std::memcmp(&p, &q.before[i], sizeof(p)) == 0);
+      continue;
+    }
+    CHECK(std::memcmp(&p.position, &q.before[i].position, sizeof(p.position)) == 0);
+    check_nearest(position(p.position), mesh, sorted, p.nearest, p.distance);
+    largest = std::max(largest, p.distance);
+  }
+  CHECK(q.control.maximum[gpu::kMaxLower] == std::bit_cast<uint32_t>(largest));
+}
+
+// --- the seed ---
+
+/// `mesh` with vertices that no face uses, far away: before, among and behind the others.
+Mesh with_strays(const Mesh& mesh) {
+  Mesh out;
+  out.vertices = {{100, 0, 0}};
+  for (const glm::dvec3& v : mesh.vertices)
+    out.vertices.insert(out.vertices.end(), {v, {0, 90, 0}});
+  for (const glm::uvec3& f : mesh.faces) out.faces.push_back(2u * f + 1u);
+  return out;
+}
+
+struct Seeded {
+  std::vector<uint32_t> nearest;
+  std::vector<float> distance;
+  gpu::Control control;
+};
+
+Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b) {
+  const BenchMesh on = put_mesh(bench, a);
+  const uint32_t vertices = on.view.vertexCount, faces = on.view.faceCount;
+  const auto memory = bench.garbage<uint32_t>(workspace_size(vertices, faces, 64) / 4);
+  const Problem p{.vertex_count = vertices,
+                  .face_count = faces,
+                  .cull_tolerance = 1e-6f,
+                  .b = b,
+                  .ws = view_workspace({memory.buffer, 0, memory.size}, bench.context()->limits,
+                                       vertices, faces)};
+  bench.run([&](Recorder& rec) {
+    record_load(rec, on.view, p.ws.positions, p.ws.faces);
+    record_seed(rec, p);
+  });
+  return {bench.get(p.ws.vertex_nearest), bench.get(p.ws.vertex_distance),
+          bench.get(p.ws.control)[0]};
+}
+
+/// The first corner, in the order of faces, whose distance is the largest.
+std::pair<uint32_t, uint32_t> first_farthest(const Mesh& a, const std::vector<float>& distance,
+                                             float largest) {
+  for (uint32_t f = 0; f < a.faces.size(); ++f) {
+    for (int corner = 0; corner < 3; ++corner) {
+      if (distance[a.faces[f][corner]] == largest) return {f, static_cast<uint32_t>(corner)};
+    }
+  }
+  return {gpu::kNone, gpu::kNone};
+}
+
+void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b) {
+  CAPTURE(a.faces.size());
+  const Hierarchy h = build_hierarchy(bench, b).hierarchy;
+  const auto sorted = bench.get(h.triangles);
+  const Seeded seed = run_seed(bench, a, h);
+  std::vector<bool> used(a.vertices.size());
+  for (const glm::uvec3& f : a.faces) used[f.x] = used[f.y] = used[f.z] = true;
+  float largest = 0;
+  for (size_t v = 0; v < a.vertices.size(); ++v) {
+    if (!used[v]) {
+      CHECK(seed.nearest[v] == gpu::kNone);
+      continue;
+    }
+    check_nearest(a.vertices[v], b, sorted, seed.nearest[v], seed.distance[v]);
+    largest = std::max(largest, seed.distance[v]);
+  }
+  const gpu::Witness& w = seed.control.witness;
+  CHECK(std::bit_cast<float>(seed.control.maximum[gpu::kMaxLower]) == largest);
+  CHECK(w.distance == largest);
+  const auto [face, corner] = first_farthest(a, seed.distance, largest);
+  REQUIRE(w.root == face);
+  CHECK(w.j == (corner == 1 ? gpu::kBaryOne : 0));
+  CHECK(w.k == (corner == 2 ? gpu::kBaryOne : 0));
+  const uint32_t vertex = a.faces[face][static_cast<int>(corner)];
+  CHECK(position(w.position) == a.vertices[vertex]);
+  CHECK(w.nearest == seed.nearest[vertex]);
+}
+
+}  // namespace
+
+TEST_CASE("wave_query finds the nearest triangle, new points and centroids alike") {
+  for (const auto& [name, mesh] : targets()) {
+    CAPTURE(name);
+    CAPTURE(mesh.faces.size());
+    KernelBench bench;
+    check_wave_query(bench, mesh, 600, false);
+    check_wave_query(bench, mesh, 601, true);
+  }
+}
+
+TEST_CASE("wave_query at awkward sizes") {
+  const Mesh mesh = stored(soup(50, 100));
+  KernelBench bench;
+  for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 2047u, 2048u, 2049u}) {
+    check_wave_query(bench, mesh, count, true);
+    check_wave_query(bench, mesh, count / 3 * 3, false);
+  }
+}
+
+TEST_CASE("the seed queries A's vertices and adopts the farthest") {
+  for (const auto& [name, b] : targets()) {
+    CAPTURE(name);
+    CAPTURE(b.faces.size());
+    KernelBench bench;
+    check_seed(bench, stored(soup(60, 100)), b);
+    check_seed(bench, b, b);
+  }
+}
+
+TEST_CASE("the seed at awkward sizes, ties and vertices that no face uses") {
+  const Mesh b = stored(soup(61, 50));
+  KernelBench bench;
+  for (const uint32_t count : {1u, 2u, 21u, 22u, 63u, 64u, 65u, 85u, 86u, 683u})
+    check_seed(bench, stored(soup(count, count)), b);
+  check_seed(bench, with_strays(stored(soup(62, 200))), b);
+  check_seed(bench, coincident(257), b);
+  check_seed(bench, square_patch(16, 0.5), square_patch(3, 0.0));  // all distances are equal
+}
