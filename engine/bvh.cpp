@@ -39,7 +39,8 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& v
       static_cast<VkDeviceSize>(mesh.vertexCount - 1) * mesh.vertexStride + 12;
   const AlignedRange high = align(mesh.vertexBuffer, mesh.vertexOffset, vertex_bytes);
   const bool has_low = mesh.vertexLowBuffer != VK_NULL_HANDLE;
-  const AlignedRange low = has_low ? align(mesh.vertexLowBuffer, mesh.vertexLowOffset, vertex_bytes) : high;
+  const AlignedRange low =
+      has_low ? align(mesh.vertexLowBuffer, mesh.vertexLowOffset, vertex_bytes) : high;
   const AlignedRange indices = align(mesh.indexBuffer, mesh.indexOffset, index_bytes);
   const gpu::LoadPush push{.vertex_word = high.skip / 4,
                            .stride_words = mesh.vertexStride / 4,

@@ -7,8 +7,10 @@ void record_seed(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   const gpu::CountPush vertices{p.vertex_count};
   const gpu::CountPush faces{p.face_count};
-  const gpu::BeginPush begin{
-      .capacity = ws.capacity, .face_count = p.face_count, .cull_tolerance = p.cull_tolerance, .two_float = p.two_float ? 1u : 0u};
+  const gpu::BeginPush begin{.capacity = ws.capacity,
+                             .face_count = p.face_count,
+                             .cull_tolerance = p.cull_tolerance,
+                             .two_float = p.two_float ? 1u : 0u};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});
   rec.fill(ws.vertex_nearest, gpu::kNone, Order::kIndependent);
   rec.run<k::SeedMark>({.faces = ws.faces, .vertex_nearest = ws.vertex_nearest}, faces,

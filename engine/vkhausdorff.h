@@ -110,8 +110,9 @@ typedef struct VkhMesh {
   VkDeviceSize indexOffset; /* bytes */
   VkIndexType indexType;
   uint32_t faceCount; /* 1 .. 2^28 */
-  /* May be null: a vertex is then its float32 position. Otherwise a vertex is the exact sum of that and of three more float32 at
-   * vertexLowOffset + i * vertexStride, each at most half an ulp of its high part: 48-bit coordinates. Usage as above. */
+  /* May be null: a vertex is then its float32 position. Otherwise a vertex is the exact sum of that
+   * and of three more float32 at vertexLowOffset + i * vertexStride, each at most half an ulp of
+   * its high part: 48-bit coordinates. Usage as above. */
   VkBuffer vertexLowBuffer;
   VkDeviceSize vertexLowOffset; /* bytes, a multiple of 4 */
 } VkhMesh;
@@ -174,8 +175,9 @@ typedef struct VkhProblem {
   VkhMemory workspace;
   /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. */
   float cullTolerance;
-  /* Use the vertices' low parts, and steer by 48-bit positions: where there are low parts, and for tolerances under about 1e-6 of
-   * the coordinates' magnitude. The interval is certified either way, for the vertices that this selects. */
+  /* Use the vertices' low parts, and steer by 48-bit positions: where there are low parts, and for
+   * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
+   * way, for the vertices that this selects. */
   VkBool32 twoFloat;
 } VkhProblem;
 

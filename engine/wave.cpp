@@ -37,13 +37,12 @@ void record_subdivide(Recorder& rec, const Problem& p) {
 
 void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points,
                   gpu::QueryPush push, uint32_t dispatch) {
-  rec.run_indirect<k::WaveQuery>(
-      {.control = p.ws.control,
-       .nodes = p.b.nodes,
-       .triangles = p.b.triangles,
-       .points = points,
-       .triangle_lows = p.b.triangle_lows},
-      push, p.ws.dispatch(dispatch));
+  rec.run_indirect<k::WaveQuery>({.control = p.ws.control,
+                                  .nodes = p.b.nodes,
+                                  .triangles = p.b.triangles,
+                                  .points = points,
+                                  .triangle_lows = p.b.triangle_lows},
+                                 push, p.ws.dispatch(dispatch));
   rec.stage("query");
 }
 
@@ -86,11 +85,9 @@ void record_bound(Recorder& rec, const Problem& p) {
 
 void record_defer(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
-  rec.run_indirect<k::WaveDefer>({.control = ws.control,
-                                  .frontier = ws.frontier,
-                                  .vertices = ws.vertices,
-                                  .faces = ws.faces},
-                                 {}, ws.dispatch(gpu::kDispatchDefer));
+  rec.run_indirect<k::WaveDefer>(
+      {.control = ws.control, .frontier = ws.frontier, .vertices = ws.vertices, .faces = ws.faces},
+      {}, ws.dispatch(gpu::kDispatchDefer));
   rec.stage("defer");
 }
 

@@ -30,7 +30,7 @@ struct Workspace {
   Slice<gpu::Control> control;
   Slice<gpu::Dispatch> dispatches;
   Slice<gpu::Vertex> vertices;  // of A
-  Slice<gpu::uvec3> faces;     // of A
+  Slice<gpu::uvec3> faces;      // of A
   Slice<uint32_t> vertex_nearest;
   Slice<float> vertex_distance;
   Slice<gpu::Candidate> frontier;  // two halves of `capacity`

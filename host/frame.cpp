@@ -39,8 +39,9 @@ double scaled(double x, int exponent) {
   return std::ldexp(std::ldexp(x, exponent / 2), exponent - exponent / 2);
 }
 
-// Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly, the rounding of the
-// subtraction by its bound (2^-53 relative, taken twice over; scaling is exact but for underflow, which the last term takes).
+// Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly,
+// the rounding of the subtraction by its bound (2^-53 relative, taken twice over; scaling is exact
+// but for underflow, which the last term takes).
 double store(double given, double centre, int exponent, float& high, float& low) {
   const double exact = scaled(given - centre, exponent);
   high = static_cast<float>(exact);
@@ -58,7 +59,8 @@ double store_mesh(const Mesh& mesh, Frame& frame, Frame::Stored& stored) {
     double sum2 = 0;
     for (int i = 0; i < 3; ++i) {
       const size_t k = 3 * v + static_cast<size_t>(i);
-      const double off = store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored.high[k], stored.low[k]);
+      const double off = store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored.high[k],
+                               stored.low[k]);
       frame.has_low = frame.has_low || stored.low[k] != 0;
       sum2 += off * off;
     }

@@ -16,7 +16,8 @@ Box bounding_box(const Mesh& mesh);
 double diagonal(const Box& box);  ///< rounded to nearest; overflows and underflows only if the
                                   ///< diagonal itself does
 
-/// frame = (given - centre) * 2^exponent, as a sum of two float32, high and low; |frame coordinate| <= 1.
+/// frame = (given - centre) * 2^exponent, as a sum of two float32, high and low; |frame coordinate|
+/// <= 1.
 struct Frame {
   glm::dvec3 centre{};
   int exponent = 0;
@@ -37,8 +38,8 @@ struct Frame {
   double length_up(double frame_length) const;
 };
 
-/// Prefers centre 0 where that keeps every coordinate in its high part: float32 files near the origin; else the middle of
-/// the joint box.
+/// Prefers centre 0 where that keeps every coordinate in its high part: float32 files near the
+/// origin; else the middle of the joint box.
 Frame make_frame(const Mesh& a, const Mesh& b);
 
 }  // namespace vkh

@@ -22,12 +22,16 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
     {"u4", VKH_SWITCH_U4},
     {"warm_start", VKH_SWITCH_WARM_START}};
 
-// Without low parts, a sample that is no vertex of A is queried at its position rounded to float32, up to sqrt(3) 2^-24 off: by
-// so much the lower bound that steers the run can be above the one that is certified in the end.
+// Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
+// up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that
+// is certified in the end.
 constexpr double kRoundedPosition = 1.1e-7;
 // Tolerances from here on can afford that.
 constexpr double kPlainTolerance = 8 * kRoundedPosition;
-// 48-bit arithmetic in a frame of order 1 leaves less than this; asking for less would refine noise.
+// Of the tolerance, kept for rounding it and the sum of it and the lower bound to float32.
+constexpr double kKept = 1e-4;
+// 48-bit arithmetic in a frame of order 1 leaves less than this; asking for less would refine
+// noise.
 constexpr double kToleranceFloor = 1e-11;
 
 using Clock = std::chrono::steady_clock;
@@ -178,8 +182,9 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
       options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
   const double joint = joint_diagonal(a, b);
   const double tolerance = frame.to_frame(out.tolerance);
-const bool two_float = frame.has_low || tolerance < kPlainTolerance;
-  const double spare = tolerance - 2 * frame.displacement() - (two_float ? kToleranceFloor : kRoundedPosition);
+  const bool two_float = frame.has_low || tolerance < kPlainTolerance;
+  const double spare = tolerance * (1 - kKept) - 2 * frame.displacement() -
+                       (two_float ? kToleranceFloor : kRoundedPosition);
   RunInput in{.frame = &frame,
               .a = &a,
               .b = &b,

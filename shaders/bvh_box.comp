@@ -1,5 +1,6 @@
-// What: the box of the centroids of B's faces. In: vertices, indices. Out: box, as ordered bits; it must start empty
-// (lo all ones, hi zero). Max and min only, so the result does not depend on scheduling.
+// What: the box of the centroids of B's faces. In: vertices, indices. Out: box, as ordered bits; it
+// must start empty (lo all ones, hi zero). Max and min only, so the result does not depend on
+// scheduling.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,9 +16,11 @@ layout(scalar, binding = 2) buffer BoxBlock { CentroidBox box; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 void main() {
-  // Invocations past the end repeat the last face: every one takes part in the subgroup's reductions.
+  // Invocations past the end repeat the last face: every one takes part in the subgroup's
+  // reductions.
   uvec3 f = faces[min(item_index(), push.count - 1u)];
-  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) * (1.0f / 3.0f);  // uncertified: order only
+  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) *
+                (1.0f / 3.0f);  // uncertified: order only
   vec3 lo = subgroupMin(centre);
   vec3 hi = subgroupMax(centre);
   if (!subgroupElect()) return;

@@ -1,8 +1,9 @@
-// What: the topology of B's hierarchy over the sorted Morton keys, every inner node at once (Karras 2012, "Maximizing
-// Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Ties are broken by position, so that keys are distinct
-// and a path from the root shares a prefix that grows by a bit a level (kStackDepth).
-// In: keys[count], sorted. Out: nodes[max(count - 1, 1)] but their boxes.
-// A child of at most kLeafTriangles triangles is referenced as a leaf; its own inner nodes stay behind, unreachable.
+// What: the topology of B's hierarchy over the sorted Morton keys, every inner node at once (Karras
+// 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Ties are
+// broken by position, so that keys are distinct and a path from the root shares a prefix that grows
+// by a bit a level (kStackDepth). In: keys[count], sorted. Out: nodes[max(count - 1, 1)] but their
+// boxes. A child of at most kLeafTriangles triangles is referenced as a leaf; its own inner nodes
+// stay behind, unreachable.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -41,7 +42,8 @@ int split_of(int first, int last) {
   int step_size = last - first;
   do {
     step_size = (step_size + 1) >> 1;
-    if (split + step_size < last && prefix(first, split + step_size) > shared_bits) split += step_size;
+    if (split + step_size < last && prefix(first, split + step_size) > shared_bits)
+      split += step_size;
   } while (step_size > 1);
   return split;
 }
@@ -49,7 +51,8 @@ int split_of(int first, int last) {
 // Reference to the child over [first, last] whose inner node would be `inner`.
 uint child_over(int first, int last, uint inner) {
   uint triangle_count = uint(last - first + 1);
-  if (triangle_count <= kLeafTriangles) return kLeafFlag | ((triangle_count - 1u) << 28) | uint(first);
+  if (triangle_count <= kLeafTriangles)
+    return kLeafFlag | ((triangle_count - 1u) << 28) | uint(first);
   return inner;
 }
 

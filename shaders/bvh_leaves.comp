@@ -1,4 +1,5 @@
-// What: B's triangles in Morton order. In: values (sorted face numbers), vertices, faces. Out: triangles, triangle_lows.
+// What: B's triangles in Morton order. In: values (sorted face numbers), vertices, faces. Out:
+// triangles, triangle_lows.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// What: a Morton code for each face of B. In: vertices, faces, box of the centroids. Out: keys[i], values[i] = i.
+// What: a Morton code for each face of B. In: vertices, faces, box of the centroids. Out: keys[i],
+// values[i] = i.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +15,8 @@ layout(scalar, binding = 4) writeonly buffer Values { uint values[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 vec3 corner(uint key[3]) {
-  return vec3(uintBitsToFloat(from_ordered_bits(key[0])), uintBitsToFloat(from_ordered_bits(key[1])),
+  return vec3(uintBitsToFloat(from_ordered_bits(key[0])),
+              uintBitsToFloat(from_ordered_bits(key[1])),
               uintBitsToFloat(from_ordered_bits(key[2])));
 }
 
@@ -22,7 +24,8 @@ void main() {
   uint i = item_index();
   if (i >= push.count) return;
   uvec3 f = faces[i];
-  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) * (1.0f / 3.0f);  // uncertified: order only
+  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) *
+                (1.0f / 3.0f);  // uncertified: order only
   vec3 lo = corner(box.lo);
   vec3 extent = corner(box.hi) - lo;
   float side = max(extent.x, max(extent.y, extent.z));

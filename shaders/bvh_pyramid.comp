@@ -1,5 +1,6 @@
-// What: one level of the pyramid of boxes over the sorted triangles: each box joins kPyramidFan neighbours of the level below.
-// In: triangles, or the level below in boxes. Out: this level in boxes.
+// What: one level of the pyramid of boxes over the sorted triangles: each box joins kPyramidFan
+// neighbours of the level below. In: triangles, or the level below in boxes. Out: this level in
+// boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

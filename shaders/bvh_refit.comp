@@ -1,6 +1,7 @@
-// What: every node's two boxes, each from the few pyramid boxes and triangles that cover its range. No node waits for another:
-// a climb from the leaves would need its parents' two children in order, and takes as many steps as the tree is deep.
-// In: triangles, boxes (bvh_pyramid), nodes' topology. Out: nodes' boxes.
+// What: every node's two boxes, each from the few pyramid boxes and triangles that cover its range.
+// No node waits for another: a climb from the leaves would need its parents' two children in order,
+// and takes as many steps as the tree is deep. In: triangles, boxes (bvh_pyramid), nodes' topology.
+// Out: nodes' boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +22,8 @@ Box box_at(uint level, uint start, uint i) {
   return boxes[start + i];
 }
 
-// Joins the ends of [first, end) that do not fill a box of the level above, then goes on with that level.
+// Joins the ends of [first, end) that do not fill a box of the level above, then goes on with that
+// level.
 Box range_box(uint first, uint end) {
   Box b = empty_box();
   uint start = 0u;
@@ -43,7 +45,8 @@ void main() {
   Node node = nodes[i];
   bool leaf = (node.child0 & kLeafFlag) != 0u;
   uint last_of_first_leaf = (node.child0 & (kMaxTriangles - 1u)) + ((node.child0 >> 28) & 7u);
-  uint split = leaf ? last_of_first_leaf : node.child0;  // an inner first child carries its last triangle's number
+  uint split = leaf ? last_of_first_leaf
+                    : node.child0;  // an inner first child carries its last triangle's number
   Box b0 = range_box(node.first, split + 1u);
   Box b1 = range_box(split + 1u, node.last + 1u);
   nodes[i].lo0 = b0.lo;

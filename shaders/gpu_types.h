@@ -1,5 +1,6 @@
-// Every struct, limit and code that the host and the GPU both see. Scalar layout on both sides; the build checks each
-// offset against the compiled SPIR-V, so that a change on one side only does not compile.
+// Every struct, limit and code that the host and the GPU both see. Scalar layout on both sides; the
+// build checks each offset against the compiled SPIR-V, so that a change on one side only does not
+// compile.
 #ifndef VKH_SHADERS_GPU_TYPES_H
 #define VKH_SHADERS_GPU_TYPES_H
 
@@ -21,32 +22,38 @@ struct uvec4 {
 #define VKH_CONST const
 #endif
 
-// ---- limits and codes -------------------------------------------------------------------------------------------
+// ---- limits and codes
+// -------------------------------------------------------------------------------------------
 
 VKH_CONST uint kNone = 0xffffffffu;  // no triangle, no face, no point
 
-// A dyadic barycentric is an integer in [0, kBaryOne]; kBaryOne is 1. 20 halvings, so two of them fit 42 bits.
+// A dyadic barycentric is an integer in [0, kBaryOne]; kBaryOne is 1. 20 halvings, so two of them
+// fit 42 bits.
 VKH_CONST uint kBaryBits = 20u;
 VKH_CONST uint kBaryOne = 1u << kBaryBits;
 
-VKH_CONST uint kGroupSize = 64u;        // invocations of a workgroup, one item each, where a kernel does not say otherwise
-VKH_CONST uint kMaxGroupsX = 32768u;    // a larger dispatch continues on y (portable limit: 65,535 an axis)
-VKH_CONST uint kLeafTriangles = 4u;     // a subtree of at most so many triangles is a leaf
-VKH_CONST uint kLeafFlag = 0x80000000u; // Node::child: leaf; bits 28..30 hold its triangle count - 1, bits 0..27 the first
+VKH_CONST uint kGroupSize =
+    64u;  // invocations of a workgroup, one item each, where a kernel does not say otherwise
+VKH_CONST uint kMaxGroupsX =
+    32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
+VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
+VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
+                                         // 1, bits 0..27 the first
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
 VKH_CONST uint kPyramidFan = 16u;
 VKH_CONST uint kMaxTriangles = 1u << 28;
-// Hierarchy depth: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at least one bit a level.
+// Hierarchy depth: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at
+// least one bit a level.
 VKH_CONST uint kStackDepth = 60u;
 
 // Switches (specialisation constant 0). A set bit switches the stage on.
-VKH_CONST uint kUseCentroid = 1u;         // query the centroid, use its closest triangle
-VKH_CONST uint kUseParentSamples = 2u;    // try the closest triangles of the parent's six points
-VKH_CONST uint kUseToleranceCull = 4u;    // cull at lower + tolerance, not at lower
-VKH_CONST uint kUseThin = 8u;             // double longest-edge bisection where q(T) < kThinQuality
-VKH_CONST uint kUsePairs = 16u;           // u3 over every pair of candidate triangles
-VKH_CONST uint kUseU4 = 32u;              // u4, the point-point bisector
-VKH_CONST uint kUseWarmStart = 64u;       // start a query from the parent's known triangles
+VKH_CONST uint kUseCentroid = 1u;       // query the centroid, use its closest triangle
+VKH_CONST uint kUseParentSamples = 2u;  // try the closest triangles of the parent's six points
+VKH_CONST uint kUseToleranceCull = 4u;  // cull at lower + tolerance, not at lower
+VKH_CONST uint kUseThin = 8u;           // double longest-edge bisection where q(T) < kThinQuality
+VKH_CONST uint kUsePairs = 16u;         // u3 over every pair of candidate triangles
+VKH_CONST uint kUseU4 = 32u;            // u4, the point-point bisector
+VKH_CONST uint kUseWarmStart = 64u;     // start a query from the parent's known triangles
 VKH_CONST uint kUseAll = 127u;
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
@@ -62,12 +69,13 @@ VKH_CONST uint kCullLowerRaised = 6u;
 VKH_CONST uint kCullPrecision = 7u;
 VKH_CONST uint kCullCount = 8u;
 
-// Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax orders them.
-VKH_CONST uint kMaxLower = 0u;         // largest distance of a sample, not yet certified: it only steers
-VKH_CONST uint kMaxDropped = 1u;       // largest u of a culled candidate
-VKH_CONST uint kMaxFrontier = 2u;      // largest u in the frontier being read
-VKH_CONST uint kMaxNext = 3u;          // largest u in the frontier being written
-VKH_CONST uint kMaxSpilled = 4u;       // largest u of what did not fit or cannot be refined
+// Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax
+// orders them.
+VKH_CONST uint kMaxLower = 0u;    // largest distance of a sample, not yet certified: it only steers
+VKH_CONST uint kMaxDropped = 1u;  // largest u of a culled candidate
+VKH_CONST uint kMaxFrontier = 2u;  // largest u in the frontier being read
+VKH_CONST uint kMaxNext = 3u;      // largest u in the frontier being written
+VKH_CONST uint kMaxSpilled = 4u;   // largest u of what did not fit or cannot be refined
 VKH_CONST uint kMaxCount = 5u;
 
 // Control::count: stream lengths.
@@ -85,7 +93,8 @@ VKH_CONST uint kDispatchBound = 4u;
 VKH_CONST uint kDispatchDefer = 5u;
 VKH_CONST uint kDispatchCount = 6u;
 
-// Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts at a time.
+// Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
+// at a time.
 VKH_CONST uint kSortGroup = 256u;
 VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
@@ -95,12 +104,16 @@ VKH_CONST uint kSortPasses = 4u;
 VKH_CONST uint kMaxWaveRecords = 64u;
 
 // Status codes of the report.
-VKH_CONST uint kStatusRunning = 0u;    // candidates are left: advance further, or take the interval as it is
-VKH_CONST uint kStatusDecided = 1u;    // no candidate is left
-VKH_CONST uint kStatusPrecision = 2u;  // none is left, but some were closed at a u above the tolerance
-VKH_CONST uint kStatusMemory = 3u;     // the frontier is full and nothing in it can be refined in place
+VKH_CONST uint kStatusRunning =
+    0u;  // candidates are left: advance further, or take the interval as it is
+VKH_CONST uint kStatusDecided = 1u;  // no candidate is left
+VKH_CONST uint kStatusPrecision =
+    2u;  // none is left, but some were closed at a u above the tolerance
+VKH_CONST uint kStatusMemory =
+    3u;  // the frontier is full and nothing in it can be refined in place
 
-// ---- structs ----------------------------------------------------------------------------------------------------
+// ---- structs
+// ----------------------------------------------------------------------------------------------------
 
 // Two children's boxes and references, 64 bytes so that a fetch is four aligned 16-byte loads.
 struct Node {
@@ -124,7 +137,8 @@ struct Triangle {
   uint spare1;
 };
 
-// A vertex as an unevaluated sum hi + lo, about 48 bits a coordinate; lo is 0 where the caller gave none.
+// A vertex as an unevaluated sum hi + lo, about 48 bits a coordinate; lo is 0 where the caller gave
+// none.
 struct Vertex {
   vec3 hi;
   vec3 lo;
@@ -137,14 +151,15 @@ struct TriangleLow {
 
 // A sub-triangle of A that is still undecided: 40 bytes.
 struct Candidate {
-  uvec4 corners;         // three dyadic barycentric pairs, see lib/bary.h
-  uint root;             // face of A
-  uvec3 nearest;         // closest triangle of B found for each corner
-  uint nearest_centroid; // and for the centroid, or kNone
-  float upper;           // u: h(candidate, B) <= upper, rounding included
+  uvec4 corners;          // three dyadic barycentric pairs, see lib/bary.h
+  uint root;              // face of A
+  uvec3 nearest;          // closest triangle of B found for each corner
+  uint nearest_centroid;  // and for the centroid, or kNone
+  float upper;            // u: h(candidate, B) <= upper, rounding included
 };
 
-// One closest-point query: in, a position and triangles to start from; out, the closest triangle found.
+// One closest-point query: in, a position and triangles to start from; out, the closest triangle
+// found.
 struct Point {
   vec3 position;
   uint nearest;  // in: start triangle or kNone; out: closest triangle
@@ -176,12 +191,12 @@ struct Control {
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
   uint wave;
-  uint status;      // kStatus*
-  uint root_cursor; // faces of A before this one were admitted
-  uint roots;       // faces of A admitted in this wave
-  uint parents;     // the first `parents` candidates of the frontier are refined in this wave,
-  uint deferred;    // the `deferred` after them are copied
-  uint witness_point;     // smallest index of a new point whose distance is the new lower; kNone
+  uint status;         // kStatus*
+  uint root_cursor;    // faces of A before this one were admitted
+  uint roots;          // faces of A admitted in this wave
+  uint parents;        // the first `parents` candidates of the frontier are refined in this wave,
+  uint deferred;       // the `deferred` after them are copied
+  uint witness_point;  // smallest index of a new point whose distance is the new lower; kNone
   uint witness_centroid;  // likewise, of a centroid
   float cull_tolerance;
   uint two_float;  // the meshes have low parts
@@ -220,18 +235,19 @@ struct Report {
   WaveRecord waves[64];
 };
 
-// ---- push constants ---------------------------------------------------------------------------------------------
+// ---- push constants
+// ---------------------------------------------------------------------------------------------
 
 // mesh_load: one mesh from the caller's buffers into packed ones.
 struct LoadPush {
-  uint vertex_word;    // where the first position starts, in 4-byte words
-  uint stride_words;   // between positions
+  uint vertex_word;   // where the first position starts, in 4-byte words
+  uint stride_words;  // between positions
   uint vertex_count;
-  uint index_half;     // where the first index starts, in 2-byte units
-  uint index_count;    // 3 * faces
+  uint index_half;   // where the first index starts, in 2-byte units
+  uint index_count;  // 3 * faces
   uint index_is_16bit;
-  uint has_low;    // low parts are given,
-  uint low_word;   // and start here, with the same stride
+  uint has_low;   // low parts are given,
+  uint low_word;  // and start here, with the same stride
 };
 
 struct CountPush {
@@ -243,7 +259,7 @@ struct PyramidPush {
   uint from_triangles;  // the level below is the triangles
   uint from;            // where the level below starts in `boxes`
   uint from_count;
-  uint to;              // where this one starts
+  uint to;  // where this one starts
 };
 
 struct SortPush {

@@ -1,5 +1,6 @@
-// What: copies a mesh from the caller's buffers (any stride, 16- or 32-bit indices) into packed ones.
-// In: vertex_words, index_words, low_words as given. Out: vertices[vertex_count], indices[index_count].
+// What: copies a mesh from the caller's buffers (any stride, 16- or 32-bit indices) into packed
+// ones. In: vertex_words, index_words, low_words as given. Out: vertices[vertex_count],
+// indices[index_count].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -23,7 +24,8 @@ void main() {
     vec3 lo = vec3(0.0);
     if (push.has_low != 0u) {
       uint l = push.low_word + i * push.stride_words;
-      lo = vec3(uintBitsToFloat(low_words[l]), uintBitsToFloat(low_words[l + 1u]), uintBitsToFloat(low_words[l + 2u]));
+      lo = vec3(uintBitsToFloat(low_words[l]), uintBitsToFloat(low_words[l + 1u]),
+                uintBitsToFloat(low_words[l + 2u]));
     }
     vertices[i].lo = lo;
   }

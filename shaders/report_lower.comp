@@ -1,6 +1,6 @@
-// What: the certified lower bound: the smallest distance of the witness from any triangle of B, each rounded down. Every
-// triangle is visited, so nothing rests on the hierarchy or on the walks that found the witness.
-// In: control.witness, triangles. Out: lower_bits[0].
+// What: the certified lower bound: the smallest distance of the witness from any triangle of B,
+// each rounded down. Every triangle is visited, so nothing rests on the hierarchy or on the walks
+// that found the witness. In: control.witness, triangles. Out: lower_bits[0].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -23,7 +23,8 @@ layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 #include "shaders/lib/surface.glsl"
 
 void main() {
-  // Invocations past the end repeat the last triangle: every one takes part in the subgroup's minimum.
+  // Invocations past the end repeat the last triangle: every one takes part in the subgroup's
+  // minimum.
   uint i = min(item_index(), push.count - 1u);
   Witness w = control.witness;
   Root root = load_root(w.root);

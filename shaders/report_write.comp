@@ -1,6 +1,7 @@
 // What: the report. One invocation. In: control, lower_bits from report_lower. Out: report.
-// lower: the witness's certified distance, less how far its 48-bit position can lie from the point of A that it stands for.
-// upper: the largest u of everything that was dropped, spilled or is still open; without bound while faces of A wait.
+// lower: the witness's certified distance, less how far its 48-bit position can lie from the point
+// of A that it stands for. upper: the largest u of everything that was dropped, spilled or is still
+// open; without bound while faces of A wait.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,9 +17,7 @@ layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
 
 #include "shaders/lib/root.glsl"
 
-float witness_slack(Witness w) {
-  return place_corners(load_root(w.root), whole_root()).slack;
-}
+float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
 
 uint remaining() {
   uint open = control.status == kStatusRunning ? control.count[kCountNext] : 0u;
@@ -28,13 +27,15 @@ uint remaining() {
 
 float upper_bound() {
   if (control.wave == 0u || control.root_cursor < control.face_count) return 3.0e38;
-  uint bits = max(max(control.maximum[kMaxDropped], control.maximum[kMaxSpilled]), control.maximum[kMaxNext]);
+  uint bits = max(max(control.maximum[kMaxDropped], control.maximum[kMaxSpilled]),
+                  control.maximum[kMaxNext]);
   return uintBitsToFloat(bits);
 }
 
 void main() {
   Witness w = control.witness;
-  float lower = max(next_down(uintBitsToFloat(lower_bits[0])) - 2.0 * witness_slack(w) - kTiny, 0.0);
+  float lower =
+      max(next_down(uintBitsToFloat(lower_bits[0])) - 2.0 * witness_slack(w) - kTiny, 0.0);
   report.lower = lower;
   report.upper = max(upper_bound(), lower);
   report.status = control.status;
@@ -44,7 +45,8 @@ void main() {
   report.remaining = remaining();
   // The last recorded wave is only closed by the plan after it: its work is added here.
   uint candidates = control.status == kStatusRunning ? 4u * control.parents + control.roots : 0u;
-  uint queries = control.status == kStatusRunning ? 3u * control.parents + control.count[kCountSurvivors] : 0u;
+  uint queries =
+      control.status == kStatusRunning ? 3u * control.parents + control.count[kCountSurvivors] : 0u;
   report.candidate_total = control.candidate_total + candidates;
   report.query_total = control.query_total + queries;
   report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);

@@ -1,4 +1,5 @@
-// What: writes the seed's witness into the control block. One invocation. In: control.witness_point from seed_witness.
+// What: writes the seed's witness into the control block. One invocation. In: control.witness_point
+// from seed_witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,8 +15,8 @@ void main() {
   uint face = control.witness_point / 3u;  // uncertified: integers
   uint corner = control.witness_point % 3u;
   uint vertex = faces[face][corner];
-  control.witness = Witness(vertices[vertex].hi, uintBitsToFloat(control.maximum[kMaxLower]), face,
-                            corner == 1u ? kBaryOne : 0u, corner == 2u ? kBaryOne : 0u,
-                            vertex_nearest[vertex]);
+  control.witness =
+      Witness(vertices[vertex].hi, uintBitsToFloat(control.maximum[kMaxLower]), face,
+              corner == 1u ? kBaryOne : 0u, corner == 2u ? kBaryOne : 0u, vertex_nearest[vertex]);
   control.witness_point = kNone;
 }

@@ -1,5 +1,6 @@
-// What: marks the vertices of A that a face uses. Unreferenced vertices are no part of a mesh and must not raise the lower
-// bound. In: faces. Out: vertex_nearest[v] = kNone - 1 for every used v (all others keep kNone).
+// What: marks the vertices of A that a face uses. Unreferenced vertices are no part of a mesh and
+// must not raise the lower bound. In: faces. Out: vertex_nearest[v] = kNone - 1 for every used v
+// (all others keep kNone).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
 // What: the closest triangle of B to each vertex of A, and the first lower bound.
-// In: vertices; vertex_nearest from seed_mark. Out: vertex_nearest, vertex_distance; control.maximum[kMaxLower].
+// In: vertices; vertex_nearest from seed_mark. Out: vertex_nearest, vertex_distance;
+// control.maximum[kMaxLower].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

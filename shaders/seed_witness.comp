@@ -1,5 +1,6 @@
-// What: which corner of A is the witness of the first lower bound: the smallest face and corner whose distance is the
-// maximum, so that the choice does not depend on scheduling. Out: control.witness_point = 3 * face + corner.
+// What: which corner of A is the witness of the first lower bound: the smallest face and corner
+// whose distance is the maximum, so that the choice does not depend on scheduling. Out:
+// control.witness_point = 3 * face + corner.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

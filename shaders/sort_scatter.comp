@@ -1,7 +1,8 @@
 // What: moves each key and value to its place for one digit, keeping the order of equal digits.
 // In: keys_in, values_in; counts and totals from sort_scan. Out: keys_out, values_out.
-// Each subgroup owns a contiguous run of the block, so that its own counters, taken round by round, keep the order; lanes of
-// equal digit find each other by ballots. 16-bit counters, two a word: a block has 2048 keys.
+// Each subgroup owns a contiguous run of the block, so that its own counters, taken round by round,
+// keep the order; lanes of equal digit find each other by ballots. 16-bit counters, two a word: a
+// block has 2048 keys.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,8 +21,9 @@ layout(scalar, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(scalar, binding = 5) readonly buffer Totals { uint totals[]; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
-const uint kMaxSubgroups = kSortGroup / 8u;  // uncertified: integers. Subgroups are 8 wide or wider.
-const uint kRow = kSortDigits / 2u;          // uncertified: integers
+const uint kMaxSubgroups =
+    kSortGroup / 8u;                 // uncertified: integers. Subgroups are 8 wide or wider.
+const uint kRow = kSortDigits / 2u;  // uncertified: integers
 shared uint counters[kMaxSubgroups * kRow];
 shared uint digit_base[kSortDigits];
 
@@ -69,18 +71,21 @@ void main() {
   for (uint i = lane; i < kMaxSubgroups * kRow; i += kSortGroup) counters[i] = 0u;
   scan_totals(lane);
   barrier();
-  uint run = block * kSortBlock + gl_SubgroupID * (gl_SubgroupSize * kSortRounds) + gl_SubgroupInvocationID;
+  uint run = block * kSortBlock + gl_SubgroupID * (gl_SubgroupSize * kSortRounds) +
+             gl_SubgroupInvocationID;
   uint rank[kSortRounds];
   for (uint round = 0u; round < kSortRounds; ++round) {
     uint i = run + round * gl_SubgroupSize;
-    // Past the end every key counts as the last digit: such lanes stand after all others and push none of them away.
+    // Past the end every key counts as the last digit: such lanes stand after all others and push
+    // none of them away.
     uint digit = i < push.count ? (keys_in[i] >> push.shift) & 255u : 255u;
     uvec4 peers = peers_of(digit);
     uint leader = subgroupBallotFindLSB(peers);
     uint shift = 16u * (digit & 1u);
     uint before = 0u;
     if (gl_SubgroupInvocationID == leader) {
-      before = atomicAdd(counters[gl_SubgroupID * kRow + (digit >> 1)], subgroupBallotBitCount(peers) << shift);
+      before = atomicAdd(counters[gl_SubgroupID * kRow + (digit >> 1)],
+                         subgroupBallotBitCount(peers) << shift);
     }
     before = (subgroupShuffle(before, leader) >> shift) & 0xffffu;
     rank[round] = before + subgroupBallotExclusiveBitCount(peers);
@@ -95,7 +100,8 @@ void main() {
     if (i >= push.count) break;
     uint key = keys_in[i];
     uint digit = (key >> push.shift) & 255u;
-    uint earlier = (counters[gl_SubgroupID * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
+    uint earlier =
+        (counters[gl_SubgroupID * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
     uint place = digit_base[digit] + counts[digit * push.blocks + block] + earlier + rank[round];
     keys_out[place] = key;
     values_out[place] = values_in[i];

@@ -1,7 +1,8 @@
-// What: the hard half of the cascade, over the wave's survivors: ha with the centroid's triangle, u3 over every pair of known
-// triangles, u4; what is still open enters the next frontier. Culls against the newest lower bound.
-// In: survivors, centroids (queried). Out: frontier's writing half. Every closed child's u is kept (kMaxDropped), every
-// open one's too (kMaxNext). Also finds the wave's witness among the centroids.
+// What: the hard half of the cascade, over the wave's survivors: ha with the centroid's triangle,
+// u3 over every pair of known triangles, u4; what is still open enters the next frontier. Culls
+// against the newest lower bound. In: survivors, centroids (queried). Out: frontier's writing half.
+// Every closed child's u is kept (kMaxDropped), every open one's too (kMaxNext). Also finds the
+// wave's witness among the centroids.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -38,9 +39,10 @@ Surface surface_of(uint triangle, Placement placed) {
   return load_surface(triangle, placed.origin, placed.reach, sharp_distances());
 }
 
-// u3: pairs (i, j) of known triangles. A pair cannot beat the better of its two distances at the worst corner, so most pairs
-// cost three minima.
-void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], Placement placed, float threshold, inout Verdict v) {
+// u3: pairs (i, j) of known triangles. A pair cannot beat the better of its two distances at the
+// worst corner, so most pairs cost three minima.
+void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], Placement placed, float threshold,
+                 inout Verdict v) {
   for (uint i = 1u; i < known.count; ++i) {
     Surface s = surface_of(known.triangle[i], placed);
     for (uint j = 0u; j < i; ++j) {
@@ -53,11 +55,14 @@ void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], Placement placed, floa
   }
 }
 
-// u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the shortest edge.
+// u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the
+// shortest edge.
 Surface closest_point_surface(Two3 corner, uint triangle, Placement placed) {
   Surface s = surface_of(triangle, placed);
   Two3 offset = offset_from(corner, s, closest_point(rounded(corner), s.at));
-  s.a = two_difference(corner, offset);  // its own rounding is under the slack, which counts for this point and for the next
+  s.a = two_difference(
+      corner,
+      offset);  // its own rounding is under the slack, which counts for this point and for the next
   s.b = s.a;
   s.c = s.a;
   s.at = Corners(rounded(s.a), rounded(s.a), rounded(s.a));
@@ -117,7 +122,8 @@ void main() {
   Candidate next;
   if (mine) {
     Point asked = centroids[i];
-    if (asked.distance == uintBitsToFloat(control.maximum[kMaxLower])) atomicMin(control.witness_centroid, i);
+    if (asked.distance == uintBitsToFloat(control.maximum[kMaxLower]))
+      atomicMin(control.witness_centroid, i);
     Child c = load_child(survivors[i]);
     uint centre = (kSwitches & kUseCentroid) != 0u ? asked.nearest : kNone;
     v = bound_child(survivors[i], c, load_root(c.root), centre, threshold);

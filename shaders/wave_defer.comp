@@ -1,5 +1,6 @@
-// What: copies the candidates that this wave does not refine into the next frontier. In: frontier[parents, parents +
-// deferred). Out: frontier's writing half. One that the risen lower bound closes stays behind; its u is kept.
+// What: copies the candidates that this wave does not refine into the next frontier. In:
+// frontier[parents, parents + deferred). Out: frontier's writing half. One that the risen lower
+// bound closes stays behind; its u is kept.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,7 +1,8 @@
-// What: the cheap half of the cascade, over every child of the wave: exact case, u1, u2, ha with the triangles already known.
-// In: the refined candidates, their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
-// its centroid as a query that starts from the best single triangle. Every closed child's u is kept (kMaxDropped).
-// Also finds the wave's witness among the new points.
+// What: the cheap half of the cascade, over every child of the wave: exact case, u1, u2, ha with
+// the triangles already known. In: the refined candidates, their splits and queried points; the
+// admitted faces of A. Out: survivors (codes), and for each its centroid as a query that starts
+// from the best single triangle. Every closed child's u is kept (kMaxDropped). Also finds the
+// wave's witness among the new points.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -31,13 +32,16 @@ layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle
 
 struct Verdict {
   float upper;
-  uint by;         // kCull*
-  uint best;       // triangle of the best ha
+  uint by;    // kCull*
+  uint best;  // triangle of the best ha
 };
 
-// Measures T against the next known triangle: keeps the smallest ha, and the corners' own distances for u1 and u2.
-void measure(Patch t, uint triangle, Placement placed, inout vec3 own, inout Verdict v, inout float ha) {
-  vec3 d = corner_distances(t, load_surface(triangle, placed.origin, placed.reach, sharp_distances()));
+// Measures T against the next known triangle: keeps the smallest ha, and the corners' own distances
+// for u1 and u2.
+void measure(Patch t, uint triangle, Placement placed, inout vec3 own, inout Verdict v,
+             inout float ha) {
+  vec3 d =
+      corner_distances(t, load_surface(triangle, placed.origin, placed.reach, sharp_distances()));
   own = min(own, d);
   float h = bound_single(d);
   if (h < ha) {
@@ -67,7 +71,10 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
     if (k + 1u == own_count) {
       float u1 = round_up(bound_u1(t, own) + shift, 1.0f);
       float u2 = round_up(bound_u2(t, own) + shift, 1.0f);
-      v.by = own_count == 1u ? kCullExact : u1 <= threshold ? kCullU1 : u2 <= threshold ? kCullU2 : kCullHa;
+      v.by = own_count == 1u   ? kCullExact
+             : u1 <= threshold ? kCullU1
+             : u2 <= threshold ? kCullU2
+                               : kCullHa;
       v.upper = min(v.upper, min(u1, u2));
     }
     if (k + 1u >= own_count) v.upper = min(v.upper, round_up(ha + shift, 1.0f));
@@ -78,12 +85,14 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
 void find_witness(uint code) {
   if (is_root(code) || (code & 3u) == 3u) return;
   uint point = 3u * (code >> 2) + (code & 3u);
-  if (points[point].distance == uintBitsToFloat(control.maximum[kMaxLower])) atomicMin(control.witness_point, point);
+  if (points[point].distance == uintBitsToFloat(control.maximum[kMaxLower]))
+    atomicMin(control.witness_point, point);
 }
 
 void main() {
   uint code = item_index();
-  bool mine = code < 4u * control.parents + control.roots && (is_root(code) || splits[code >> 2] != kSplitNone);
+  bool mine = code < 4u * control.parents + control.roots &&
+              (is_root(code) || splits[code >> 2] != kSplitNone);
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));
@@ -101,6 +110,7 @@ void main() {
   uint slot = stream_append(kCountSurvivors, open);
   if (open) {
     survivors[slot] = code;
-    centroids[slot] = Point(centre.hi, v.best, centre.lo, (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0);
+    centroids[slot] =
+        Point(centre.hi, v.best, centre.lo, (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0);
   }
 }

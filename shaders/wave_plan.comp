@@ -1,7 +1,8 @@
-// What: everything that a wave decides as a whole: adopts the last wave's witness, flips the frontier's halves, tests for the
-// end, shares the room out between refined, deferred and newly admitted candidates, writes every indirect size.
-// One invocation. After the end it writes zeros, so that recorded waves cost empty dispatches only.
-// Invariant: deferred + 4 parents + roots <= capacity, so no stream of the wave can overflow.
+// What: everything that a wave decides as a whole: adopts the last wave's witness, flips the
+// frontier's halves, tests for the end, shares the room out between refined, deferred and newly
+// admitted candidates, writes every indirect size. One invocation. After the end it writes zeros,
+// so that recorded waves cost empty dispatches only. Invariant: deferred + 4 parents + roots <=
+// capacity, so no stream of the wave can overflow.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -35,9 +36,11 @@ void close_wave() {
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = 4u * control.parents + control.roots;
   uint queries = 3u * control.parents + control.count[kCountSurvivors];
-  float upper = uintBitsToFloat(max(control.maximum[kMaxNext], max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
-  control.waves[w] = WaveRecord(control.parents, candidates, queries, control.count[kCountSurvivors], control.deferred,
-                                uintBitsToFloat(control.maximum[kMaxLower]), upper);
+  float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
+                                    max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
+  control.waves[w] =
+      WaveRecord(control.parents, candidates, queries, control.count[kCountSurvivors],
+                 control.deferred, uintBitsToFloat(control.maximum[kMaxLower]), upper);
   control.candidate_total += candidates;
   control.query_total += queries;
 }
@@ -65,8 +68,7 @@ void share_room() {
 // All that is left is within the tolerance: what culling would find out with one more wave.
 bool within_tolerance() {
   return control.root_cursor == control.face_count && control.count[kCountFrontier] > 0u &&
-         uintBitsToFloat(control.maximum[kMaxFrontier]) <=
-             cull_threshold(true);
+         uintBitsToFloat(control.maximum[kMaxFrontier]) <= cull_threshold(true);
 }
 
 void end_if_done() {

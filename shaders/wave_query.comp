@@ -1,5 +1,6 @@
-// What: the closest triangle of B to each point of a stream. In: points (the new points, or the centroids), each with a
-// triangle to start from; a negative distance means skip. Out: nearest, distance; control.maximum[kMaxLower].
+// What: the closest triangle of B to each point of a stream. In: points (the new points, or the
+// centroids), each with a triangle to start from; a negative distance means skip. Out: nearest,
+// distance; control.maximum[kMaxLower].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -24,7 +25,8 @@ void main() {
   float d = 0.0;
   if (i < count && points[i].distance >= 0.0) {
     Nearest found = nearest_triangle(points[i].position, points[i].nearest);
-    d = steering_distance(Two3(points[i].position, points[i].position_lo), found.triangle, found.distance2);
+    d = steering_distance(Two3(points[i].position, points[i].position_lo), found.triangle,
+                          found.distance2);
     points[i].nearest = found.triangle;
     points[i].distance = d;
   }

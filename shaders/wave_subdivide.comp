@@ -1,7 +1,8 @@
 // What: chooses each refined candidate's split and writes its three new points as queries.
-// Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1 -> 4.
-// In: frontier[0, parents). Out: splits; points[3 i + k], started from the best triangle known to the candidate.
-// A candidate that the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
+// Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1
+// -> 4. In: frontier[0, parents). Out: splits; points[3 i + k], started from the best triangle
+// known to the candidate. A candidate that the risen lower bound closes, or that is too small to be
+// decided, gets kSplitNone; its u is kept.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -54,7 +55,7 @@ void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
     Two3 p = place(root, corner_of(six.fresh, k));
     // A negative distance tells the query to skip the point.
     points[3u * i + k] = split == kSplitNone ? Point(p.hi, kNone, p.lo, -1.0)
-                                                : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
+                                             : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
   }
 }
 
@@ -67,7 +68,8 @@ void main() {
   if (mine) {
     Bary3 at = unpack_corners(c.corners);
     Root root = load_root(c.root);
-    // Where the candidate is this small and still open, it is rounding that holds its u up: no split helps.
+    // Where the candidate is this small and still open, it is rounding that holds its u up: no
+    // split helps.
     bool tiny = enclosing_radius_up(place_corners(root, at).at) < 0.03125 * effective_tolerance();
     if (!closed && !tiny) split = choose_split(at, root);
     splits[i] = split;

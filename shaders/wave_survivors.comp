@@ -1,4 +1,5 @@
-// What: the sizes of the wave's second half, once the filter has counted its survivors. One invocation.
+// What: the sizes of the wave's second half, once the filter has counted its survivors. One
+// invocation.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

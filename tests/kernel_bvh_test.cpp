@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "host/round_to_float.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/shapes.h"
 
@@ -43,6 +44,7 @@ std::vector<NamedMesh> awkward_meshes() {
   meshes.push_back({"degenerate", degenerate_faces(7, 300)});
   meshes.push_back({"sphere", icosphere(1.0, 3)});
   meshes.push_back({"large soup", soup(8, 100'003)});
+  meshes.push_back({"soup of float32", in_float32(soup(9, 300))});
   return meshes;
 }
 
@@ -259,16 +261,25 @@ Box box_of(const std::vector<gpu::Triangle>& triangles, uint32_t first, uint32_t
   return box;
 }
 
-void check_triangles(const Mesh& mesh, const std::vector<gpu::Triangle>& triangles) {
+gpu::vec3 low_vertex(const Mesh& mesh, uint32_t v) {
+  const glm::dvec3 low = mesh.vertices[v] - round_to_float(mesh.vertices[v]);
+  return {static_cast<float>(low.x), static_cast<float>(low.y), static_cast<float>(low.z)};
+}
+
+void check_triangles(const Mesh& mesh, const std::vector<gpu::Triangle>& triangles,
+                     const std::vector<gpu::TriangleLow>& lows) {
   std::vector<bool> seen(mesh.faces.size());
   size_t wrong = 0;
-  for (const gpu::Triangle& t : triangles) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const gpu::Triangle& t = triangles[i];
     REQUIRE(t.face < mesh.faces.size());
     wrong += seen[t.face];
     seen[t.face] = true;
     const glm::uvec3& f = mesh.faces[t.face];
     wrong += !same(t.a, vertex(mesh, f.x)) || !same(t.b, vertex(mesh, f.y)) ||
              !same(t.c, vertex(mesh, f.z));
+    wrong += !same(lows[i].a, low_vertex(mesh, f.x)) || !same(lows[i].b, low_vertex(mesh, f.y)) ||
+             !same(lows[i].c, low_vertex(mesh, f.z));
   }
   CHECK(wrong == 0);
 }
@@ -279,7 +290,7 @@ void check_hierarchy(const Mesh& mesh) {
   const auto count = static_cast<uint32_t>(mesh.faces.size());
   const auto nodes = bench.get(built.hierarchy.nodes);
   const auto triangles = bench.get(built.hierarchy.triangles);
-  check_triangles(mesh, triangles);
+  check_triangles(mesh, triangles, bench.get(built.hierarchy.triangle_lows));
   const auto holds = [&](const gpu::vec3& lo, const gpu::vec3& hi, const Box& box) {
     return same(lo, box.lo) && same(hi, box.hi);
   };

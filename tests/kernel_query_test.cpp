@@ -16,9 +16,23 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-Mesh stored(Mesh mesh) {
-  for (glm::dvec3& v : mesh.vertices) v = round_to_float(v);
+/// What the device holds: float32, or the sum of two of them.
+double stored(double x, bool two_float) {
+  const double high = round_to_float(x);
+  return two_float ? high + round_to_float(x - high) : high;
+}
+
+glm::dvec3 stored(const glm::dvec3& p, bool two_float) {
+  return {stored(p.x, two_float), stored(p.y, two_float), stored(p.z, two_float)};
+}
+
+Mesh stored(Mesh mesh, bool two_float) {
+  for (glm::dvec3& v : mesh.vertices) v = stored(v, two_float);
   return mesh;
+}
+
+gpu::vec3 to_float(const glm::dvec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
 glm::dvec3 position(const gpu::vec3& p) { return glm::dvec3(glm::vec3(p.x, p.y, p.z)); }
@@ -33,7 +47,7 @@ struct NamedMesh {
   Mesh mesh;
 };
 
-std::vector<NamedMesh> targets() {
+std::vector<NamedMesh> targets(bool two_float) {
   std::vector<NamedMesh> all;
   for (const uint32_t count : {1u, 2u, 3u, 4u, 5u, 63u, 64u, 65u, 700u})
     all.push_back({"soup", soup(40 + count, count)});
@@ -45,14 +59,14 @@ std::vector<NamedMesh> targets() {
   all.push_back({"degenerate", degenerate_faces(44, 300)});
   all.push_back({"sphere", icosphere(1.0, 3)});
   all.push_back({"flat", square_patch(16, 0.0)});
-  for (NamedMesh& target : all) target.mesh = stored(target.mesh);
+  for (NamedMesh& target : all) target.mesh = stored(target.mesh, two_float);
   return all;
 }
 
 /// Points everywhere, on the mesh's corners and next to its edges and faces.
-std::vector<gpu::vec3> queries(const Mesh& mesh, uint32_t count) {
+std::vector<glm::dvec3> queries(const Mesh& mesh, uint32_t count, bool two_float) {
   Random random(count);
-  std::vector<gpu::vec3> points;
+  std::vector<glm::dvec3> points;
   for (uint32_t i = 0; i < count; ++i) {
     const auto [a, b, c] = corners(mesh, random.below(static_cast<uint32_t>(mesh.faces.size())));
     const double u = random.unit(), v = (1 - u) * random.unit();
@@ -61,24 +75,31 @@ std::vector<gpu::vec3> queries(const Mesh& mesh, uint32_t count) {
     const glm::dvec3 p = i % 4 == 0   ? random.in_cube(1.0)
                          : i % 4 == 1 ? a
                                       : on + away * random.direction();
-    points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    points.push_back(stored(p, two_float));
   }
   return points;
 }
 
-/// A walk's distance may be off by its own arithmetic, and so may the triangle that it prefers:
-/// coordinates are of order 1, so 1e-6 is 8 units in the last place of one.
+/// The walk looks at float32 positions: it may be off by its own arithmetic and may prefer a
+/// triangle that is a little farther. Coordinates are of order 1, so 1e-6 is 8 ulp of one.
 double allowed(double distance) { return 1e-5 * distance + 1e-6; }
 
 void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu::Triangle>& sorted,
-                   uint32_t nearest, float distance) {
+                   uint32_t nearest, float distance, bool two_float) {
   REQUIRE(nearest < sorted.size());
   const double least = point_mesh_distance(p, mesh);
   const auto [a, b, c] = corners(mesh, sorted[nearest].face);
   const double there = point_triangle_distance(p, a, b, c);
   const double found = static_cast<double>(distance);
-  CHECK_MESSAGE(std::abs(found - least) <= allowed(least), found << " for " << least);
   CHECK_MESSAGE(there - least <= allowed(least), "a triangle at " << there << ", not " << least);
+  if (two_float) {
+    // The distance to the triangle found is then taken anew from 48 bits, rounded up.
+    CHECK_MESSAGE(found >= there - 1e-13, found << " for " << there);
+    // A foot that is off sideways by rounding costs little, but next to the surface.
+    CHECK_MESSAGE(found <= std::hypot(there, 1e-6) * (1 + 1e-5), found << " for " << there);
+  } else {
+    CHECK_MESSAGE(std::abs(found - least) <= allowed(least), found << " for " << least);
+  }
 }
 
 // --- wave_query ---
@@ -98,45 +119,59 @@ gpu::Control blank_control() {
   return control;
 }
 
+struct Mode {
+  bool centroids = false, two_float = false;
+};
+
 Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32_t count,
-                     bool centroids) {
+                     Mode mode) {
   Query q;
   q.control = blank_control();
-  q.control.count[gpu::kCountSurvivors] = centroids ? count : 0;
-  q.control.parents = centroids ? 0 : count / 3;
+  q.control.two_float = mode.two_float ? 1 : 0;
+  q.control.count[gpu::kCountSurvivors] = mode.centroids ? count : 0;
+  q.control.parents = mode.centroids ? 0 : count / 3;
   Random random(count);
-  for (const gpu::vec3& p : queries(mesh, count)) {
+  for (const glm::dvec3& p : queries(mesh, count, mode.two_float)) {
     const uint32_t start = random.below(2) == 0 ? gpu::kNone : random.below(h.face_count);
     const bool skipped = q.before.size() % kSkipped == 3;
-    q.before.push_back({p, start, skipped ? -1.0f : 0.0f});
+    q.before.push_back({.position = to_float(p),
+                        .nearest = start,
+                        .position_lo = to_float(p - round_to_float(p)),
+                        .distance = skipped ? -1.0f : 0.0f});
   }
   const auto points = bench.put(q.before);
   const auto control = bench.put(std::vector<gpu::Control>{q.control});
   bench.run([&](Recorder& rec) {
-    rec.run<k::WaveQuery>(
-        {.control = control, .nodes = h.nodes, .triangles = h.triangles, .points = points},
-        gpu::QueryPush{centroids ? 1u : 0u}, Items{count + 100});
+    rec.run<k::WaveQuery>({.control = control,
+                           .nodes = h.nodes,
+                           .triangles = h.triangles,
+                           .points = points,
+                           .triangle_lows = h.triangle_lows},
+                          gpu::QueryPush{mode.centroids ? 1u : 0u}, Items{count + 100});
   });
   q.after = bench.get(points);
   q.control = bench.get(control)[0];
   return q;
 }
 
-void check_wave_query(KernelBench& bench, const Mesh& mesh, uint32_t count, bool centroids) {
+void check_wave_query(KernelBench& bench, const Mesh& mesh, uint32_t count, Mode mode) {
   CAPTURE(count);
+  CAPTURE(mode.two_float);
   const Hierarchy h = build_hierarchy(bench, mesh).hierarchy;
   const auto sorted = bench.get(h.triangles);
-  const Query q = run_wave_query(bench, mesh, h, count, centroids);
+  const Query q = run_wave_query(bench, mesh, h, count, mode);
   float largest = 0;
   for (size_t i = 0; i < count; ++i) {
-    const gpu::Point& p = q.after[i];
-    if (q.before[i].distance < 0) {
-      CHECK(std::memcmp(&p, &q.before[i], sizeof(p)) == 0);
-      continue;
+    gpu::Point p = q.after[i];
+    const gpu::Point& before = q.before[i];
+    if (before.distance >= 0) {
+      check_nearest(position(p.position) + position(p.position_lo), mesh, sorted, p.nearest,
+                    p.distance, mode.two_float);
+      largest = std::max(largest, p.distance);
+      p.nearest = before.nearest;
+      p.distance = before.distance;
     }
-    CHECK(std::memcmp(&p.position, &q.before[i].position, sizeof(p.position)) == 0);
-    check_nearest(position(p.position), mesh, sorted, p.nearest, p.distance);
-    largest = std::max(largest, p.distance);
+    CHECK(std::memcmp(&p, &before, sizeof(p)) == 0);  // nothing else is written
   }
   CHECK(q.control.maximum[gpu::kMaxLower] == std::bit_cast<uint32_t>(largest));
 }
@@ -159,18 +194,19 @@ struct Seeded {
   gpu::Control control;
 };
 
-Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b) {
-  const BenchMesh on = put_mesh(bench, a);
-  const uint32_t vertices = on.view.vertexCount, faces = on.view.faceCount;
+Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b, bool two_float) {
+  const VkhMesh on = put_mesh(bench, a);
+  const uint32_t vertices = on.vertexCount, faces = on.faceCount;
   const auto memory = bench.garbage<uint32_t>(workspace_size(vertices, faces, 64) / 4);
   const Problem p{.vertex_count = vertices,
                   .face_count = faces,
                   .cull_tolerance = 1e-6f,
+                  .two_float = two_float,
                   .b = b,
                   .ws = view_workspace({memory.buffer, 0, memory.size}, bench.context()->limits,
                                        vertices, faces)};
   bench.run([&](Recorder& rec) {
-    record_load(rec, on.view, p.ws.positions, p.ws.faces);
+    record_load(rec, on, p.ws.vertices, p.ws.faces);
     record_seed(rec, p);
   });
   return {bench.get(p.ws.vertex_nearest), bench.get(p.ws.vertex_distance),
@@ -188,11 +224,11 @@ std::pair<uint32_t, uint32_t> first_farthest(const Mesh& a, const std::vector<fl
   return {gpu::kNone, gpu::kNone};
 }
 
-void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b) {
+void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b, bool two_float) {
   CAPTURE(a.faces.size());
   const Hierarchy h = build_hierarchy(bench, b).hierarchy;
   const auto sorted = bench.get(h.triangles);
-  const Seeded seed = run_seed(bench, a, h);
+  const Seeded seed = run_seed(bench, a, h, two_float);
   std::vector<bool> used(a.vertices.size());
   for (const glm::uvec3& f : a.faces) used[f.x] = used[f.y] = used[f.z] = true;
   float largest = 0;
@@ -201,7 +237,7 @@ void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b) {
       CHECK(seed.nearest[v] == gpu::kNone);
       continue;
     }
-    check_nearest(a.vertices[v], b, sorted, seed.nearest[v], seed.distance[v]);
+    check_nearest(a.vertices[v], b, sorted, seed.nearest[v], seed.distance[v], two_float);
     largest = std::max(largest, seed.distance[v]);
   }
   const gpu::Witness& w = seed.control.witness;
@@ -212,47 +248,52 @@ void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b) {
   CHECK(w.j == (corner == 1 ? gpu::kBaryOne : 0));
   CHECK(w.k == (corner == 2 ? gpu::kBaryOne : 0));
   const uint32_t vertex = a.faces[face][static_cast<int>(corner)];
-  CHECK(position(w.position) == a.vertices[vertex]);
+  CHECK(position(w.position) == round_to_float(a.vertices[vertex]));
   CHECK(w.nearest == seed.nearest[vertex]);
 }
 
 }  // namespace
 
 TEST_CASE("wave_query finds the nearest triangle, new points and centroids alike") {
-  for (const auto& [name, mesh] : targets()) {
-    CAPTURE(name);
-    CAPTURE(mesh.faces.size());
-    KernelBench bench;
-    check_wave_query(bench, mesh, 600, false);
-    check_wave_query(bench, mesh, 601, true);
+  for (const bool two_float : {false, true}) {
+    for (const auto& [name, mesh] : targets(two_float)) {
+      CAPTURE(name);
+      CAPTURE(mesh.faces.size());
+      KernelBench bench;
+      check_wave_query(bench, mesh, 600, {.centroids = false, .two_float = two_float});
+      check_wave_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
+    }
   }
 }
 
 TEST_CASE("wave_query at awkward sizes") {
-  const Mesh mesh = stored(soup(50, 100));
+  const Mesh mesh = stored(soup(50, 100), false);
   KernelBench bench;
   for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 2047u, 2048u, 2049u}) {
-    check_wave_query(bench, mesh, count, true);
-    check_wave_query(bench, mesh, count / 3 * 3, false);
+    check_wave_query(bench, mesh, count, {.centroids = true});
+    check_wave_query(bench, mesh, count / 3 * 3, {});
   }
 }
 
 TEST_CASE("the seed queries A's vertices and adopts the farthest") {
-  for (const auto& [name, b] : targets()) {
-    CAPTURE(name);
-    CAPTURE(b.faces.size());
-    KernelBench bench;
-    check_seed(bench, stored(soup(60, 100)), b);
-    check_seed(bench, b, b);
+  for (const bool two_float : {false, true}) {
+    for (const auto& [name, b] : targets(two_float)) {
+      CAPTURE(name);
+      CAPTURE(b.faces.size());
+      KernelBench bench;
+      check_seed(bench, stored(soup(60, 100), two_float), b, two_float);
+      check_seed(bench, b, b, two_float);
+    }
   }
 }
 
 TEST_CASE("the seed at awkward sizes, ties and vertices that no face uses") {
-  const Mesh b = stored(soup(61, 50));
+  const Mesh b = stored(soup(61, 50), false);
   KernelBench bench;
   for (const uint32_t count : {1u, 2u, 21u, 22u, 63u, 64u, 65u, 85u, 86u, 683u})
-    check_seed(bench, stored(soup(count, count)), b);
-  check_seed(bench, with_strays(stored(soup(62, 200))), b);
-  check_seed(bench, coincident(257), b);
-  check_seed(bench, square_patch(16, 0.5), square_patch(3, 0.0));  // all distances are equal
+    check_seed(bench, stored(soup(count, count), false), b, false);
+  check_seed(bench, with_strays(stored(soup(62, 200), false)), b, false);
+  check_seed(bench, coincident(257), b, false);
+  // All distances are equal.
+  check_seed(bench, square_patch(16, 0.5), square_patch(3, 0.0), false);
 }

@@ -1,5 +1,5 @@
-// A candidate's corners: dyadic barycentric integers in its root triangle, so that subdivision is exact.
-// A corner is (j, k): root.a + (j ab + k ac) / kBaryOne.
+// A candidate's corners: dyadic barycentric integers in its root triangle, so that subdivision is
+// exact. A corner is (j, k): root.a + (j ab + k ac) / kBaryOne.
 #ifndef VKH_SHADERS_LIB_BARY_H
 #define VKH_SHADERS_LIB_BARY_H
 
@@ -55,18 +55,20 @@ VKH_FN Root make_root(Two3 a, Two3 b, Two3 c) {
 // A power of two, so that j * kBaryUnit is exact.
 VKH_CONST float kBaryUnit = 9.5367431640625e-7f;  // 2^-20 = 1 / kBaryOne
 
-// A point of the root in the frame of the meshes; off by 8 kUlp2 of the root's coordinates (`reach` of make_placement).
+// A point of the root in the frame of the meshes; off by 8 kUlp2 of the root's coordinates (`reach`
+// of make_placement).
 VKH_FN Two3 place(Root r, uvec2 point) {
-  return two_combination(r.origin, float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit, r.ac);
+  return two_combination(r.origin, float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit,
+                         r.ac);
 }
 
 // A candidate around its first corner.
 struct Placement {
   Two3 origin;
-  Two3 b, c;     // the other corners from the first
-  Corners at;    // rounded; a is 0
-  float slack;   // how far a computed corner, or a cut between two, can lie from the exact one
-  float reach;   // >= the largest coordinate magnitude of the root
+  Two3 b, c;    // the other corners from the first
+  Corners at;   // rounded; a is 0
+  float slack;  // how far a computed corner, or a cut between two, can lie from the exact one
+  float reach;  // >= the largest coordinate magnitude of the root
 };
 
 // From corner to corner along the root's edges: the integers' difference is exact.
@@ -90,17 +92,20 @@ VKH_FN Placement place_corners(Root r, Bary3 t) {
   return p;
 }
 
-// ---- subdivision: 1 -> 4 ----------------------------------------------------------------------------------------
-// A split is a code. 0: midpoints, new point i in the middle of the edge opposite corner i. Otherwise double longest-edge
-// bisection, 1 + x + 3 y + 9 z: bisect the edge opposite corner x (new point 3), then each half at the edge opposite its
-// corner y (new point 4) or z (new point 5). Points 0..2 are the corners.
+// ---- subdivision: 1 -> 4
+// ---------------------------------------------------------------------------------------- A split
+// is a code. 0: midpoints, new point i in the middle of the edge opposite corner i. Otherwise
+// double longest-edge bisection, 1 + x + 3 y + 9 z: bisect the edge opposite corner x (new point
+// 3), then each half at the edge opposite its corner y (new point 4) or z (new point 5). Points
+// 0..2 are the corners.
 
 VKH_CONST uint kSplitMidpoint = 0u;
 VKH_CONST uint kSplitNone = 0xffffffffu;  // not split: closed before its subdivision
 
 VKH_FN uint pick(uvec3 t, uint i) { return i == 0u ? t.x : (i == 1u ? t.y : t.z); }
 
-// One half of triangle t, bisected at the middle m of the edge opposite corner `opposite`. Both halves keep t's orientation.
+// One half of triangle t, bisected at the middle m of the edge opposite corner `opposite`. Both
+// halves keep t's orientation.
 VKH_FN uvec3 bisected(uvec3 t, uint opposite, uint m, uint side) {
   uint a = pick(t, opposite);
   uint b = pick(t, opposite == 2u ? 0u : opposite + 1u);
@@ -179,8 +184,9 @@ VKH_FN bool can_split(Bary3 t, uint split) {
   Bary6 p = split_points(t, split);
   uvec3 all = uvec3(0u, 1u, 2u);
   if (!edge_has_middle(p, all, code % 3u)) return false;
-  return edge_has_middle(p, bisected(all, code % 3u, 3u, 0u), (code / 3u) % 3u) &&  // uncertified: integers
-         edge_has_middle(p, bisected(all, code % 3u, 3u, 1u), code / 9u);           // uncertified: integers
+  return edge_has_middle(p, bisected(all, code % 3u, 3u, 0u),
+                         (code / 3u) % 3u) &&                              // uncertified: integers
+         edge_has_middle(p, bisected(all, code % 3u, 3u, 1u), code / 9u);  // uncertified: integers
 }
 
 VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {
@@ -191,9 +197,11 @@ VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {
   return t;
 }
 
-// A dyadic point next to the centroid; inside the root, and inside t but for the rounding to an integer.
+// A dyadic point next to the centroid; inside the root, and inside t but for the rounding to an
+// integer.
+VKH_FN uint third(uint x) { return x / 3u; }  // uncertified: integers
 VKH_FN uvec2 centroid_of(Bary3 t) {
-  return uvec2((t.a.x + t.b.x + t.c.x) / 3u, (t.a.y + t.b.y + t.c.y) / 3u);  // uncertified: integers
+  return uvec2(third(t.a.x + t.b.x + t.c.x), third(t.a.y + t.b.y + t.c.y));
 }
 
 VKH_LIB_END

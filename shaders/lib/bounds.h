@@ -1,9 +1,10 @@
-// The cascade of upper bounds on h(T, B), cheapest first: exact case, u1, u2, ha, u3, u4 (paper.md Appendix A).
+// The cascade of upper bounds on h(T, B), cheapest first: exact case, u1, u2, ha, u3, u4 (paper.md
+// Appendix A).
 //
-// T is a sub-triangle of A as computed in a local frame, S a triangle of B in the same frame. Each bound holds in exact
-// arithmetic for the computed T; the caller adds position_slack for the distance from it to the exact one.
-// All of them rest on three facts. d(., B) <= d(., S). d(., S) is convex, since S is, so its maximum over a polygon is at a
-// corner. d(., B) is 1-Lipschitz.
+// T is a sub-triangle of A as computed in a local frame, S a triangle of B in the same frame. Each
+// bound holds in exact arithmetic for the computed T; the caller adds position_slack for the
+// distance from it to the exact one. All of them rest on three facts. d(., B) <= d(., S). d(., S)
+// is convex, since S is, so its maximum over a polygon is at a corner. d(., B) is 1-Lipschitz.
 #ifndef VKH_SHADERS_LIB_BOUNDS_H
 #define VKH_SHADERS_LIB_BOUNDS_H
 
@@ -30,15 +31,18 @@ VKH_FN Patch make_patch(Two3 a, Two3 b, Two3 c) {
 
 // d(corner, S) for each corner of T.
 VKH_FN vec3 corner_distances(Patch t, Surface s) {
-  return vec3(surface_distance_up(t.a, s), surface_distance_up(t.b, s), surface_distance_up(t.c, s));
+  return vec3(surface_distance_up(t.a, s), surface_distance_up(t.b, s),
+              surface_distance_up(t.c, s));
 }
 
 VKH_FN float max3(vec3 d) { return max(d.x, max(d.y, d.z)); }
 
-// ha for one S, and the exact case where S is closest to all three corners: h(T, S) = max over the corners (eq. 5, 11).
+// ha for one S, and the exact case where S is closest to all three corners: h(T, S) = max over the
+// corners (eq. 5, 11).
 VKH_FN float bound_single(vec3 d) { return max3(d); }
 
-// u1, the anchor bound (eq. 6): from one corner, the farther of the other two. `d` bounds the corners' distances from B.
+// u1, the anchor bound (eq. 6): from one corner, the farther of the other two. `d` bounds the
+// corners' distances from B.
 VKH_FN float bound_u1(Patch t, vec3 d) {
   float ab = norm_up(t.at.b - t.at.a);
   float bc = norm_up(t.at.c - t.at.b);
@@ -46,8 +50,8 @@ VKH_FN float bound_u1(Patch t, vec3 d) {
   return round_up(min(d.x + max(ab, ca), min(d.y + max(ab, bc), d.z + max(bc, ca))), 3.0f);
 }
 
-// u2 (eq. 7): every point of T is within g of a corner, g the radius of T's smallest enclosing ball. The ball at hand may have
-// another centre; then it is larger, and the bound still holds.
+// u2 (eq. 7): every point of T is within g of a corner, g the radius of T's smallest enclosing
+// ball. The ball at hand may have another centre; then it is larger, and the bound still holds.
 VKH_FN float bound_u2(Patch t, vec3 d) {
   return round_up(enclosing_radius_up(t.at) + max3(d), 2.0f);
 }
@@ -60,19 +64,23 @@ VKH_FN Two3 corner_at(Patch t, uint i) {
   return p;
 }
 
-// One edge of T, from a corner nearer to S to one nearer to R, cut where the distances even out if both were linear. Any cut is
-// right, as both pieces use it; at the cut, the larger of the two distances counts. The cut is off by 6 kUlp2 of T's radius, which
-// is under 2^-41 of the surfaces' slack and of T: placement_slack takes it.
-VKH_FN float cut_distance(Two3 from, Two3 to, float excess_from, float excess_to, Surface s, Surface r) {
+// One edge of T, from a corner nearer to S to one nearer to R, cut where the distances even out if
+// both were linear. Any cut is right, as both pieces use it; at the cut, the larger of the two
+// distances counts. The cut is off by 6 kUlp2 of T's radius, which is under 2^-41 of the surfaces'
+// slack and of T: placement_slack takes it.
+VKH_FN float cut_distance(Two3 from, Two3 to, float excess_from, float excess_to, Surface s,
+                          Surface r) {
   float gap = abs(excess_from) + abs(excess_to);
-  float cut = gap > kTiny ? min(abs(excess_from) / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
+  float cut =
+      gap > kTiny ? min(abs(excess_from) / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
   Two3 none = two(vec3(0.0f, 0.0f, 0.0f));
   Two3 p = two_combination(from, cut, two_difference(to, from), 0.0f, none);
   return max(surface_distance_up(p, s), surface_distance_up(p, r));
 }
 
-// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut in two where its distances from them even out, one piece
-// is measured against S and the other against R. `ds` and `dr` are corner_distances of both.
+// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut in two where its distances
+// from them even out, one piece is measured against S and the other against R. `ds` and `dr` are
+// corner_distances of both.
 VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
   vec3 excess = ds - dr;  // < 0: nearer to S
   bool na = excess.x < 0.0f;

@@ -1,6 +1,6 @@
-// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound (algorithm.md §2.4),
-// and no lower bound rests on it (report_lower.comp visits every triangle), so it needs no rounding analysis.
-// Include after `nodes` and `triangles` are declared.
+// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
+// (algorithm.md §2.4), and no lower bound rests on it (report_lower.comp visits every triangle), so
+// it needs no rounding analysis. Include after `nodes` and `triangles` are declared.
 #ifndef VKH_SHADERS_LIB_BVH_GLSL
 #define VKH_SHADERS_LIB_BVH_GLSL
 
@@ -38,8 +38,8 @@ void try_triangle(vec3 p, uint i, inout Nearest best) {
   if (d2 < best.distance2) best = Nearest(i, d2);
 }
 
-// The triangle closest to p, starting from `start` if that is one. Depth first, near child first; a node is pushed at most
-// once a level, so kStackDepth entries suffice.
+// The triangle closest to p, starting from `start` if that is one. Depth first, near child first; a
+// node is pushed at most once a level, so kStackDepth entries suffice.
 Nearest nearest_triangle(vec3 p, uint start) {
   Nearest best = Nearest(kNone, 3.0e38);
   if (start != kNone) try_triangle(p, start, best);

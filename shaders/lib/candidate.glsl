@@ -1,5 +1,5 @@
-// Candidates in a wave: where they stand in the frontier, their geometry in their root's frame, and what closes them.
-// Include after `control`, `frontier`, `vertices` and `faces` are declared.
+// Candidates in a wave: where they stand in the frontier, their geometry in their root's frame, and
+// what closes them. Include after `control`, `frontier`, `vertices` and `faces` are declared.
 #ifndef VKH_SHADERS_LIB_CANDIDATE_GLSL
 #define VKH_SHADERS_LIB_CANDIDATE_GLSL
 
@@ -11,21 +11,25 @@
 uint reading(uint i) { return control.parity * control.capacity + i; }
 uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
 
-// How far above the lower bound a candidate may be closed. Of the tolerance, 8 ulp of the distance are kept for the certificate
-// of the lower bound; asking for less than 16 ulp would refine the rounding of distances.
+// How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the distance
+// are kept for the certificate of the lower bound; asking for less than 16 ulp would refine the
+// rounding of distances.
 float effective_tolerance() {
   float ulp = kUlp * uintBitsToFloat(control.maximum[kMaxLower]);
-  return max(control.cull_tolerance - 8.0 * ulp, 16.0 * ulp);
+  return max(control.cull_tolerance - 16.0 * ulp, 16.0 * ulp);
 }
 
-// Candidates with u <= this are closed: they can never widen the interval beyond the tolerance. `tolerant` is the switch
-// kUseToleranceCull; without it only what is under the lower bound is closed.
+// Candidates with u <= this are closed: they can never widen the interval beyond the tolerance.
+// `tolerant` is the switch kUseToleranceCull; without it only what is under the lower bound is
+// closed.
 float cull_threshold(bool tolerant) {
   float lower = uintBitsToFloat(control.maximum[kMaxLower]);
   return tolerant ? lower + effective_tolerance() : lower;
 }
 
 // Whether 14 ulp of the distances at hand are more than a twentieth of the tolerance.
-bool sharp_distances() { return 3.0e-5 * uintBitsToFloat(control.maximum[kMaxLower]) > control.cull_tolerance; }
+bool sharp_distances() {
+  return 3.0e-5 * uintBitsToFloat(control.maximum[kMaxLower]) > control.cull_tolerance;
+}
 
 #endif

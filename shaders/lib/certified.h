@@ -1,36 +1,40 @@
 // Outward-rounded float32 arithmetic: the only file that may divide or take a root.
 //
-// The model is the precision table of the Vulkan specification ("Precision and Operation of SPIR-V Instructions"), not
-// one device's behaviour:
+// The model is the precision table of the Vulkan specification ("Precision and Operation of SPIR-V
+// Instructions"), not one device's behaviour:
 //   + - *         correctly rounded, in a direction that is not defined: |fl(x) - x| <= kUlp |x|
 //   /             2.5 ulp for divisors in [2^-126, 2^126]
 //   inversesqrt   2 ulp; sqrt(x) is 1 / inversesqrt(x), so 4.5 ulp and a rounding: under 6 ulp
 //   results below 2^-126 may be flushed to zero
-// One ulp is at most kUlp times the value. A product and a sum may be contracted to one rounding; no bound here needs
-// them not to be, and none needs them to be.
+// One ulp is at most kUlp times the value. A product and a sum may be contracted to one rounding;
+// no bound here needs them not to be, and none needs them to be.
 #ifndef VKH_SHADERS_LIB_CERTIFIED_H
 #define VKH_SHADERS_LIB_CERTIFIED_H
 
-#include "shaders/lib/glsl.h"
+#include "shaders/lib/two_float.h"
 
 VKH_LIB_BEGIN
 
 VKH_CONST float kUlp = 1.1920929e-7f;  // 2^-23
 
-// Absorbs every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that are added in one
-// formula stay under this. Coordinates are of order 1 (host/frame.h), so it is 2^-40 of an ulp.
+// Absorbs every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that
+// are added in one formula stay under this. Coordinates are of order 1 (host/frame.h), so it is
+// 2^-40 of an ulp.
 VKH_CONST float kTiny = 8.6736174e-19f;  // 2^-60
 
-// Denominators under this are squares of lengths under 2^-48, far below an ulp of the coordinates: such an edge is
-// treated as a point. It also keeps quotients under 2^49, so that no product of them overflows.
+// Denominators under this are squares of lengths under 2^-48, far below an ulp of the coordinates:
+// such an edge is treated as a point. It also keeps quotients under 2^49, so that no product of
+// them overflows.
 VKH_CONST float kSmallSquare = 1.2621774e-29f;  // 2^-96
 
-// Smallest float that is sure to be >= x for x >= 0 with a relative error of up to n * kUlp (n <= 64); the product's own
-// rounding and the flush are included.
+// Smallest float that is sure to be >= x for x >= 0 with a relative error of up to n * kUlp (n <=
+// 64); the product's own rounding and the flush are included.
 VKH_FN float round_up(float x, float n) { return x * (1.0f + (n + 2.0f) * kUlp) + kTiny; }
 
 // Likewise <= x, and never below 0.
-VKH_FN float round_down(float x, float n) { return max(x * (1.0f - (n + 2.0f) * kUlp) - kTiny, 0.0f); }
+VKH_FN float round_down(float x, float n) {
+  return max(x * (1.0f - (n + 2.0f) * kUlp) - kTiny, 0.0f);
+}
 
 // >= sqrt(x) for x >= 0 that is itself >= the square that is meant (see dot_up).
 VKH_FN float sqrt_up(float x) { return round_up(sqrt(x), 6.0f); }
@@ -38,20 +42,46 @@ VKH_FN float sqrt_up(float x) { return round_up(sqrt(x), 6.0f); }
 // <= sqrt(x), likewise.
 VKH_FN float sqrt_down(float x) { return round_down(sqrt(x), 6.0f); }
 
-// >= |v|. Three products and two sums: 3 ulp on the square, so under 2 on the root, whose own error sqrt_up covers.
+// >= |v|. Three products and two sums: 3 ulp on the square, so under 2 on the root, whose own error
+// sqrt_up covers.
 VKH_FN float norm_up(vec3 v) { return round_up(sqrt(dot(v, v)), 8.0f); }
 
 // <= |v|.
 VKH_FN float norm_down(vec3 v) { return round_down(sqrt(dot(v, v)), 8.0f); }
 
-// A float above x and one below it, for x >= 0: the neighbours where x is normal; around 0, where results may be flushed, kTiny
-// above and 0 below.
-VKH_FN float next_up(float x) { return x > kTiny ? uintBitsToFloat(floatBitsToUint(x) + 1u) : 2.0f * kTiny; }
-VKH_FN float next_down(float x) { return x > kTiny ? uintBitsToFloat(floatBitsToUint(x) - 1u) : 0.0f; }
+// A float above x and one below it, for x >= 0: the neighbours where x is normal; around 0, where
+// results may be flushed, kTiny above and 0 below.
+VKH_FN float next_up(float x) {
+  return x > kTiny ? uintBitsToFloat(floatBitsToUint(x) + 1u) : 2.0f * kTiny;
+}
+VKH_FN float next_down(float x) {
+  return x > kTiny ? uintBitsToFloat(floatBitsToUint(x) - 1u) : 0.0f;
+}
 
-// a / b where b is a square, 0 where b is too small to mean anything. Not certified: a quotient only places a point, and
-// any point in its range is right.
+// a / b where b is a square, 0 where b is too small to mean anything. Not certified: a quotient
+// only places a point, and any point in its range is right.
 VKH_FN float ratio(float a, float b) { return b > kSmallSquare ? a / b : 0.0f; }
+
+// >= |v|, within 4 ulp. From s near sqrt(x), sqrt(x) = sqrt(s^2 + e) <= s + e / (2 s) for either
+// sign of e: the root's own error only enters through e, which is taken to 48 bits. The dot
+// product's 8 kUlp2 are under one ulp by far.
+VKH_FN float sharp_norm_up(Two3 v) {
+  Two x = two_dot(v, v);
+  float s = sqrt(x.hi);
+  if (s < 1e-15f) return norm_up(v.hi) + norm_up(v.lo);
+  Two square = two_product(s, s);
+  float e = ((x.hi - square.hi) - square.lo) + x.lo;
+  return next_up(next_up(s + 0.5f * ratio(e, s)));
+}
+
+// <= a / b for a > 0 and b >= 2^-50, within 4 ulp: the quotient's own error is taken out by its
+// remainder.
+VKH_FN float quotient_down(float a, float b) {
+  float q = a / b;
+  Two back = two_product(q, b);
+  float remainder = (a - back.hi) - back.lo;
+  return max(next_down(next_down(q + remainder / b)) - kTiny, 0.0f);
+}
 
 VKH_LIB_END
 #endif

@@ -1,10 +1,12 @@
-// A child in a wave: one of the four of a refined candidate, or a face of A admitted whole. Children are not stored: a code
-// names them, and this page derives their corners and the triangles of B that are known to be near.
-// Include after lib/candidate.glsl, lib/bvh.glsl and the wave's buffers.
+// A child in a wave: one of the four of a refined candidate, or a face of A admitted whole.
+// Children are not stored: a code names them, and this page derives their corners and the triangles
+// of B that are known to be near. Include after lib/candidate.glsl, lib/bvh.glsl and the wave's
+// buffers.
 #ifndef VKH_SHADERS_LIB_CHILD_GLSL
 #define VKH_SHADERS_LIB_CHILD_GLSL
 
-// At most: three own, three more of the parent's six points, the parent's centroid, the child's own centroid.
+// At most: three own, three more of the parent's six points, the parent's centroid, the child's own
+// centroid.
 const uint kMaxKnown = 8u;
 
 struct Child {

@@ -1,7 +1,8 @@
 // A lower bound on the distance from a point to a triangle that holds in exact arithmetic.
 //
-// For any direction r, d(p, S) >= min over the corners s of S of (p - s).r / |r|: the plane through the corner that is
-// farthest along r separates p from S. So directions may come from anywhere; only this quotient is rounded with care.
+// For any direction r, d(p, S) >= min over the corners s of S of (p - s).r / |r|: the plane through
+// the corner that is farthest along r separates p from S. So directions may come from anywhere;
+// only this quotient is rounded with care.
 #ifndef VKH_SHADERS_LIB_LOWER_H
 #define VKH_SHADERS_LIB_LOWER_H
 
@@ -16,7 +17,8 @@ VKH_FN float separation_down(float reach, vec3 r) {
   return quotient_down(reach, length_up);
 }
 
-// In plain floats, p at the origin: off by 3 ulp of |s| |r| and an ulp of |s| for its own rounding. Good to 1e-6 of S's size.
+// In plain floats, p at the origin: off by 3 ulp of |s| |r| and an ulp of |s| for its own rounding.
+// Good to 1e-6 of S's size.
 VKH_FN float coarse_distance_down(Surface s, vec3 r) {
   float farthest = min(dot(-s.at.a, r), min(dot(-s.at.b, r), dot(-s.at.c, r)));
   float off = round_up(4.25f * kUlp * radius_up(s.at) * norm_up(r) + s.slack * norm_up(r), 8.0f);
@@ -37,8 +39,8 @@ VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool both) {
   return correction;
 }
 
-// The offset made orthogonal, to 48 bits: the second correction is of the order of an ulp of r, so that its own rounding does
-// not matter.
+// The offset made orthogonal, to 48 bits: the second correction is of the order of an ulp of r, so
+// that its own rounding does not matter.
 VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool both) {
   Two3 r = two(offset);
   r.hi = r.hi - orthogonal_correction(r, u, v, both);
@@ -48,7 +50,8 @@ VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool both) {
 
 // The bound for a direction of 48 bits, to 48 bits of S's size and an ulp of the distance.
 VKH_FN float fine_separation_down(Surface s, Two3 r) {
-  float farthest = min(-rounded(two_dot(s.a, r)), min(-rounded(two_dot(s.b, r)), -rounded(two_dot(s.c, r))));
+  float farthest =
+      min(-rounded(two_dot(s.a, r)), min(-rounded(two_dot(s.b, r)), -rounded(two_dot(s.c, r))));
   float length = sharp_norm_up(r);
   if (!(farthest > 0.0f) || length < 1e-15f) return 0.0f;
   float off = round_up((9.0f * kUlp2 * radius_up(s.at) + s.slack) * length, 8.0f);
@@ -56,8 +59,9 @@ VKH_FN float fine_separation_down(Surface s, Two3 r) {
   return reach > 0.0f ? quotient_down(reach, length) : 0.0f;
 }
 
-// <= d(origin, S). A corner is separated along the offset, an edge by what is orthogonal to it, the inside by the normal; where
-// the closest point lies next to a border, rounding may have named the wrong one, so all are tried.
+// <= d(origin, S). A corner is separated along the offset, an edge by what is orthogonal to it, the
+// inside by the normal; where the closest point lies next to a border, rounding may have named the
+// wrong one, so all are tried.
 VKH_FN float fine_distance_down(Surface s, Closest c) {
   vec3 offset = rounded(offset_from(two(vec3(0.0f, 0.0f, 0.0f)), s, c));
   Two3 ab = two_difference(s.b, s.a);
@@ -70,7 +74,8 @@ VKH_FN float fine_distance_down(Surface s, Closest c) {
   return max(best, fine_separation_down(s, orthogonal(offset, bc, ac, false)));
 }
 
-// <= d(origin, S). Precise only where it has to be: a triangle that is farther than `enough` by plain floats stays at that.
+// <= d(origin, S). Precise only where it has to be: a triangle that is farther than `enough` by
+// plain floats stays at that.
 VKH_FN float triangle_distance_down(Surface s, float enough) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float coarse = coarse_distance_down(s, c.offset);

@@ -22,7 +22,9 @@ VKH_FN uint morton30(vec3 p) {
 }
 
 // Bits whose unsigned order is the order of the floats they come from, and back.
-VKH_FN uint ordered_bits(uint bits) { return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u; }
+VKH_FN uint ordered_bits(uint bits) {
+  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
 VKH_FN uint from_ordered_bits(uint key) {
   return (key & 0x80000000u) != 0u ? key & 0x7fffffffu : ~key;
 }

@@ -12,13 +12,15 @@ Surface load_surface(uint i, Two3 origin, float reach, bool sharp) {
     low.b = triangle_lows[i].b;
     low.c = triangle_lows[i].c;
   }
-  return make_surface(Two3(triangles[i].a, low.a), Two3(triangles[i].b, low.b), Two3(triangles[i].c, low.c), origin,
-                      reach, sharp);
+  return make_surface(Two3(triangles[i].a, low.a), Two3(triangles[i].b, low.b),
+                      Two3(triangles[i].c, low.c), origin, reach, sharp);
 }
 
-// The distance of p from triangle i for steering: where the meshes have low parts, a float32 position is not good enough.
+// The distance of p from triangle i for steering: where the meshes have low parts, a float32
+// position is not good enough.
 float steering_distance(Two3 p, uint i, float distance2) {
-  if (control.two_float == 0u) return sqrt(distance2);  // uncertified: steers; the report certifies the witness
+  if (control.two_float == 0u)
+    return sqrt(distance2);  // uncertified: steers; the report certifies the witness
   Surface s = load_surface(i, p, 1.0, true);
   return surface_distance_up(two(vec3(0.0)), s);
 }

@@ -2,7 +2,7 @@
 #ifndef VKH_SHADERS_LIB_TRIANGLE_H
 #define VKH_SHADERS_LIB_TRIANGLE_H
 
-#include "shaders/lib/two_float.h"
+#include "shaders/lib/certified.h"
 
 VKH_LIB_BEGIN
 
@@ -10,9 +10,10 @@ struct Corners {
   vec3 a, b, c;
 };
 
-// The closest point found on a triangle, as base + v (end - base) + w (c - base): base is a, or b on edge bc; end is b, or c on
-// edges ac and bc; w is 0 on an edge. 0 <= v, w and v + w <= 1 hold exactly, so the point lies in the triangle whatever
-// rounding did to v and w, and its distance bounds d(p, S) from above.
+// The closest point found on a triangle, as base + v (end - base) + w (c - base): base is a, or b
+// on edge bc; end is b, or c on edges ac and bc; w is 0 on an edge. 0 <= v, w and v + w <= 1 hold
+// exactly, so the point lies in the triangle whatever rounding did to v and w, and its distance
+// bounds d(p, S) from above.
 struct Closest {
   vec3 offset;  // from the point to p, in plain floats: steers
   float distance2;
@@ -40,9 +41,10 @@ VKH_FN Closest closest_on_edge(vec3 from_start, vec3 edge, float t, uint feature
   return c;
 }
 
-// All three edges are tried, and the interior in the orthogonal frame (ab, h) with h the altitude from ab to c: Gram-Schmidt
-// is backward stable, so a needle or a cap costs a few ulp of its longest edge, where the normal equations would lose a
-// factor (longest edge / altitude)^2. Degenerate triangles fall to their edges or to a point.
+// All three edges are tried, and the interior in the orthogonal frame (ab, h) with h the altitude
+// from ab to c: Gram-Schmidt is backward stable, so a needle or a cap costs a few ulp of its
+// longest edge, where the normal equations would lose a factor (longest edge / altitude)^2.
+// Degenerate triangles fall to their edges or to a point.
 VKH_FN Closest closest_point(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -76,17 +78,19 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
 // Largest distance of a corner from the local origin.
 VKH_FN float radius_up(Corners t) { return max(norm_up(t.a), max(norm_up(t.b), norm_up(t.c))); }
 
-// A triangle of B around a local origin near the points that it is measured from: its corners to 48 bits, and rounded to
-// find the closest point with.
+// A triangle of B around a local origin near the points that it is measured from: its corners to 48
+// bits, and rounded to find the closest point with.
 struct Surface {
   Two3 a, b, c;
   Corners at;
   float slack;  // what offset_from leaves out: see make_surface
-  bool sharp;   // whether a distance's own rounding matters, so that it is taken to 4 ulp instead of 14
+  bool sharp;  // whether a distance's own rounding matters, so that it is taken to 4 ulp instead of
+               // 14
 };
 
-// `reach` >= the largest coordinate magnitude of origin and corners, so that the corners are off by 2 kUlp2 reach each.
-// offset_from then adds: two edges (2 kUlp2 of their ends, at most 4 reach), the combination (4 kUlp2 of at most 5 radius and p).
+// `reach` >= the largest coordinate magnitude of origin and corners, so that the corners are off by
+// 2 kUlp2 reach each. offset_from then adds: two edges (2 kUlp2 of their ends, at most 4 reach),
+// the combination (4 kUlp2 of at most 5 radius and p).
 VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, Two3 origin, float reach, bool sharp) {
   Surface s;
   s.sharp = sharp;
@@ -141,8 +145,8 @@ VKH_FN uint opposite_longest(Corners t) {
   return lb >= lc ? 1u : 2u;
 }
 
-// Radius of a ball that holds t, around the circumcentre of an acute triangle or the middle of the longest edge of another
-// (paper eq. 8). The centre may be off: the radius is measured from it.
+// Radius of a ball that holds t, around the circumcentre of an acute triangle or the middle of the
+// longest edge of another (paper eq. 8). The centre may be off: the radius is measured from it.
 VKH_FN float enclosing_radius_up(Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -160,7 +164,8 @@ VKH_FN float enclosing_radius_up(Corners t) {
     centre = opposite == 0u ? 0.5f * (ab + ac) : (opposite == 1u ? 0.5f * ac : 0.5f * ab);
   }
   float r = max(norm_up(centre), max(norm_up(ab - centre), norm_up(ac - centre)));
-  // ab and ac are off by an ulp each of themselves, the differences by one of theirs, and |ab|, |ac| <= 2 r.
+  // ab and ac are off by an ulp each of themselves, the differences by one of theirs, and |ab|,
+  // |ac| <= 2 r.
   return round_up(r, 6.0f);
 }
 

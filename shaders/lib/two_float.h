@@ -1,12 +1,14 @@
-// Two-float arithmetic, outward-rounded where it says so; it may divide and take a root as certified.h may. An unevaluated sum hi + lo of two floats holds about 48 bits (Dekker 1971; Knuth's TwoSum).
+// Two-float arithmetic, outward-rounded where it says so; it may divide and take a root as
+// certified.h may. An unevaluated sum hi + lo of two floats holds about 48 bits (Dekker 1971;
+// Knuth's TwoSum).
 //
-// No step relies on fma: lavapipe's is not fused, and a contracted product is only more accurate. Where + and - round to
-// nearest, two_sum and two_product are exact; where they round in another direction, they are off by at most
-// kUlp2 / 2 of their operands, and so they are taken to be.
+// No step relies on fma: lavapipe's is not fused, and a contracted product is only more accurate.
+// Where + and - round to nearest, two_sum and two_product are exact; where they round in another
+// direction, they are off by at most kUlp2 / 2 of their operands, and so they are taken to be.
 #ifndef VKH_SHADERS_LIB_TWO_FLOAT_H
 #define VKH_SHADERS_LIB_TWO_FLOAT_H
 
-#include "shaders/lib/certified.h"
+#include "shaders/lib/glsl.h"
 
 VKH_LIB_BEGIN
 
@@ -106,25 +108,6 @@ VKH_FN Two two_dot(Two3 a, Two3 b) {
 }
 
 VKH_FN float rounded(Two a) { return a.hi + a.lo; }
-
-// >= |v|, within 4 ulp. From s near sqrt(x), sqrt(x) = sqrt(s^2 + e) <= s + e / (2 s) for either sign of e: the root's own error only
-// enters through e, which is taken to 48 bits. The dot product's 8 kUlp2 are under one ulp by far.
-VKH_FN float sharp_norm_up(Two3 v) {
-  Two x = two_dot(v, v);
-  float s = sqrt(x.hi);
-  if (s < 1e-15f) return norm_up(v.hi) + norm_up(v.lo);
-  Two square = two_product(s, s);
-  float e = ((x.hi - square.hi) - square.lo) + x.lo;
-  return next_up(next_up(s + 0.5f * ratio(e, s)));
-}
-
-// <= a / b for a > 0 and b >= 2^-50, within 4 ulp: the quotient's own error is taken out by its remainder.
-VKH_FN float quotient_down(float a, float b) {
-  float q = a / b;
-  Two back = two_product(q, b);
-  float remainder = (a - back.hi) - back.lo;
-  return max(next_down(next_down(q + remainder / b)) - kTiny, 0.0f);
-}
 
 VKH_FN vec3 rounded(Two3 a) { return a.hi + a.lo; }
 

@@ -1,11 +1,12 @@
-// Adopting the wave's best sample as witness. Include after `control`, `frontier`, `splits`, `points`, `survivors` and
-// `centroids` are declared and lib/child.glsl is included; call it from one invocation, before the wave's streams are
-// overwritten.
+// Adopting the wave's best sample as witness. Include after `control`, `frontier`, `splits`,
+// `points`, `survivors` and `centroids` are declared and lib/child.glsl is included; call it from
+// one invocation, before the wave's streams are overwritten.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
 void adopt(Point sample_point, uint root, uvec2 at) {
-  control.witness = Witness(sample_point.position, sample_point.distance, root, at.x, at.y, sample_point.nearest);
+  control.witness =
+      Witness(sample_point.position, sample_point.distance, root, at.x, at.y, sample_point.nearest);
 }
 
 void adopt_witness() {

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/round_to_float.h"
+
 namespace vkh::test {
 namespace {
 
@@ -93,35 +95,39 @@ void KernelBench::run(const std::function<void(Recorder&)>& record) {
   check_guards();
 }
 
-BenchMesh put_mesh(KernelBench& bench, const Mesh& mesh) {
-  std::vector<float> positions;
+VkhMesh put_mesh(KernelBench& bench, const Mesh& mesh) {
+  std::vector<float> high, low;
+  bool has_low = false;
   for (const glm::dvec3& v : mesh.vertices) {
-    for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(v[i]));
+    for (int i = 0; i < 3; ++i) {
+      const double rounded = round_to_float(v[i]);
+      high.push_back(static_cast<float>(rounded));
+      low.push_back(static_cast<float>(v[i] - rounded));
+      has_low = has_low || low.back() != 0;
+    }
   }
   std::vector<uint32_t> corners;
   for (const glm::uvec3& f : mesh.faces) corners.insert(corners.end(), {f.x, f.y, f.z});
-  BenchMesh on{bench.put(positions), bench.put(corners), {}};
-  on.view = {on.vertices.buffer,
-             0,
-             12,
-             static_cast<uint32_t>(mesh.vertices.size()),
-             on.indices.buffer,
-             0,
-             VK_INDEX_TYPE_UINT32,
-             static_cast<uint32_t>(mesh.faces.size())};
-  return on;
+  return {.vertexBuffer = bench.put(high).buffer,
+          .vertexOffset = 0,
+          .vertexStride = 12,
+          .vertexCount = static_cast<uint32_t>(mesh.vertices.size()),
+          .indexBuffer = bench.put(corners).buffer,
+          .indexOffset = 0,
+          .indexType = VK_INDEX_TYPE_UINT32,
+          .faceCount = static_cast<uint32_t>(mesh.faces.size()),
+          .vertexLowBuffer = has_low ? bench.put(low).buffer : VK_NULL_HANDLE,
+          .vertexLowOffset = 0};
 }
 
 BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh) {
-  const BenchMesh b = put_mesh(bench, mesh);
-  const uint32_t faces = b.view.faceCount;
+  const VkhMesh b = put_mesh(bench, mesh);
+  const uint32_t faces = b.faceCount;
   const Slice<uint32_t> kept = bench.garbage<uint32_t>(hierarchy_size(faces) / 4);
-  const Slice<uint32_t> spare =
-      bench.garbage<uint32_t>(scratch_size(b.view.vertexCount, faces) / 4);
-  const BuiltHierarchy built{
-      view_hierarchy({{kept.buffer, 0, kept.size}, faces}),
-      view_scratch({spare.buffer, 0, spare.size}, b.view.vertexCount, faces)};
-  bench.run([&](Recorder& rec) { record_build(rec, b.view, built.scratch, built.hierarchy); });
+  const Slice<uint32_t> spare = bench.garbage<uint32_t>(scratch_size(b.vertexCount, faces) / 4);
+  const BuiltHierarchy built{view_hierarchy({{kept.buffer, 0, kept.size}, faces}),
+                             view_scratch({spare.buffer, 0, spare.size}, b.vertexCount, faces)};
+  bench.run([&](Recorder& rec) { record_build(rec, b, built.scratch, built.hierarchy); });
   return built;
 }
 

@@ -68,13 +68,8 @@ class KernelBench {
   std::vector<Buffer> buffers_;
 };
 
-/// A mesh on the bench, rounded to float32.
-struct BenchMesh {
-  Slice<float> vertices;
-  Slice<uint32_t> indices;
-  VkhMesh view{};
-};
-BenchMesh put_mesh(KernelBench& bench, const Mesh& mesh);
+/// A mesh on the bench, with low parts if a coordinate is no float32.
+VkhMesh put_mesh(KernelBench& bench, const Mesh& mesh);
 
 /// The hierarchy of a mesh, built; the scratch as the build left it.
 struct BuiltHierarchy {

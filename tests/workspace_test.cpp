@@ -1,0 +1,235 @@
+// Budgets: memory, waves, time, the caller's patience, switches. Whatever ends a run, its interval
+// is true.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "host/error.h"
+#include "host/solver.h"
+#include "tests/support/kernel_bench.h"
+#include "tests/support/reference_solver.h"
+#include "tests/support/shapes.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+Solver& solver() {
+  static Solver one(test_device());
+  return one;
+}
+
+Interval interval(const Report& r) { return {r.lower, r.upper}; }
+
+struct Pair {
+  std::string name;
+  Mesh a, b;
+  Interval exact;  ///< to 1e-9
+};
+
+Pair with_reference(std::string name, Mesh a, Mesh b) {
+  const Interval exact = reference_hausdorff(a, b, 1e-9);
+  return {std::move(name), std::move(a), std::move(b), exact};
+}
+
+/// Pairs that need several waves.
+const std::vector<Pair>& pairs() {
+  static const std::vector<Pair> all = {
+      with_reference("spheres", icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})),
+      with_reference("V", v_lid(), v_sheet()),
+      with_reference("twin", height_field(24, 1), height_field(24, 3)),
+      with_reference("soups", soup(1, 60), soup(2, 80)),
+      with_reference("plane above a bumpy field", big_plane(1.0, 0.3), height_field(12, 1))};
+  return all;
+}
+
+SolveOptions with_memory(uint64_t bytes) {
+  SolveOptions options;
+  options.memory_bytes = bytes;
+  return options;
+}
+
+SolveOptions with_waves(uint32_t limit) {
+  SolveOptions options;
+  options.wave_limit = limit;
+  return options;
+}
+
+SolveOptions without(std::vector<std::string> switches) {
+  SolveOptions options;
+  options.disabled = std::move(switches);
+  options.wave_limit = 200;
+  return options;
+}
+
+Report check_true(const Pair& pair, const SolveOptions& options) {
+  const Report r = solver().distance(pair.a, pair.b, options);
+  CAPTURE(pair.name);
+  CAPTURE(status_name(r.status));
+  CAPTURE(r.lower);
+  CAPTURE(r.upper);
+  CAPTURE(r.waves);
+  CHECK(r.lower <= r.upper);
+  CHECK(interval(r).meets(pair.exact));
+  if (r.status == Status::kClosed) CHECK(r.upper - r.lower <= r.tolerance);
+  return r;
+}
+
+}  // namespace
+
+// --- Memory ---
+
+TEST_CASE("the interval is true in the smallest workspace") {
+  for (const Pair& pair : pairs()) {
+    for (const uint64_t bytes : {uint64_t{1}, uint64_t{64} << 10, uint64_t{256} << 10,
+                                 uint64_t{1} << 20, uint64_t{16} << 20}) {
+      CAPTURE(bytes);
+      const Report r = check_true(pair, with_memory(bytes));
+      CHECK((r.status == Status::kClosed || r.status == Status::kMemory));
+      CHECK(std::isfinite(r.upper));
+      CHECK(r.workspace_bytes >= bytes);  // raised to the least that works, never cut
+    }
+  }
+}
+
+TEST_CASE("a small workspace after a large one, and the other way round") {
+  const Pair& pair = pairs()[2];
+  const Report large = check_true(pair, {});
+  check_true(pair, with_memory(1));
+  const Report again = check_true(pair, {});
+  CHECK(again.lower == large.lower);
+  CHECK(again.upper == large.upper);
+}
+
+TEST_CASE("sizes and views agree for every capacity") {
+  KernelBench bench;
+  const Limits& limits = bench.context()->limits;
+  for (const uint32_t vertices : {1u, 3u, 1000u, 100'000u}) {
+    for (const uint32_t faces : {1u, 2u, 65u, 200'000u}) {
+      for (const uint32_t capacity : {64u, 65u, 1000u, 12'345u, 1u << 20}) {
+        const VkDeviceSize bytes = workspace_size(vertices, faces, capacity);
+        CHECK(capacity_for(limits, vertices, faces, bytes) >= capacity);
+        CHECK(capacity_for(limits, vertices, faces, bytes - 256) < capacity + 64);
+        const Workspace ws = view_workspace({VK_NULL_HANDLE, 512, bytes}, limits, vertices, faces);
+        CHECK(ws.lower_bits.offset + ws.lower_bits.size <= 512 + bytes);
+        CHECK(ws.frontier.size == 2ull * ws.capacity * sizeof(gpu::Candidate));
+        CHECK(ws.points.size >= 3ull * (ws.capacity / 4) * sizeof(gpu::Point));
+        CHECK(ws.frontier.offset % 256 == 0);
+        CHECK(ws.dispatches.offset % 4 == 0);
+      }
+    }
+  }
+  CHECK(capacity_for(limits, 1000, 1000, 100) == 0);  // not even the fixed streams
+}
+
+TEST_CASE("no binding of a workspace exceeds what the device can bind") {
+  KernelBench bench;
+  const Limits& limits = bench.context()->limits;
+  const uint32_t capacity = largest_capacity(limits);
+  const VkDeviceSize bytes = workspace_size(1, 1, capacity);
+  const Workspace ws = view_workspace({VK_NULL_HANDLE, 0, bytes}, limits, 1, 1);
+  CHECK(ws.capacity == capacity);
+  for (const VkDeviceSize size :
+       {ws.frontier.size, ws.points.size, ws.splits.size, ws.survivors.size, ws.centroids.size})
+    CHECK(size <= limits.storage_range);
+}
+
+TEST_CASE("the pyramid has room for every level") {
+  CHECK(pyramid_size(1) == 0);
+  CHECK(pyramid_size(2) == 1);
+  CHECK(pyramid_size(16) == 1);
+  CHECK(pyramid_size(17) == 3);
+  CHECK(pyramid_size(256) == 17);
+  CHECK(pyramid_size(257) == 17 + 2 + 1);
+}
+
+// --- Waves and time ---
+
+TEST_CASE("after every wave the interval holds the distance, and never widens") {
+  for (const Pair& pair : pairs()) {
+    Interval last{0, INFINITY};
+    uint32_t waves = 0;
+    for (uint32_t limit = 1; limit <= 40; ++limit) {
+      const Report r = check_true(pair, with_waves(limit));
+      CAPTURE(pair.name);
+      CAPTURE(limit);
+      CHECK((r.status == Status::kClosed || r.status == Status::kWaves));
+      // Bounds of a later wave are taken from finer candidates, and rounding may cost a little.
+      CHECK(r.lower >= last.lower - 1e-9);
+      CHECK(r.upper <= last.upper + 1e-9);
+      CHECK(r.waves >= waves);
+      last = interval(r);
+      waves = r.waves;
+      if (r.status == Status::kClosed) break;
+    }
+    CHECK(last.upper - last.lower <= 1e-6 * diagonal(pair.a));
+  }
+}
+
+TEST_CASE("no time at all still gives a true interval") {
+  for (const Pair& pair : pairs()) {
+    SolveOptions options;
+    options.time_limit_s = 0;
+    const Report r = check_true(pair, options);
+    CHECK((r.status == Status::kClosed || r.status == Status::kTime));
+  }
+}
+
+TEST_CASE("a caller who cancels gets the interval so far") {
+  for (const Pair& pair : pairs()) {
+    int calls = 0;
+    SolveOptions options;
+    options.progress = [&](const Progress&) { return ++calls < 1; };
+    const Report r = check_true(pair, options);
+    CHECK((r.status == Status::kClosed || r.status == Status::kCancelled));
+    CHECK(calls <= 1);
+    if (r.status == Status::kCancelled) CHECK(calls == 1);
+  }
+}
+
+TEST_CASE("progress tells of intervals that are true and shrink") {
+  // Little memory: many waves, so that there are many submissions.
+  for (const Pair& pair : pairs()) {
+    Interval last{0, INFINITY};
+    uint32_t waves = 0;
+    SolveOptions options = with_memory(64 << 10);
+    options.progress = [&](const Progress& p) {
+      CHECK(p.wave > waves);
+      CHECK(Interval{p.lower, p.upper}.meets(pair.exact));
+      CHECK(p.lower >= last.lower - 1e-9);
+      CHECK(p.upper <= last.upper + 1e-9);
+      CHECK(p.gap >= 0);
+      last = {p.lower, p.upper};
+      waves = p.wave;
+      return true;
+    };
+    const Report r = check_true(pair, options);
+    CHECK(r.waves >= waves);
+  }
+}
+
+// --- Switches ---
+
+TEST_CASE("each switch off gives a true interval") {
+  CHECK(switch_names().size() == 7);
+  for (const Pair& pair : pairs()) {
+    for (const std::string& name : switch_names()) {
+      CAPTURE(name);
+      const Report r = check_true(pair, without({name}));
+      CHECK(r.switched_off == std::vector<std::string>{name});
+    }
+    check_true(pair, without(switch_names()));
+  }
+}
+
+TEST_CASE("an unknown switch is refused by its name") {
+  const Pair& pair = pairs()[1];
+  try {
+    solver().distance(pair.a, pair.b, without({"u3", "u9"}));
+    FAIL("accepted");
+  } catch (const UsageError& error) {
+    CHECK(std::string(error.what()).find("'u9'") != std::string::npos);
+  }
+}
