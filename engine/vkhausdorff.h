@@ -61,7 +61,9 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_PAIRS = 16,         /* u3, the pairwise split bound */
   VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
-  VKH_SWITCH_ALL = 127
+  VKH_SWITCH_ALL = 127,
+  VKH_SWITCH_DEFAULT = 127 - 32 /* all but u4, which decides no candidate that u3 over all pairs
+                                   leaves: measured, 0 of 400,000 */
 } VkhSwitchBits;
 
 /* The caller's device. `device` may be null for vkhQuerySupport. */

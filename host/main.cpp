@@ -39,7 +39,7 @@ enum ExitCode {
 struct Arguments {
   std::string file_a, file_b;
   std::string tolerance = "1e-6", device, memory, time, waves;
-  std::vector<std::string> disabled;
+  std::vector<std::string> enabled, disabled;
   bool json = false, verbose = false, symmetric = false;
   std::string json_file;  ///< empty: JSON goes to stdout
 };
@@ -115,6 +115,7 @@ Request understand(const Arguments& arguments) {
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
   check_switches(arguments.disabled);
+  options.enabled = arguments.enabled;
   options.disabled = arguments.disabled;
   for (const std::string& input : {arguments.file_a, arguments.file_b}) {
     std::error_code none;
@@ -270,6 +271,10 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
           "Print one JSON object instead of the table, or beside it into FILE")
       ->type_name("[FILE]")
       ->expected(0, 1);
+  command
+      .add_option("--enable", arguments.enabled, "Switch on parts that are off by default: u4")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       .add_option("--disable", arguments.disabled, "Switch off parts of the method, by name: a,b")
       ->delimiter(',')

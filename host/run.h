@@ -19,7 +19,7 @@ struct RunInput {
   const Frame* frame = nullptr;
   const Mesh* a = nullptr;
   const Mesh* b = nullptr;
-  uint32_t switches = VKH_SWITCH_ALL;
+  uint32_t switches = VKH_SWITCH_DEFAULT;
   uint64_t memory_bytes = 0;  ///< 0: recommended
   float cull_tolerance = 0;
   bool two_float = false;

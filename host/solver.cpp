@@ -39,14 +39,17 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-uint32_t switches_without(const std::vector<std::string>& disabled) {
-  uint32_t on = VKH_SWITCH_ALL;
-  for (const std::string& name : disabled) {
-    const auto* found = std::find_if(std::begin(kSwitches), std::end(kSwitches),
-                                     [&](const auto& s) { return name == s.first; });
-    if (found == std::end(kSwitches)) throw UsageError("no switch is called '" + name + "'");
-    on &= ~found->second;
+uint32_t switch_bit(const std::string& name) {
+  for (const auto& [known, bit] : kSwitches) {
+    if (name == known) return bit;
   }
+  throw UsageError("no switch is called '" + name + "'");
+}
+
+uint32_t switches_of(const SolveOptions& options) {
+  uint32_t on = VKH_SWITCH_DEFAULT;
+  for (const std::string& name : options.enabled) on |= switch_bit(name);
+  for (const std::string& name : options.disabled) on &= ~switch_bit(name);
   return on;
 }
 
@@ -174,7 +177,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
   const auto start = Clock::now();
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw UsageError("the tolerance must be positive and finite");
-  const uint32_t switches = switches_without(options.disabled);
+  const uint32_t switches = switches_of(options);
   const Frame frame = make_frame(a, b);
   Report out;
   out.diagonal_a = diagonal(bounding_box(a));
@@ -208,7 +211,9 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
   out.mesh_a = a.counts;
   out.mesh_b = b.counts;
   out.workspace_bytes = run.workspace_bytes;
-  out.switched_off = options.disabled;
+  for (const auto& [name, bit] : kSwitches) {
+    if ((switches & bit) == 0) out.switched_off.emplace_back(name);
+  }
   fill_counts(run.report, frame, out);
   fill_stages(run, out);
   fill_witness(run.report, a, b, out);

@@ -28,6 +28,7 @@ struct SolveOptions {
   double time_limit_s = std::numeric_limits<double>::infinity();
   uint32_t wave_limit = std::numeric_limits<uint32_t>::max();
   uint64_t memory_bytes = 0;          ///< workspace; 0: chosen from the meshes and the device
+  std::vector<std::string> enabled;   ///< switch names; u4 is off otherwise
   std::vector<std::string> disabled;  ///< switch names, see switch_names()
   std::function<bool(const Progress&)>
       progress;  ///< return false to cancel; the interval so far is returned

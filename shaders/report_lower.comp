@@ -29,8 +29,7 @@ void main() {
   Witness w = control.witness;
   Root root = load_root(w.root);
   Two3 p = place(root, uvec2(w.j, w.k));
-  float reach = norm_up(root.origin.hi) + norm_up(root.ab.hi) + norm_up(root.ac.hi);
-  Surface s = load_surface(i, p, reach, true);
+  Surface s = load_surface(i, view_from(p));
   // A triangle farther than the steering distance by a margin does not decide the minimum.
   float d = subgroupMin(triangle_distance_down(s, 1.0001 * w.distance));
   if (subgroupElect()) atomicMin(lower_bits[0], floatBitsToUint(d));

@@ -35,21 +35,17 @@ struct Verdict {
   uint by;  // kCull*
 };
 
-Surface surface_of(uint triangle, Placement placed) {
-  return load_surface(triangle, placed.origin, placed.reach, sharp_distances());
-}
-
 // u3: pairs (i, j) of known triangles. A pair cannot beat the better of its two distances at the
 // worst corner, so most pairs cost three minima.
-void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], Placement placed, float threshold,
+void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], View view, float shift, float threshold,
                  inout Verdict v) {
   for (uint i = 1u; i < known.count; ++i) {
-    Surface s = surface_of(known.triangle[i], placed);
+    Surface s = load_surface(known.triangle[i], view);
     for (uint j = 0u; j < i; ++j) {
       if (v.upper <= threshold) return;
-      if (max3(min(d[i], d[j])) + placed.slack >= v.upper) continue;
-      Surface r = surface_of(known.triangle[j], placed);
-      float u3 = round_up(bound_pair(t, s, d[i], r, d[j]) + placed.slack, 1.0f);
+      if (max3(min(d[i], d[j])) + shift >= v.upper) continue;
+      Surface r = load_surface(known.triangle[j], view);
+      float u3 = round_up(bound_pair(t, s, d[i], r, d[j]) + shift, 1.0f);
       if (u3 < v.upper) v = Verdict(u3, kCullU3);
     }
   }
@@ -57,8 +53,8 @@ void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], Placement placed, floa
 
 // u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the
 // shortest edge.
-Surface closest_point_surface(Two3 corner, uint triangle, Placement placed) {
-  Surface s = surface_of(triangle, placed);
+Surface closest_point_surface(Two3 corner, uint triangle, View view) {
+  Surface s = load_surface(triangle, view);
   Two3 offset = offset_from(corner, s, closest_point(rounded(corner), s.at));
   s.a = two_difference(
       corner,
@@ -70,17 +66,17 @@ Surface closest_point_surface(Two3 corner, uint triangle, Placement placed) {
   return s;
 }
 
-void bound_u4(Patch t, uvec3 nearest, Placement placed, inout Verdict v) {
+void bound_u4(Patch t, uvec3 nearest, View view, float shift, inout Verdict v) {
   uint opposite = opposite_longest(Corners(t.at.a, t.at.b, t.at.c));
   Surface s[3];
-  s[0] = closest_point_surface(t.a, nearest.x, placed);
-  s[1] = closest_point_surface(t.b, nearest.y, placed);
-  s[2] = closest_point_surface(t.c, nearest.z, placed);
+  s[0] = closest_point_surface(t.a, nearest.x, view);
+  s[1] = closest_point_surface(t.b, nearest.y, view);
+  s[2] = closest_point_surface(t.c, nearest.z, view);
   for (uint k = 0u; k < 3u; ++k) {
     if (k == opposite) continue;
     vec3 da = corner_distances(t, s[opposite]);
     vec3 db = corner_distances(t, s[k]);
-    float u4 = round_up(bound_pair(t, s[opposite], da, s[k], db) + placed.slack, 1.0f);
+    float u4 = round_up(bound_pair(t, s[opposite], da, s[k], db) + shift, 1.0f);
     if (u4 < v.upper) v = Verdict(u4, kCullU4);
   }
 }
@@ -88,6 +84,7 @@ void bound_u4(Patch t, uvec3 nearest, Placement placed, inout Verdict v) {
 Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold) {
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
+  View view = view_of(placed);
   float shift = placed.slack;
   Known known;
   known.count = 0u;
@@ -101,7 +98,7 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   vec3 d[kMaxKnown];
   vec3 own = vec3(3.0e38);
   for (uint k = 0u; k < known.count; ++k) {
-    d[k] = corner_distances(t, surface_of(known.triangle[k], placed));
+    d[k] = corner_distances(t, load_surface(known.triangle[k], view));
     own = min(own, d[k]);
     float ha = round_up(bound_single(d[k]) + shift, 1.0f);
     if (ha < v.upper) v = Verdict(ha, kCullHa);
@@ -109,8 +106,8 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   float simple = round_up(min(bound_u1(t, own), bound_u2(t, own)) + shift, 1.0f);
   if (simple < v.upper) v = Verdict(simple, kCullU2);
   if (v.upper <= threshold) return v;
-  if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, placed, threshold, v);
-  if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, placed, v);
+  if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, view, shift, threshold, v);
+  if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, view, shift, v);
   return v;
 }
 

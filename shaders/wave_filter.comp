@@ -38,10 +38,8 @@ struct Verdict {
 
 // Measures T against the next known triangle: keeps the smallest ha, and the corners' own distances
 // for u1 and u2.
-void measure(Patch t, uint triangle, Placement placed, inout vec3 own, inout Verdict v,
-             inout float ha) {
-  vec3 d =
-      corner_distances(t, load_surface(triangle, placed.origin, placed.reach, sharp_distances()));
+void measure(Patch t, uint triangle, View view, inout vec3 own, inout Verdict v, inout float ha) {
+  vec3 d = corner_distances(t, load_surface(triangle, view));
   own = min(own, d);
   float h = bound_single(d);
   if (h < ha) {
@@ -53,6 +51,7 @@ void measure(Patch t, uint triangle, Placement placed, inout vec3 own, inout Ver
 Verdict filter_child(uint code, Child c, Root root, float threshold) {
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
+  View view = view_of(placed);
   float shift = placed.slack;
   Known known;
   known.count = 0u;
@@ -67,7 +66,7 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
   float ha = 3.0e38;
   for (uint k = 0u; k < known.count; ++k) {
     if (k == own_count && v.upper <= threshold) return v;
-    measure(t, known.triangle[k], placed, own, v, ha);
+    measure(t, known.triangle[k], view, own, v, ha);
     if (k + 1u == own_count) {
       float u1 = round_up(bound_u1(t, own) + shift, 1.0f);
       float u2 = round_up(bound_u2(t, own) + shift, 1.0f);

@@ -27,9 +27,12 @@ float cull_threshold(bool tolerant) {
   return tolerant ? lower + effective_tolerance() : lower;
 }
 
-// Whether 14 ulp of the distances at hand are more than a twentieth of the tolerance.
-bool sharp_distances() {
-  return 3.0e-5 * uintBitsToFloat(control.maximum[kMaxLower]) > control.cull_tolerance;
+// How a candidate's surfaces are measured: sharply where 14 ulp of the distances at hand are more
+// than a twentieth of the tolerance. (Plain floats for small surfaces were tried and did not pay:
+// bunny and 79741 within 1 % on lavapipe.)
+View view_of(Placement placed) {
+  float lower = uintBitsToFloat(control.maximum[kMaxLower]);
+  return View(placed.origin, placed.reach, 3.0e-5 * lower > control.cull_tolerance);
 }
 
 #endif

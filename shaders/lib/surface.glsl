@@ -5,7 +5,7 @@
 
 #include "shaders/lib/triangle.h"
 
-Surface load_surface(uint i, Two3 origin, float reach, bool sharp) {
+Surface load_surface(uint i, View from) {
   TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
   if (control.two_float != 0u) {
     low.a = triangle_lows[i].a;
@@ -13,16 +13,18 @@ Surface load_surface(uint i, Two3 origin, float reach, bool sharp) {
     low.c = triangle_lows[i].c;
   }
   return make_surface(Two3(triangles[i].a, low.a), Two3(triangles[i].b, low.b),
-                      Two3(triangles[i].c, low.c), origin, reach, sharp);
+                      Two3(triangles[i].c, low.c), from);
 }
+
+// To measure one point from, as precisely as it goes.
+View view_from(Two3 p) { return View(p, norm_up(p.hi), true); }
 
 // The distance of p from triangle i for steering: where the meshes have low parts, a float32
 // position is not good enough.
 float steering_distance(Two3 p, uint i, float distance2) {
   if (control.two_float == 0u)
     return sqrt(distance2);  // uncertified: steers; the report certifies the witness
-  Surface s = load_surface(i, p, 1.0, true);
-  return surface_distance_up(two(vec3(0.0)), s);
+  return surface_distance_up(two(vec3(0.0)), load_surface(i, view_from(p)));
 }
 
 #endif

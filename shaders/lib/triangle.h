@@ -76,35 +76,44 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
 }
 
 // Largest distance of a corner from the local origin.
-VKH_FN float radius_up(Corners t) { return max(norm_up(t.a), max(norm_up(t.b), norm_up(t.c))); }
+VKH_FN float radius_up(Corners t) {
+  float square = max(dot(t.a, t.a), max(dot(t.b, t.b), dot(t.c, t.c)));
+  return round_up(sqrt(square), 8.0f);
+}
 
-// A triangle of B around a local origin near the points that it is measured from: its corners to 48
-// bits, and rounded to find the closest point with.
+// Where a surface is measured from, and how precisely.
+struct View {
+  Two3 origin;  // near the points; they are given relative to it
+  float reach;  // >= |origin|, and >= |p| for every p whose distance will be asked
+  bool sharp;   // a distance's own rounding matters: it is taken to 4 ulp instead of 14
+};
+
+// A triangle of B around a local origin: its corners to 48 bits, and rounded to find the closest
+// point with.
 struct Surface {
   Two3 a, b, c;
   Corners at;
-  float slack;  // what offset_from leaves out: see make_surface
-  bool sharp;  // whether a distance's own rounding matters, so that it is taken to 4 ulp instead of
-               // 14
+  bool sharp;   // as View::sharp
+  float slack;  // what distances leave out: see make_surface
 };
 
-// `reach` >= the largest coordinate magnitude of origin and corners, so that the corners are off by
-// 2 kUlp2 reach each. offset_from then adds: two edges (2 kUlp2 of their ends, at most 4 reach),
-// the combination (4 kUlp2 of at most 5 radius and p).
-VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, Two3 origin, float reach, bool sharp) {
+// In units of kUlp2, R the surface's radius: corners are off by |origin| + |corner| <= 2 reach + R
+// each, and so is a point between them; the edges by 4 R; offset_from's combination by 4 (|p| + 5
+// R), its first term by |p| + R. Together 2 reach + 26 R + 5 |p|.
+VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   Surface s;
-  s.sharp = sharp;
-  s.a = two_difference(a, origin);
-  s.b = two_difference(b, origin);
-  s.c = two_difference(c, origin);
+  s.sharp = from.sharp;
+  s.a = two_difference(a, from.origin);
+  s.b = two_difference(b, from.origin);
+  s.c = two_difference(c, from.origin);
   s.at.a = rounded(s.a);
   s.at.b = rounded(s.b);
   s.at.c = rounded(s.c);
-  s.slack = round_up(kUlp2 * (12.0f * reach + 24.0f * radius_up(s.at)), 4.0f);
+  s.slack = round_up(kUlp2 * (8.0f * from.reach + 28.0f * radius_up(s.at)), 4.0f);
   return s;
 }
 
-// p - q for the point q that `c` names, off by s.slack.
+// p - q for the point q that `c` names, in 48 bits.
 VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
   Two3 base = s.a;
   Two3 end = s.b;
