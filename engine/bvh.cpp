@@ -59,6 +59,7 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& v
 }
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
+  const auto scope = rec.scope("hierarchy");
   const gpu::CountPush count{b.faceCount};
   const Items faces{b.faceCount};
   record_load(rec, b, s.vertices, s.faces);

@@ -28,10 +28,16 @@ namespace vkh {
   X(CmdPipelineBarrier2KHR)     \
   X(CmdWriteTimestamp2KHR)
 
+// Labels for captures; null where the caller has not enabled VK_EXT_debug_utils.
+#define VKH_OPTIONAL_FUNCTIONS(X) \
+  X(CmdBeginDebugUtilsLabelEXT)   \
+  X(CmdEndDebugUtilsLabelEXT)
+
 // No prototypes are linked against: the loader belongs to the caller.
 struct DeviceFunctions {
 #define VKH_DECLARE(name) PFN_vk##name name = nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_DECLARE)
+  VKH_OPTIONAL_FUNCTIONS(VKH_DECLARE)
 #undef VKH_DECLARE
 };
 

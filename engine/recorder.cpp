@@ -50,6 +50,19 @@ void Recorder::barrier() {
   context_.vk.CmdPipelineBarrier2KHR(commands_, &dependency);
 }
 
+void Recorder::begin_label(const char* name) {
+  if (context_.vk.CmdBeginDebugUtilsLabelEXT == nullptr) return;
+  VkDebugUtilsLabelEXT label{};
+  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  label.pLabelName = name;
+  context_.vk.CmdBeginDebugUtilsLabelEXT(commands_, &label);
+}
+
+void Recorder::end_label() {
+  if (context_.vk.CmdEndDebugUtilsLabelEXT != nullptr)
+    context_.vk.CmdEndDebugUtilsLabelEXT(commands_);
+}
+
 void Recorder::stage(const char* name) {
   if (profile_ == nullptr || profile_->count == profile_->capacity) return;
   context_.vk.CmdWriteTimestamp2KHR(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, profile_->pool,

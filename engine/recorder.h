@@ -24,6 +24,19 @@ struct Groups {
 
 class Recorder {
  public:
+  // A label for as long as the object lives: auto scope = rec.scope("wave").
+  class Scope {
+   public:
+    Scope(Recorder& rec, const char* name) : rec_(rec) { rec_.begin_label(name); }
+    ~Scope() { rec_.end_label(); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    Recorder& rec_;
+  };
+  [[nodiscard]] Scope scope(const char* name) { return {*this, name}; }
+
   Recorder(const VkhContext_T& context, VkCommandBuffer commands, VkhProfile* profile);
 
   template <class K>
@@ -56,6 +69,8 @@ class Recorder {
 
  private:
   static constexpr uint32_t kMaxBindings = 16;
+  void begin_label(const char* name);
+  void end_label();
 
   template <class K>
   void bind(const typename K::Args& args, const typename K::Push& push, Order order) {

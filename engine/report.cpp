@@ -4,6 +4,7 @@
 namespace vkh {
 
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
+  const auto scope = rec.scope("report");
   const Workspace& ws = p.ws;
   rec.run<k::ReportBegin>({.control = ws.control,
                            .lower_bits = ws.lower_bits,

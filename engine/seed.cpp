@@ -4,6 +4,7 @@
 namespace vkh {
 
 void record_seed(Recorder& rec, const Problem& p) {
+  const auto scope = rec.scope("seed");
   const Workspace& ws = p.ws;
   const gpu::CountPush vertices{p.vertex_count};
   const gpu::CountPush faces{p.face_count};

@@ -94,6 +94,7 @@ void record_defer(Recorder& rec, const Problem& p) {
 }  // namespace
 
 void record_wave(Recorder& rec, const Problem& p) {
+  const auto scope = rec.scope("wave");
   record_plan(rec, p);
   record_subdivide(rec, p);
   record_query(rec, p, p.ws.points, {.centroids = 0}, gpu::kDispatchQueryPoints);

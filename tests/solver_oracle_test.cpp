@@ -21,7 +21,7 @@ using namespace vkh::test;
 
 uint32_t seed_count() {
   const char* asked = std::getenv("VKH_ORACLE_SEEDS");
-  return asked != nullptr ? static_cast<uint32_t>(std::atoi(asked)) : 3;
+  return asked != nullptr ? static_cast<uint32_t>(std::atoi(asked)) : 2;
 }
 
 using Maker = std::function<Mesh(uint64_t seed)>;
