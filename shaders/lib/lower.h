@@ -45,7 +45,7 @@ VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool both) {
   Two3 r = two(offset);
   r.hi = r.hi - orthogonal_correction(r, u, v, both);
   r.lo = -orthogonal_correction(r, u, v, both);
-  return r;
+  return two_sum(r.hi, r.lo);  // on a sliver the second correction is not small
 }
 
 // The bound for a direction of 48 bits, to 48 bits of S's size and an ulp of the distance.

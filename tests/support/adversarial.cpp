@@ -213,13 +213,11 @@ Stored hard_vector(Random& random, int lo, int hi) {
   return out;
 }
 
-double reach_of(const dvec3& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
 float float_up(double x) {
   const float f = static_cast<float>(round_to_float(x));
   return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
+
+float length_up(const Stored& p) { return float_up(glm::length(p.value()) * (1.0 + 0x1p-50)); }
 
 }  // namespace vkh::test

@@ -64,9 +64,9 @@ float low_part(Random& random, float x);
 /// Three of those, of one scale or of many.
 Stored hard_vector(Random& random, int lo, int hi);
 
-/// The largest coordinate magnitude.
-double reach_of(const glm::dvec3& p);
 /// The smallest float >= x.
 float float_up(double x);
+/// >= |p|, by a double's rounding at most.
+float length_up(const Stored& p);
 
 }  // namespace vkh::test

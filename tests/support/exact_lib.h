@@ -2,8 +2,10 @@
 // that points add without a common denominator to look for.
 #pragma once
 
-#include <bit>
+#include <cstdio>
+#include <cstdlib>
 #include <glm/vec3.hpp>
+#include <string>
 
 #include "tests/support/adversarial.h"
 #include "tests/support/exact.h"
