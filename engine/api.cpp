@@ -30,9 +30,11 @@ bool load_functions(const VkhDeviceInfo& info, DeviceFunctions& vk) {
   complete = complete && vk.name != nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
-#define VKH_LOAD(name)                                                                    \
-  if (complete) vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, "v" \
-                                                                                      "k" #name));
+#define VKH_LOAD(name)                                                    \
+  if (complete)                                                           \
+    vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, \
+                                                             "v"          \
+                                                             "k" #name));
   VKH_OPTIONAL_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
   return complete;

@@ -102,7 +102,8 @@ void vkhDestroyContext(VkhContext context);
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount:
  * indices out of range and coordinates that are not finite are not checked on the GPU and give
  * undefined results. Vertices that no face uses are not part of the mesh. Degenerate faces are
- * segments or points. Both buffers: VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. */
+ * segments or points. Both buffers: VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Indices are read in words
+ * of 4 bytes: with 16-bit indices the buffer must reach to the end of the last index's word. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */

@@ -271,8 +271,7 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
           "Print one JSON object instead of the table, or beside it into FILE")
       ->type_name("[FILE]")
       ->expected(0, 1);
-  command
-      .add_option("--enable", arguments.enabled, "Switch on parts that are off by default: u4")
+  command.add_option("--enable", arguments.enabled, "Switch on parts that are off by default: u4")
       ->delimiter(',')
       ->allow_extra_args(false);
   command

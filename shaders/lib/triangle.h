@@ -56,7 +56,8 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
   vec3 h = ac - s * ab;
   float hh = dot(h, h);
   float x = ratio(dot(ap, ab), ee);
-  float w = ratio(dot(ap - x * ab, h), hh);  // not ap: h is only orthogonal to ab up to an ulp of ac
+  float w =
+      ratio(dot(ap - x * ab, h), hh);  // not ap: h is only orthogonal to ab up to an ulp of ac
   float v = x - w * s;
 
   Closest best = closest_on_edge(ap, ab, x, kEdgeAb);
