@@ -1,7 +1,13 @@
 #include "engine/kernels.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <numeric>
 #include <span>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace vkh {
 namespace {
@@ -79,18 +85,45 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
   return result;
 }
 
+constexpr uint32_t kMostThreads = 8;
+
+// The long ones start first, so that none of them is left to run alone.
+std::array<uint32_t, kKernelCount> costliest_first(
+    const std::array<KernelSource, kKernelCount>& sources) {
+  std::array<uint32_t, kKernelCount> order{};
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
+    return sources[x].words.size() > sources[y].words.size();
+  });
+  return order;
+}
+
 }  // namespace
 
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches) {
   const auto sources = kernel_sources();
-  for (uint32_t i = 0; i < kKernelCount; ++i) {
-    KernelPipeline& kernel = context.kernels[i];
-    VkResult result = create_layouts(context, sources[i], kernel);
-    if (result == VK_SUCCESS)
-      result = create_pipeline(context, sources[i], cache, switches, kernel);
-    if (result != VK_SUCCESS) return result;
+  const auto order = costliest_first(sources);
+  std::atomic<uint32_t> next = 0;
+  std::atomic<VkResult> outcome = VK_SUCCESS;
+  const auto work = [&] {
+    for (uint32_t i = next++; i < kKernelCount && outcome == VK_SUCCESS; i = next++) {
+      KernelPipeline& kernel = context.kernels[order[i]];
+      const KernelSource& source = sources[order[i]];
+      VkResult result = create_layouts(context, source, kernel);
+      if (result == VK_SUCCESS) result = create_pipeline(context, source, cache, switches, kernel);
+      if (result != VK_SUCCESS) outcome = result;
+    }
+  };
+  // Drivers compile here; a pipeline cache is internally synchronized.
+  std::vector<std::thread> helpers;
+  const uint32_t cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  try {
+    for (uint32_t i = 1; i < cores; ++i) helpers.emplace_back(work);
+  } catch (const std::system_error&) {  // no more threads to be had: those there are do it
   }
-  return VK_SUCCESS;
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  return outcome;
 }
 
 void destroy_kernels(VkhContext_T& context) {

@@ -91,8 +91,8 @@ typedef struct VkhContextCreateInfo {
   uint32_t switches;             /* VkhSwitchBits that are on; VKH_SWITCH_ALL is the full method */
 } VkhContextCreateInfo;
 
-/* Creates the pipelines. Nothing of `info` but the handles in `device` is kept; they must outlive
- * the context. */
+/* Creates the pipelines, on up to 8 threads of its own while it runs. Nothing of `info` but the
+ * handles in `device` is kept; they must outlive the context. */
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context);
 /* No command buffer that was recorded with the context may still be pending. Null is fine. */
 void vkhDestroyContext(VkhContext context);

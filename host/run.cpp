@@ -13,8 +13,20 @@ namespace {
 constexpr VkBufferUsageFlags kWorking =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+// Waves of the first submission: enough for most pairs on a GPU; on a CPU one wave can take
+// seconds.
 constexpr uint32_t kFirstWaves = 8;
-constexpr uint32_t kMoreWaves = 8;
+constexpr uint32_t kFirstWavesOnCpu = 2;
+// Later submissions aim at this long, so that budgets and Ctrl-C are heard; an empty wave costs
+// little.
+constexpr double kSubmissionMs = 100;
+constexpr uint32_t kMostWaves = 8;
+
+uint32_t next_waves(uint32_t last, double last_ms) {
+  const double per_wave = std::max(last_ms / last, 1e-3);
+  return static_cast<uint32_t>(
+      std::clamp(kSubmissionMs / per_wave, 1.0, static_cast<double>(kMostWaves)));
+}
 
 double now_ms() {
   using namespace std::chrono;
@@ -146,11 +158,13 @@ RunOutput Runner::run(const RunInput& in) {
   out.upload_ms = now_ms() - start;
   bool first = true;
   bool wanted = true;
+  uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
   do {
+    const double submitted = now_ms();
     const VkCommandBuffer commands = submitter_.begin();
     profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
     if (first) record_start(commands, in);
-    vkhCmdAdvance(context_, commands, &problem_, first ? kFirstWaves : kMoreWaves, &profile_);
+    vkhCmdAdvance(context_, commands, &problem_, waves, &profile_);
     vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, &profile_);
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
     const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
@@ -158,6 +172,7 @@ RunOutput Runner::run(const RunInput& in) {
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
     submit(out);
     first = false;
+    waves = next_waves(waves, now_ms() - submitted);
     wanted = in.advanced(out.report);
   } while (wanted && out.report.status == VKH_STATUS_RUNNING);
   return out;
