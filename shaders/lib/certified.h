@@ -46,6 +46,9 @@ VKH_FN float sqrt_down(float x) { return round_down(sqrt(x), 6.0f); }
 // sqrt_up covers.
 VKH_FN float norm_up(vec3 v) { return round_up(sqrt(dot(v, v)), 8.0f); }
 
+// >= the length whose square is `square`, a dot product of a vector with itself.
+VKH_FN float length_up(float square) { return round_up(sqrt(square), 8.0f); }
+
 // <= |v|.
 VKH_FN float norm_down(vec3 v) { return round_down(sqrt(dot(v, v)), 8.0f); }
 

@@ -78,8 +78,7 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
 
 // Largest distance of a corner from the local origin.
 VKH_FN float radius_up(Corners t) {
-  float square = max(dot(t.a, t.a), max(dot(t.b, t.b), dot(t.c, t.c)));
-  return round_up(sqrt(square), 8.0f);
+  return length_up(max(dot(t.a, t.a), max(dot(t.b, t.b), dot(t.c, t.c))));
 }
 
 // Where a surface is measured from, and how precisely.
