@@ -159,7 +159,10 @@ RunOutput Runner::run(const RunInput& in) {
   bool first = true;
   bool wanted = true;
   uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
+  uint32_t waves_left = std::max(in.wave_limit, 1u);
   do {
+    waves = std::min(waves, waves_left);  // exactly the budget: how they are grouped depends on the
+                                          // clock, the result must not
     const double submitted = now_ms();
     const VkCommandBuffer commands = submitter_.begin();
     profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
@@ -172,9 +175,10 @@ RunOutput Runner::run(const RunInput& in) {
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
     submit(out);
     first = false;
+    waves_left -= waves;
     waves = next_waves(waves, now_ms() - submitted);
     wanted = in.advanced(out.report);
-  } while (wanted && out.report.status == VKH_STATUS_RUNNING);
+  } while (wanted && waves_left > 0 && out.report.status == VKH_STATUS_RUNNING);
   return out;
 }
 

@@ -21,6 +21,7 @@ struct RunInput {
   const Mesh* b = nullptr;
   uint32_t switches = VKH_SWITCH_DEFAULT;
   uint64_t memory_bytes = 0;  ///< 0: recommended
+  uint32_t wave_limit = UINT32_MAX;
   float cull_tolerance = 0;
   bool two_float = false;
   /// Called after each submission with the report so far; false ends the run.

@@ -193,6 +193,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
               .b = &b,
               .switches = switches,
               .memory_bytes = options.memory_bytes,
+              .wave_limit = options.wave_limit,
               .cull_tolerance = static_cast<float>(std::max(spare, kToleranceFloor)),
               .two_float = two_float,
               .advanced = {}};
