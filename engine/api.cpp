@@ -51,7 +51,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
 
 bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize range) {
   return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
-         face_count <= gpu::kMaxTriangles && vertex_count * sizeof(gpu::vec3) <= range &&
+         face_count <= gpu::kMaxTriangles && vertex_count * sizeof(gpu::Vertex) <= range &&
          face_count * sizeof(gpu::Node) <= range;
 }
 
@@ -64,12 +64,17 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
   auto* created = new (std::nothrow) VkhContext_T;
   if (created == nullptr) return VKH_ERROR_PIPELINE;
   created->device = info->device.device;
-  created->limits = vkh::device_limits(info->device);
   if (!vkh::load_functions(info->device, created->vk)) {
     delete created;
     return VKH_ERROR_UNSUPPORTED;
   }
-  if (vkh::create_kernels(*created, info->pipelineCache, info->switches) != VK_SUCCESS) {
+  VkResult result = VK_ERROR_OUT_OF_HOST_MEMORY;
+  try {
+    created->limits = vkh::device_limits(info->device);
+    result = vkh::create_kernels(*created, info->pipelineCache, info->switches);
+  } catch (...) {  // no exception may cross a C interface
+  }
+  if (result != VK_SUCCESS) {
     vkhDestroyContext(created);
     return VKH_ERROR_PIPELINE;
   }
@@ -87,7 +92,7 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
                                       VkhHierarchyRequirements* requirements) {
   if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
-  *requirements = {vkh::hierarchy_size(faceCount), vkh::scratch_size(vertexCount, faceCount)};
+  *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount)};
   return VKH_SUCCESS;
 }
 
@@ -98,7 +103,7 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
   const uint32_t largest = vkh::largest_capacity(context->limits);
   // A frontier is refined whole while four times its length fits; few pairs hold more than 2^18
   // candidates at once.
-  const uint32_t recommended = std::min(largest, std::max(2 * faceCount, 1u << 20));
+  const uint32_t recommended = std::min(largest, std::max(5 * faceCount, 1u << 20));
   *requirements = {vkh::workspace_size(vertexCount, faceCount, vkh::kSmallestCapacity),
                    vkh::workspace_size(vertexCount, faceCount, recommended),
                    vkh::workspace_size(vertexCount, faceCount, largest)};
@@ -108,8 +113,9 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {
   hierarchy->faceCount = mesh->faceCount;
+  hierarchy->vertexCount = mesh->vertexCount;
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_build(rec, *mesh, vkh::view_scratch(*scratch, mesh->vertexCount, mesh->faceCount),
+  vkh::record_build(rec, *mesh, vkh::view_scratch(*scratch, mesh->faceCount),
                     vkh::view_hierarchy(*hierarchy));
 }
 
@@ -117,7 +123,10 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
                  VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem p = vkh::view_problem(*context, *problem);
-  vkh::record_load(rec, problem->a, p.ws.vertices, p.ws.faces);
+  // Without twoFloat, B is measured by its high parts alone: A must be, too.
+  VkhMesh a = problem->a;
+  if (problem->twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
+  vkh::record_load(rec, a, p.ws.vertices, p.ws.faces);
   vkh::record_seed(rec, p);
 }
 

@@ -62,16 +62,16 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   const auto scope = rec.scope("hierarchy");
   const gpu::CountPush count{b.faceCount};
   const Items faces{b.faceCount};
-  record_load(rec, b, s.vertices, s.faces);
+  record_load(rec, b, h.vertices, h.faces);
   const VkDeviceSize half_box = s.centroid_box.size / 2;
   rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset, half_box}, 0xffffffffu,
            Order::kIndependent);
   rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset + half_box, half_box}, 0,
            Order::kIndependent);
-  rec.run<k::BvhBox>({.vertices = s.vertices, .faces = s.faces, .box = s.centroid_box}, count,
+  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = s.centroid_box}, count,
                      faces);
-  rec.run<k::BvhMorton>({.vertices = s.vertices,
-                         .faces = s.faces,
+  rec.run<k::BvhMorton>({.vertices = h.vertices,
+                         .faces = h.faces,
                          .box = s.centroid_box,
                          .keys = s.keys[0],
                          .values = s.values[0]},
@@ -79,8 +79,8 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   rec.stage("morton");
   record_sort(rec, s, b.faceCount);
   rec.stage("sort");
-  rec.run<k::BvhLeaves>({.vertices = s.vertices,
-                         .faces = s.faces,
+  rec.run<k::BvhLeaves>({.vertices = h.vertices,
+                         .faces = h.faces,
                          .values = s.values[0],
                          .triangles = h.triangles,
                          .triangle_lows = h.triangle_lows},

@@ -118,8 +118,9 @@ VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t s
   std::vector<std::thread> helpers;
   const uint32_t cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
   try {
+    helpers.reserve(cores);
     for (uint32_t i = 1; i < cores; ++i) helpers.emplace_back(work);
-  } catch (const std::system_error&) {  // no more threads to be had: those there are do it
+  } catch (...) {  // no more threads to be had: those there are do it
   }
   work();
   for (std::thread& helper : helpers) helper.join();

@@ -18,11 +18,11 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
                            .vertex_nearest = ws.vertex_nearest},
                           {}, Groups{1});
   rec.run<k::ReportLower>({.control = ws.control,
-                           .triangles = p.b.triangles,
+                           .b_vertices = p.b.vertices,
                            .lower_bits = ws.lower_bits,
                            .vertices = ws.vertices,
                            .faces = ws.faces,
-                           .triangle_lows = p.b.triangle_lows},
+                           .b_faces = p.b.faces},
                           gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
   rec.run<k::ReportWrite>({.control = ws.control,
                            .lower_bits = ws.lower_bits,

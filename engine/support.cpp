@@ -119,22 +119,38 @@ const char* const* vkhGetRequiredExtensions(uint32_t* count) {
   return vkh::kExtensions;
 }
 
-VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity) {
-  vkh::DeviceFacts facts;
-  vkh::query_properties(*info, facts);
-  vkh::query_features(*info, facts);
-  vkh::query_extensions(*info, facts);
-  vkh::Reasons why;
-  vkh::check_limits(facts, why);
-  vkh::check_subgroups(facts, why);
+namespace vkh {
+namespace {
+
+std::string reasons_against(const VkhDeviceInfo& info) {
+  if (load<PFN_vkVoidFunction>(info, "vkGetPhysicalDeviceProperties2") == nullptr)
+    return "Vulkan 1.2 is missing";
+  DeviceFacts facts;
+  query_properties(info, facts);
+  query_features(info, facts);
+  query_extensions(info, facts);
+  Reasons why;
+  check_limits(facts, why);
+  check_subgroups(facts, why);
   why.unless(facts.scalar.scalarBlockLayout == VK_TRUE, "scalarBlockLayout is missing");
   why.unless(facts.synchronization.synchronization2 == VK_TRUE, "synchronization2 is missing");
-  for (const char* name : vkh::kExtensions) {
-    why.unless(vkh::has_extension(facts, name), std::string(name) + " is missing");
+  for (const char* name : kExtensions) {
+    why.unless(has_extension(facts, name), std::string(name) + " is missing");
   }
+  return why.text();
+}
+
+}  // namespace
+}  // namespace vkh
+
+VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity) try {
+  const std::string why = vkh::reasons_against(*info);
   if (capacity > 0) {
-    std::strncpy(reasons, why.text().c_str(), capacity);
+    std::strncpy(reasons, why.c_str(), capacity);
     reasons[capacity - 1] = '\0';
   }
-  return why.text().empty() ? VKH_SUCCESS : VKH_ERROR_UNSUPPORTED;
+  return why.empty() ? VKH_SUCCESS : VKH_ERROR_UNSUPPORTED;
+} catch (...) {  // out of host memory: no exception may cross a C interface
+  if (capacity > 0) reasons[0] = '\0';
+  return VKH_ERROR_UNSUPPORTED;
 }

@@ -16,8 +16,8 @@
  *               then as you like:   vkhCmdAdvance (n waves), vkhCmdWriteReport
  *
  * Coordinates should be of order 1: scale by a power of two and move the meshes near the origin
- * first (both are exact or nearly so; h scales along). Lengths under 2^-60 or over 2^60 are outside
- * the error analysis.
+ * first (both are exact or nearly so; h scales along). The error analysis holds for coordinates up
+ * to 2^15; features under 2^-48 are points to it.
  *
  * Threads. A context is immutable and may be used from several threads at once. A command buffer,
  * as always in Vulkan, is recorded by one thread at a time. Two recordings that run at the same
@@ -102,7 +102,8 @@ void vkhDestroyContext(VkhContext context);
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount:
  * indices out of range and coordinates that are not finite are not checked on the GPU and give
  * undefined results. Vertices that no face uses are not part of the mesh. Degenerate faces are
- * segments or points. Both buffers: VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Indices are read in words
+ * segments or points. Both buffers: VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; each range is at most
+ * maxStorageBufferRange. Indices are read in words
  * of 4 bytes: with 16-bit indices the buffer must reach to the end of the last index's word. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
@@ -137,7 +138,8 @@ typedef struct VkhHierarchyRequirements {
 /* B's bounding volume hierarchy: memory that vkhCmdBuildHierarchy has filled. */
 typedef struct VkhHierarchy {
   VkhMemory memory;
-  uint32_t faceCount;
+  uint32_t faceCount;   /* set by the build */
+  uint32_t vertexCount; /* set by the build */
 } VkhHierarchy;
 
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,

@@ -27,17 +27,17 @@ class Suballocator {
   VkDeviceSize used_ = 0;
 };
 
-void list(Suballocator& take, Hierarchy& h, uint32_t face_count) {
+void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
   take(h.nodes, std::max(face_count, 2u) - 1);
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
+  take(h.vertices, vertex_count);
+  take(h.faces, face_count);
   h.face_count = face_count;
 }
 
-void list(Suballocator& take, BuildScratch& s, uint32_t vertex_count, uint32_t face_count) {
+void list(Suballocator& take, BuildScratch& s, uint32_t face_count) {
   const uint64_t blocks = (face_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
-  take(s.vertices, vertex_count);
-  take(s.faces, face_count);
   take(s.centroid_box, 1);
   take(s.pyramid, pyramid_size(face_count));
   for (int side = 0; side < 2; ++side) {
@@ -78,17 +78,17 @@ uint32_t pyramid_size(uint32_t face_count) {
   return boxes;
 }
 
-VkDeviceSize hierarchy_size(uint32_t face_count) {
+VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count) {
   Suballocator count({});
   Hierarchy h;
-  list(count, h, face_count);
+  list(count, h, vertex_count, face_count);
   return count.used();
 }
 
-VkDeviceSize scratch_size(uint32_t vertex_count, uint32_t face_count) {
+VkDeviceSize scratch_size(uint32_t face_count) {
   Suballocator count({});
   BuildScratch s;
-  list(count, s, vertex_count, face_count);
+  list(count, s, face_count);
   return count.used();
 }
 
@@ -118,14 +118,14 @@ uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face
 Hierarchy view_hierarchy(const VkhHierarchy& hierarchy) {
   Suballocator take(hierarchy.memory);
   Hierarchy h;
-  list(take, h, hierarchy.faceCount);
+  list(take, h, hierarchy.vertexCount, hierarchy.faceCount);
   return h;
 }
 
-BuildScratch view_scratch(const VkhMemory& memory, uint32_t vertex_count, uint32_t face_count) {
+BuildScratch view_scratch(const VkhMemory& memory, uint32_t face_count) {
   Suballocator take(memory);
   BuildScratch s;
-  list(take, s, vertex_count, face_count);
+  list(take, s, face_count);
   return s;
 }
 

@@ -182,11 +182,13 @@ uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
 
 }  // namespace
 
-Device::Device(const DeviceRequest& request) : vk_(load_vulkan()) {
+Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   create_instance(request.validation);
   choose(request.selector);
   create_device();
 }
+
+Device::Device(Empty) : vk_(load_vulkan()) {}
 
 Device::~Device() {
   if (device_ != VK_NULL_HANDLE) {

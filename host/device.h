@@ -41,6 +41,9 @@ class Device {
   VkhDeviceInfo engine_info() const;
 
  private:
+  struct Empty {};
+  /// Delegated to, so that what was created is destroyed if a later step throws.
+  explicit Device(Empty);
   void create_instance(bool validation);
   void choose(const std::string& selector);
   void create_device();

@@ -16,22 +16,21 @@ Box join(const Box& x, const Box& y) {
   return joint;
 }
 
-// Largest |coordinate - centre|. Halves are subtracted, so that 1e308 does not overflow.
-double half_reach(const Box& box, const glm::dvec3& centre) {
+// Largest |coordinate - centre|. With the middle for centre it cannot overflow, and subtraction is
+// exact among subnormals.
+double reach_of(const Box& box, const glm::dvec3& centre) {
   double reach = 0;
   for (int i = 0; i < 3; ++i) {
-    reach = std::max(
-        {reach, std::abs(box.lo[i] / 2 - centre[i] / 2), std::abs(box.hi[i] / 2 - centre[i] / 2)});
+    reach = std::max({reach, std::abs(box.lo[i] - centre[i]), std::abs(box.hi[i] - centre[i])});
   }
   return reach;
 }
 
-// 2^exponent brings 2 * half_reach to (1/2, 1].
-int exponent_for(double half) {
-  if (half == 0) return 0;
+// 2^exponent brings the reach to [1/2, 1).
+int exponent_for(double reach) {
   int exponent = 0;
-  const double fraction = std::frexp(half, &exponent);
-  return -(exponent + 1) + (fraction == 0.5 ? 1 : 0);
+  std::frexp(reach, &exponent);
+  return reach == 0 ? 0 : -exponent;
 }
 
 // 2^exponent in two steps: one could leave the range of double on the way.
@@ -54,25 +53,25 @@ double store(double given, double centre, int exponent, float& high, float& low)
 double store_mesh(const Mesh& mesh, Frame& frame, Frame::Stored& stored) {
   stored.high.resize(3 * mesh.vertices.size());
   stored.low.resize(3 * mesh.vertices.size());
-  double worst2 = 0;
+  double worst = 0;
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    double sum2 = 0;
+    double sum = 0;  // of the three coordinates: no less than their Euclidean norm, and it does not
+                     // underflow
     for (int i = 0; i < 3; ++i) {
       const size_t k = 3 * v + static_cast<size_t>(i);
-      const double off = store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored.high[k],
-                               stored.low[k]);
+      sum += store(mesh.vertices[v][i], frame.centre[i], frame.exponent, stored.high[k],
+                   stored.low[k]);
       frame.has_low = frame.has_low || stored.low[k] != 0;
-      sum2 += off * off;
     }
-    worst2 = std::max(worst2, sum2);
+    worst = std::max(worst, sum);
   }
-  return std::sqrt(worst2) * (1 + 0x1p-50);
+  return worst * (1 + 0x1p-50);
 }
 
 Frame frame_around(const Mesh& a, const Mesh& b, const Box& joint, const glm::dvec3& centre) {
   Frame frame;
   frame.centre = centre;
-  frame.exponent = exponent_for(half_reach(joint, centre));
+  frame.exponent = exponent_for(reach_of(joint, centre));
   frame.displacement_a = store_mesh(a, frame, frame.a);
   frame.displacement_b = store_mesh(b, frame, frame.b);
   return frame;
@@ -87,8 +86,8 @@ Box bounding_box(const Mesh& mesh) {
 }
 
 double diagonal(const Box& box) {
-  return 2 * std::hypot(box.hi.x / 2 - box.lo.x / 2, box.hi.y / 2 - box.lo.y / 2,
-                        box.hi.z / 2 - box.lo.z / 2);
+  const glm::dvec3 extent = box.hi - box.lo;
+  return std::hypot(extent.x, extent.y, extent.z);
 }
 
 double Frame::to_frame(double length) const { return scaled(length, exponent); }
@@ -107,10 +106,13 @@ double Frame::length_up(double frame_length) const {
 
 Frame make_frame(const Mesh& a, const Mesh& b) {
   const Box joint = join(bounding_box(a), bounding_box(b));
-  const glm::dvec3 centre = joint.lo / 2.0 + joint.hi / 2.0;
+  // Halved first only where the sum would overflow: a subnormal's half is rounded.
+  const glm::dvec3 sum = joint.lo + joint.hi;
+  const glm::dvec3 centre =
+      std::isfinite(sum.x + sum.y + sum.z) ? sum / 2.0 : joint.lo / 2.0 + joint.hi / 2.0;
   // Around the origin the meshes may use only part of [-1, 1]; a quarter of it costs two bits and
   // is worth being exact.
-  if (half_reach(joint, glm::dvec3(0)) <= 4 * half_reach(joint, centre)) {
+  if (reach_of(joint, glm::dvec3(0)) <= 4 * reach_of(joint, centre)) {
     Frame frame = frame_around(a, b, joint, glm::dvec3(0));
     if (!frame.has_low && frame.displacement() < 0x1p-60) return frame;
   }

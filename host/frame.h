@@ -13,8 +13,7 @@ struct Box {
   glm::dvec3 lo, hi;
 };
 Box bounding_box(const Mesh& mesh);
-double diagonal(const Box& box);  ///< rounded to nearest; overflows and underflows only if the
-                                  ///< diagonal itself does
+double diagonal(const Box& box);  ///< rounded to nearest
 
 /// frame = (given - centre) * 2^exponent, as a sum of two float32, high and low; |frame coordinate|
 /// <= 1.

@@ -38,9 +38,12 @@ uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement
 
 }  // namespace
 
+// Delegating, here and below: what was created is destroyed if a later step throws.
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                Placement placement)
-    : device_(&device), size_(size) {
+    : Buffer() {
+  device_ = &device;
+  size_ = size;
   const VulkanApi& vk = device.vk();
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -54,11 +57,7 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   allocate.allocationSize = requirements.size;
   allocate.memoryTypeIndex = memory_type(device, requirements.memoryTypeBits, placement);
   const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
-  if (result != VK_SUCCESS) {
-    vk.DestroyBuffer(device.handle(), buffer_, nullptr);
-    buffer_ = VK_NULL_HANDLE;
-    check(result, ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
-  }
+  check(result, ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
   check(vk.BindBufferMemory(device.handle(), buffer_, memory_, 0), "binding a buffer");
   if (placement != Placement::kDevice) {
     check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
@@ -86,7 +85,7 @@ void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsage
   buffer = Buffer(device, size, usage, placement);
 }
 
-Submitter::Submitter(const Device& device) : device_(device) {
+Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {
   const VulkanApi& vk = device.vk();
   VkCommandPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;

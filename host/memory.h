@@ -60,6 +60,9 @@ class Submitter {
   std::vector<double> read_timestamps(uint32_t count) const;
 
  private:
+  struct Empty {};
+  Submitter(const Device& device, Empty) : device_(device) {}
+
   const Device& device_;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;

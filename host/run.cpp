@@ -125,7 +125,8 @@ void Runner::place(const RunInput& in, RunOutput& out) {
   grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
   grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
        Placement::kReadback);
-  problem_.b = {{hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount};
+  problem_.b = {
+      {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;

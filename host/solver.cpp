@@ -64,7 +64,9 @@ Interval to_files(const VkhReport& r, const Frame& frame, double joint_diagonal)
   const double moved = std::nextafter(frame.displacement(), infinity);
   const double lower = std::max(0.0, std::nextafter(static_cast<double>(r.lower) - moved, 0.0));
   const double upper = std::nextafter(static_cast<double>(r.upper) + moved, infinity);
-  const double upper_given = std::min(frame.length_up(upper), joint_diagonal * (1 + 0x1p-40));
+  // The joint diagonal is rounded to nearest: a little more is surely above it.
+  const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
+  const double upper_given = std::min(frame.length_up(upper), farthest);
   return {frame.length_down(r.lower > 0 ? lower : 0.0), upper_given};
 }
 
@@ -90,7 +92,8 @@ void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
   out.peak_frontier = r.peakFrontier;
   const uint32_t* c = r.culled;
   out.culled = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
-  const uint32_t recorded = r.waves > 0 ? r.waves - 1 : 0;
+  // The plan after a wave records it.
+  const uint32_t recorded = r.status == VKH_STATUS_RUNNING ? r.waves - 1 : r.waves;
   const uint32_t first = recorded > VKH_MAX_WAVE_RECORDS ? recorded - VKH_MAX_WAVE_RECORDS : 0;
   for (uint32_t w = first; w < recorded; ++w) {
     const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
@@ -194,7 +197,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
               .switches = switches,
               .memory_bytes = options.memory_bytes,
               .wave_limit = options.wave_limit,
-              .cull_tolerance = static_cast<float>(std::max(spare, kToleranceFloor)),
+              .cull_tolerance = static_cast<float>(std::clamp(spare, kToleranceFloor, 1e30)),
               .two_float = two_float,
               .advanced = {}};
   Watch watch{options, frame, out.diagonal_a, joint, start};

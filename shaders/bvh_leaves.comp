@@ -17,7 +17,8 @@ layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 void main() {
   uint i = item_index();
   if (i >= push.count) return;
-  uint face = values[i];
+  // Clamped: whatever the sort did, a triangle is one of B, and upper bounds from it are true.
+  uint face = min(values[i], push.count - 1u);
   uvec3 f = faces[face];
   triangles[i].a = vertices[f.x].hi;
   triangles[i].b = vertices[f.y].hi;

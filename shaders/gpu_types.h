@@ -101,6 +101,11 @@ VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 VKH_CONST uint kSortPasses = 4u;
 
+// Candidates that stay free in the frontier unless a single one is refined: a candidate has at most
+// kBaryBits generations below it, each of which leaves three more than it takes, so 3 * 20 places
+// let one be refined to its end.
+VKH_CONST uint kReserve = 64u;
+
 VKH_CONST uint kMaxWaveRecords = 64u;
 
 // Status codes of the report.
@@ -191,12 +196,12 @@ struct Control {
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
   uint wave;
-  uint status;         // kStatus*
-  uint root_cursor;    // faces of A before this one were admitted
-  uint roots;          // faces of A admitted in this wave
-  uint parents;        // the first `parents` candidates of the frontier are refined in this wave,
-  uint deferred;       // the `deferred` after them are copied
-  uint witness_point;  // smallest index of a new point whose distance is the new lower; kNone
+  uint status;       // kStatus*
+  uint root_cursor;  // faces of A before this one were admitted
+  uint roots;        // faces of A admitted in this wave
+  uint deferred;  // the first `deferred` candidates of the frontier stay as they are in this wave,
+  uint parents;   // the `parents` after them are refined
+  uint witness_point;     // smallest index of a new point whose distance is the new lower; kNone
   uint witness_centroid;  // likewise, of a centroid
   float cull_tolerance;
   uint two_float;  // the meshes have low parts

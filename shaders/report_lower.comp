@@ -1,4 +1,4 @@
-// What: the certified lower bound: the smallest distance of the witness from any triangle of B,
+// What: the certified lower bound: the smallest distance of the witness from any face of B,
 // each rounded down. Every triangle is visited, so nothing rests on the hierarchy or on the walks
 // that found the witness. In: control.witness, triangles. Out: lower_bits[0].
 #version 460
@@ -12,15 +12,21 @@
 
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 1) readonly buffer BVertices { Vertex b_vertices[]; };
 layout(scalar, binding = 2) buffer LowerBits { uint lower_bits[]; };
 layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
-layout(scalar, binding = 5) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 5) readonly buffer BFaces { uvec3 b_faces[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/lib/root.glsl"
-#include "shaders/lib/surface.glsl"
+
+// A corner of B by the parts that the run works with.
+Two3 b_corner(uint v) {
+  Two3 p = two(b_vertices[v].hi);
+  if (control.two_float != 0u) p.lo = b_vertices[v].lo;
+  return p;
+}
 
 void main() {
   // Invocations past the end repeat the last triangle: every one takes part in the subgroup's
@@ -29,7 +35,9 @@ void main() {
   Witness w = control.witness;
   Root root = load_root(w.root);
   Two3 p = place(root, uvec2(w.j, w.k));
-  Surface s = load_surface(i, view_from(p));
+  uvec3 f = b_faces[i];
+  Surface s =
+      make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z), View(p, norm_up(p.hi), true));
   // A triangle farther than the steering distance by a margin does not decide the minimum.
   float d = subgroupMin(triangle_distance_down(s, 1.0001 * w.distance));
   if (subgroupElect()) atomicMin(lower_bits[0], floatBitsToUint(d));

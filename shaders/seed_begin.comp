@@ -29,4 +29,6 @@ void main() {
   control.candidate_total = 0u;
   control.query_total = 0u;
   control.peak_frontier = 0u;
+  for (uint w = 0u; w < kMaxWaveRecords; ++w)
+    control.waves[w] = WaveRecord(0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
 }

@@ -55,14 +55,24 @@ void flip() {
   control.peak_frontier = max(control.peak_frontier, control.count[kCountFrontier]);
 }
 
-// A refined candidate leaves at most four where it was one.
+// A refined candidate leaves at most four where it was one. The last ones are refined and their
+// children stand behind the deferred ones: a stack. While more than the reserve is free, as many as
+// surely fit; else the last one alone, whose descendants fit the reserve (kReserve), so that the
+// run always goes on. Faces of A are admitted while the frontier is at most a quarter full, so that
+// it can be refined as a whole.
 void share_room() {
   uint held = control.count[kCountFrontier];
-  control.parents = min(held, (control.capacity - held) / 3u);  // uncertified: integers
+  uint room = control.capacity - held;
+  control.parents =
+      min(held, room > kReserve + 3u ? (room - kReserve) / 3u : 1u);  // uncertified: integers
   control.deferred = held - control.parents;
-  uint room = control.capacity - control.deferred - 4u * control.parents;
-  control.roots = min(control.face_count - control.root_cursor, room);
+  uint quarter = (control.capacity - kReserve) / 4u;  // uncertified: integers
+  uint waiting = control.face_count - control.root_cursor;
+  control.roots = held < quarter
+                      ? min(waiting, min(quarter - held, room - 3u * control.parents - kReserve))
+                      : 0u;
   control.root_cursor += control.roots;
+  control.count[kCountNext] = control.deferred;
 }
 
 // All that is left is within the tolerance: what culling would find out with one more wave.

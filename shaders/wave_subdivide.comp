@@ -1,6 +1,6 @@
 // What: chooses each refined candidate's split and writes its three new points as queries.
 // Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1
-// -> 4. In: frontier[0, parents). Out: splits; points[3 i + k], started from the best triangle
+// -> 4. In: the refined candidates. Out: splits; points[3 i + k], started from the best triangle
 // known to the candidate. A candidate that the risen lower bound closes, or that is too small to be
 // decided, gets kSplitNone; its u is kept.
 #version 460
@@ -62,7 +62,7 @@ void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
 void main() {
   uint i = item_index();
   bool mine = i < control.parents;
-  Candidate c = frontier[reading(mine ? i : 0u)];
+  Candidate c = frontier[parent_at(mine ? i : 0u)];
   bool closed = mine && c.upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   uint split = kSplitNone;
   if (mine) {

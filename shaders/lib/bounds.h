@@ -47,7 +47,7 @@ VKH_FN float bound_u1(Patch t, vec3 d) {
   float ab = norm_up(t.at.b - t.at.a);
   float bc = norm_up(t.at.c - t.at.b);
   float ca = norm_up(t.at.a - t.at.c);
-  return round_up(min(d.x + max(ab, ca), min(d.y + max(ab, bc), d.z + max(bc, ca))), 3.0f);
+  return round_up(min(d.x + max(ab, ca), min(d.y + max(ab, bc), d.z + max(bc, ca))), 6.0f);
 }
 
 // u2 (eq. 7): every point of T is within g of a corner, g the radius of T's smallest enclosing

@@ -9,6 +9,8 @@
 
 // The half of the frontier that this wave reads, and the one that it writes.
 uint reading(uint i) { return control.parity * control.capacity + i; }
+// Refined candidates stand behind the deferred ones.
+uint parent_at(uint i) { return reading(control.deferred + i); }
 uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
 
 // How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the distance

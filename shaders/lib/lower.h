@@ -54,7 +54,8 @@ VKH_FN float fine_separation_down(Surface s, Two3 r) {
       min(-rounded(two_dot(s.a, r)), min(-rounded(two_dot(s.b, r)), -rounded(two_dot(s.c, r))));
   float length = sharp_norm_up(r);
   if (!(farthest > 0.0f) || length < 1e-15f) return 0.0f;
-  float off = round_up((9.0f * kUlp2 * radius_up(s.at) + s.slack) * length, 8.0f);
+  // A square of lengths: kTiny would be too much of it, flushed products are under 2^-120.
+  float off = 1.000002f * ((9.0f * kUlp2 * radius_up(s.at) + s.slack) * length) + 1e-36f;
   float reach = next_down(next_down(farthest) - off);
   return reach > 0.0f ? quotient_down(reach, length) : 0.0f;
 }

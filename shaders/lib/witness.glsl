@@ -19,7 +19,7 @@ void adopt_witness() {
       adopt(centroids[c], child.root, centroid_of(child.at));
     } else if (p != kNone) {
       uint parent_index = p / 3u;  // uncertified: integers
-      Candidate parent = frontier[reading(parent_index)];
+      Candidate parent = frontier[parent_at(parent_index)];
       Bary6 six = split_points(unpack_corners(parent.corners), splits[parent_index]);
       adopt(points[p], parent.root, corner_of(six.fresh, p % 3u));
     }
