@@ -67,18 +67,25 @@ Triple make(Random& random, Shape shape, const dvec3& about, double size) {
   const auto beside = [&] { return about + random.in_cube(size); };
   const dvec3 a = beside(), b = beside(), c = beside();
   switch (shape) {
-    case Shape::kNeedle: return needle(random, about, size);
-    case Shape::kCap: return cap(random, about, size);
-    case Shape::kGrid: return grid(random, about, size);
+    case Shape::kNeedle:
+      return needle(random, about, size);
+    case Shape::kCap:
+      return cap(random, about, size);
+    case Shape::kGrid:
+      return grid(random, about, size);
     case Shape::kFewUlps:
     case Shape::kLowParts: {
       const dvec3 p = few_ulps(random, about), q = few_ulps(random, about);
       return {p, q, few_ulps(random, about)};
     }
-    case Shape::kCollinear: return collinear(random, about, size);
-    case Shape::kSegment: return {a, b, b};
-    case Shape::kPoint: return {a, a, a};
-    default: return {a, b, c};
+    case Shape::kCollinear:
+      return collinear(random, about, size);
+    case Shape::kSegment:
+      return {a, b, b};
+    case Shape::kPoint:
+      return {a, a, a};
+    default:
+      return {a, b, c};
   }
 }
 
@@ -136,10 +143,14 @@ dvec3 barycentrics(Random& random) {
   const double cut = random.unit();
   const double rest = random.unit() * (1.0 - cut);
   switch (random.below(5)) {
-    case 0: return {1.0, 0.0, 0.0};
-    case 1: return {cut, 1.0 - cut, 0.0};
-    case 2: return {0.5, 0.5, 0.0};
-    default: return {cut, rest, 1.0 - cut - rest};
+    case 0:
+      return {1.0, 0.0, 0.0};
+    case 1:
+      return {cut, 1.0 - cut, 0.0};
+    case 2:
+      return {0.5, 0.5, 0.0};
+    default:
+      return {cut, rest, 1.0 - cut - rest};
   }
 }
 
@@ -158,46 +169,71 @@ dvec3 hard_point(Random& random, const StoredTriangle& t) {
   const double height = sign(random) * log_uniform(random, -45, -1);
   const double size = std::max(glm::length(b - a), glm::length(c - a));
   switch (random.below(9)) {
-    case 0: return in_the_cube(on);
-    case 1: return in_the_cube(on + height * up);
-    case 2: return in_the_cube(on + height * size * up);
-    case 3: return in_the_cube(a + (a - w.x * b - (1.0 - w.x) * c));
-    case 4: return in_the_cube(on + height * random.direction());
-    case 5: return in_the_cube(on + size * height * random.direction());
+    case 0:
+      return in_the_cube(on);
+    case 1:
+      return in_the_cube(on + height * up);
+    case 2:
+      return in_the_cube(on + height * size * up);
+    case 3:
+      return in_the_cube(a + (a - w.x * b - (1.0 - w.x) * c));
+    case 4:
+      return in_the_cube(on + height * random.direction());
+    case 5:
+      return in_the_cube(on + size * height * random.direction());
     // Right above an edge's line: on the border between the edge and the inside.
-    case 6: return in_the_cube(a + w.x * (b - a) + size * random.range(-1.0, 1.0) * up);
-    case 7: return few_ulps(random, in_the_cube(on));
-    default: return random.in_cube(1.0);
+    case 6:
+      return in_the_cube(a + w.x * (b - a) + size * random.range(-1.0, 1.0) * up);
+    case 7:
+      return few_ulps(random, in_the_cube(on));
+    default:
+      return random.in_cube(1.0);
   }
 }
 
-double log_uniform(Random& random, double lo, double hi) {
-  return std::exp2(random.range(lo, hi));
-}
+double log_uniform(Random& random, double lo, double hi) { return std::exp2(random.range(lo, hi)); }
 
 float hard_float(Random& random, int lo, int hi) {
   uint32_t mantissa = static_cast<uint32_t>(random.bits()) & 0x7fffffu;
   switch (random.below(8)) {
-    case 0: mantissa = 0; break;
-    case 1: mantissa = 0x7fffffu; break;
-    case 2: mantissa = (mantissa & ~0xfffu) | 0x800u; break;
-    case 3: mantissa = (mantissa & ~0xfffu) | 0x7ffu; break;
-    case 4: mantissa = random.below(8); break;
-    default: break;
+    case 0:
+      mantissa = 0;
+      break;
+    case 1:
+      mantissa = 0x7fffffu;
+      break;
+    case 2:
+      mantissa = (mantissa & ~0xfffu) | 0x800u;
+      break;
+    case 3:
+      mantissa = (mantissa & ~0xfffu) | 0x7ffu;
+      break;
+    case 4:
+      mantissa = random.below(8);
+      break;
+    default:
+      break;
   }
-  const uint32_t span = static_cast<uint32_t>(hi - lo + 1);
-  const uint32_t exponent = static_cast<uint32_t>(lo + 127) + random.below(span);
-  return std::bit_cast<float>(random.below(2) << 31 | exponent << 23 | mantissa);
+  const int exponent = lo + static_cast<int>(random.below(static_cast<uint32_t>(hi - lo + 1)));
+  const float x = std::bit_cast<float>(random.below(2) << 31 | 127u << 23 | mantissa);
+  return std::ldexp(x, exponent);
 }
 
 float low_part(Random& random, float x) {
   if (x == 0.0f || random.below(8) == 0) return 0.0f;
   const float half_ulp = std::ldexp(1.0f, std::ilogb(x) - 24);
   switch (random.below(6)) {
-    case 0: return std::nextafter(half_ulp, 0.0f);
-    case 1: return -std::nextafter(half_ulp, 0.0f);
-    case 2: return half_ulp * hard_float(random, -20, -1);
-    default: return half_ulp * static_cast<float>(round_to_float(random.range(-0.99, 0.99)));
+    case 0:
+      return std::nextafter(half_ulp, 0.0f);
+    case 1:
+      return -std::nextafter(half_ulp, 0.0f);
+    case 2:
+      return half_ulp * hard_float(random, -20, 0);
+    // What rounding in a direction leaves: up to an ulp.
+    case 3:
+      return std::nextafter(2.0f * half_ulp, 0.0f) * (random.below(2) == 0 ? 1.0f : -1.0f);
+    default:
+      return half_ulp * static_cast<float>(round_to_float(random.range(-0.99, 0.99)));
   }
 }
 

@@ -59,7 +59,7 @@ glm::dvec3 on_triangle(const StoredTriangle& t, const glm::dvec3& weights);
 float hard_float(Random& random, int lo, int hi);
 /// 2^x for x uniform in [lo, hi).
 double log_uniform(Random& random, double lo, double hi);
-/// x and the low part below half an ulp of it; 0, ties and neighbours of them often.
+/// A low part for x, below an ulp of it; most below half an ulp, often next to it, often 0.
 float low_part(Random& random, float x);
 /// Three of those, of one scale or of many.
 Stored hard_vector(Random& random, int lo, int hi);

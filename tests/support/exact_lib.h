@@ -29,6 +29,16 @@ inline Integer fixed(double x) {
   return out;
 }
 
+/// x * 2^-bits to a double's precision: to compare with a bound that is wider than that.
+inline double to_double(const Integer& x, int bits = kFixedBits) {
+  signed long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, x.get_mpz_t());
+  return std::ldexp(mantissa, static_cast<int>(exponent) - bits);
+}
+inline double length_near(const exact::Vector& v, int bits = kFixedBits) {
+  return std::hypot(to_double(v.x, bits), to_double(v.y, bits), to_double(v.z, bits));
+}
+
 template <class P>
 exact::Vector fixed_vector(const P& p) {
   return {fixed(p.x), fixed(p.y), fixed(p.z)};
@@ -38,6 +48,10 @@ exact::Vector fixed_sum(const P& hi, const P& lo) {
   return {fixed(hi.x) + fixed(lo.x), fixed(hi.y) + fixed(lo.y), fixed(hi.z) + fixed(lo.z)};
 }
 inline exact::Vector fixed_vector(const Stored& p) { return fixed_sum(p.hi, p.lo); }
+
+inline Integer fixed_sum(float hi, float lo) {
+  return fixed(static_cast<double>(hi)) + fixed(static_cast<double>(lo));
+}
 
 inline exact::Vector operator+(const exact::Vector& a, const exact::Vector& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -58,9 +72,7 @@ struct ExactTriangle {
   ExactTriangle(exact::Vector x, exact::Vector y, exact::Vector z)
       : a(std::move(x)), b(std::move(y)), c(std::move(z)) {}
   explicit ExactTriangle(const StoredTriangle& t)
-      : a(fixed_vector(t.corner[0])),
-        b(fixed_vector(t.corner[1])),
-        c(fixed_vector(t.corner[2])) {}
+      : a(fixed_vector(t.corner[0])), b(fixed_vector(t.corner[1])), c(fixed_vector(t.corner[2])) {}
 
   ExactTriangle moved(const exact::Vector& by) const { return {a - by, b - by, c - by}; }
   Rational squared_distance(const exact::Vector& p) const {

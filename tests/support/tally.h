@@ -33,16 +33,15 @@ class Tally {
     if (holds) return;
     const uint64_t seen = violations_[claim]++;
     ++violation_count_;
-    if (seen < 2) log_ += "\n  violated: " + std::string(claim) + "\n    " + describe();
+    if (seen < 1) log_ += "\n  violated: " + std::string(claim) + "\n    " + describe();
   }
 
   /// Keeps the largest value of a measure and where it was.
   template <class F>
   void measure(const char* what, double value, const F& describe) {
-    Worst& worst = worst_[what];
-    if (!(value > worst.value)) return;
-    worst.value = value;
-    worst.where = describe();
+    const auto [it, first] = worst_.try_emplace(what);
+    if (!first && !(value > it->second.value)) return;
+    it->second = {value, describe()};
   }
   double worst(const char* what) const {
     const auto it = worst_.find(what);
