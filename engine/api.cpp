@@ -44,6 +44,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   return {.vertex_count = p.a.vertexCount,
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
+          .known_lower = p.knownLower,
           .two_float = p.twoFloat != VK_FALSE,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount)};

@@ -11,6 +11,7 @@ void record_seed(Recorder& rec, const Problem& p) {
   const gpu::BeginPush begin{.capacity = ws.capacity,
                              .face_count = p.face_count,
                              .cull_tolerance = p.cull_tolerance,
+                             .known_lower = p.known_lower,
                              .two_float = p.two_float ? 1u : 0u};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});
   rec.fill(ws.vertex_nearest, gpu::kNone, Order::kIndependent);

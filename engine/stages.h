@@ -20,7 +20,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
 // What a run works on.
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
-  float cull_tolerance = 0;
+  float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
   Hierarchy b;
   Workspace ws;

@@ -184,6 +184,11 @@ typedef struct VkhProblem {
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
    * way, for the vertices that this selects. */
   VkBool32 twoFloat;
+  /* >= 0, in the coordinates' units; 0 where nothing is known. A value that the answer need not
+   * resolve below, such as lower of h(b, a) when the larger of both directions is asked for:
+   * candidates within cullTolerance of it are closed, too. The report stays true; upper then gets
+   * no smaller than about knownLower + cullTolerance. */
+  float knownLower;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.

@@ -143,6 +143,7 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   JsonObject json;
   add_head(json, "vkhausdorff.distance/1", {r.lower, r.upper, r.gap(), r.status});
   json.add("tolerance", tolerance_json(answer.tolerance, r, d.diagonal_of));
+  json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
   json.add("mesh_a", mesh_json(d.file_a, r.mesh_a));
   json.add("mesh_b", mesh_json(d.file_b, r.mesh_b));
@@ -179,6 +180,8 @@ const char* status_name(Status status) {
       return "memory";
     case Status::kCancelled:
       return "cancelled";
+    case Status::kPruned:
+      return "pruned";
   }
   return "unknown";
 }
@@ -197,14 +200,13 @@ const char* stop_reason(Status status) {
       return "the memory did not hold what had to be refined";
     case Status::kCancelled:
       return "it was interrupted";
+    case Status::kPruned:
+      return "it exceeds the other direction's lower bound by no more than the tolerance";
   }
   return "unknown";
 }
 
-Interval interval_of(const Answer& answer) {
-  const Report& r = answer.a_to_b;
-  if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
-  const Report& back = *answer.b_to_a;
+Interval symmetric_interval(const Report& r, const Report& back) {
   Interval both;
   both.lower = std::max(r.lower, back.lower);
   both.upper = std::max(r.upper, back.upper);
@@ -214,13 +216,18 @@ Interval interval_of(const Answer& answer) {
   // the direction with the larger upper is what keeps the interval open.
   const double tolerance = std::min(r.tolerance, back.tolerance);
   const bool narrow = std::nextafter(width, std::numeric_limits<double>::infinity()) <= tolerance;
-  const bool all_closed = r.status == Status::kClosed && back.status == Status::kClosed;
-  const Report& open =
-      back.status == Status::kClosed || (r.status != Status::kClosed && r.upper >= back.upper)
-          ? r
-          : back;
-  both.status = narrow || all_closed ? Status::kClosed : open.status;
+  // Pruned was what is under the other's lower bound and the tolerance.
+  const bool back_closed = back.status == Status::kClosed || back.status == Status::kPruned;
+  const bool all_closed = r.status == Status::kClosed && back_closed;
+  const bool open_there = back_closed || (r.status != Status::kClosed && r.upper >= back.upper);
+  both.status = narrow || all_closed ? Status::kClosed : (open_there ? r : back).status;
   return both;
+}
+
+Interval interval_of(const Answer& answer) {
+  const Report& r = answer.a_to_b;
+  if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
+  return symmetric_interval(r, *answer.b_to_a);
 }
 
 std::string to_json(const Answer& answer) {

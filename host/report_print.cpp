@@ -40,6 +40,7 @@ std::string bounds(double lower, double upper) {
 }
 
 std::string verdict(Status status) {
+  if (status == Status::kPruned) return std::string("pruned: ") + stop_reason(status);
   return std::string(status == Status::kClosed ? "closed" : "NOT CLOSED (") +
          (status == Status::kClosed ? "" : std::string(status_name(status)) + ")") + ": " +
          stop_reason(status);

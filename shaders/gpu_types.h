@@ -204,7 +204,8 @@ struct Control {
   uint witness_point;     // smallest index of a new point whose distance is the new lower; kNone
   uint witness_centroid;  // likewise, of a centroid
   float cull_tolerance;
-  uint two_float;  // the meshes have low parts
+  float known_lower;  // candidates near it are closed as if it were a sample's distance
+  uint two_float;     // the meshes have low parts
   Witness witness;
   uint capacity;    // of each half of the frontier
   uint face_count;  // of A
@@ -282,6 +283,7 @@ struct BeginPush {
   uint capacity;
   uint face_count;
   float cull_tolerance;
+  float known_lower;
   uint two_float;
 };
 

@@ -22,6 +22,7 @@ void main() {
   control.witness_point = kNone;
   control.witness_centroid = kNone;
   control.cull_tolerance = push.cull_tolerance;
+  control.known_lower = push.known_lower;
   control.two_float = push.two_float;
   control.witness = Witness(vec3(0.0), -1.0, kNone, 0u, 0u, kNone);
   control.capacity = push.capacity;

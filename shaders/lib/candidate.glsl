@@ -13,11 +13,14 @@ uint reading(uint i) { return control.parity * control.capacity + i; }
 uint parent_at(uint i) { return reading(control.deferred + i); }
 uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
 
-// How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the distance
-// are kept for the certificate of the lower bound; asking for less than 16 ulp would refine the
-// rounding of distances.
+// What candidates are closed against: the best sample's distance, or a known one above it.
+float reached() { return max(uintBitsToFloat(control.maximum[kMaxLower]), control.known_lower); }
+
+// How far above that a candidate may be closed. Of the tolerance, 16 ulp of the distance are kept
+// for the certificate of the lower bound; asking for less than 16 ulp would refine the rounding of
+// distances.
 float effective_tolerance() {
-  float ulp = kUlp * uintBitsToFloat(control.maximum[kMaxLower]);
+  float ulp = kUlp * reached();
   return max(control.cull_tolerance - 16.0 * ulp, 16.0 * ulp);
 }
 
@@ -25,8 +28,7 @@ float effective_tolerance() {
 // `tolerant` is the switch kUseToleranceCull; without it only what is under the lower bound is
 // closed.
 float cull_threshold(bool tolerant) {
-  float lower = uintBitsToFloat(control.maximum[kMaxLower]);
-  return tolerant ? lower + effective_tolerance() : lower;
+  return tolerant ? reached() + effective_tolerance() : reached();
 }
 
 // How a candidate's surfaces are measured: sharply where 14 ulp of the distances at hand are more
