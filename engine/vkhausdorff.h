@@ -42,6 +42,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
 
 typedef struct VkhContext_T* VkhContext;
 
@@ -241,6 +244,9 @@ typedef struct VkhReport {
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -113,7 +113,7 @@ Json wave_stats_json(const std::vector<WaveStats>& waves) {
   return rows;
 }
 
-void add_head(JsonObject& json, const char* schema, const Interval& interval) {
+void add_head(JsonObject& json, const char* schema, const CertifiedInterval& interval) {
   json.add("schema", schema);
   json.add("version", program_version());
   json.add("status", status_name(interval.status));
@@ -206,8 +206,8 @@ const char* stop_reason(Status status) {
   return "unknown";
 }
 
-Interval symmetric_interval(const Report& r, const Report& back) {
-  Interval both;
+CertifiedInterval symmetric_interval(const Report& r, const Report& back) {
+  CertifiedInterval both;
   both.lower = std::max(r.lower, back.lower);
   both.upper = std::max(r.upper, back.upper);
   const double width = both.upper - both.lower;
@@ -224,7 +224,7 @@ Interval symmetric_interval(const Report& r, const Report& back) {
   return both;
 }
 
-Interval interval_of(const Answer& answer) {
+CertifiedInterval interval_of(const Answer& answer) {
   const Report& r = answer.a_to_b;
   if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
   return symmetric_interval(r, *answer.b_to_a);

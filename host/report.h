@@ -95,19 +95,19 @@ struct Report {
   double gap() const { return diagonal_a > 0 ? (upper - lower) / diagonal_a : upper - lower; }
 };
 
-struct Interval {
+struct CertifiedInterval {
   double lower = 0, upper = 0;
   double gap = 0;  ///< (upper - lower) / diag(A)
   Status status = Status::kClosed;
 };
 /// Of max(h(A,B), h(B,A)): [max of the lowers, max of the uppers].
-Interval symmetric_interval(const Report& a_to_b, const Report& b_to_a);
+CertifiedInterval symmetric_interval(const Report& a_to_b, const Report& b_to_a);
 
 /// Both directions. The way back was pruned by the way there: its own interval is true but may be
 /// wide (Status::kPruned).
 struct SymmetricReport {
   Report a_to_b, b_to_a;
-  Interval interval() const { return symmetric_interval(a_to_b, b_to_a); }
+  CertifiedInterval interval() const { return symmetric_interval(a_to_b, b_to_a); }
 };
 
 }  // namespace vkh

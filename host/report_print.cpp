@@ -153,7 +153,7 @@ void print_switched_off(std::ostream& out, const std::vector<std::string>& names
 
 void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   const Report& r = answer.a_to_b;
-  const Interval whole = interval_of(answer);
+  const CertifiedInterval whole = interval_of(answer);
   out << "vkhausdorff " << program_version() << ": "
       << (answer.b_to_a ? "symmetric distance max(h(A,B), h(B,A))" : "directed distance h(A,B)")
       << '\n';

@@ -23,7 +23,7 @@ struct Answer {
 };
 
 /// The whole answer's interval.
-Interval interval_of(const Answer& answer);
+CertifiedInterval interval_of(const Answer& answer);
 
 /// One sentence for each status.
 const char* stop_reason(Status status);

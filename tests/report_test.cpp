@@ -40,7 +40,7 @@ vkh::Report directed(vkh::Status status, double lower, double upper) {
   return r;
 }
 
-vkh::Interval both(const vkh::Report& there, const vkh::Report& back) {
+vkh::CertifiedInterval both(const vkh::Report& there, const vkh::Report& back) {
   vkh::Answer answer;
   answer.a_to_b = there;
   answer.b_to_a = back;
@@ -53,7 +53,7 @@ TEST_CASE("a symmetric interval is closed by what decides it") {
   CHECK(both(closed, directed(Status::kClosed, 0.2, 0.21)).status == Status::kClosed);
   CHECK(both(closed, directed(Status::kTime, 0, 0.9)).status == Status::kClosed);
   CHECK(both(directed(Status::kTime, 0, 0.9), closed).status == Status::kClosed);
-  const vkh::Interval open = both(closed, directed(Status::kTime, 0, 2));
+  const vkh::CertifiedInterval open = both(closed, directed(Status::kTime, 0, 2));
   CHECK(open.status == Status::kTime);
   CHECK(open.lower == 1);
   CHECK(open.upper == 2);

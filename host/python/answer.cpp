@@ -43,7 +43,7 @@ Answer answer_of(const Report& r) {
 }
 
 Answer answer_of(const SymmetricReport& both) {
-  const Interval whole = both.interval();
+  const CertifiedInterval whole = both.interval();
   const bool there = both.a_to_b.lower >= both.b_to_a.lower;
   const Report& r = there ? both.a_to_b : both.b_to_a;
   Answer answer{whole.lower, whole.upper, whole.status, r.witness_a, r.witness_b, {}};
