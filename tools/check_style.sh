@@ -28,7 +28,7 @@ files() {
 
 mapfile -t shaders < <(files shaders -- comp glsl h)
 mapfile -t recording < <(files engine -- cpp h)
-mapfile -t formatted < <(files shaders engine host tests tools -- comp glsl h cpp)
+mapfile -t formatted < <(files shaders engine host tests tools -- comp glsl h c cpp)
 mapfile -t counted < <(files engine host tests tools cmake -- cpp h py sh cmake)
 
 # Prints 'file:line:<tab>marked<tab>code' for every line with code on it, comments and #includes taken out; marked is 1
