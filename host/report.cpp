@@ -216,8 +216,9 @@ CertifiedInterval symmetric_interval(const Report& r, const Report& back) {
   // the direction with the larger upper is what keeps the interval open.
   const double tolerance = std::min(r.tolerance, back.tolerance);
   const bool narrow = std::nextafter(width, std::numeric_limits<double>::infinity()) <= tolerance;
-  // Pruned was what is under the other's lower bound and the tolerance.
-  const bool back_closed = back.status == Status::kClosed || back.status == Status::kPruned;
+  // Pruned by the way there (not by what a caller knew besides), the way back decides nothing.
+  const bool pruned = back.status == Status::kPruned && back.upper - r.lower <= back.tolerance;
+  const bool back_closed = back.status == Status::kClosed || pruned;
   const bool all_closed = r.status == Status::kClosed && back_closed;
   const bool open_there = back_closed || (r.status != Status::kClosed && r.upper >= back.upper);
   both.status = narrow || all_closed ? Status::kClosed : (open_there ? r : back).status;

@@ -64,6 +64,17 @@ TEST_CASE("a symmetric interval is closed by what decides it") {
         Status::kTime);
 }
 
+TEST_CASE("a pruned way back decides nothing, unless something else pruned it") {
+  using vkh::Status;
+  const vkh::Report closed = directed(Status::kClosed, 1, 1.0099);
+  const vkh::Report pruned = directed(Status::kPruned, 0, 1.00999);
+  CHECK(both(closed, pruned).status == Status::kClosed);
+  CHECK(both(closed, pruned).lower == 1);
+  CHECK(both(closed, pruned).upper == 1.00999);
+  CHECK(both(directed(Status::kTime, 1, 3), pruned).status == Status::kTime);
+  CHECK(both(closed, directed(Status::kPruned, 0, 1.5)).status == Status::kPruned);
+}
+
 TEST_CASE("an upper bound that is still infinite is null in JSON and inf in hex") {
   vkh::Answer answer;
   answer.a_to_b = directed(vkh::Status::kCancelled, 0.5, std::numeric_limits<double>::infinity());
