@@ -123,7 +123,7 @@ int main(void) {
   const char* const* extensions = vkhGetRequiredExtensions(&count);
   CHECK(count == 2 && strcmp(extensions[0], "VK_KHR_synchronization2") == 0);
   CHECK(count == 2 && strcmp(extensions[1], "VK_KHR_push_descriptor") == 0);
-  static_assert(sizeof(VkhReport) == 4 * (4 + 13 + 8 + 7 * VKH_MAX_WAVE_RECORDS), "no padding");
+  static_assert(sizeof(VkhReport) == 4 * (4 + 3 + 13 + 8 + 7 * VKH_MAX_WAVE_RECORDS), "no padding");
   info.getInstanceProcAddr = open_loader();
   if (info.getInstanceProcAddr != NULL) info.instance = create_instance(info.getInstanceProcAddr);
   if (info.instance != VK_NULL_HANDLE) info.physicalDevice = choose(info);

@@ -81,7 +81,8 @@ TEST_CASE("many A's against one prepared B: each interval holds the distance") {
       const double size = diagonal(joined(a, b));
       CHECK(interval(r).meets(reference_hausdorff(a, b, 1e-10 * size)));
       CHECK(interval(r).meets(interval(plain)));
-      CHECK(r.status == plain.status);
+      // Under what 48 bits resolve in a frame, the frame decides whether a run closes.
+      if (plain.tolerance > 1e-9 * size) CHECK(r.status == plain.status);
       if (prepared.serves(a)) {
         CHECK(r.times.hierarchy_ms == 0);  // it was built before
       } else {
