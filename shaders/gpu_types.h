@@ -283,6 +283,14 @@ struct BeginPush {
   uint face_count;
   float cull_tolerance;
   uint two_float;
+  uint warm;  // the last run's witness is kept
+};
+
+// seed_query: A's vertices and, where `warm`, the last run's witness behind them.
+struct SeedPush {
+  uint vertex_count;
+  uint triangle_count;  // of B
+  uint warm;            // start from the last run's closest triangles
 };
 
 #ifdef __cplusplus

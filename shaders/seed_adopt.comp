@@ -1,5 +1,5 @@
 // What: writes the seed's witness into the control block. One invocation. In: control.witness_point
-// from seed_witness.
+// from seed_witness; kNone where a warm run's old witness is farther than every vertex and stays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,6 +12,7 @@ layout(scalar, binding = 2) readonly buffer VertexNearest { uint vertex_nearest[
 layout(scalar, binding = 3) buffer ControlBlock { Control control; };
 
 void main() {
+  if (control.witness_point == kNone) return;
   uint face = control.witness_point / 3u;  // uncertified: integers
   uint corner = control.witness_point % 3u;
   uint vertex = faces[face][corner];
