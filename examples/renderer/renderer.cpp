@@ -69,7 +69,7 @@ Renderer::Renderer(const RendererOptions& options)
       mesh_(target_.pipeline(gpu_.shader(k_mesh_vert), gpu_.shader(k_mesh_frag), true)),
       caption_(target_.pipeline(gpu_.shader(k_caption_vert), gpu_.shader(k_caption_frag), false)) {}
 
-uint32_t Renderer::text_scale() const { return std::max(options_.width / (6 * kColumns + 8), 1u); }
+uint32_t Renderer::text_scale() const { return std::max(options_.width / (9 * kColumns), 1u); }
 
 VkRect2D Renderer::caption_part() const {
   const uint32_t height = 10 * kRows * text_scale() + 4;
@@ -147,8 +147,8 @@ void Renderer::draw(VkCommandBuffer commands, float time, float camera) {
   target_.begin(commands);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, mesh_);
   draw_mesh(commands, large, camera, angle, kPlain);
-  draw_mesh(commands, {{x, 0}, {side, side}}, 4.2f, angle, kDistance);
-  draw_mesh(commands, {{x, static_cast<int32_t>(side)}, {side, side}}, 4.2f, angle, kEdges);
+  draw_mesh(commands, {{x, 0}, {side, side}}, 3.9f, angle, kDistance);
+  draw_mesh(commands, {{x, static_cast<int32_t>(side)}, {side, side}}, 3.9f, angle, kEdges);
   draw_caption(commands);
   target_.end(commands);
 }

@@ -17,7 +17,7 @@ constexpr uint32_t kColumns = 52;
 
 struct RendererOptions {
   uint32_t width = 960, height = 640;
-  uint32_t cells_u = 128, cells_v = 64;  // multiples of 8
+  uint32_t cells_u = 192, cells_v = 96;  // multiples of 8
   uint32_t waves = 4;                    // a frame's budget for each level
   bool validation = false;
 };

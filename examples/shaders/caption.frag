@@ -21,18 +21,19 @@ bool dot_at(uvec2 p, uint character) {
 }
 
 void main() {
-  colour = vec4(0.07, 0.08, 0.10, 1.0);
+  colour = vec4(0.010, 0.012, 0.017, 1.0);
   uvec2 p = (uvec2(gl_FragCoord.xy) - origin) / scale;
   uint row = p.y / 10u;
   uint column = p.x / 6u;
   if (row >= kRows || column >= kColumns) return;
   if (row > 0u && p.y % 10u < 9u) {
     float fill = choice.fill[row - 1u];
-    vec3 bar = fill < 1.0 ? vec3(0.10, 0.36, 0.24) : vec3(0.42, 0.15, 0.15);
+    vec3 bar = fill < 1.0 ? vec3(0.012, 0.13, 0.065) : vec3(0.19, 0.022, 0.022);
     bool inside = float(p.x) < min(fill, 1.0) * float(6u * kColumns);
-    colour.rgb = inside ? bar : vec3(0.13, 0.14, 0.17);
+    colour.rgb = inside ? bar : vec3(0.022, 0.025, 0.034);
   }
   uvec2 within = uvec2(p.x % 6u, p.y % 10u);
-  bool text = within.y >= 1u && dot_at(within - uvec2(0u, 1u), choice.text[row * kColumns + column]);
+  bool text =
+      within.y >= 1u && dot_at(within - uvec2(0u, 1u), choice.text[row * kColumns + column]);
   if (text) colour = vec4(1.0);
 }
