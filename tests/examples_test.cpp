@@ -1,16 +1,10 @@
-// The example programs as people run them: what they print and write.
+// The example programs as people run them: what they print.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <set>
 #include <sstream>
 #include <string>
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_NO_THREAD_LOCALS
-#include <stb/stb_image.h>
 
 #include "tests/support/program.h"
 
@@ -53,24 +47,6 @@ Rows parse_csv(const std::string& text) {
     for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
   }
   return rows;
-}
-
-struct Picture {
-  int width = 0, height = 0, channels = 0;
-  size_t colours = 0;
-};
-
-Picture load(const std::string& path) {
-  Picture p;
-  uint8_t* pixels = stbi_load(path.c_str(), &p.width, &p.height, &p.channels, 4);
-  REQUIRE_MESSAGE(pixels != nullptr, path);
-  std::set<uint32_t> colours;
-  for (int i = 0; i < p.width * p.height; ++i)
-    colours.insert(uint32_t{pixels[4 * i]} << 16 | uint32_t{pixels[4 * i + 1]} << 8 |
-                   pixels[4 * i + 2]);
-  p.colours = colours.size();
-  stbi_image_free(pixels);
-  return p;
 }
 
 }  // namespace
@@ -121,18 +97,4 @@ TEST_CASE("vkh_frames: every mode of every frame closes, and the modes agree") {
   CHECK(outcome.err.find("1536 faces against 384") != std::string::npos);
   for (const char* word : {"warm", "cold", "rebuild", "median", "p99", "0 not closed"})
     CHECK(outcome.err.find(word) != std::string::npos);
-}
-
-TEST_CASE("vkh_renderer writes its frames as pictures") {
-  const std::string out = folder() / "frames";
-  const Outcome outcome =
-      run_example("VKH_EXAMPLE_RENDERER",
-                  {"--frames", "2", "--size", "400", "300", "--cells", "48", "24", "--out", out});
-  CHECK(parse_csv(outcome.out).size() == 3);
-  for (const char* name : {"/frame_000.png", "/frame_001.png"}) {
-    const Picture picture = load(out + name);
-    CHECK(picture.width == 400);
-    CHECK(picture.height == 300);
-    CHECK(picture.colours > 500);
-  }
 }

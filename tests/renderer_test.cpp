@@ -4,13 +4,20 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <set>
 #include <string>
 
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_THREAD_LOCALS
+#include <stb/stb_image.h>
+
 #include "examples/renderer/font.h"
 #include "tests/support/api_bench.h"
+#include "tests/support/program.h"
 
 namespace {
 
@@ -21,13 +28,17 @@ using example::Renderer;
 
 constexpr uint32_t kWidth = 320, kHeight = 240;
 
+bool validation() {
+  const char* value = std::getenv("VKH_VALIDATION");
+  return value != nullptr && *value != '\0';
+}
+
 Renderer& renderer() {
-  const char* validation = std::getenv("VKH_VALIDATION");
   static Renderer one({.width = kWidth,
                        .height = kHeight,
                        .cells_u = 48,
                        .cells_v = 24,
-                       .validation = validation != nullptr && *validation != '\0'});
+                       .validation = validation()});
   return one;
 }
 
@@ -109,6 +120,24 @@ Seen look(Renderer& r, const RenderedFrame& f) {
   return seen;
 }
 
+struct Picture {
+  int width = 0, height = 0, channels = 0;
+  size_t colours = 0;
+};
+
+Picture load(const std::string& path) {
+  Picture p;
+  uint8_t* pixels = stbi_load(path.c_str(), &p.width, &p.height, &p.channels, 4);
+  REQUIRE_MESSAGE(pixels != nullptr, path);
+  std::set<uint32_t> colours;
+  for (int i = 0; i < p.width * p.height; ++i)
+    colours.insert(uint32_t{pixels[4 * i]} << 16 | uint32_t{pixels[4 * i + 1]} << 8 |
+                   pixels[4 * i + 2]);
+  p.colours = colours.size();
+  stbi_image_free(pixels);
+  return p;
+}
+
 }  // namespace
 
 TEST_CASE("frames: intervals against the reference, the level, the picture and its caption") {
@@ -142,4 +171,20 @@ TEST_CASE("frames: intervals against the reference, the level, the picture and i
   }
   CHECK(drawn.size() >= 3);
   CHECK(r.gpu().validation_messages() == 0);
+}
+
+TEST_CASE("the program writes its frames as pictures, and a line of CSV each") {
+  const std::string out = folder() / "frames";
+  Words words = {"--frames", "2", "--size", "400", "300", "--cells", "48", "24", "--out", out};
+  if (validation()) words.push_back("--validation");
+  const Outcome outcome = run(words);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);  // not 0 if the validation layer said anything
+  CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 3);
+  for (const char* name : {"/frame_000.png", "/frame_001.png"}) {
+    const Picture picture = load(out + name);
+    CHECK(picture.width == 400);
+    CHECK(picture.height == 300);
+    CHECK(picture.colours > 500);
+  }
 }
