@@ -25,6 +25,7 @@ struct Options {
   uint32_t cells_u = 250, cells_v = 200;  // 100,000 faces against 25,000
   uint32_t waves = 8;
   float tolerance = 4e-6f;  // about 1e-6 of the diagonal
+  bool reverse = false;     // h(LOD, mesh) in place of h(mesh, LOD)
   bool validation = false;
 };
 
@@ -63,12 +64,14 @@ Options parse(int argc, char** argv) {
       o.waves = static_cast<uint32_t>(value());
     } else if (name == "--tolerance") {
       o.tolerance = static_cast<float>(value());
+    } else if (name == "--reverse") {
+      o.reverse = true;
     } else if (name == "--validation") {
       o.validation = true;
     } else {
       throw std::runtime_error(
           "usage: vkh_frames [--frames N] [--cells U V] [--waves N] [--tolerance T] "
-          "[--validation]");
+          "[--reverse] [--validation]");
     }
   }
   if (o.frames == 0 || o.waves == 0 || o.cells_u < 6 || o.cells_v < 6 || o.cells_u % 2 != 0 ||
@@ -83,7 +86,7 @@ class Bench {
       : options_(o),
         gpu_({.validation = o.validation}),
         scene_(gpu_, o.cells_u, o.cells_v, 2),
-        pairs_{{{gpu_, scene_, 1}, {gpu_, scene_, 1}, {gpu_, scene_, 1}}},
+        pairs_{{make_pair(), make_pair(), make_pair()}},
         report_(gpu_.buffer(sizeof(VkhReport), example::Memory::kHost)) {
     deform(0);
     for (Pair& pair : pairs_) run(pair, kModes[2]);  // every pair has a hierarchy and a run
@@ -105,9 +108,9 @@ class Bench {
   }
 
   void summarize() {
-    std::fprintf(stderr, "%s: %u faces against %u, %u frames, tolerance %g, %u not closed\n",
-                 gpu_.name().c_str(), scene_.levels()[0].face_count(),
-                 scene_.levels()[1].face_count(), options_.frames,
+    std::fprintf(stderr, "%s: h of %u faces against %u, %u frames, tolerance %g, %u not closed\n",
+                 gpu_.name().c_str(), scene_.levels()[options_.reverse ? 1 : 0].face_count(),
+                 scene_.levels()[options_.reverse ? 0 : 1].face_count(), options_.frames,
                  static_cast<double>(options_.tolerance), not_closed_);
     for (size_t m = 0; m < kModes.size(); ++m) {
       std::fprintf(stderr, "%-8s gpu_ms median %.3f p99 %.3f   wall_ms median %.3f p99 %.3f\n",
@@ -120,6 +123,10 @@ class Bench {
   bool clean() const { return gpu_.validation_messages() == 0; }
 
  private:
+  Pair make_pair() {
+    return {gpu_, scene_, options_.reverse ? 1u : 0u, options_.reverse ? 0u : 1u};
+  }
+
   void deform(uint32_t number) {
     // A period of the deformation is 2 pi: three of them in 300 frames.
     const float time = static_cast<float>(number) * static_cast<float>(std::numbers::pi) / 50;

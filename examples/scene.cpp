@@ -76,9 +76,9 @@ VkhMesh Scene::mesh(uint32_t level) const {
   return mesh;
 }
 
-Pair::Pair(Gpu& gpu, const Scene& scene, uint32_t level)
-    : context_(gpu.context()), b_(scene.mesh(level)) {
-  problem_.a = scene.mesh(0);
+Pair::Pair(Gpu& gpu, const Scene& scene, uint32_t a, uint32_t b)
+    : context_(gpu.context()), b_(scene.mesh(b)) {
+  problem_.a = scene.mesh(a);
   VkhHierarchyRequirements hierarchy;
   VkhWorkspaceRequirements workspace;
   if (vkhGetHierarchyRequirements(context_, b_.vertexCount, b_.faceCount, &hierarchy) !=

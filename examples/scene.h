@@ -44,10 +44,10 @@ class Scene {
   VkPipeline deform_ = VK_NULL_HANDLE;
 };
 
-/// h(level 0, level k): what the engine keeps for it between frames.
+/// h(a, b) of two levels: what the engine keeps for it between frames.
 class Pair {
  public:
-  Pair(Gpu& gpu, const Scene& scene, uint32_t level);
+  Pair(Gpu& gpu, const Scene& scene, uint32_t a, uint32_t b);
 
   enum class Hierarchy { kBuild, kRefit };
   /// A whole frame: hierarchy, run, report at `offset` of `report`.

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <string>
+#include <thread>
 
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
@@ -186,5 +188,31 @@ TEST_CASE("layouts: any stride and offset, 16- and 32-bit indices, give the same
     CAPTURE(layout.stride);
     for (const VkhReport& other : {report_of(layout, {}), report_of({}, layout)})
       CHECK(std::memcmp(&other, &plain, sizeof(plain)) == 0);
+  }
+}
+
+TEST_CASE("one context records on several threads at once") {
+  ApiMesh a(height_field(12, 1)), b(height_field(12, 3));
+  constexpr int kThreads = 4;
+  std::vector<std::unique_ptr<ApiPair>> pairs;
+  for (int i = 0; i < kThreads; ++i) pairs.push_back(std::make_unique<ApiPair>(a, b, kTolerance));
+  std::vector<VkCommandBuffer> recorded(kThreads);
+  std::vector<std::thread> threads;
+  for (size_t i = 0; i < kThreads; ++i) {
+    threads.emplace_back([&, i] {
+      recorded[i] = pairs[i]->commands().record([&](VkCommandBuffer c) {
+        pairs[i]->build(c);
+        pairs[i]->begin(c);
+        pairs[i]->advance(c, 20);
+        pairs[i]->report(c);
+      });
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (size_t i = 0; i < kThreads; ++i) {
+    pairs[i]->commands().submit_and_wait(recorded[i]);
+    const VkhReport report = pairs[i]->read(), first = pairs[0]->read();
+    CHECK(report.status == VKH_STATUS_DECIDED);
+    CHECK(std::memcmp(&report, &first, sizeof(report)) == 0);
   }
 }

@@ -57,7 +57,7 @@ Renderer::Renderer(const RendererOptions& options)
     : options_(options),
       gpu_({.validation = options.validation, .graphics = true}),
       scene_(gpu_, options.cells_u, options.cells_v, kLevels),
-      pairs_{{{gpu_, scene_, 1}, {gpu_, scene_, 2}, {gpu_, scene_, 3}}},
+      pairs_{{{gpu_, scene_, 0, 1}, {gpu_, scene_, 0, 2}, {gpu_, scene_, 0, 3}}},
       target_(gpu_, options.width, options.height),
       reports_(gpu_.buffer(kReportStride * (kLevels - 1), Memory::kDevice)),
       levels_(filled(gpu_, scene_.levels())),
