@@ -30,8 +30,8 @@
  *
  * Recording. Outside a render pass, into a primary or secondary command buffer whose pool's queue
  * family has VK_QUEUE_COMPUTE_BIT. The command buffer may be submitted any number of times, one at
- * a time; each submission does the same again. The structs and arrays that a function is given are
- * read before it returns; buffers and the context must live until the command buffer has run.
+ * a time, and works on what the buffers hold then. The structs and arrays that a function is given
+ * are read before it returns; buffers and the context must live until the command buffer has run.
  *
  * Synchronization. Every vkhCmd* function starts with a memory barrier of its own:
  *   from COMPUTE_SHADER and ALL_TRANSFER, SHADER_WRITE and TRANSFER_WRITE,
@@ -43,9 +43,11 @@
  * written to) by your barrier to COMPUTE_SHADER.
  *   What is yours after it: the report (and each hierarchy) is written in COMPUTE_SHADER with
  * SHADER_STORAGE_WRITE; put a barrier from there to your use of it. Your meshes are read in
- * COMPUTE_SHADER with SHADER_STORAGE_READ; before other stages than compute and transfer write them
- * again, wait for that stage (no access mask: nothing is written). Scratch and workspace are
- * written by ALL_TRANSFER too: before you use that memory for something else, wait for both.
+ * COMPUTE_SHADER with SHADER_STORAGE_READ; compute shaders and copies that are recorded later may
+ * write them again as they are, since the engine's own barriers stand between; before any other
+ * stage writes them, wait for COMPUTE_SHADER (no access mask: nothing is written). Scratch and
+ * workspace are written by ALL_TRANSFER too: before you use that memory for something else, wait
+ * for both.
  *
  * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
@@ -68,8 +70,7 @@
 extern "C" {
 #endif
 
-/* Pipelines for one device and one set of switches: a few megabytes, no device memory of its own.
- */
+/* Pipelines for one device and one set of switches; no device memory of its own. */
 typedef struct VkhContext_T* VkhContext;
 
 typedef enum VkhResult {
