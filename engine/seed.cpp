@@ -16,19 +16,29 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .warm = p.warm ? 1u : 0u};
   const gpu::SeedPush seed{
       .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
+  const Items points{p.vertex_count + seed.warm};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});
   rec.fill(ws.vertex_distance, kNegative, Order::kIndependent);
   rec.run<k::SeedMark>({.faces = ws.faces, .vertex_distance = ws.vertex_distance}, faces,
                        Items{p.face_count});
   rec.run<k::SeedQuery>({.vertices = ws.vertices,
-                         .faces = ws.faces,
                          .nodes = p.b.nodes,
                          .triangles = p.b.triangles,
                          .vertex_nearest = ws.vertex_nearest,
                          .vertex_distance = ws.vertex_distance,
                          .control = ws.control,
-                         .triangle_lows = p.b.triangle_lows},
-                        seed, Items{p.vertex_count + (p.warm ? 1u : 0u)});
+                         .triangle_lows = p.b.triangle_lows,
+                         .faces = ws.faces},
+                        seed, points);
+  rec.run<k::SeedLower>({.vertices = ws.vertices,
+                         .nodes = p.b.nodes,
+                         .triangles = p.b.triangles,
+                         .vertex_nearest = ws.vertex_nearest,
+                         .vertex_distance = ws.vertex_distance,
+                         .control = ws.control,
+                         .triangle_lows = p.b.triangle_lows,
+                         .faces = ws.faces},
+                        seed, points);
   rec.run<k::SeedWitness>(
       {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
       Items{p.face_count});

@@ -16,7 +16,10 @@ void record_plan(Recorder& rec, const Problem& p) {
                         .centroids = ws.centroids,
                         .vertices = ws.vertices,
                         .faces = ws.faces,
-                        .vertex_nearest = ws.vertex_nearest},
+                        .vertex_nearest = ws.vertex_nearest,
+                        .nodes = p.b.nodes,
+                        .triangles = p.b.triangles,
+                        .triangle_lows = p.b.triangle_lows},
                        {}, Groups{1});
   rec.stage("plan");
 }
@@ -30,7 +33,8 @@ void record_subdivide(Recorder& rec, const Problem& p) {
                                       .nodes = p.b.nodes,
                                       .triangles = p.b.triangles,
                                       .splits = ws.splits,
-                                      .points = ws.points},
+                                      .points = ws.points,
+                                      .triangle_lows = p.b.triangle_lows},
                                      {}, ws.dispatch(gpu::kDispatchSubdivide));
   rec.stage("subdivide");
 }

@@ -184,7 +184,8 @@ TEST_CASE("the old witness, moved along, is the first lower bound") {
   const VkhReport whole = cold_after_build(on);
   const VkhReport warm = only_begin(true);
   CHECK(warm.lower == doctest::Approx(v_lid_distance()).epsilon(1e-4));
-  CHECK(warm.lower == whole.lower);
+  // The base of distances differs, and the last bits with it.
+  CHECK(warm.lower == doctest::Approx(whole.lower).epsilon(1e-6));
   CHECK(warm.witnessFaceA == whole.witnessFaceA);
   a.move(translated(v_lid(), {0, 0, 0.25}));
   check_true(only_begin(true), a, b);
