@@ -296,6 +296,14 @@ struct BeginPush {
   float cull_tolerance;
   float known_lower;
   uint two_float;
+  uint warm;  // the last run's witness is kept
+};
+
+// seed_query: A's vertices and, where `warm`, the last run's witness behind them.
+struct SeedPush {
+  uint vertex_count;
+  uint triangle_count;  // of B
+  uint warm;            // start from the last run's closest triangles
 };
 
 #ifdef __cplusplus
