@@ -17,7 +17,7 @@ static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witn
 static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
 static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
 static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
-static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_WARM_START == gpu::kUseWarmStart);
+static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_ROOT_CENTROID == gpu::kUseRootCentroid);
 static_assert(VKH_STATUS_MEMORY == gpu::kStatusMemory &&
               VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords);
 
@@ -95,10 +95,7 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
                                       VkhHierarchyRequirements* requirements) {
   if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
-  // The pyramid stands at the front of the scratch, so a refit needs no more than reaches its end.
-  const vkh::BuildScratch scratch = vkh::view_scratch({}, faceCount);
-  *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount),
-                   scratch.pyramid.offset + scratch.pyramid.size};
+  *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount)};
   return VKH_SUCCESS;
 }
 
@@ -126,11 +123,9 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 }
 
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
-                          const VkhHierarchy* hierarchy, const VkhMemory* scratch,
-                          VkhProfile* profile) {
+                          const VkhHierarchy* hierarchy, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_refit(rec, *mesh, vkh::view_scratch(*scratch, mesh->faceCount),
-                    vkh::view_hierarchy(*hierarchy));
+  vkh::record_refit(rec, *mesh, vkh::view_hierarchy(*hierarchy));
 }
 
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,

@@ -20,19 +20,19 @@ AlignedRange align(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
 }
 
 // Boxes over runs of 16, 256, 4096, ... triangles, until one box is left.
-void record_pyramid(Recorder& rec, const BuildScratch& s, const Hierarchy& h) {
+void record_pyramid(Recorder& rec, const Hierarchy& h) {
   gpu::PyramidPush push{.from_triangles = 1, .from = 0, .from_count = h.face_count, .to = 0};
   while (push.from_count > 1) {
     const uint32_t level = (push.from_count + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
-    rec.run<k::BvhPyramid>({.triangles = h.triangles, .boxes = s.pyramid}, push, Items{level});
+    rec.run<k::BvhPyramid>({.triangles = h.triangles, .boxes = h.pyramid}, push, Items{level});
     push = {.from_triangles = 0, .from = push.to, .from_count = level, .to = push.to + level};
   }
 }
 
 // All boxes of the nodes, from the triangles and the topology as they are.
-void record_boxes(Recorder& rec, const BuildScratch& s, const Hierarchy& h) {
-  record_pyramid(rec, s, h);
-  rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = s.pyramid, .nodes = h.nodes},
+void record_boxes(Recorder& rec, const Hierarchy& h) {
+  record_pyramid(rec, h);
+  rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = h.pyramid, .nodes = h.nodes},
                        gpu::CountPush{h.face_count}, Items{h.face_count});
 }
 
@@ -93,11 +93,11 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .triangle_lows = h.triangle_lows},
                         count, faces);
   rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
-  record_boxes(rec, s, h);
+  record_boxes(rec, h);
   rec.stage("hierarchy");
 }
 
-void record_refit(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
+void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   const auto scope = rec.scope("refit");
   record_load(rec, b, h.vertices, h.faces);
   rec.run<k::BvhMove>({.vertices = h.vertices,
@@ -105,7 +105,7 @@ void record_refit(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                        .triangles = h.triangles,
                        .triangle_lows = h.triangle_lows},
                       gpu::CountPush{b.faceCount}, Items{b.faceCount});
-  record_boxes(rec, s, h);
+  record_boxes(rec, h);
   rec.stage("refit");
 }
 

@@ -17,9 +17,8 @@ void record_sort(Recorder& rec, const BuildScratch& scratch, uint32_t count);
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
                   const Hierarchy& hierarchy);
 
-// New positions, and boxes over the old order. Of the scratch only the pyramid is used.
-void record_refit(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
-                  const Hierarchy& hierarchy);
+// New positions, and boxes over the old order.
+void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& hierarchy);
 
 // What a run works on.
 struct Problem {

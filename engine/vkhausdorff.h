@@ -93,9 +93,15 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_PAIRS = 16,         /* u3, the pairwise split bound */
   VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
-  VKH_SWITCH_ALL = 127,
-  VKH_SWITCH_DEFAULT = 127 - 32 /* all but u4, which decides no candidate that u3 over all pairs
-                                   leaves: measured, 0 of 400,000 */
+  VKH_SWITCH_GROUP_WALK =
+      256, /* few queries: a workgroup walks for one; for GPUs, not CPU devices */
+  VKH_SWITCH_ROOT_CENTROID = 512, /* CENTROID for whole faces of A only: h(A, A) closes at once */
+  VKH_SWITCH_ALL = 127 + 256 + 512,
+  /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
+   * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
+   * is a chain of short steps, more candidates at once are cheaper than another step. */
+  VKH_SWITCH_DEFAULT_CPU = 127 - 32,
+  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512
 } VkhSwitchBits;
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader
@@ -172,7 +178,6 @@ typedef struct VkhMemory {
 typedef struct VkhHierarchyRequirements {
   VkDeviceSize hierarchySize; /* bytes; kept as long as the hierarchy is used */
   VkDeviceSize scratchSize;   /* bytes; free again once the build has run, e.g. for the workspace */
-  VkDeviceSize refitScratchSize; /* bytes, likewise for a refit: boxes, under 2 bytes a face */
 } VkhHierarchyRequirements;
 
 /* B's bounding volume hierarchy: memory that vkhCmdBuildHierarchy has filled. It holds a copy of B
@@ -220,13 +225,12 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 /* B has moved: takes its vertices from `mesh` again and fits the boxes to them, over the old order
  * of triangles; a few dispatches, no sort. The mesh has the faceCount and vertexCount of the build;
  * its indices are read again and should be the same faces in the same order. Reads the mesh's
- * buffers in compute shaders; reads and writes the hierarchy; writes scratch (refitScratchSize
- * bytes). A report after a refit is as true as after a build: the certificate rests on the copy of
- * B that the refit replaces. Boxes overlap more the further B is from the shape that it was built
- * for, so that walks take longer: build again when the time a frame takes says so. */
+ * buffers in compute shaders; reads and writes the hierarchy. A report after a refit is as true as
+ * after a build: the certificate rests on the copy of B that the refit replaces. Boxes overlap more
+ * the further B is from the shape that it was built for, so that walks take longer: build again
+ * when the time a frame takes says so. */
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
-                          const VkhHierarchy* hierarchy, const VkhMemory* scratch,
-                          VkhProfile* profile);
+                          const VkhHierarchy* hierarchy, VkhProfile* profile);
 
 /* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport;
  * after the begin only `b`, `workspace`, a's counts and twoFloat are read. */

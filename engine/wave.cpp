@@ -39,13 +39,15 @@ void record_subdivide(Recorder& rec, const Problem& p) {
   rec.stage("subdivide");
 }
 
-void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points,
-                  gpu::QueryPush push, uint32_t dispatch) {
+void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points, bool centroids,
+                  uint32_t dispatch) {
+  const gpu::QueryPush push{.centroids = centroids ? 1u : 0u, .triangle_count = p.b.face_count};
   rec.run_indirect<k::WaveQuery>({.control = p.ws.control,
                                   .nodes = p.b.nodes,
                                   .triangles = p.b.triangles,
                                   .points = points,
-                                  .triangle_lows = p.b.triangle_lows},
+                                  .triangle_lows = p.b.triangle_lows,
+                                  .boxes = p.b.pyramid},
                                  push, p.ws.dispatch(dispatch));
   rec.stage("query");
 }
@@ -108,9 +110,9 @@ void record_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");
   record_plan(rec, p);
   record_subdivide(rec, p);
-  record_query(rec, p, p.ws.points, {.centroids = 0}, gpu::kDispatchQueryPoints);
+  record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
   record_filter(rec, p);
-  record_query(rec, p, p.ws.centroids, {.centroids = 1}, gpu::kDispatchQueryCentroids);
+  record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
   record_defer(rec, p);
 }

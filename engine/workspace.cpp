@@ -29,6 +29,7 @@ class Suballocator {
 
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
   take(h.nodes, std::max(face_count, 2u) - 1);
+  take(h.pyramid, pyramid_size(face_count));
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
   take(h.vertices, vertex_count);
@@ -39,7 +40,6 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
 void list(Suballocator& take, BuildScratch& s, uint32_t face_count) {
   const uint64_t blocks = (face_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
   take(s.centroid_box, 1);
-  take(s.pyramid, pyramid_size(face_count));
   for (int side = 0; side < 2; ++side) {
     take(s.keys[side], face_count);
     take(s.values[side], face_count);

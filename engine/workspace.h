@@ -10,6 +10,7 @@ namespace vkh {
 // B's hierarchy, kept between runs.
 struct Hierarchy {
   Slice<gpu::Node> nodes;
+  Slice<gpu::Box> pyramid;
   Slice<gpu::Triangle> triangles;
   Slice<gpu::TriangleLow> triangle_lows;
   Slice<gpu::Vertex> vertices;  // B as given: the report's lower bound rests on these two alone
@@ -20,7 +21,6 @@ struct Hierarchy {
 // What building it needs besides.
 struct BuildScratch {
   Slice<gpu::CentroidBox> centroid_box;
-  Slice<gpu::Box> pyramid;
   Slice<uint32_t> keys[2], values[2];  // the sort's two sides
   Slice<uint32_t> counts, totals;
 };

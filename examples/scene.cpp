@@ -102,7 +102,7 @@ void Pair::certify(VkCommandBuffer commands, Hierarchy hierarchy, bool warm, uin
   if (hierarchy == Hierarchy::kBuild) {
     vkhCmdBuildHierarchy(context_, commands, &b_, &problem_.b, &scratch_, nullptr);
   } else {
-    vkhCmdRefitHierarchy(context_, commands, &b_, &problem_.b, &scratch_, nullptr);
+    vkhCmdRefitHierarchy(context_, commands, &b_, &problem_.b, nullptr);
   }
   vkhCmdBegin(context_, commands, &problem_, nullptr);
   vkhCmdAdvance(context_, commands, &problem_, waves, nullptr);

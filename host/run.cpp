@@ -87,6 +87,11 @@ void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStage
 
 }  // namespace
 
+uint32_t default_switches(const Device& device) {
+  const bool is_cpu = device.description().type == "cpu";
+  return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
+}
+
 Runner::Runner(const Device& device)
     : device_(device), submitter_(device), names_(Submitter::kTimestamps) {}
 
@@ -169,7 +174,7 @@ void Runner::record_upload(VkCommandBuffer commands) {
 
 ResidentMesh Runner::build(const MeshData& b) {
   // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
-  context_ = context_for(VKH_SWITCH_DEFAULT);
+  context_ = context_for(default_switches(device_));
   upload({}, b);
   const VkhHierarchyRequirements needed = hierarchy_requirements();
   ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),

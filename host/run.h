@@ -39,6 +39,9 @@ struct RunInput {
   std::function<bool(const VkhReport&)> advanced;
 };
 
+/// What is on unless somebody asks for something else; what pays depends on the kind of device.
+uint32_t default_switches(const Device& device);
+
 struct StageTime {
   const char* name;
   double ms;

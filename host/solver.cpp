@@ -20,7 +20,9 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
     {"thin", VKH_SWITCH_THIN},
     {"u3", VKH_SWITCH_PAIRS},
     {"u4", VKH_SWITCH_U4},
-    {"warm_start", VKH_SWITCH_WARM_START}};
+    {"warm_start", VKH_SWITCH_WARM_START},
+    {"group_walk", VKH_SWITCH_GROUP_WALK},
+    {"root_centroid", VKH_SWITCH_ROOT_CENTROID}};
 
 // Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
 // up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that
@@ -46,8 +48,8 @@ uint32_t switch_bit(const std::string& name) {
   throw UsageError("no switch is called '" + name + "'");
 }
 
-uint32_t switches_of(const SolveOptions& options) {
-  uint32_t on = VKH_SWITCH_DEFAULT;
+uint32_t switches_of(const SolveOptions& options, const Device& device) {
+  uint32_t on = default_switches(device);
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
   return on;
@@ -217,7 +219,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, double toleran
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
           .resident = pair.resident,
-          .switches = switches_of(options),
+          .switches = 0,
           .memory_bytes = options.memory_bytes,
           .wave_limit = options.wave_limit,
           .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
@@ -241,6 +243,7 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
       options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
   out.known_lower = options.known_lower;
   RunInput in = input_for(pair, options, out.tolerance);
+  in.switches = switches_of(options, device);
   Watch watch{options, pair, out.diagonal_a, start};
   in.advanced = [&](const VkhReport& r) { return watch(r); };
   const double framed_ms = ms_since(start);

@@ -36,6 +36,11 @@ VKH_CONST uint kGroupSize =
     64u;  // invocations of a workgroup, one item each, where a kernel does not say otherwise
 VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
+// Invocations of wave_query: one query each, or one for all where a wave has few queries.
+VKH_CONST uint kQueryGroup = 32u;
+VKH_CONST uint kGroupWalkQueries = 1u << 14;  // up to so many are few: measured on an H200,
+                                              // where 12,000 a dispatch take equally long
+VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds; more: walk alone
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
@@ -47,14 +52,16 @@ VKH_CONST uint kMaxTriangles = 1u << 28;
 VKH_CONST uint kStackDepth = 60u;
 
 // Switches (specialisation constant 0). A set bit switches the stage on.
-VKH_CONST uint kUseCentroid = 1u;       // query the centroid, use its closest triangle
-VKH_CONST uint kUseParentSamples = 2u;  // try the closest triangles of the parent's six points
-VKH_CONST uint kUseToleranceCull = 4u;  // cull at lower + tolerance, not at lower
-VKH_CONST uint kUseThin = 8u;           // double longest-edge bisection where q(T) < kThinQuality
-VKH_CONST uint kUsePairs = 16u;         // u3 over every pair of candidate triangles
-VKH_CONST uint kUseU4 = 32u;            // u4, the point-point bisector
-VKH_CONST uint kUseWarmStart = 64u;     // start a query from the parent's known triangles
-VKH_CONST uint kUseAll = 127u;
+VKH_CONST uint kUseCentroid = 1u;        // query the centroid, use its closest triangle
+VKH_CONST uint kUseParentSamples = 2u;   // try the closest triangles of the parent's six points
+VKH_CONST uint kUseToleranceCull = 4u;   // cull at lower + tolerance, not at lower
+VKH_CONST uint kUseThin = 8u;            // double longest-edge bisection where q(T) < kThinQuality
+VKH_CONST uint kUsePairs = 16u;          // u3 over every pair of candidate triangles
+VKH_CONST uint kUseU4 = 32u;             // u4, the point-point bisector
+VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's known triangles
+VKH_CONST uint kUseGroupWalk = 256u;     // few queries: a workgroup walks for one
+VKH_CONST uint kUseRootCentroid = 512u;  // query the centroid of a whole face of A, if of no other
+VKH_CONST uint kUseAll = 127u + 256u + 512u;
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
 
@@ -287,7 +294,8 @@ struct SortPush {
 
 // wave_query: which stream of points.
 struct QueryPush {
-  uint centroids;  // 0: the new points, 1: the centroids
+  uint centroids;       // 0: the new points, 1: the centroids
+  uint triangle_count;  // of B
 };
 
 struct BeginPush {

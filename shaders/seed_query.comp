@@ -49,7 +49,7 @@ void main() {
   if (is_vertex || is_old_witness(i)) {
     Two3 p = seed_point(i);
     Nearest found = nearest_triangle(Query(p, 0.0, false), start_of(i));
-    d = found.above;
+    d = sqrt(found.distance2);  // uncertified: steers; seed_lower measures what matters
     if (is_vertex) {
       vertex_nearest[i] = found.triangle;
       vertex_distance[i] = d;

@@ -121,7 +121,7 @@ void main() {
     Point asked = centroids[i];
     if (is_new_lower(asked.distance)) atomicMin(control.witness_centroid_key, key_of_centroid(i));
     Child c = load_child(survivors[i]);
-    uint centre = (kSwitches & kUseCentroid) != 0u ? asked.nearest : kNone;
+    uint centre = asked.distance >= 0.0 ? asked.nearest : kNone;
     v = bound_child(survivors[i], c, load_root(c.root), centre, threshold);
     next = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
   }

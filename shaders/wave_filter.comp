@@ -88,6 +88,11 @@ void offer_witness(uint code) {
     atomicMin(control.witness_point_key, key_of_point(point));
 }
 
+bool asks_centroid(uint code) {
+  if ((kSwitches & kUseCentroid) != 0u) return true;
+  return (kSwitches & kUseRootCentroid) != 0u && is_root(code);
+}
+
 void main() {
   uint code = item_index();
   bool mine = code < 4u * control.parents + control.roots &&
@@ -109,7 +114,7 @@ void main() {
   uint slot = stream_append(kCountSurvivors, open);
   if (open) {
     survivors[slot] = code;
-    centroids[slot] =
-        Point(centre.hi, v.best, centre.lo, (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0);
+    // A negative distance tells the query to skip it.
+    centroids[slot] = Point(centre.hi, v.best, centre.lo, asks_centroid(code) ? 0.0 : -1.0);
   }
 }

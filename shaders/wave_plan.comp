@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
+layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = 1) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
@@ -139,6 +140,7 @@ void main() {
   uint children = running ? 4u * control.parents + control.roots : 0u;
   if (running) control.wave += 1u;
   dispatches[kDispatchSubdivide] = groups_for(parents);
-  dispatches[kDispatchQueryPoints] = groups_for(3u * parents);
+  dispatches[kDispatchQueryPoints] =
+      groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
   dispatches[kDispatchFilter] = groups_for(children);
 }

@@ -1,34 +1,53 @@
 // What: the closest triangle of B to each point of a stream. In: points (the new points, or the
 // centroids), each with a triangle to start from; a negative distance means skip. Out: nearest,
-// distance; control.maximum[kMaxLower].
+// distance; control.maximum[kMaxLower]. An invocation walks for a point of its own, or, where a
+// wave has few points, all of a workgroup for one (lib/group_walk.glsl).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lib/invocation.glsl"
 #include "shaders/gpu_types.h"
 
-layout(local_size_x = kGroupSize) in;
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kQueryGroup) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 3) buffer Points { Point points[]; };
 layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 5) readonly buffer Boxes { Box boxes[]; };
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/group_walk.glsl"
+#include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/stream.glsl"
 
+Query query_at(uint i) {
+  return Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u);
+}
+
+float answer(uint i, Nearest found) {
+  float d = max(measured(query_at(i), found).above, 0.0);
+  points[i].nearest = found.triangle;
+  points[i].distance = d;
+  return d;
+}
+
 void main() {
-  uint i = item_index();
   uint count = push.centroids != 0u ? control.count[kCountSurvivors] : 3u * control.parents;
   float d = 0.0;
-  if (i < count && points[i].distance >= 0.0) {
-    Query q =
-        Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u);
-    Nearest found = nearest_triangle(q, points[i].nearest);
-    d = max(found.above, 0.0);
-    points[i].nearest = found.triangle;
-    points[i].distance = d;
+  if ((kSwitches & kUseGroupWalk) != 0u && walks_in_groups(count)) {
+    uint i = workgroup_index();
+    if (i >= count || points[i].distance < 0.0) return;
+    uint start = points[i].nearest;
+    barrier();  // read before it is answered
+    Nearest found = nearest_triangle_by_group(query_at(i), start);
+    if (gl_LocalInvocationID.x == 0u) d = answer(i, found);
+  } else {
+    uint i = workgroup_index() * kQueryGroup + gl_LocalInvocationID.x;
+    if (i < count && points[i].distance >= 0.0)
+      d = answer(i, nearest_triangle(query_at(i), points[i].nearest));
   }
   raise(kMaxLower, d);
 }

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
+layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = 1) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
@@ -15,7 +16,8 @@ void main() {
   bool running = control.status == kStatusRunning;
   uint survivors = running ? control.count[kCountSurvivors] : 0u;
   uint held = running ? max(control.deferred, 3u * control.parents) : 0u;
-  dispatches[kDispatchQueryCentroids] = groups_for(survivors);
+  dispatches[kDispatchQueryCentroids] =
+      groups_for_queries(survivors, (kSwitches & kUseGroupWalk) != 0u);
   dispatches[kDispatchBound] = groups_for(survivors);
   dispatches[kDispatchDefer] = groups_for(max(survivors, held));
 }

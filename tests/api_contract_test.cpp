@@ -80,9 +80,9 @@ TEST_CASE("a supported device has no reasons against it, whatever the room for t
   CHECK(one[1] == 'y');
 }
 
-TEST_CASE("sizes: refused where the header says so, and a refit needs little") {
+TEST_CASE("sizes: refused where the header says so") {
   KernelBench bench;
-  VkhHierarchyRequirements hierarchy{1, 2, 3};
+  VkhHierarchyRequirements hierarchy{1, 2};
   VkhWorkspaceRequirements workspace{1, 2, 3};
   const uint32_t most = 1u << 28;
   for (const auto& [vertices, faces] :
@@ -97,8 +97,6 @@ TEST_CASE("sizes: refused where the header says so, and a refit needs little") {
   for (const uint32_t faces : {1u, 2u, 16u, 17u, 1000u, 100'000u, 1u << 20}) {
     CAPTURE(faces);
     REQUIRE(vkhGetHierarchyRequirements(bench.context(), faces, faces, &hierarchy) == VKH_SUCCESS);
-    CHECK(hierarchy.refitScratchSize <= hierarchy.scratchSize);
-    CHECK(hierarchy.refitScratchSize <= 2 * faces + 512);
     REQUIRE(vkhGetWorkspaceRequirements(bench.context(), faces, faces, &workspace) == VKH_SUCCESS);
     CHECK(workspace.minimum <= workspace.recommended);
     CHECK(workspace.recommended <= workspace.maximum);

@@ -153,8 +153,10 @@ Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, u
                            .nodes = h.nodes,
                            .triangles = h.triangles,
                            .points = points,
-                           .triangle_lows = h.triangle_lows},
-                          gpu::QueryPush{mode.centroids ? 1u : 0u}, Items{count + 100});
+                           .triangle_lows = h.triangle_lows,
+                           .boxes = h.pyramid},
+                          gpu::QueryPush{mode.centroids ? 1u : 0u, h.face_count},
+                          Groups{count + 3});
   });
   q.after = bench.get(points);
   q.control = bench.get(control)[0];

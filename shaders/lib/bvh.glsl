@@ -39,7 +39,9 @@ Nearest nothing_near() { return Nearest(kNone, 3.0e38, 3.0e38); }
 
 void try_triangle(vec3 p, uint i, inout Nearest best) {
   float d2 = closest_point(vec3(0.0), local_triangle(i, p)).distance2;
-  if (d2 < best.distance2) best = Nearest(i, d2, 0.0);
+  // Of equally far triangles the first, in whichever order they are tried.
+  if (d2 < best.distance2 || (d2 == best.distance2 && i < best.triangle))
+    best = Nearest(i, d2, 0.0);
 }
 
 // Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
@@ -54,7 +56,7 @@ void try_tight(Two3 p, uint i, float base, inout Nearest best) {
   Closest c = closest_point(vec3(0.0), s.at);
   if (c.distance2 > reach_of(best)) return;
   float above = distance_to_up(two(vec3(0.0)), s, c);
-  bool closer = above < best.above;
+  bool closer = above < best.above || (above == best.above && i < best.triangle);
   best = Nearest(closer ? i : best.triangle, min(c.distance2, best.distance2),
                  closer ? above : best.above);
 }
@@ -73,6 +75,16 @@ void try_query(Query q, uint i, inout Nearest best) {
   }
 }
 
+float reach_of(Query q, Nearest best) { return q.tight ? reach_of(best) : best.distance2; }
+
+// A plain walk's result with its distance to 48 bits: coordinates rounded around p cost more.
+Nearest measured(Query q, Nearest best) {
+  if (q.tight || best.triangle == kNone) return best;
+  best.above =
+      surface_distance_up(two(vec3(0.0)), load_surface(best.triangle, view_from(q.p, q.base)));
+  return best;
+}
+
 // The triangle closest to p, starting from `start` if that is one. Depth first, near child first; a
 // node is pushed at most once a level, so kStackDepth entries suffice.
 Nearest nearest_triangle(Query q, uint start) {
@@ -83,14 +95,14 @@ Nearest nearest_triangle(Query q, uint start) {
   uint top = 0u;
   uint at = 0u;
   vec3 p = q.p.hi;
-  float reach = q.tight ? reach_of(best) : best.distance2;
+  float reach = reach_of(q, best);
   while (true) {
     bool descend = false;
     if ((at & kLeafFlag) != 0u) {
       uint first = at & (kMaxTriangles - 1u);
       uint last = first + ((at >> 28) & 7u);
       for (uint i = first; i <= last; ++i) try_query(q, i, best);
-      reach = q.tight ? reach_of(best) : best.distance2;
+      reach = reach_of(q, best);
     } else {
       Node node = nodes[at];
       float d0 = box_distance2(p, node.lo0, node.hi0);
@@ -117,8 +129,6 @@ Nearest nearest_triangle(Query q, uint start) {
     if (!found) break;
     at = stack[top];
   }
-  // uncertified: steers; the report certifies the witness
-  if (!q.tight) best.above = sqrt(best.distance2) - q.base;  // uncertified
   return best;
 }
 

@@ -30,14 +30,14 @@ float reached() {
   return max(uintBitsToFloat(control.maximum[kMaxLower]), control.known_lower - control.base);
 }
 
-// How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the
+// How far above the lower bound a candidate may be closed. Of the tolerance, 32 ulp of the
 // distances that samples are known by are kept for the certificate of the lower bound: of what they
 // are above the base and, where they are compared in plain floats, of the base too; 64 kUlp2 of it
 // otherwise. Asking for less would refine the rounding of distances; where only what is above the
 // base is too coarse, a quarter is asked for all the same: the next plan moves the base.
 float effective_tolerance() {
-  float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 16.0 * kUlp);
-  float above_noise = 16.0 * kUlp * reached();
+  float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
+  float above_noise = 32.0 * kUlp * reached();
   float left = max(control.cull_tolerance - noise - above_noise, 0.25 * control.cull_tolerance);
   return max(left, noise);
 }

@@ -1,11 +1,22 @@
-// The size of an indirect dispatch with one invocation an item.
+// The sizes of indirect dispatches: one invocation an item, or as wave_query takes its queries.
 #ifndef VKH_SHADERS_LIB_DISPATCH_GLSL
 #define VKH_SHADERS_LIB_DISPATCH_GLSL
 
-Dispatch groups_for(uint items) {
-  uint groups = (items + kGroupSize - 1u) / kGroupSize;  // uncertified: integers
+Dispatch groups_of(uint groups) {
   uint x = min(groups, kMaxGroupsX);
   return Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);  // uncertified: integers
+}
+
+Dispatch groups_for(uint items) {
+  return groups_of((items + kGroupSize - 1u) / kGroupSize);  // uncertified: integers
+}
+
+bool walks_in_groups(uint queries) { return queries <= kGroupWalkQueries; }
+
+// Of wave_query.
+Dispatch groups_for_queries(uint queries, bool group_walk) {
+  if (group_walk && walks_in_groups(queries)) return groups_of(queries);
+  return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers
 }
 
 #endif

@@ -130,7 +130,6 @@ ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance)
   scratch_ = garbage(hierarchy.scratchSize, kWorking);
   workspace_ = garbage(bytes, kWorking);
   reports_ = garbage(kFirstReport + 4 * kReportStride, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  refit_scratch_size_ = hierarchy.refitScratchSize;
   problem_.a = a.view();
   problem_.b.memory = {hierarchy_.handle(), 0, hierarchy.hierarchySize};
   problem_.workspace = {workspace_.handle(), 0, bytes};
@@ -143,8 +142,7 @@ void ApiPair::build(VkCommandBuffer commands) {
 }
 
 void ApiPair::refit(VkCommandBuffer commands) {
-  const VkhMemory scratch{scratch_.handle(), 0, refit_scratch_size_};
-  vkhCmdRefitHierarchy(context_, commands, &b_.view(), &problem_.b, &scratch, nullptr);
+  vkhCmdRefitHierarchy(context_, commands, &b_.view(), &problem_.b, nullptr);
 }
 
 void ApiPair::begin(VkCommandBuffer commands, bool warm) {

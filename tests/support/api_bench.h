@@ -83,7 +83,6 @@ class ApiPair {
   ApiMesh& a_;
   ApiMesh& b_;
   Buffer hierarchy_, scratch_, workspace_, reports_;
-  VkDeviceSize refit_scratch_size_ = 0;
   VkhProblem problem_{};
 };
 

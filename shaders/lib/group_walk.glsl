@@ -1,0 +1,114 @@
+// The walk of a whole workgroup for one query, where a wave has too few queries to fill the device:
+// level by level down the pyramid of boxes, all children of a level's boxes at once, then all
+// triangles of the runs that are left. It finds what nearest_triangle finds. Include after `boxes`
+// and `push` are declared and lib/bvh.glsl is included; the workgroup has kQueryGroup invocations.
+#ifndef VKH_SHADERS_LIB_GROUP_WALK_GLSL
+#define VKH_SHADERS_LIB_GROUP_WALK_GLSL
+
+shared uint level_boxes[2][kGroupWalkBoxes];
+shared uint level_count[2];
+shared uint nearest_bits;  // a squared distance within which a triangle lies
+shared Nearest nearest_of_lane[kQueryGroup];
+
+// The level above the runs of kPyramidFan triangles is 1; level 0 is the runs.
+struct Level {
+  uint start;  // in boxes
+  uint count;
+};
+
+Level level_at(uint level) {
+  uint count = (push.triangle_count + kPyramidFan - 1u) / kPyramidFan;  // uncertified: integers
+  Level at = Level(0u, count);
+  for (uint l = 0u; l < level; ++l) {
+    at.start += at.count;
+    at.count = (at.count + kPyramidFan - 1u) / kPyramidFan;  // uncertified: integers
+  }
+  return at;
+}
+
+uint level_total() {
+  uint total = 1u;
+  for (uint n = push.triangle_count; n > kPyramidFan; ++total) {
+    n = (n + kPyramidFan - 1u) / kPyramidFan;  // uncertified: integers
+  }
+  return total;
+}
+
+float farthest_distance2(vec3 p, vec3 lo, vec3 hi) {
+  vec3 d = max(abs(p - lo), abs(p - hi));
+  return dot(d, d);
+}
+
+// How far a box may be and still matter, whatever the other invocations have found by now: every
+// triangle as far as the nearest is tried, so that the result does not depend on their order.
+float group_reach(Query q) {
+  Nearest best = Nearest(kNone, uintBitsToFloat(nearest_bits), 0.0);
+  return 1.000002 * reach_of(q, best);
+}
+
+// From the boxes of one level, on `side`, to those of the level below that matter, on the other.
+void descend(Query q, Level below, uint side) {
+  uint lane = gl_LocalInvocationID.x;
+  if (lane == 0u) level_count[1u - side] = 0u;
+  barrier();
+  for (uint k = lane; k < level_count[side] * kPyramidFan; k += kQueryGroup) {
+    uint child = level_boxes[side][k / kPyramidFan] * kPyramidFan +
+                 k % kPyramidFan;  // uncertified: integers
+    if (child >= below.count) continue;
+    Box b = boxes[below.start + child];
+    if (box_distance2(q.p.hi, b.lo, b.hi) > group_reach(q)) continue;
+    uint slot = atomicAdd(level_count[1u - side], 1u);
+    if (slot < kGroupWalkBoxes) level_boxes[1u - side][slot] = child;
+    float within = 1.000002 * farthest_distance2(q.p.hi, b.lo, b.hi);
+    atomicMin(nearest_bits, floatBitsToUint(within));
+  }
+  barrier();
+}
+
+Nearest try_runs(Query q, uint side) {
+  Nearest best = Nearest(kNone, uintBitsToFloat(nearest_bits), 3.0e38);
+  for (uint k = gl_LocalInvocationID.x; k < level_count[side] * kPyramidFan; k += kQueryGroup) {
+    uint i = level_boxes[side][k / kPyramidFan] * kPyramidFan +
+             k % kPyramidFan;  // uncertified: integers
+    if (i < push.triangle_count) try_query(q, i, best);
+  }
+  return best;
+}
+
+Nearest nearest_of_group(Query q) {
+  Nearest best = nearest_of_lane[0];
+  for (uint i = 1u; i < kQueryGroup; ++i) {
+    Nearest other = nearest_of_lane[i];
+    float d = q.tight ? other.above - best.above : other.distance2 - best.distance2;
+    if (other.triangle != kNone &&
+        (best.triangle == kNone || d < 0.0 || (d == 0.0 && other.triangle < best.triangle)))
+      best = other;
+  }
+  return best;
+}
+
+// Called by every invocation of the workgroup with the same arguments; the result is invocation
+// 0's.
+Nearest nearest_triangle_by_group(Query q, uint start) {
+  uint lane = gl_LocalInvocationID.x;
+  if (lane == 0u) {
+    Nearest first = nothing_near();
+    if (start != kNone) try_query(q, start, first);
+    nearest_bits = floatBitsToUint(first.distance2);
+    level_count[0] = 1u;
+    level_boxes[0][0] = 0u;
+  }
+  barrier();
+  uint side = 0u;
+  for (uint level = level_total() - 1u; level > 0u; --level) {
+    descend(q, level_at(level - 1u), side);
+    side = 1u - side;
+    if (level_count[side] > kGroupWalkBoxes) return nearest_triangle(q, start);
+  }
+  nearest_of_lane[lane] = try_runs(q, side);
+  barrier();
+  if (lane > 0u) return nearest_of_lane[lane];
+  return nearest_of_group(q);
+}
+
+#endif
