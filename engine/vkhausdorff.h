@@ -84,7 +84,8 @@ typedef enum VkhResult {
                               binding of the device reaches; or it has none */
 } VkhResult;
 
-/* Stages that can be switched off, for ablations; the interval stays true without any of them. */
+/* Stages that can be switched off, for ablations. The interval stays true without any of them but
+ * VKH_SWITCH_CERTIFICATE. */
 typedef enum VkhSwitchBits {
   VKH_SWITCH_CENTROID = 1,       /* the triangle closest to a candidate's centroid, in ha and u3 */
   VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, likewise */
@@ -96,12 +97,14 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_GROUP_WALK =
       256, /* few queries: a workgroup walks for one; for GPUs, not CPU devices */
   VKH_SWITCH_ROOT_CENTROID = 512, /* CENTROID for whole faces of A only: h(A, A) closes at once */
-  VKH_SWITCH_ALL = 127 + 256 + 512,
+  /* Without it bounds are plain floats and NOTHING IS CERTIFIED: to measure what that costs. */
+  VKH_SWITCH_CERTIFICATE = 1024,
+  VKH_SWITCH_ALL = 127 + 256 + 512 + 1024,
   /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
    * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
    * is a chain of short steps, more candidates at once are cheaper than another step. */
-  VKH_SWITCH_DEFAULT_CPU = 127 - 32,
-  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512
+  VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 1024,
+  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024
 } VkhSwitchBits;
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader

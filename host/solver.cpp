@@ -52,7 +52,7 @@ uint32_t switches_of(const SolveOptions& options, const Device& device) {
   uint32_t on = default_switches(device);
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
-  return on;
+  return options.certified ? on : on & ~uint32_t{VKH_SWITCH_CERTIFICATE};
 }
 
 struct Bounds {

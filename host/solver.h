@@ -31,6 +31,9 @@ struct SolveOptions {
   uint64_t memory_bytes = 0;          ///< workspace; 0: chosen from the meshes and the device
   std::vector<std::string> enabled;   ///< switch names; u4 is off otherwise
   std::vector<std::string> disabled;  ///< switch names, see switch_names()
+  /// false: bounds in plain floats, a report that nothing vouches for; for vkh_bench alone, which
+  /// measures what the certificate costs.
+  bool certified = true;
   std::function<bool(const Progress&)>
       progress;  ///< return false to cancel; the interval so far is returned. May throw: the run
                  ///< ends, the solver stays usable

@@ -61,7 +61,8 @@ VKH_CONST uint kUseU4 = 32u;             // u4, the point-point bisector
 VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's known triangles
 VKH_CONST uint kUseGroupWalk = 256u;     // few queries: a workgroup walks for one
 VKH_CONST uint kUseRootCentroid = 512u;  // query the centroid of a whole face of A, if of no other
-VKH_CONST uint kUseAll = 127u + 256u + 512u;
+VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
+VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u;
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
 

@@ -84,7 +84,7 @@ void bound_u4(Patch t, uvec3 nearest, View view, float shift, inout Verdict v) {
 Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold) {
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
-  View view = view_of(placed);
+  View view = view_of(placed, (kSwitches & kUseCertificate) == 0u);
   float shift = placed.slack;
   Known known;
   known.count = 0u;

@@ -51,7 +51,7 @@ void measure(Patch t, uint triangle, View view, inout vec3 own, inout Verdict v,
 Verdict filter_child(uint code, Child c, Root root, float threshold) {
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
-  View view = view_of(placed);
+  View view = view_of(placed, (kSwitches & kUseCertificate) == 0u);
   float shift = placed.slack;
   Known known;
   known.count = 0u;

@@ -4,7 +4,7 @@
 //
 //   vkh_bench MANIFEST.csv [--filter TEXT] [--repeat N] [--tol T] [--device D] [--disable a,b]
 //   [--max-faces N]
-//             [--memory BYTES] [--time SECONDS]
+//             [--memory BYTES] [--time SECONDS] [--enable a,b] [--plain]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -25,7 +25,8 @@ struct Row {
 
 struct Arguments {
   std::string manifest, filter, device;
-  std::vector<std::string> disabled;
+  std::vector<std::string> disabled, enabled;
+  bool plain = false;
   int repeat = 5;
   double tolerance = 1e-6, time_limit_s = 60;
   uint64_t max_faces = UINT64_MAX, memory_bytes = 0;
@@ -93,6 +94,9 @@ void print_header(const vkh::Device& device, const Arguments& args) {
               device.description().name.c_str(), device.description().driver.c_str(),
               args.tolerance, args.repeat);
   for (const std::string& name : args.disabled) std::printf(" %s", name.c_str());
+  std::printf("; enabled");
+  for (const std::string& name : args.enabled) std::printf(" %s", name.c_str());
+  if (args.plain) std::printf("; NOT CERTIFIED");
   std::printf(
       "\npair,faces_a,faces_b,status,lower,upper,gap,waves,candidates,queries,peak,load_ms,upload_"
       "ms,"
@@ -137,6 +141,8 @@ bool run_pair(vkh::Solver& solver, const Arguments& args, const Row& row) {
   vkh::SolveOptions options;
   options.tolerance = args.tolerance;
   options.disabled = args.disabled;
+  options.enabled = args.enabled;
+  options.certified = !args.plain;
   options.time_limit_s = args.time_limit_s;
   options.memory_bytes = args.memory_bytes;
   solver.distance(a, b, options);  // warm-up
@@ -166,6 +172,8 @@ int main(int argc, char** argv) {
   app.add_option("--tol", args.tolerance);
   app.add_option("--device", args.device);
   app.add_option("--disable", args.disabled)->delimiter(',');
+  app.add_option("--enable", args.enabled)->delimiter(',');
+  app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
   app.add_option("--max-faces", args.max_faces);
   app.add_option("--memory", args.memory_bytes);
   app.add_option("--time", args.time_limit_s);

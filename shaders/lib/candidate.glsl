@@ -50,9 +50,9 @@ float cull_threshold(bool tolerant) {
 }
 
 // How a candidate's surfaces are measured.
-View view_of(Placement placed) {
+View view_of(Placement placed, bool plain) {
   float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
-  return View(placed.origin, placed.reach, control.base, needs_sharp(distance));
+  return View(placed.origin, placed.reach, control.base, needs_sharp(distance), plain);
 }
 
 #endif

@@ -46,14 +46,19 @@ float group_reach(Query q) {
   return 1.000002 * reach_of(q, best);
 }
 
+// The k-th of all children of the boxes on `side`.
+uint entry_of(uint side, uint k) {
+  uint parent = level_boxes[side][k / kPyramidFan];  // uncertified: integers
+  return parent * kPyramidFan + k % kPyramidFan;
+}
+
 // From the boxes of one level, on `side`, to those of the level below that matter, on the other.
 void descend(Query q, Level below, uint side) {
   uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) level_count[1u - side] = 0u;
   barrier();
   for (uint k = lane; k < level_count[side] * kPyramidFan; k += kQueryGroup) {
-    uint child = level_boxes[side][k / kPyramidFan] * kPyramidFan +
-                 k % kPyramidFan;  // uncertified: integers
+    uint child = entry_of(side, k);
     if (child >= below.count) continue;
     Box b = boxes[below.start + child];
     if (box_distance2(q.p.hi, b.lo, b.hi) > group_reach(q)) continue;
@@ -68,8 +73,7 @@ void descend(Query q, Level below, uint side) {
 Nearest try_runs(Query q, uint side) {
   Nearest best = Nearest(kNone, uintBitsToFloat(nearest_bits), 3.0e38);
   for (uint k = gl_LocalInvocationID.x; k < level_count[side] * kPyramidFan; k += kQueryGroup) {
-    uint i = level_boxes[side][k / kPyramidFan] * kPyramidFan +
-             k % kPyramidFan;  // uncertified: integers
+    uint i = entry_of(side, k);
     if (i < push.triangle_count) try_query(q, i, best);
   }
   return best;

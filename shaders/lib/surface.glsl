@@ -17,6 +17,6 @@ Surface load_surface(uint i, View from) {
 }
 
 // To measure one point from, as precisely as it goes.
-View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true); }
+View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false); }
 
 #endif

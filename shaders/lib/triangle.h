@@ -100,6 +100,7 @@ struct View {
   float reach;  // >= |origin|, and >= |p| for every p whose distance will be asked
   float base;   // >= 0; distances are given as what they are above it, which may be negative
   bool sharp;   // a distance's own rounding matters: it is taken to 48 bits instead of 20
+  bool plain;   // nothing is certified: plain floats, to measure what the certificate costs
 };
 
 // A triangle of B around a local origin: its corners to 48 bits, and rounded to find the closest
@@ -109,6 +110,7 @@ struct Surface {
   Corners at;
   float base;   // as View::base
   bool sharp;   // as View::sharp
+  bool plain;   // as View::plain
   float slack;  // what distances leave out: see make_surface
 };
 
@@ -119,6 +121,14 @@ VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   Surface s;
   s.base = from.base;
   s.sharp = from.sharp;
+  s.plain = from.plain;
+  if (from.plain) {
+    s.at.a = a.hi - from.origin.hi;
+    s.at.b = b.hi - from.origin.hi;
+    s.at.c = c.hi - from.origin.hi;
+    s.slack = 0.0f;
+    return s;
+  }
   s.a = two_difference(a, from.origin);
   s.b = two_difference(b, from.origin);
   s.c = two_difference(c, from.origin);
@@ -143,6 +153,7 @@ VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
 
 // >= d(p, S) - base, for p taken as it is and the point of S that `c` names.
 VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
+  if (s.plain) return sqrt(c.distance2) - s.base;  // uncertified: as View::plain says
   Two3 offset = offset_from(p, s, c);
   if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
   return raised(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base);

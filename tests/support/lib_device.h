@@ -99,6 +99,7 @@ inline Surface surface_around(const test::StoredTriangle& t, const test::Stored&
   from.reach = reach;
   from.base = base;
   from.sharp = sharp;
+  from.plain = false;
   return make_surface(given(t.corner[0]), given(t.corner[1]), given(t.corner[2]), from);
 }
 
