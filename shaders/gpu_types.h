@@ -240,6 +240,28 @@ struct Report {
   WaveRecord waves[64];
 };
 
+// self_test: what a device is asked, and what it answers (host/self_test.cpp judges).
+struct SelfTestQuestion {
+  float a, b;
+  uint bits;  // of a normal float
+};
+
+struct SelfTestAnswer {
+  float sum, difference, product, quotient, root;  // a + b, a - b, a b, a / b, sqrt(|a|)
+  float sum_hi, sum_lo, product_hi, product_lo;    // two_sum, two_product
+  uint bits;                                       // as given, by way of a float
+  float larger, smaller;
+  uint subgroup;  // which one the invocation was in; they are numbered as they come
+  float highest;  // |a| in the subgroup
+  uint keepers;   // invocations of the subgroup with a > b,
+  uint rank;      // and of them those before this one
+};
+
+struct SelfTestTotals {
+  uint highest, lowest;  // |a| of all, as bits
+  uint items, subgroups;
+};
+
 // ---- push constants
 // ---------------------------------------------------------------------------------------------
 
