@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,12 @@ struct Times {
   double wall_ms = 0;       ///< host clock around Solver::distance
 };
 
+/// The host's own check of a run, asked for with --verify (host/verify.h).
+struct WitnessCheck {
+  double distance_lower = 0, distance_upper = 0;  ///< enclose d(witness, B), in the files' units
+  bool holds = false;                             ///< lower <= distance_lower
+};
+
 struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
@@ -88,6 +95,7 @@ struct Report {
   std::vector<WaveStats> wave_stats;
   Times times;
   std::vector<std::string> switched_off;  ///< names given to --disable
+  std::optional<WitnessCheck> witness_check;
 
   double gap() const { return diagonal_a > 0 ? (upper - lower) / diagonal_a : upper - lower; }
 };
