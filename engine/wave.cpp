@@ -85,9 +85,16 @@ void record_bound(Recorder& rec, const Problem& p) {
 
 void record_defer(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
-  rec.run_indirect<k::WaveDefer>(
-      {.control = ws.control, .frontier = ws.frontier, .vertices = ws.vertices, .faces = ws.faces},
-      {}, ws.dispatch(gpu::kDispatchDefer));
+  rec.run_indirect<k::WaveDefer>({.control = ws.control,
+                                  .frontier = ws.frontier,
+                                  .vertices = ws.vertices,
+                                  .faces = ws.faces,
+                                  .vertex_nearest = ws.vertex_nearest,
+                                  .splits = ws.splits,
+                                  .points = ws.points,
+                                  .survivors = ws.survivors,
+                                  .centroids = ws.centroids},
+                                 {}, ws.dispatch(gpu::kDispatchDefer));
   rec.stage("defer");
 }
 

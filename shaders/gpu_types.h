@@ -201,8 +201,10 @@ struct Control {
   uint roots;        // faces of A admitted in this wave
   uint deferred;  // the first `deferred` candidates of the frontier stay as they are in this wave,
   uint parents;   // the `parents` after them are refined
-  uint witness_point;     // smallest index of a new point whose distance is the new lower; kNone
-  uint witness_centroid;  // likewise, of a centroid
+  // Among a wave's new points, and among its centroids, those at the new lower: the smallest key
+  // (lib/witness.glsl), and the index of one that has it; kNone.
+  uint witness_point_key, witness_point;
+  uint witness_centroid_key, witness_centroid;
   float cull_tolerance;
   uint two_float;  // the meshes have low parts
   Witness witness;

@@ -19,7 +19,9 @@ void main() {
   control.roots = 0u;
   control.parents = 0u;
   control.deferred = 0u;
+  control.witness_point_key = kNone;
   control.witness_point = kNone;
+  control.witness_centroid_key = kNone;
   control.witness_centroid = kNone;
   control.cull_tolerance = push.cull_tolerance;
   control.two_float = push.two_float;

@@ -1,8 +1,8 @@
 // What: the hard half of the cascade, over the wave's survivors: ha with the centroid's triangle,
 // u3 over every pair of known triangles, u4; what is still open enters the next frontier. Culls
 // against the newest lower bound. In: survivors, centroids (queried). Out: frontier's writing half.
-// Every closed child's u is kept (kMaxDropped), every open one's too (kMaxNext). Also finds the
-// wave's witness among the centroids.
+// Every closed child's u is kept (kMaxDropped), every open one's too (kMaxNext). Also offers
+// the centroids that may become the witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -29,6 +29,7 @@ layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/stream.glsl"
+#include "shaders/lib/witness.glsl"
 
 struct Verdict {
   float upper;
@@ -119,8 +120,7 @@ void main() {
   Candidate next;
   if (mine) {
     Point asked = centroids[i];
-    if (asked.distance == uintBitsToFloat(control.maximum[kMaxLower]))
-      atomicMin(control.witness_centroid, i);
+    if (is_new_lower(asked.distance)) atomicMin(control.witness_centroid_key, key_of_centroid(i));
     Child c = load_child(survivors[i]);
     uint centre = (kSwitches & kUseCentroid) != 0u ? asked.nearest : kNone;
     v = bound_child(survivors[i], c, load_root(c.root), centre, threshold);

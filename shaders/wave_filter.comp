@@ -1,8 +1,8 @@
 // What: the cheap half of the cascade, over every child of the wave: exact case, u1, u2, ha with
 // the triangles already known. In: the refined candidates, their splits and queried points; the
 // admitted faces of A. Out: survivors (codes), and for each its centroid as a query that starts
-// from the best single triangle. Every closed child's u is kept (kMaxDropped). Also finds the
-// wave's witness among the new points.
+// from the best single triangle. Every closed child's u is kept (kMaxDropped). Also offers the new
+// points that may become the witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,8 +20,8 @@ layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 7) readonly buffer Splits { uint splits[]; };
 layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
-layout(scalar, binding = 9) writeonly buffer Survivors { uint survivors[]; };
-layout(scalar, binding = 10) writeonly buffer Centroids { Point centroids[]; };
+layout(scalar, binding = 9) buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 10) buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
 #include "shaders/lib/bvh.glsl"
@@ -29,6 +29,7 @@ layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/stream.glsl"
+#include "shaders/lib/witness.glsl"
 
 struct Verdict {
   float upper;
@@ -81,11 +82,11 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
   return v;
 }
 
-void find_witness(uint code) {
+void offer_witness(uint code) {
   if (is_root(code) || (code & 3u) == 3u) return;
   uint point = 3u * (code >> 2) + (code & 3u);
-  if (points[point].distance == uintBitsToFloat(control.maximum[kMaxLower]))
-    atomicMin(control.witness_point, point);
+  if (is_new_lower(points[point].distance))
+    atomicMin(control.witness_point_key, key_of_point(point));
 }
 
 void main() {
@@ -96,7 +97,7 @@ void main() {
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));
   if (mine) {
-    find_witness(code);
+    offer_witness(code);
     Child c = load_child(code);
     Root root = load_root(c.root);
     v = filter_child(code, c, root, threshold);

@@ -1,8 +1,8 @@
 // What: everything that a wave decides as a whole: adopts the last wave's witness, flips the
 // frontier's halves, tests for the end, shares the room out between refined, deferred and newly
-// admitted candidates, writes every indirect size. One invocation. After the end it writes zeros,
-// so that recorded waves cost empty dispatches only. Invariant: deferred + 4 parents + roots <=
-// capacity, so no stream of the wave can overflow.
+// admitted candidates, writes the sizes of the wave's first half. One invocation. After the end it
+// writes zeros, so that recorded waves cost empty dispatches only. Invariant: deferred + 4 parents
+// + roots <= capacity, so no stream of the wave can overflow.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -22,13 +22,8 @@ layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[
 
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
+#include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/witness.glsl"
-
-Dispatch groups_for(uint items) {
-  uint groups = (items + kGroupSize - 1u) / kGroupSize;  // uncertified: integers
-  uint x = min(groups, kMaxGroupsX);
-  return Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);  // uncertified: integers
-}
 
 // Adds what the wave before this one did to the totals.
 void close_wave() {
@@ -111,5 +106,4 @@ void main() {
   dispatches[kDispatchSubdivide] = groups_for(parents);
   dispatches[kDispatchQueryPoints] = groups_for(3u * parents);
   dispatches[kDispatchFilter] = groups_for(children);
-  dispatches[kDispatchDefer] = groups_for(running ? control.deferred : 0u);
 }

@@ -9,11 +9,13 @@ layout(local_size_x = 1) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
+#include "shaders/lib/dispatch.glsl"
+
 void main() {
-  uint items = control.status == kStatusRunning ? control.count[kCountSurvivors] : 0u;
-  uint groups = (items + kGroupSize - 1u) / kGroupSize;  // uncertified: integers
-  uint x = min(groups, kMaxGroupsX);
-  Dispatch size = Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);  // uncertified: integers
-  dispatches[kDispatchQueryCentroids] = size;
-  dispatches[kDispatchBound] = size;
+  bool running = control.status == kStatusRunning;
+  uint survivors = running ? control.count[kCountSurvivors] : 0u;
+  uint held = running ? max(control.deferred, 3u * control.parents) : 0u;
+  dispatches[kDispatchQueryCentroids] = groups_for(survivors);
+  dispatches[kDispatchBound] = groups_for(survivors);
+  dispatches[kDispatchDefer] = groups_for(max(survivors, held));
 }

@@ -1,30 +1,71 @@
-// Adopting the wave's best sample as witness. Include after `control`, `frontier`, `splits`,
-// `points`, `survivors` and `centroids` are declared and lib/child.glsl is included; call it from
-// one invocation, before the wave's streams are overwritten.
+// Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an order
+// that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
+// that the report says of a witness, so that two samples with one key are one to the report. First
+// every sample at the new lower bound offers its key (wave_filter, wave_bound), then those with the
+// smallest key offer their index (wave_defer), then one invocation adopts it (wave_plan,
+// report_begin), before the wave's streams are overwritten. Include after `control`, `frontier`,
+// `splits`, `points`, `survivors` and `centroids` are declared and lib/child.glsl is included.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
-void adopt(Point sample_point, uint root, uvec2 at) {
+bool is_new_lower(float distance) {
+  return distance == uintBitsToFloat(control.maximum[kMaxLower]) &&
+         distance > control.witness.distance;
+}
+
+// A 32-bit integer hash step (multiply and xor-shift by primes; any mixing will do).
+uint mixed(uint hash, uint word) {
+  hash = (hash ^ word) * 0x9e3779b1u;
+  return hash ^ (hash >> 15);
+}
+
+uint witness_key(uint root, uvec2 at, uint nearest) {
+  return mixed(mixed(mixed(mixed(0u, root), at.x), at.y), nearest);
+}
+
+struct Sample {
+  uint root;
+  uvec2 at;
+};
+
+Sample sample_of_point(uint p) {
+  uint parent_index = p / 3u;  // uncertified: integers
+  Candidate parent = frontier[parent_at(parent_index)];
+  Bary6 six = split_points(unpack_corners(parent.corners), splits[parent_index]);
+  return Sample(parent.root, corner_of(six.fresh, p % 3u));
+}
+
+Sample sample_of_centroid(uint c) {
+  Child child = load_child(survivors[c]);
+  return Sample(child.root, centroid_of(child.at));
+}
+
+uint key_of_point(uint p) {
+  Sample at = sample_of_point(p);
+  return witness_key(at.root, at.at, points[p].nearest);
+}
+
+uint key_of_centroid(uint c) {
+  Sample at = sample_of_centroid(c);
+  return witness_key(at.root, at.at, centroids[c].nearest);
+}
+
+void adopt(Point asked, Sample at) {
   control.witness =
-      Witness(sample_point.position, sample_point.distance, root, at.x, at.y, sample_point.nearest);
+      Witness(asked.position, asked.distance, at.root, at.at.x, at.at.y, asked.nearest);
 }
 
 void adopt_witness() {
-  float lower = uintBitsToFloat(control.maximum[kMaxLower]);
-  if (lower > control.witness.distance) {
-    uint c = control.witness_centroid;
-    uint p = control.witness_point;
-    if (c != kNone) {
-      Child child = load_child(survivors[c]);
-      adopt(centroids[c], child.root, centroid_of(child.at));
-    } else if (p != kNone) {
-      uint parent_index = p / 3u;  // uncertified: integers
-      Candidate parent = frontier[parent_at(parent_index)];
-      Bary6 six = split_points(unpack_corners(parent.corners), splits[parent_index]);
-      adopt(points[p], parent.root, corner_of(six.fresh, p % 3u));
-    }
+  uint c = control.witness_centroid;
+  uint p = control.witness_point;
+  if (c != kNone) {
+    adopt(centroids[c], sample_of_centroid(c));
+  } else if (p != kNone) {
+    adopt(points[p], sample_of_point(p));
   }
+  control.witness_point_key = kNone;
   control.witness_point = kNone;
+  control.witness_centroid_key = kNone;
   control.witness_centroid = kNone;
 }
 
