@@ -62,6 +62,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
   VKH_SWITCH_ALL = 127,
+  VKH_SWITCH_COVERAGE = 128,    /* no stage of the method: VkhProblem::coverageBuffer is written */
   VKH_SWITCH_DEFAULT = 127 - 32 /* all but u4, which decides no candidate that u3 over all pairs
                                    leaves: measured, 0 of 400,000 */
 } VkhSwitchBits;
@@ -184,6 +185,14 @@ typedef struct VkhProblem {
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
    * way, for the vertices that this selects. */
   VkBool32 twoFloat;
+  /* Null, or with a context of VKH_SWITCH_COVERAGE: 16 bytes a face of A, usage STORAGE_BUFFER and
+   * TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute shaders and transfers:
+   * vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport what is open. It holds
+   * faceCount 64-bit integers (two little-endian words each), what of each face has been closed,
+   * and faceCount more, what is open, in units of 2^-40 of the face. After vkhCmdWriteReport the
+   * two are 2^40 together, or both 0 for a face that waits for its first bound. */
+  VkBuffer coverageBuffer;
+  VkDeviceSize coverageOffset; /* bytes */
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.

@@ -117,6 +117,7 @@ Request understand(const Arguments& arguments) {
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
   check_switches(arguments.disabled);
   options.enabled = arguments.enabled;
+  options.coverage = arguments.verify;
   options.disabled = arguments.disabled;
   for (const std::string& input : {arguments.file_a, arguments.file_b}) {
     std::error_code none;
@@ -224,7 +225,11 @@ void check_writable(const std::string& path) {
 /// After the answer is printed: whoever asked wants to see what was refuted.
 void check_verified(const Answer& answer) {
   for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
-    if (r == nullptr || !r->witness_check || r->witness_check->holds) continue;
+    if (r == nullptr || !r->witness_check) continue;
+    if (!r->coverage_check || !r->coverage_check->holds) {
+      throw DeviceError("--verify: a part of A is in no bound: do not trust this device or driver");
+    }
+    if (r->witness_check->holds) continue;
     throw DeviceError(
         "--verify: the host finds the witness closer than the certified lower bound: "
         "do not trust this device or driver");
@@ -300,7 +305,7 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
                    "Also print stages, waves and culled candidates");
   command.add_flag("--verify", arguments.verify,
                    "Check the answer on the host: the witness against every face of B, by brute "
-                   "force in 113-bit arithmetic");
+                   "force in 113-bit arithmetic; the parts of A as exact integers");
   command.add_flag("--symmetric", arguments.symmetric,
                    "Both directions: the interval of max(h(A,B), h(B,A))");
 }

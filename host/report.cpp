@@ -138,11 +138,18 @@ Json tolerance_json(const Tolerance& asked, const Report& r, const char* diagona
           {"diagonal_a", r.diagonal_a}};
 }
 
-std::string verified_json(const WitnessCheck& check) {
+std::string verified_json(const Report& r) {
+  const WitnessCheck& check = *r.witness_check;
   JsonObject json;
   json.add("witness", check.holds);
   json.add_bound("distance_lower", check.distance_lower, Rounding::kDown);
   json.add_bound("distance_upper", check.distance_upper, Rounding::kUp);
+  if (r.coverage_check) {
+    const CoverageCheck& c = *r.coverage_check;
+    json.add("coverage", c.holds);
+    json.add("faces", {{"whole", c.whole}, {"waiting", c.waiting}, {"wrong", c.wrong}});
+    json.add("closed", c.closed);
+  }
   return json.text();
 }
 
@@ -152,7 +159,7 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   add_head(json, "vkhausdorff.distance/1", {r.lower, r.upper, r.gap(), r.status});
   json.add("tolerance", tolerance_json(answer.tolerance, r, d.diagonal_of));
   json.add("witness", witness_json(r));
-  if (r.witness_check) json.add_text("verified", verified_json(*r.witness_check));
+  if (r.witness_check) json.add_text("verified", verified_json(r));
   json.add("mesh_a", mesh_json(d.file_a, r.mesh_a));
   json.add("mesh_b", mesh_json(d.file_b, r.mesh_b));
   json.add("device", device_json(r.device));

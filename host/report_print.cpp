@@ -88,10 +88,18 @@ std::string verified_text(const WitnessCheck& check) {
          "the other mesh, by brute force: lower " + (check.holds ? "holds" : "DOES NOT HOLD");
 }
 
+std::string coverage_text(const CoverageCheck& c) {
+  return printed("%llu faces whole, ", static_cast<Count>(c.whole)) +
+         printed("%llu waiting, ", static_cast<Count>(c.waiting)) +
+         printed("%llu not accounted for: ", static_cast<Count>(c.wrong)) +
+         (c.holds ? "nothing is lost" : "SOMETHING IS LOST");
+}
+
 void print_direction(std::ostream& out, const Report& r, const char* a, const char* b) {
   row(out, "witness", std::string(a) + " " + at(r.witness_a));
   row(out, "", std::string(b) + " " + at(r.witness_b));
   if (r.witness_check) row(out, "verified", verified_text(*r.witness_check));
+  if (r.coverage_check) row(out, "", coverage_text(*r.coverage_check));
   const Times& t = r.times;
   row(out, "work",
       counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +

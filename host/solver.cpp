@@ -9,6 +9,7 @@
 #include "host/error.h"
 #include "host/frame.h"
 #include "host/run.h"
+#include "host/verify.h"
 
 namespace vkh {
 namespace {
@@ -50,6 +51,7 @@ uint32_t switches_of(const SolveOptions& options) {
   uint32_t on = VKH_SWITCH_DEFAULT;
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
+  if (options.coverage) on |= VKH_SWITCH_COVERAGE;
   return on;
 }
 
@@ -199,6 +201,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
               .wave_limit = options.wave_limit,
               .cull_tolerance = static_cast<float>(std::clamp(spare, kToleranceFloor, 1e30)),
               .two_float = two_float,
+              .coverage = options.coverage,
               .advanced = {}};
   Watch watch{options, frame, out.diagonal_a, joint, start};
   in.advanced = [&](const VkhReport& r) { return watch(r); };
@@ -221,6 +224,8 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
   fill_counts(run.report, frame, out);
   fill_stages(run, out);
   fill_witness(run.report, a, b, out);
+  // Before every face of A has a bound, `upper` says so: 3e38.
+  if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
   out.times.upload_ms = framed_ms + run.upload_ms;
   out.times.wall_ms = ms_since(start);
   return out;

@@ -30,6 +30,7 @@ struct SolveOptions {
   uint64_t memory_bytes = 0;          ///< workspace; 0: chosen from the meshes and the device
   std::vector<std::string> enabled;   ///< switch names; u4 is off otherwise
   std::vector<std::string> disabled;  ///< switch names, see switch_names()
+  bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   std::function<bool(const Progress&)>
       progress;  ///< return false to cancel; the interval so far is returned
 };

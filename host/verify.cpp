@@ -55,14 +55,16 @@ double outward(double distance, double direction) {
 
 struct Enclosure {
   double lower = 0, upper = 0;
+  bool beyond = false;  // d >= the bound asked about: decided in quads, where no double rounds
 };
 
-// d(p, t), for p known to within `scale` * kQuadUlp in each coordinate.
-Enclosure distance_to(const QuadVector& p, const Triangle& t, Quad scale) {
+// d(p, t) and whether it is at least `bound`, for p known to within `scale` * kQuadUlp in each
+// coordinate.
+Enclosure distance_to(const QuadVector& p, const Triangle& t, Quad scale, double bound) {
   const QuadVector r = offset_of(p, t);
   const Quad size = magnitude(r);
   const double upper = outward(length(r) + static_cast<double>(scale * kQuadUlp), 1);
-  if (!(size > 0)) return {0, upper};
+  if (!(size > 0)) return {0, upper, bound <= 0};
   const QuadVector d = (1 / size) * r;  // so that nothing underflows
   Quad reach = dot(p - t.corner[0], d);
   for (const QuadVector& s : t.corner) {
@@ -70,8 +72,9 @@ Enclosure distance_to(const QuadVector& p, const Triangle& t, Quad scale) {
     reach = along < reach ? along : reach;
   }
   reach -= 16 * scale * kQuadUlp;  // |d| < 2, three coordinates, each off by less than 2 units
-  if (!(reach > 0)) return {0, upper};
-  return {outward(static_cast<double>(reach) / length(d), -1), upper};
+  if (!(reach > 0)) return {0, upper, bound <= 0};
+  const bool beyond = quad(bound) * quad(bound) * dot(d, d) * (1 + kQuadUlp) <= reach * reach;
+  return {outward(static_cast<double>(reach) / length(d), -1), upper, beyond};
 }
 
 // The exact point: barycentrics are multiples of 2^-20, so that their products with doubles have 73
@@ -114,6 +117,21 @@ bool is_exact_point(const glm::dvec3& weights) {
 
 }  // namespace
 
+CoverageCheck check_coverage(std::span<const uint64_t> areas, bool bounded) {
+  constexpr uint64_t kWhole = uint64_t{1} << 40;
+  CoverageCheck out;
+  const size_t faces = areas.size() / 2;
+  for (size_t i = 0; i < faces; ++i) {
+    const uint64_t closed = areas[i], open = areas[faces + i];
+    const bool whole = closed <= kWhole && open <= kWhole && closed + open == kWhole;
+    const bool waiting = closed == 0 && open == 0;
+    ++(whole ? out.whole : waiting ? out.waiting : out.wrong);
+    out.closed += std::ldexp(static_cast<double>(closed), -40) / static_cast<double>(faces);
+  }
+  out.holds = out.wrong == 0 && (out.waiting == 0 || !bounded);
+  return out;
+}
+
 WitnessCheck verify_witness(const Mesh& a, const Mesh& b, const Report& report) {
   WitnessCheck out;
   const bool named =
@@ -124,15 +142,17 @@ WitnessCheck verify_witness(const Mesh& a, const Mesh& b, const Report& report) 
                         static_cast<double>(p.z));
   const double scale = std::max(largest(a), largest(b));
   out.distance_lower = out.distance_upper = kInfinity;
+  out.holds = true;
   for (const glm::uvec3& f : b.faces) {
     const std::array<glm::dvec3, 3> t = {b.vertices[f.x], b.vertices[f.y], b.vertices[f.z]};
-    // Such a face is farther than the closest one: it decides neither bound.
+    // Such a face is farther than one that was measured: it decides nothing.
     if (box_distance_down(near, t, scale) > out.distance_upper) continue;
-    const Enclosure d = distance_to(p, {{quad(t[0]), quad(t[1]), quad(t[2])}}, quad(scale));
+    const Enclosure d =
+        distance_to(p, {{quad(t[0]), quad(t[1]), quad(t[2])}}, quad(scale), report.lower);
+    out.holds = out.holds && d.beyond;
     out.distance_lower = std::min(out.distance_lower, d.lower);
     out.distance_upper = std::min(out.distance_upper, d.upper);
   }
-  out.holds = report.lower <= out.distance_lower;
   return out;
 }
 

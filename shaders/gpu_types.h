@@ -55,6 +55,7 @@ VKH_CONST uint kUsePairs = 16u;         // u3 over every pair of candidate trian
 VKH_CONST uint kUseU4 = 32u;            // u4, the point-point bisector
 VKH_CONST uint kUseWarmStart = 64u;     // start a query from the parent's known triangles
 VKH_CONST uint kUseAll = 127u;
+VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
 
@@ -240,6 +241,11 @@ struct Report {
   uint peak_frontier;
   uint culled[8];
   WaveRecord waves[64];
+};
+
+// A part of a face of A as a 64-bit integer: 2^40 is the whole.
+struct Area {
+  uint lo, hi;
 };
 
 // self_test: what a device is asked, and what it answers (host/self_test.cpp judges).

@@ -140,3 +140,44 @@ TEST_CASE("what the device certifies passes, and not when it is raised") {
     CHECK_FALSE(verify_witness(hard.pair.a, hard.pair.b, r).holds);
   }
 }
+
+TEST_CASE("parts of a face sum to the whole, or it is said which do not") {
+  constexpr uint64_t kWhole = uint64_t{1} << 40;
+  CHECK(check_coverage(std::vector<uint64_t>{kWhole, 3, 0, kWhole - 3}, true).holds);
+  CHECK(check_coverage(std::vector<uint64_t>{kWhole, 3, 0, kWhole - 3}, true).whole == 2);
+  CHECK_FALSE(check_coverage(std::vector<uint64_t>{kWhole - 1, 0}, true).holds);
+  CHECK_FALSE(check_coverage(std::vector<uint64_t>{kWhole, 1}, true).holds);
+  CHECK_FALSE(
+      check_coverage(std::vector<uint64_t>{uint64_t{1} << 63, kWhole - (uint64_t{1} << 63)}, true)
+          .holds);
+  CHECK(check_coverage(std::vector<uint64_t>{0, kWhole, 0, 0}, false).waiting == 1);
+  CHECK(check_coverage(std::vector<uint64_t>{0, kWhole, 0, 0}, false).holds);
+  CHECK_FALSE(check_coverage(std::vector<uint64_t>{0, kWhole, 0, 0}, true).holds);
+}
+
+TEST_CASE("the device accounts for all of A, however the run ends") {
+  Solver solver(test_device());
+  const auto check = [&](const HardPair& hard, SolveOptions options) {
+    options.coverage = true;
+    const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
+    REQUIRE(r.coverage_check);
+    CAPTURE(r.coverage_check->whole);
+    CAPTURE(r.coverage_check->waiting);
+    CHECK(r.coverage_check->wrong == 0);
+    CHECK(r.coverage_check->holds);
+    if (options.wave_limit > 1000) CHECK(r.coverage_check->waiting == 0);
+  };
+  const size_t families = family_names().size();
+  for (size_t family = 0; family < families; ++family) {
+    CAPTURE(family);
+    const HardPair hard = hard_pair(family, 100 + family);
+    check(hard, {});
+    SolveOptions cut;
+    cut.wave_limit = 1 + static_cast<uint32_t>(family) % 4;
+    cut.memory_bytes = 1;
+    check(hard, cut);
+    SolveOptions little;
+    little.memory_bytes = 1;
+    check(hard, little);
+  }
+}

@@ -18,6 +18,7 @@
 
 #include "host/decimal.h"
 #include "host/solver.h"
+#include "host/verify.h"
 #include "tests/support/hard_pairs.h"
 #include "tests/support/reference_solver.h"
 
@@ -47,6 +48,8 @@ struct Outcome {
   Status status = Status::kClosed;
   double tolerance = 0, diagonal_a = 0, solve_ms = 0;
   bool repeated = false;
+  WitnessCheck witness;
+  std::optional<CoverageCheck> coverage;
 };
 
 class Families {
@@ -111,6 +114,7 @@ SolveOptions options_for(const HardPair& hard, const Job& job, double tolerance)
   const uint32_t way = random.below(16);
   if (way == 0 && !hard.largest_gap_at_zero) options.wave_limit = 1 + random.below(4);
   if (way == 1) options.memory_bytes = 1;
+  options.coverage = way < 3;
   // A mesh that is one point has no diagonal to take a fraction of.
   return options;
 }
@@ -126,6 +130,8 @@ void ask_solver(Solver& solver, const Job& job, double tolerance, Outcome& out) 
   out.status = r.status;
   out.tolerance = r.tolerance;
   out.diagonal_a = r.diagonal_a;
+  out.witness = verify_witness(hard.pair.a, hard.pair.b, r);
+  out.coverage = r.coverage_check;
   out.repeated = job.seed % 16 == 0;
   if (!out.repeated) return;
   const Report again = solver.distance(hard.pair.a, hard.pair.b, options);
@@ -137,6 +143,8 @@ std::string fault_of(const Job& job, const Outcome& out) {
   const Interval found = out.found;
   if (!(found.lower >= 0 && found.lower <= found.upper && std::isfinite(found.upper)))
     return "no interval";
+  if (!out.witness.holds) return "has a witness closer than lower";
+  if (out.coverage && !out.coverage->holds) return "has lost a part of A";
   const Interval unit = {std::ldexp(found.lower, out.exponent),
                          std::ldexp(found.upper, out.exponent)};
   if (!unit.meets(out.reference)) return "misses the reference";
