@@ -104,6 +104,16 @@ double Frame::length_up(double frame_length) const {
              : length;
 }
 
+FileInterval Frame::to_files(double lower, double upper, double joint_diagonal) const {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double moved = std::nextafter(displacement(), infinity);
+  const double down = std::max(0.0, std::nextafter(lower - moved, -infinity));
+  const double up = std::nextafter(upper + moved, infinity);
+  // The joint diagonal is rounded to nearest: a little more is surely above it.
+  const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
+  return {length_down(down), std::min(length_up(up), farthest)};
+}
+
 Frame make_frame(const Mesh& a, const Mesh& b) {
   const Box joint = join(bounding_box(a), bounding_box(b));
   // Halved first only where the sum would overflow: a subnormal's half is rounded.

@@ -15,6 +15,11 @@ struct Box {
 Box bounding_box(const Mesh& mesh);
 double diagonal(const Box& box);  ///< rounded to nearest
 
+/// Distances in the files' units, rounded outward.
+struct FileInterval {
+  double lower, upper;
+};
+
 /// frame = (given - centre) * 2^exponent, as a sum of two float32, high and low; |frame coordinate|
 /// <= 1.
 struct Frame {
@@ -35,6 +40,10 @@ struct Frame {
   /// double.
   double length_down(double frame_length) const;
   double length_up(double frame_length) const;
+  /// What the device certifies of the stored coordinates, for those given: widened by the
+  /// displacement. `joint_diagonal`, rounded to nearest, bounds any distance, also before the first
+  /// bounds exist.
+  FileInterval to_files(double lower, double upper, double joint_diagonal) const;
 };
 
 /// Prefers centre 0 where that keeps every coordinate in its high part: float32 files near the

@@ -55,21 +55,8 @@ uint32_t switches_of(const SolveOptions& options) {
   return on;
 }
 
-struct Interval {
-  double lower, upper;
-};
-
-// From the frame's certified floats to the files' units, widened by the displacement of the stored
-// coordinates. The joint diagonal bounds any distance, also before the first bounds exist.
-Interval to_files(const VkhReport& r, const Frame& frame, double joint_diagonal) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  const double moved = std::nextafter(frame.displacement(), infinity);
-  const double lower = std::max(0.0, std::nextafter(static_cast<double>(r.lower) - moved, 0.0));
-  const double upper = std::nextafter(static_cast<double>(r.upper) + moved, infinity);
-  // The joint diagonal is rounded to nearest: a little more is surely above it.
-  const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
-  const double upper_given = std::min(frame.length_up(upper), farthest);
-  return {frame.length_down(r.lower > 0 ? lower : 0.0), upper_given};
+FileInterval to_files(const VkhReport& r, const Frame& frame, double joint_diagonal) {
+  return frame.to_files(static_cast<double>(r.lower), static_cast<double>(r.upper), joint_diagonal);
 }
 
 double joint_diagonal(const Mesh& a, const Mesh& b) {
@@ -160,7 +147,7 @@ struct Watch {
 
   bool operator()(const VkhReport& r) {
     if (r.status != VKH_STATUS_RUNNING) return false;
-    const Interval now = to_files(r, frame, joint);
+    const FileInterval now = to_files(r, frame, joint);
     const double gap =
         diagonal_a > 0 ? (now.upper - now.lower) / diagonal_a : now.upper - now.lower;
     if (options.progress && !options.progress({r.waves, r.remaining, now.lower, now.upper, gap})) {
@@ -208,7 +195,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
   const double framed_ms = ms_since(start);
   const RunOutput run = impl_->runner.run(in);
 
-  const Interval interval = to_files(run.report, frame, joint);
+  const FileInterval interval = to_files(run.report, frame, joint);
   out.lower = interval.lower;
   out.upper = interval.upper;
   const bool closed = out.upper - out.lower <= out.tolerance;

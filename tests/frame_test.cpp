@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "host/default_pair.h"
@@ -42,7 +43,12 @@ MeshPair hard_pair_of_points(Random& random) {
     return make_mesh("points", std::move(points), std::move(faces));
   };
   Mesh a = mesh();
-  return {std::move(a), mesh()};
+  Mesh b = mesh();
+  if (random.below(8) != 0) return {std::move(a), std::move(b)};
+  // So much larger than A that A's coordinates underflow in the frame; and floats, so that the
+  // frame's centre is 0 and displaces nothing by itself.
+  for (glm::dvec3& p : b.vertices) p = glm::dvec3(glm::vec3(random.in_cube(1.0)));
+  return {scaled(a, -60), scaled(b, 1000)};
 }
 
 Rational squared_displacement(const Frame& frame, const glm::dvec3& given, const float* high,
@@ -92,6 +98,40 @@ void check_lengths(const Frame& frame, Random& random, Tally& tally) {
                 "the two are at most neighbours' neighbours", describe);
 }
 
+/// The device's floats stand for the stored meshes; the given ones are displaced from those.
+void check_interval(const Frame& frame, Random& random, Tally& tally) {
+  const int exponent = -static_cast<int>(random.below(60));
+  const float lower =
+      random.below(4) == 0 ? 0.0f : std::abs(hard_float(random, exponent, exponent));
+  const float upper = std::nextafter(lower, 1e30f);
+  const FileInterval got = frame.to_files(static_cast<double>(lower), static_cast<double>(upper),
+                                          std::numeric_limits<double>::infinity());
+  const Rational unit = power(-frame.exponent), moved(frame.displacement_a + frame.displacement_b);
+  const auto describe = [&] {
+    return hex(static_cast<double>(lower)) + " displaced by " + hex(frame.displacement()) +
+           " got " + hex(got.lower) + ", " + hex(got.upper);
+  };
+  const Rational below = (Rational(static_cast<double>(lower)) - moved) * unit;
+  const Rational above = (Rational(static_cast<double>(upper)) + moved) * unit;
+  tally.require(got.lower == 0.0 || Rational(got.lower) <= below, "lower, displaced", describe);
+  tally.require(std::isinf(got.upper) || Rational(got.upper) >= above, "upper, displaced",
+                describe);
+}
+
+/// The diagonal of the joint box bounds the distance of any two points in it.
+void check_farthest(const MeshPair& pair, const Frame& frame, Tally& tally) {
+  const Box a = vkh::bounding_box(pair.a), b = vkh::bounding_box(pair.b);
+  const Box joint = {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
+  Rational squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Rational extent = Rational(joint.hi[i]) - Rational(joint.lo[i]);
+    squared += extent * extent;
+  }
+  const FileInterval got = frame.to_files(0.0, 3e38, vkh::diagonal(joint));
+  tally.require(is_upper_bound(got.upper, squared), "the diagonal bounds any distance",
+                [&] { return hex(got.upper); });
+}
+
 }  // namespace
 
 TEST_CASE("the frame's displacement covers every vertex; its lengths are rounded outward") {
@@ -104,6 +144,8 @@ TEST_CASE("the frame's displacement covers every vertex; its lengths are rounded
     check_stored(frame, pair.a, frame.a, frame.displacement_a, tally);
     check_stored(frame, pair.b, frame.b, frame.displacement_b, tally);
     check_lengths(frame, random, tally);
+    check_interval(frame, random, tally);
+    check_farthest(pair, frame, tally);
     tally.count("with a centre", frame.centre != glm::dvec3(0));
     tally.count("displaced", frame.displacement() > 0x1p-500);
   }
