@@ -12,6 +12,7 @@ namespace vkh {
 namespace {
 
 static_assert(sizeof(VkhReport) == sizeof(gpu::Report));
+static_assert(offsetof(VkhReport, upperAbove) == offsetof(gpu::Report, upper_above));
 static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witness));
 static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
 static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));

@@ -24,6 +24,14 @@ void record_seed(Recorder& rec, const Problem& p) {
                          .control = ws.control,
                          .triangle_lows = p.b.triangle_lows},
                         vertices, Items{p.vertex_count});
+  rec.run<k::SeedLower>({.vertices = ws.vertices,
+                         .nodes = p.b.nodes,
+                         .triangles = p.b.triangles,
+                         .vertex_nearest = ws.vertex_nearest,
+                         .vertex_distance = ws.vertex_distance,
+                         .control = ws.control,
+                         .triangle_lows = p.b.triangle_lows},
+                        vertices, Items{p.vertex_count});
   rec.run<k::SeedWitness>(
       {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
       Items{p.face_count});

@@ -223,6 +223,9 @@ typedef struct VkhWaveRecord {
 typedef struct VkhReport {
   float lower; /* certified: lower <= h(A, B) */
   float upper; /* certified: h(A, B) <= upper; 3e38 while faces of A wait for their first bound */
+  /* The same interval with more bits than two float32 near h have: certified, base + lowerAbove <=
+   * h(A, B) <= base + upperAbove, the sums taken exactly (in double). */
+  float base, lowerAbove, upperAbove;
   uint32_t status; /* VkhStatus */
   uint32_t waves;
   float witnessPosition[3]; /* the point of A that proves `lower`, rounded */

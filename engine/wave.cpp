@@ -22,7 +22,10 @@ void record_plan(Recorder& rec, const Problem& p) {
                         .centroids = ws.centroids,
                         .vertices = ws.vertices,
                         .faces = ws.faces,
-                        .vertex_nearest = ws.vertex_nearest},
+                        .vertex_nearest = ws.vertex_nearest,
+                        .nodes = p.b.nodes,
+                        .triangles = p.b.triangles,
+                        .triangle_lows = p.b.triangle_lows},
                        {}, Groups{1});
   rec.stage("plan");
 }
@@ -37,6 +40,7 @@ void record_subdivide(Recorder& rec, const Problem& p) {
                                       .triangles = p.b.triangles,
                                       .splits = ws.splits,
                                       .points = ws.points,
+                                      .triangle_lows = p.b.triangle_lows,
                                       .areas = areas_of(p)},
                                      {}, ws.dispatch(gpu::kDispatchSubdivide));
   rec.stage("subdivide");

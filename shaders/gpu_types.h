@@ -71,13 +71,15 @@ VKH_CONST uint kCullPrecision = 7u;
 VKH_CONST uint kCullCount = 8u;
 
 // Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax
-// orders them.
+// orders them. Distances are what they are above Control::base.
 VKH_CONST uint kMaxLower = 0u;    // largest distance of a sample, not yet certified: it only steers
 VKH_CONST uint kMaxDropped = 1u;  // largest u of a culled candidate
 VKH_CONST uint kMaxFrontier = 2u;  // largest u in the frontier being read
 VKH_CONST uint kMaxNext = 3u;      // largest u in the frontier being written
 VKH_CONST uint kMaxSpilled = 4u;   // largest u of what did not fit or cannot be refined
-VKH_CONST uint kMaxCount = 5u;
+VKH_CONST uint kMaxVertex =
+    5u;  // largest distance of a vertex of A, in plain floats: sets the base
+VKH_CONST uint kMaxCount = 6u;
 
 // Control::count: stream lengths.
 VKH_CONST uint kCountFrontier = 0u;   // candidates being read
@@ -161,7 +163,7 @@ struct Candidate {
   uint root;              // face of A
   uvec3 nearest;          // closest triangle of B found for each corner
   uint nearest_centroid;  // and for the centroid, or kNone
-  float upper;            // u: h(candidate, B) <= upper, rounding included
+  float upper;            // u: h(candidate, B) <= Control::base + upper, rounding included
 };
 
 // One closest-point query: in, a position and triangles to start from; out, the closest triangle
@@ -170,7 +172,7 @@ struct Point {
   vec3 position;
   uint nearest;  // in: start triangle or kNone; out: closest triangle
   vec3 position_lo;
-  float distance;
+  float distance;  // above Control::base, at least 0; negative: not to be queried
 };
 
 struct Dispatch {
@@ -185,7 +187,7 @@ struct WaveRecord {
 // The sample with the largest distance so far.
 struct Witness {
   vec3 position;   // as rounded to float32; the sample proper is at (root, j, k)
-  float distance;  // steering value
+  float distance;  // above Control::base; steering value
   uint root;       // face of A
   uint j, k;       // dyadic barycentrics of its second and third corner
   uint nearest;    // triangle of B
@@ -193,7 +195,7 @@ struct Witness {
 
 struct Control {
   uint count[3];    // kCount*
-  uint maximum[5];  // kMax*
+  uint maximum[6];  // kMax*
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
   uint wave;
@@ -207,7 +209,12 @@ struct Control {
   uint witness_point_key, witness_point;
   uint witness_centroid_key, witness_centroid;
   float cull_tolerance;
+  float base;  // distances of the run are kept as what they are above it
+  // The old base less the new one, in two floats: what the frontier being read is to be moved by. 0
+  // but in the wave that follows a change of base.
+  float rebase_hi, rebase_lo;
   uint two_float;  // the meshes have low parts
+  uint tight;      // samples are compared to 48 bits
   Witness witness;
   uint capacity;    // of each half of the frontier
   uint face_count;  // of A
@@ -231,6 +238,8 @@ struct CentroidBox {
 struct Report {
   float lower;  // certified: lower <= h(A,B) for the coordinates in the buffers
   float upper;  // certified: h(A,B) <= upper
+  // The same, with more bits: base + lower_above <= h(A,B) <= base + upper_above.
+  float base, lower_above, upper_above;
   uint status;
   uint wave;
   Witness witness;

@@ -1,5 +1,5 @@
 // What: adopts the last wave's witness and clears the certified lower bound. One invocation.
-// In: the streams of the last wave. Out: control.witness; report.lower as the bits of a huge float.
+// In: the streams of the last wave. Out: control.witness; lower_bits as those of a huge float.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,8 +20,9 @@ layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/witness.glsl"
+#include "shaders/lib/morton.h"
 
 void main() {
   adopt_witness();
-  lower_bits[0] = floatBitsToUint(3.0e38);
+  lower_bits[0] = ordered_bits(floatBitsToUint(3.0e38));
 }

@@ -1,6 +1,7 @@
 // What: the certified lower bound: the smallest distance of the witness from any face of B,
 // each rounded down. Every triangle is visited, so nothing rests on the hierarchy or on the walks
-// that found the witness. In: control.witness, triangles. Out: lower_bits[0].
+// that found the witness. In: control.witness, B as given. Out: lower_bits[0], what the bound is
+// above the base.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,6 +10,7 @@
 #include "shaders/lib/invocation.glsl"
 #include "shaders/lib/bary.h"
 #include "shaders/lib/lower.h"
+#include "shaders/lib/morton.h"
 
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
@@ -36,9 +38,10 @@ void main() {
   Root root = load_root(w.root);
   Two3 p = place(root, uvec2(w.j, w.k));
   uvec3 f = b_faces[i];
-  Surface s =
-      make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z), View(p, norm_up(p.hi), true));
+  Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
+                           View(p, norm_up(p.hi), control.base, true));
   // A triangle farther than the steering distance by a margin does not decide the minimum.
-  float d = subgroupMin(triangle_distance_down(s, 1.0001 * w.distance));
-  if (subgroupElect()) atomicMin(lower_bits[0], floatBitsToUint(d));
+  float enough = w.distance + 1.0e-4 * (control.base + w.distance);
+  float d = subgroupMin(triangle_distance_down(s, enough));
+  if (subgroupElect()) atomicMin(lower_bits[0], ordered_bits(floatBitsToUint(d)));
 }

@@ -1,7 +1,7 @@
 // What: the report. One invocation. In: control, lower_bits from report_lower. Out: report.
 // lower: the witness's certified distance, less how far its 48-bit position can lie from the point
 // of A that it stands for. upper: the largest u of everything that was dropped, spilled or is still
-// open; without bound while faces of A wait.
+// open; without bound while faces of A wait. Both as float32, and to more bits above the base.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,6 +16,7 @@ layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
 
 #include "shaders/lib/root.glsl"
+#include "shaders/lib/morton.h"
 
 float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
 
@@ -32,15 +33,25 @@ float upper_bound() {
   return uintBitsToFloat(bits);
 }
 
+// What the certified lower bound is above the base, at least -base.
+float lower_bound(Witness w) {
+  float above = uintBitsToFloat(from_ordered_bits(lower_bits[0]));
+  return max(lowered(above - 2.0 * witness_slack(w)), -control.base);
+}
+
 void main() {
   Witness w = control.witness;
-  float lower =
-      max(next_down(uintBitsToFloat(lower_bits[0])) - 2.0 * witness_slack(w) - kTiny, 0.0);
-  report.lower = lower;
-  report.upper = max(upper_bound(), lower);
+  float lower = lower_bound(w);
+  float upper = max(upper_bound(), lower);
+  report.base = control.base;
+  report.lower_above = lower;
+  report.upper_above = upper;
+  report.lower = max(lowered(control.base + lower), 0.0);
+  report.upper = raised(control.base + upper);
   report.status = control.status;
   report.wave = control.wave;
   report.witness = w;
+  report.witness.distance = control.base + w.distance;
   report.witness_face = triangles[w.nearest].face;
   report.remaining = remaining();
   // The last recorded wave is only closed by the plan after it: its work is added here.

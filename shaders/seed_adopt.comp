@@ -1,5 +1,5 @@
-// What: writes the seed's witness into the control block. One invocation. In: control.witness_point
-// from seed_witness.
+// What: writes the seed's witness and base into the control block. One invocation. In:
+// control.witness_point from seed_witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,6 +11,8 @@ layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) readonly buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 3) buffer ControlBlock { Control control; };
 
+#include "shaders/lib/base.glsl"
+
 void main() {
   uint face = control.witness_point / 3u;  // uncertified: integers
   uint corner = control.witness_point % 3u;
@@ -19,4 +21,7 @@ void main() {
       Witness(vertices[vertex].hi, uintBitsToFloat(control.maximum[kMaxLower]), face,
               corner == 1u ? kBaryOne : 0u, corner == 2u ? kBaryOne : 0u, vertex_nearest[vertex]);
   control.witness_point = kNone;
+  float base = base_of_run();
+  control.base = base;
+  control.tight = is_tight(base) ? 1u : 0u;
 }

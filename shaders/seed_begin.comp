@@ -10,7 +10,7 @@ layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
 void main() {
   for (int i = 0; i < 3; ++i) control.count[i] = 0u;
-  for (int i = 0; i < 5; ++i) control.maximum[i] = 0u;
+  for (int i = 0; i < 6; ++i) control.maximum[i] = 0u;
   for (int i = 0; i < 8; ++i) control.culled[i] = 0u;
   control.parity = 0u;
   control.wave = 0u;
@@ -24,7 +24,11 @@ void main() {
   control.witness_centroid_key = kNone;
   control.witness_centroid = kNone;
   control.cull_tolerance = push.cull_tolerance;
+  control.base = 0.0;
+  control.rebase_hi = 0.0;
+  control.rebase_lo = 0.0;
   control.two_float = push.two_float;
+  control.tight = 0u;
   control.witness = Witness(vec3(0.0), -1.0, kNone, 0u, 0u, kNone);
   control.capacity = push.capacity;
   control.face_count = push.face_count;

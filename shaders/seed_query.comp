@@ -1,6 +1,6 @@
-// What: the closest triangle of B to each vertex of A, and the first lower bound.
+// What: the closest triangle of B to each vertex of A, in plain floats.
 // In: vertices; vertex_nearest from seed_mark. Out: vertex_nearest, vertex_distance;
-// control.maximum[kMaxLower].
+// control.maximum[kMaxVertex].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,17 +18,17 @@ layout(scalar, binding = 6) readonly buffer TriangleLows { TriangleLow triangle_
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/lib/bvh.glsl"
-#include "shaders/lib/surface.glsl"
 #include "shaders/lib/stream.glsl"
 
 void main() {
   uint i = item_index();
   float d = 0.0;
   if (i < push.count && vertex_nearest[i] != kNone) {
-    Nearest found = nearest_triangle(vertices[i].hi, kNone);
-    d = steering_distance(Two3(vertices[i].hi, vertices[i].lo), found.triangle, found.distance2);
+    Two3 p = Two3(vertices[i].hi, vertices[i].lo);
+    Nearest found = nearest_triangle(Query(p, 0.0, false), kNone);
+    d = found.above;
     vertex_nearest[i] = found.triangle;
     vertex_distance[i] = d;
   }
-  raise(kMaxLower, d);
+  raise(kMaxVertex, d);
 }

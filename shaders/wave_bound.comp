@@ -26,7 +26,6 @@ layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle
 layout(scalar, binding = 12) buffer Areas { Area areas[]; };
 
 #include "shaders/lib/bvh.glsl"
-#include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
@@ -48,7 +47,7 @@ void bound_pairs(Patch t, Known known, vec3 d[kMaxKnown], View view, float shift
       if (v.upper <= threshold) return;
       if (max3(min(d[i], d[j])) + shift >= v.upper) continue;
       Surface r = load_surface(known.triangle[j], view);
-      float u3 = round_up(bound_pair(t, s, d[i], r, d[j]) + shift, 1.0f);
+      float u3 = kept_bound(bound_pair(t, s, d[i], r, d[j]), shift);
       if (u3 < v.upper) v = Verdict(u3, kCullU3);
     }
   }
@@ -79,7 +78,7 @@ void bound_u4(Patch t, uvec3 nearest, View view, float shift, inout Verdict v) {
     if (k == opposite) continue;
     vec3 da = corner_distances(t, s[opposite]);
     vec3 db = corner_distances(t, s[k]);
-    float u4 = round_up(bound_pair(t, s[opposite], da, s[k], db) + shift, 1.0f);
+    float u4 = kept_bound(bound_pair(t, s[opposite], da, s[k], db), shift);
     if (u4 < v.upper) v = Verdict(u4, kCullU4);
   }
 }
@@ -103,10 +102,10 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   for (uint k = 0u; k < known.count; ++k) {
     d[k] = corner_distances(t, load_surface(known.triangle[k], view));
     own = min(own, d[k]);
-    float ha = round_up(bound_single(d[k]) + shift, 1.0f);
+    float ha = kept_bound(bound_single(d[k]), shift);
     if (ha < v.upper) v = Verdict(ha, kCullHa);
   }
-  float simple = round_up(min(bound_u1(t, own), bound_u2(t, own)) + shift, 1.0f);
+  float simple = kept_bound(min(bound_u1(t, own), bound_u2(t, own)), shift);
   if (simple < v.upper) v = Verdict(simple, kCullU2);
   if (v.upper <= threshold) return v;
   if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, view, shift, threshold, v);

@@ -39,6 +39,7 @@ void main() {
   uint i = item_index();
   bool held = i < control.deferred;
   Candidate c = frontier[reading(held ? i : 0u)];
+  c.upper = upper_of(c);
   raise(kMaxNext, held ? c.upper : 0.0);
   if (held) frontier[writing(i)] = c;
   settle_witness(i);

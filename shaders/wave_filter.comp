@@ -26,7 +26,6 @@ layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle
 layout(scalar, binding = 12) buffer Areas { Area areas[]; };
 
 #include "shaders/lib/bvh.glsl"
-#include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
@@ -71,15 +70,15 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
     if (k == own_count && v.upper <= threshold) return v;
     measure(t, known.triangle[k], view, own, v, ha);
     if (k + 1u == own_count) {
-      float u1 = round_up(bound_u1(t, own) + shift, 1.0f);
-      float u2 = round_up(bound_u2(t, own) + shift, 1.0f);
+      float u1 = kept_bound(bound_u1(t, own), shift);
+      float u2 = kept_bound(bound_u2(t, own), shift);
       v.by = own_count == 1u   ? kCullExact
              : u1 <= threshold ? kCullU1
              : u2 <= threshold ? kCullU2
                                : kCullHa;
       v.upper = min(v.upper, min(u1, u2));
     }
-    if (k + 1u >= own_count) v.upper = min(v.upper, round_up(ha + shift, 1.0f));
+    if (k + 1u >= own_count) v.upper = min(v.upper, kept_bound(ha, shift));
   }
   return v;
 }

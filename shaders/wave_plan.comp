@@ -1,7 +1,8 @@
 // What: everything that a wave decides as a whole: adopts the last wave's witness, flips the
-// frontier's halves, tests for the end, shares the room out between refined, deferred and newly
-// admitted candidates, writes the sizes of the wave's first half. One invocation. After the end it
-// writes zeros, so that recorded waves cost empty dispatches only. Invariant: deferred + 4 parents
+// frontier's halves, moves the base of distances, tests for the end, shares the room out between
+// refined, deferred and newly admitted candidates, writes the sizes of the wave's first half. One
+// invocation. After the end it writes zeros, so that recorded waves cost empty dispatches only.
+// Invariant: deferred + 4 parents
 // + roots <= capacity, so no stream of the wave can overflow.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -19,7 +20,11 @@ layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 7) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 8) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 10) readonly buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 11) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
+#include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/dispatch.glsl"
@@ -33,9 +38,9 @@ void close_wave() {
   uint queries = 3u * control.parents + control.count[kCountSurvivors];
   float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
                                     max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
-  control.waves[w] =
-      WaveRecord(control.parents, candidates, queries, control.count[kCountSurvivors],
-                 control.deferred, uintBitsToFloat(control.maximum[kMaxLower]), upper);
+  control.waves[w] = WaveRecord(
+      control.parents, candidates, queries, control.count[kCountSurvivors], control.deferred,
+      control.base + uintBitsToFloat(control.maximum[kMaxLower]), control.base + upper);
   control.candidate_total += candidates;
   control.query_total += queries;
 }
@@ -48,6 +53,35 @@ void flip() {
   control.maximum[kMaxFrontier] = control.maximum[kMaxNext];
   control.maximum[kMaxNext] = 0u;
   control.peak_frontier = max(control.peak_frontier, control.count[kCountFrontier]);
+}
+
+void rebase_maximum(uint which) {
+  control.maximum[which] = floatBitsToUint(rebased(uintBitsToFloat(control.maximum[which])));
+}
+
+// The lower bound has risen so far above the base that an ulp of what it is above it matters: moves
+// the base up to it, everything kept above the old one with it, and measures the witness again. The
+// frontier is moved as it is read in this wave.
+void move_base() {
+  control.rebase_hi = 0.0;
+  control.rebase_lo = 0.0;
+  float above = uintBitsToFloat(control.maximum[kMaxLower]);
+  if (!needs_sharp(above)) return;
+  float from = control.base;
+  control.base = from + 0.999 * above;
+  Two by = two_sum(from, -control.base);
+  control.rebase_hi = by.hi;
+  control.rebase_lo = by.lo;
+  control.tight = 1u;
+  rebase_maximum(kMaxFrontier);
+  rebase_maximum(kMaxDropped);
+  rebase_maximum(kMaxSpilled);
+  Witness w = control.witness;
+  Two3 p = place(load_root(w.root), uvec2(w.j, w.k));
+  Nearest found = nearest_triangle(Query(p, control.base, true), w.nearest);
+  control.witness.nearest = found.triangle;
+  control.witness.distance = max(found.above, 0.0);
+  control.maximum[kMaxLower] = floatBitsToUint(control.witness.distance);
 }
 
 // A refined candidate leaves at most four where it was one. The last ones are refined and their
@@ -96,6 +130,7 @@ void main() {
     adopt_witness();
     close_wave();
     flip();
+    move_base();
     share_room();
     end_if_done();
   }

@@ -16,7 +16,6 @@ layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/lib/bvh.glsl"
-#include "shaders/lib/surface.glsl"
 #include "shaders/lib/stream.glsl"
 
 void main() {
@@ -24,9 +23,10 @@ void main() {
   uint count = push.centroids != 0u ? control.count[kCountSurvivors] : 3u * control.parents;
   float d = 0.0;
   if (i < count && points[i].distance >= 0.0) {
-    Nearest found = nearest_triangle(points[i].position, points[i].nearest);
-    d = steering_distance(Two3(points[i].position, points[i].position_lo), found.triangle,
-                          found.distance2);
+    Query q =
+        Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u);
+    Nearest found = nearest_triangle(q, points[i].nearest);
+    d = max(found.above, 0.0);
     points[i].nearest = found.triangle;
     points[i].distance = d;
   }

@@ -19,7 +19,8 @@ layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 6) writeonly buffer Splits { uint splits[]; };
 layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
-layout(scalar, binding = 8) buffer Areas { Area areas[]; };
+layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 9) buffer Areas { Area areas[]; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
@@ -43,7 +44,7 @@ uint choose_split(Bary3 at, Root root) {
 
 uint best_start(Candidate c, vec3 p) {
   if ((kSwitches & kUseWarmStart) == 0u) return kNone;
-  Nearest best = Nearest(kNone, 3.0e38);
+  Nearest best = nothing_near();
   try_triangle(p, c.nearest.x, best);
   if (c.nearest.y != c.nearest.x) try_triangle(p, c.nearest.y, best);
   if (c.nearest.z != c.nearest.x && c.nearest.z != c.nearest.y) try_triangle(p, c.nearest.z, best);
@@ -65,7 +66,8 @@ void main() {
   uint i = item_index();
   bool mine = i < control.parents;
   Candidate c = frontier[parent_at(mine ? i : 0u)];
-  bool closed = mine && c.upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
+  float upper = upper_of(c);
+  bool closed = mine && upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   uint split = kSplitNone;
   if (mine) {
     Bary3 at = unpack_corners(c.corners);
@@ -81,5 +83,5 @@ void main() {
   bool ended = mine && split == kSplitNone;
   count_culled(kCullLowerRaised, closed);
   count_culled(kCullPrecision, ended && !closed);
-  raise(kMaxDropped, ended ? c.upper : 0.0);
+  raise(kMaxDropped, ended ? upper : 0.0);
 }

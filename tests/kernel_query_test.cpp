@@ -84,13 +84,18 @@ std::vector<glm::dvec3> queries(const Mesh& mesh, uint32_t count, bool two_float
 /// triangle that is a little farther. Coordinates are of order 1, so 1e-6 is 8 ulp of one.
 double allowed(double distance) { return 1e-5 * distance + 1e-6; }
 
+/// `above`: what the distance is said to be above `base`, at least 0.
 void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu::Triangle>& sorted,
-                   uint32_t nearest, float distance, bool two_float) {
+                   uint32_t nearest, double above, double base, bool two_float) {
   REQUIRE(nearest < sorted.size());
   const double least = point_mesh_distance(p, mesh);
   const auto [a, b, c] = corners(mesh, sorted[nearest].face);
   const double there = point_triangle_distance(p, a, b, c);
-  const double found = static_cast<double>(distance);
+  if (above == 0.0 && base > 0.0) {
+    CHECK_MESSAGE(there <= base + allowed(base), there << " is not under the base " << base);
+    return;
+  }
+  const double found = base + above;
   CHECK_MESSAGE(there - least <= allowed(least), "a triangle at " << there << ", not " << least);
   if (two_float) {
     // The distance to the triangle found is then taken anew from 48 bits, rounded up.
@@ -116,6 +121,7 @@ gpu::Control blank_control() {
   gpu::Control control;
   std::memset(static_cast<void*>(&control), 0xa5, sizeof(control));
   control.maximum[gpu::kMaxLower] = 0;
+  control.base = 0;
   return control;
 }
 
@@ -128,6 +134,7 @@ Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, u
   Query q;
   q.control = blank_control();
   q.control.two_float = mode.two_float ? 1 : 0;
+  q.control.tight = q.control.two_float;
   q.control.count[gpu::kCountSurvivors] = mode.centroids ? count : 0;
   q.control.parents = mode.centroids ? 0 : count / 3;
   Random random(count);
@@ -166,7 +173,7 @@ void check_wave_query(KernelBench& bench, const Mesh& mesh, uint32_t count, Mode
     const gpu::Point& before = q.before[i];
     if (before.distance >= 0) {
       check_nearest(position(p.position) + position(p.position_lo), mesh, sorted, p.nearest,
-                    p.distance, mode.two_float);
+                    static_cast<double>(p.distance), 0.0, mode.two_float);
       largest = std::max(largest, p.distance);
       p.nearest = before.nearest;
       p.distance = before.distance;
@@ -237,7 +244,8 @@ void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b, bool two_float
       CHECK(seed.nearest[v] == gpu::kNone);
       continue;
     }
-    check_nearest(a.vertices[v], b, sorted, seed.nearest[v], seed.distance[v], two_float);
+    check_nearest(a.vertices[v], b, sorted, seed.nearest[v], static_cast<double>(seed.distance[v]),
+                  static_cast<double>(seed.control.base), two_float);
     largest = std::max(largest, seed.distance[v]);
   }
   const gpu::Witness& w = seed.control.witness;

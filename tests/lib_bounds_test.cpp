@@ -25,6 +25,7 @@ struct PatchCase {
   Stored origin, b, c;
   std::array<StoredTriangle, 2> surface;
   float reach;
+  float base;
   bool sharp;
   double inflation;  ///< how much larger than computed the corners' distances are said to be
   glm::dvec3 local(uint32_t i) const {
@@ -90,6 +91,7 @@ PatchCase hard_patch(Random& random) {
   c.c = stored(t.at(2) - t.at(0));
   c.surface = hard_surfaces(random, t, std::max(c.size(), 0x1p-24));
   c.reach = std::max({length_up(c.origin), length_up(c.b), length_up(c.c)});
+  c.base = hard_base(random, c.surface[0], t.at(random.below(3)));
   c.sharp = random.below(2) == 0;
   c.inflation = random.below(3) == 0 ? log_uniform(random, -22, 2) : 0.0;
   return c;
@@ -100,13 +102,13 @@ struct Bounds {
   double u1, u2, pair, radius;
 };
 
-/// `nearest`: the corners' distances from the nearer surface, not below the exact ones.
+/// `nearest`: the corners' distances from the nearer surface above the base, not below the exact.
 Bounds bounds_of(const PatchCase& c, const glm::vec3& nearest, const Device& device) {
   return device.run([&]() -> Bounds {
     const math::Patch t = math::make_patch(math::two(math::vec3(0.0f, 0.0f, 0.0f)),
                                            math::given(c.b), math::given(c.c));
-    const math::Surface s = math::surface_around(c.surface[0], c.origin, c.reach, c.sharp);
-    const math::Surface r = math::surface_around(c.surface[1], c.origin, c.reach, c.sharp);
+    const math::Surface s = math::surface_around(c.surface[0], c.origin, c.reach, c.sharp, c.base);
+    const math::Surface r = math::surface_around(c.surface[1], c.origin, c.reach, c.sharp, c.base);
     math::vec3 ds = math::corner_distances(t, s), dr = math::corner_distances(t, r);
     const Bounds plain = {{math::wide(math::bound_single(ds)), math::wide(math::bound_single(dr))},
                           math::wide(math::bound_u1(t, math::given(nearest))),
@@ -114,9 +116,9 @@ Bounds bounds_of(const PatchCase& c, const glm::vec3& nearest, const Device& dev
                           0.0,
                           math::wide(math::radius_up(t.at))};
     // Any upper bounds will do; they move the cut.
-    const auto more = static_cast<float>(1.0 + c.inflation);
-    ds = math::vec3(ds.x * more, ds.y, ds.z);
-    dr = math::vec3(dr.x, dr.y * more, dr.z);
+    const auto more = static_cast<float>(c.inflation);
+    ds = math::vec3(ds.x + more * abs(ds.x), ds.y, ds.z);
+    dr = math::vec3(dr.x, dr.y + more * abs(dr.y), dr.z);
     Bounds out = plain;
     out.pair = math::wide(math::bound_pair(t, s, ds, r, dr));
     return out;
@@ -154,7 +156,8 @@ class Sampler {
                          -kFixedBits - static_cast<int>(kWeightBits));
   }
   bool at_most(Weights w, size_t surface, double near, double bound) const {
-    return near + margin_ <= bound || is_upper_bound(bound, squared(w, surface));
+    const double base = static_cast<double>(c_.base);
+    return near + margin_ <= base + bound || is_upper_bound(base, bound, squared(w, surface));
   }
 
  private:
@@ -211,11 +214,11 @@ std::vector<Weights> samples(const Sampler& sampler, uint32_t cells) {
   return out;
 }
 
-/// The corners' distances from the union, rounded up.
-glm::vec3 nearest_of(const Sampler& sampler) {
+/// The corners' distances from the union above the base, rounded up.
+glm::vec3 nearest_of(const Sampler& sampler, double base) {
   const auto up = [&](Weights w) {
     const double d = std::min(sqrt_near(sampler.squared(w, 0)), sqrt_near(sampler.squared(w, 1)));
-    return float_up(d * (1.0 + 0x1p-50));
+    return float_up(d - base + 0x1p-50 * (d + base));
   };
   return {up({0, 0}), up({kWeightOne, 0}), up({0, kWeightOne})};
 }
@@ -248,13 +251,14 @@ TEST_CASE("bounds.h: no sample is beyond bound_single, bound_u1, bound_u2, bound
     const PatchCase c = hard_patch(random);
     const Device device(i);
     const Sampler sampler(c);
-    const Bounds bound = bounds_of(c, nearest_of(sampler), device);
+    const Bounds bound = bounds_of(c, nearest_of(sampler, static_cast<double>(c.base)), device);
     const auto describe = [&] {
       return std::string(device.name()) + ": around " + hex(c.origin) + " b " + hex(c.b) + " c " +
              hex(c.c) + " S " + hex(c.surface[0]) + " R " + hex(c.surface[1]) +
-             (c.sharp ? " sharp" : "") + " inflated " + hex(c.inflation) + " bounds " +
-             hex(bound.single[0]) + " " + hex(bound.single[1]) + " " + hex(bound.u1) + " " +
-             hex(bound.u2) + " " + hex(bound.pair);
+             (c.sharp ? " sharp" : "") + " base " + hex(static_cast<double>(c.base)) +
+             " inflated " + hex(c.inflation) + " bounds " + hex(bound.single[0]) + " " +
+             hex(bound.single[1]) + " " + hex(bound.u1) + " " + hex(bound.u2) + " " +
+             hex(bound.pair);
     };
     double farthest = 0.0;
     // 45 points and the crossings; 561 for one case in sixteen.
@@ -263,12 +267,14 @@ TEST_CASE("bounds.h: no sample is beyond bound_single, bound_u1, bound_u2, bound
       farthest = std::max(farthest, std::min(sampler.near(w, 0), sampler.near(w, 1)));
     }
     const double single = std::min(bound.single[0], bound.single[1]);
+    const double base = static_cast<double>(c.base);
     tally.count("pairs below both singles", bound.pair < single);
-    tally.count("pairs that the samples come within 1e-3 of", farthest > 0.999 * bound.pair);
+    tally.count("pairs that the samples come within 1e-3 of",
+                farthest > 0.999 * (base + bound.pair));
     if (farthest < 0x1p-30) continue;
-    tally.measure("samples over bound_u1", farthest / bound.u1, describe);
-    tally.measure("samples over bound_u2", farthest / bound.u2, describe);
-    tally.measure("samples over bound_pair", farthest / bound.pair, describe);
+    tally.measure("samples over bound_u1", farthest / (base + bound.u1), describe);
+    tally.measure("samples over bound_u2", farthest / (base + bound.u2), describe);
+    tally.measure("samples over bound_pair", farthest / (base + bound.pair), describe);
   }
   tally.conclude(100 * count);
   CHECK(tally.counted("pairs below both singles") > count / 50);

@@ -17,6 +17,7 @@ struct LowerCase {
   StoredTriangle triangle;
   Stored from;
   float enough;
+  float base;
   bool whole;  ///< the triangle has an area worth the name: tightness is asked
 };
 
@@ -27,7 +28,8 @@ LowerCase hard_lower_case(Random& random) {
   const float enough = random.below(4) == 0 ? 0.0f : std::numeric_limits<float>::max();
   const glm::dvec3 ab = t.at(1) - t.at(0), ac = t.at(2) - t.at(0), bc = t.at(2) - t.at(1);
   const double longest = std::max({glm::length(ab), glm::length(ac), glm::length(bc)});
-  return {t, from, enough, glm::length(glm::cross(ab, ac)) > 0x1p-6 * longest * longest};
+  return {t, from, enough, hard_base(random, t, p),
+          glm::length(glm::cross(ab, ac)) > 0x1p-6 * longest * longest};
 }
 
 struct LowerAnswer {
@@ -37,16 +39,20 @@ struct LowerAnswer {
 LowerAnswer distance_down(const LowerCase& c, const Device& device) {
   const float reach = length_up(c.from);
   return device.run([&]() -> LowerAnswer {
-    const math::Surface s = math::surface_around(c.triangle, c.from, reach, true);
+    const math::Surface s = math::surface_around(c.triangle, c.from, reach, true, c.base);
     return {math::wide(math::triangle_distance_down(s, c.enough)), math::wide(s.slack),
             math::wide(math::radius_up(s.at))};
   });
 }
 
-/// 30 ulp of the distance and 48 bits of the triangle's size, but for what the products p.r lose:
-/// they are of the order of the distance's square, and a few kTiny are taken from them.
-void check_tight(const LowerAnswer& got, double near, Tally& tally, const auto& describe) {
-  const double left = near - got.value - 30.0 * 0x1p-23 * near - 4.0 * 0x1p-60 / near;
+/// 8 ulp of what the distance is above the base, 48 bits of distance, base and the triangle's size,
+/// what the surface leaves out,
+/// and 2^-34 for triangles of a few ulps, whose directions are rounding.
+void check_tight(const LowerCase& c, const LowerAnswer& got, double near, Tally& tally,
+                 const auto& describe) {
+  const double base = static_cast<double>(c.base);
+  const double left = near - base - got.value - 8.0 * 0x1p-23 * std::abs(near - base) -
+                      0x1p-37 * (near + base) - 2.0 * got.slack - 0x1p-34;
   tally.count("whole triangles", true);
   tally.count("whole triangles, loose", left > 4e-12 * got.radius);
   tally.measure("looseness / triangle's radius", left / got.radius, describe);
@@ -66,13 +72,14 @@ TEST_CASE("lower.h: triangle_distance_down never exceeds the distance, and is ti
     const double near = sqrt_near(exact);
     const auto describe = [&] {
       return std::string(device.name()) + ": " + hex(c.triangle) + " from " + hex(c.from) +
-             (c.enough == 0.0f ? " coarse" : "") + " got " + hex(got.value) + " exact " + hex(near);
+             (c.enough == 0.0f ? " coarse" : "") + " base " + hex(static_cast<double>(c.base)) +
+             " got " + hex(got.value) + " exact " + hex(near);
     };
-    tally.require(is_lower_bound(got.value, exact), "lower <= d(p, S)", describe);
+    const double base = static_cast<double>(c.base);
+    tally.require(is_lower_bound(base, got.value, exact), "base + lower <= d(p, S)", describe);
     if (near == 0.0) continue;
-    tally.measure("excess / slack", (got.value - near) / got.slack, describe);
-    tally.measure("excess, ulp", (got.value / near - 1.0) * 0x1p23, describe);
-    if (c.whole && c.enough != 0.0f) check_tight(got, near, tally, describe);
+    tally.measure("excess / slack", (base + got.value - near) / got.slack, describe);
+    if (c.whole && c.enough != 0.0f) check_tight(c, got, near, tally, describe);
   }
   tally.conclude(count);
   const double loose = static_cast<double>(tally.counted("whole triangles, loose"));

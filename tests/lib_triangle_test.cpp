@@ -23,6 +23,7 @@ double longest_edge(const StoredTriangle& t) {
 struct UpperCase {
   StoredTriangle triangle;
   Stored origin, p;  ///< p is relative to the origin
+  float base;
   bool sharp;
 };
 
@@ -47,12 +48,12 @@ UpperCase hard_upper_case(Random& random) {
       origin += log_uniform(random, -24, 0) * random.direction();
   }
   const Stored o = random.below(4) == 0 ? stored_single(origin) : stored(origin);
-  return {t, o, stored(p - o.value()), random.below(2) == 0};
+  return {t, o, stored(p - o.value()), hard_base(random, t, p), random.below(2) == 0};
 }
 
 std::string describe_upper(const UpperCase& c) {
   return hex(c.triangle) + " around " + hex(c.origin) + " p " + hex(c.p) +
-         (c.sharp ? " sharp" : "");
+         (c.sharp ? " sharp" : "") + " base " + hex(static_cast<double>(c.base));
 }
 
 struct UpperAnswer {
@@ -65,7 +66,7 @@ struct UpperAnswer {
 UpperAnswer distance_up(const UpperCase& c, const Device& device) {
   const float reach = std::max(length_up(c.origin), length_up(c.p));
   return device.run([&]() -> UpperAnswer {
-    const math::Surface s = math::surface_around(c.triangle, c.origin, reach, c.sharp);
+    const math::Surface s = math::surface_around(c.triangle, c.origin, reach, c.sharp, c.base);
     const math::Two3 p = math::given(c.p);
     const math::Closest at = math::closest_point(math::rounded(p), s.at);
     return {math::wide(math::surface_distance_up(p, s)),
@@ -98,18 +99,25 @@ void check_weights(const UpperAnswer& got, Tally& tally, const auto& describe) {
 
 /// What is above d (1 + 24 ulp) + 2 slack comes from the foot, which is found in float32, and from
 /// which feature is taken to be closest: a few ulp of the local coordinates. An edge that is taken
-/// for a point (kSmallSquare) adds itself.
+/// for a point (kSmallSquare) adds itself. A sharp distance is good to 48 bits of itself and 16 ulp
+/// of what it is above the base.
 void check_loose(const UpperCase& c, const UpperAnswer& got, double near, Tally& tally,
                  const auto& describe) {
   const double size = got.radius + glm::length(c.p.value());
-  const double rest = got.distance - 2.0 * got.slack - 0x1p-46;
-  const double ulps = c.sharp ? 8.0 : 24.0;
-  const double above = (rest - near * (1.0 + ulps * kTriangleUlp)) / (size * kTriangleUlp);
-  tally.require(size == 0.0 || above <= 6.0, "upper is tight", describe);
-  if (size > 0x1p-20) tally.measure("rest, ulp of the coordinates", above, describe);
-  if (near <= 0x1p-3 * size || near < 0x1p-30) return;
-  tally.measure(c.sharp ? "ulp of a far distance, sharp" : "ulp of a far distance, not sharp",
-                ((got.distance - 2.0 * got.slack) / near - 1.0) / kTriangleUlp, describe);
+  const double base = static_cast<double>(c.base);
+  const double fine = 0x1p-38 * (near + base);  // 64 kUlp2
+  const double above = near - base;
+  const double allowed = c.sharp ? 16.0 * kTriangleUlp * std::abs(above) + fine
+                                 : kTriangleUlp * (24.0 * near + 16.0 * std::abs(above));
+  const double rest = got.distance - above - allowed - 2.0 * got.slack - 0x1p-46;
+  const double ulps = rest / (size * kTriangleUlp);
+  tally.require(size == 0.0 || ulps <= 6.0, "upper is tight", describe);
+  if (size > 0x1p-20) tally.measure("rest, ulp of the coordinates", ulps, describe);
+  if (!c.sharp || near <= 0x1p-3 * size || near < 0x1p-30) return;
+  tally.measure("a far distance's excess, kUlp2 of distance and base",
+                (got.distance - above - 16.0 * kTriangleUlp * std::abs(above) - 2.0 * got.slack) /
+                    (0x1p-44 * (near + base)),
+                describe);
 }
 
 }  // namespace
@@ -130,7 +138,8 @@ TEST_CASE("triangle.h: surface_distance_up is never below the distance, and is t
       return std::string(device.name()) + ": " + describe_upper(c) + " got " + hex(got.distance) +
              " exact " + hex(near);
     };
-    tally.require(is_upper_bound(got.distance, exact), "upper >= d(p, S)", describe);
+    tally.require(is_upper_bound(static_cast<double>(c.base), got.distance, exact),
+                  "base + upper >= d(p, S)", describe);
     check_weights(got, tally, describe);
     const double off = length_near(
         fixed(1.0) * (p - fixed_vector(got.offset)) - named_point(got, local), 2 * kFixedBits);

@@ -13,11 +13,12 @@ LOWER = "shaders/lib/lower.h"
 FRAME = "host/frame.cpp"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
-ON_CERTIFIED = ["lib_certified_test", "lib_attack_test", "lib_model_test"]
-ON_TRIANGLE = ["lib_triangle_test", "lib_attack_test", "lib_model_test"]
+ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
+ON_ABOVE = ["lib_attack_test", "lib_triangle_test", "lib_lower_test", "lib_bounds_test", "lib_model_test"]
+ON_TRIANGLE = ["lib_attack_test", "lib_triangle_test", "lib_model_test"]
 ON_BOUNDS = ["lib_attack_test", "lib_bounds_test", "lib_model_test"]
-ON_BARY = ["lib_bary_test", "lib_attack_test", "lib_model_test"]
-ON_LOWER = ["lib_lower_test", "lib_attack_test", "lib_model_test"]
+ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
+ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 
 
@@ -29,7 +30,7 @@ def counts(name, file, text, tests, nth=1, steps=None):
     """A count of ulps, written `text` with its number as {}: one less, then less and less."""
     number = text[text.index("{") + 1:text.index("}")]
     value = float(number.rstrip("f"))
-    lower = steps or [v for v in (value - 1, value / 2, value / 4, value / 8, value / 16, value / 32, 0.0)
+    lower = steps or [v for v in (value - 1, value / 2, value / 4, value / 16, 0.0)
                       if v < value]
     lower = list(dict.fromkeys(lower))
     plain = text.replace("{", "").replace("}", "")
@@ -74,13 +75,28 @@ ROWS = [
     row("sharp_norm_up's steps", CERTIFIED, "next_up(next_up(s + 0.5f * ratio(e, s)))",
         ["next_up(s + 0.5f * ratio(e, s))", "(s + 0.5f * ratio(e, s))"], ON_CERTIFIED),
     row("sharp_norm_up's low square", CERTIFIED, "+ x.lo;", [";"], ON_CERTIFIED),
-    row("sharp_norm_up's small lengths", CERTIFIED, "s < 1e-15f", ["s < 1e-17f", "s < 1e-24f"], ON_CERTIFIED),
+    row("sharp_norm_up's small lengths", CERTIFIED, "!(x.hi > 1e-30f)", ["!(x.hi > 1e-34f)", "!(x.hi > 0.0f)"], ON_CERTIFIED),
     row("sharp_norm_up's remainder", CERTIFIED, "((x.hi - square.hi) - square.lo)", ["(x.hi - square.hi)"],
         ON_CERTIFIED),
     row("quotient_down's steps", CERTIFIED, "next_down(next_down(q + remainder / b))",
         ["next_down(q + remainder / b)", "(q + remainder / b)"], ON_CERTIFIED),
     row("quotient_down's kTiny", CERTIFIED, "remainder / b)) - kTiny", ["remainder / b))"], ON_CERTIFIED),
     row("quotient_down's remainder", CERTIFIED, "q + remainder / b", ["q"], ON_CERTIFIED),
+
+    counts("raised", CERTIFIED, "x + ({4.0f} * kUlp", ON_ABOVE, steps=[3.0, 2.0, 1.0, 0.5, 0.0]),
+    row("raised's kTiny", CERTIFIED, "x + (4.0f * kUlp * abs(x) + kTiny)", ["x + (4.0f * kUlp * abs(x))"], ON_ABOVE),
+    counts("lowered", CERTIFIED, "x - ({4.0f} * kUlp", ON_ABOVE, steps=[3.0, 2.0, 1.0, 0.5, 0.0]),
+    row("lowered's kTiny", CERTIFIED, "x - (4.0f * kUlp * abs(x) + kTiny)", ["x - (4.0f * kUlp * abs(x))"], ON_ABOVE),
+    counts("sharp_norm_above_up's length", CERTIFIED, "kUlp2 * ({20.0f} * s", ON_ABOVE),
+    row("sharp_norm_above_up's base", CERTIFIED, "(20.0f * s + base)", ["(20.0f * s)"], ON_ABOVE),
+    row("sharp_norm_above_up's low sum", CERTIFIED, "t.hi + (t.lo + (0.5f * ratio(e, s)", ["t.hi + ((0.5f * ratio(e, s)"],
+        ON_ABOVE),
+    row("sharp_norm_above_up's low square", CERTIFIED, "- square.lo) + x.lo;", ["- square.lo);"], ON_ABOVE, nth=2),
+    counts("quotient_above_down's quotient", CERTIFIED, "kUlp2 * ({64.0f} * q", ON_ABOVE),
+    row("quotient_above_down's base", CERTIFIED, "(64.0f * q + base)", ["(64.0f * q)"], ON_ABOVE),
+    counts("quotient_above_down's off", CERTIFIED, "round_up(off / l, {16.0f})", ON_ABOVE),
+    row("quotient_above_down's length", CERTIFIED, " - q * extra", [""], ON_ABOVE),
+    row("quotient_above_down's low reach", CERTIFIED, "- product.lo) + reach.lo)", ["- product.lo))"], ON_ABOVE),
 
     # triangle.h
     counts("closest_point's guard under 1", TRIANGLE, "1.0f - {4.0f} * kUlp", ON_TRIANGLE, steps=[3.0, 2.0, 1.0, 0.0]),
@@ -90,12 +106,14 @@ ROWS = [
     counts("Surface::slack, reach", TRIANGLE, "{8.0f} * from.reach", ON_TRIANGLE),
     counts("Surface::slack, radius", TRIANGLE, "{28.0f} * radius_up(s.at)", ON_TRIANGLE),
     counts("Surface::slack, its rounding", TRIANGLE, "radius_up(s.at)), {4.0f})", ON_TRIANGLE),
-    row("surface_distance_up's slack, sharp", TRIANGLE, "sharp_norm_up(offset) + s.slack",
-        ["sharp_norm_up(offset) + 0.1f * s.slack", "sharp_norm_up(offset)"], ON_TRIANGLE),
+    row("distance_to_up's slack, sharp", TRIANGLE, "sharp_norm_above_up(offset, s.base) + s.slack",
+        ["sharp_norm_above_up(offset, s.base) + 0.1f * s.slack", "sharp_norm_above_up(offset, s.base)"], ON_TRIANGLE),
     row("surface_distance_up's slack", TRIANGLE, "norm_up(rounded(offset)) + s.slack",
         ["norm_up(rounded(offset)) + 0.1f * s.slack", "norm_up(rounded(offset))"], ON_TRIANGLE),
-    row("surface_distance_up's step", TRIANGLE, "next_up(sharp_norm_up(offset) + s.slack)",
-        ["(sharp_norm_up(offset) + s.slack)"], ON_TRIANGLE),
+    row("distance_to_up's rounding, sharp", TRIANGLE, "raised(sharp_norm_above_up(offset, s.base) + s.slack)",
+        ["(sharp_norm_above_up(offset, s.base) + s.slack)"], ON_TRIANGLE),
+    row("distance_to_up's rounding", TRIANGLE, "raised(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base)",
+        ["(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base)"], ON_TRIANGLE),
     counts("surface_distance_up's sum", TRIANGLE, "+ s.slack, {3.0f})", ON_TRIANGLE),
     row("radius_up's corners", TRIANGLE, "max(dot(t.b, t.b), dot(t.c, t.c))", ["dot(t.b, t.b)"], ON_TRIANGLE),
     counts("enclosing_radius_up", TRIANGLE, "round_up(r, {6.0f})", ON_TRIANGLE),
@@ -104,10 +122,11 @@ ROWS = [
     row("offset_from's third corner", TRIANGLE, "-c.v, u, -c.w, v", ["-c.v, u, 0.0f, v"], ON_TRIANGLE),
 
     # bounds.h
+    counts("kept_bound", BOUNDS, "max(bound + shift, 0.0f), {1.0f})", ON_BOUNDS),
     row("bound_single's corners", BOUNDS, "max(d.x, max(d.y, d.z))", ["max(d.x, d.y)"], ON_BOUNDS),
-    counts("bound_u1", BOUNDS, "max(bc, ca))), {6.0f})", ON_BOUNDS),
+    counts("bound_u1", BOUNDS, "max(farther, 0.0f), {6.0f})", ON_BOUNDS),
     row("bound_u1's farther corner", BOUNDS, "d.x + max(ab, ca)", ["d.x + ab"], ON_BOUNDS),
-    counts("bound_u2", BOUNDS, "max3(d), {2.0f})", ON_BOUNDS),
+    counts("bound_u2", BOUNDS, "max3(d), 0.0f), {2.0f})", ON_BOUNDS),
     row("bound_u2's worst corner", BOUNDS, "enclosing_radius_up(t.at) + max3(d)",
         ["enclosing_radius_up(t.at) + min(d.x, min(d.y, d.z))"], ON_BOUNDS),
     row("cut_distance's larger", BOUNDS, "max(surface_distance_up(p, s), surface_distance_up(p, r))",
@@ -118,7 +137,7 @@ ROWS = [
         ON_BOUNDS),
 
     # bary.h
-    counts("Placement::slack", BARY, "{24.0f} * kUlp2", ON_BARY, steps=[23.0, 12.0, 6.0, 3.0, 1.0, 0.5, 0.1]),
+    counts("Placement::slack", BARY, "{24.0f} * kUlp2", ON_BARY, steps=[23.0, 12.0, 6.0, 1.5, 0.5]),
     counts("Placement::slack, its rounding", BARY, "kUlp2 * p.reach, {3.0f})", ON_BARY),
     counts("Placement::reach", BARY, "norm_up(r.ac.hi), {8.0f})", ON_BARY),
     row("Placement::reach's terms", BARY, "norm_up(r.origin.hi) + norm_up(r.ab.hi) + norm_up(r.ac.hi)",
@@ -140,12 +159,12 @@ ROWS = [
     row("fine_separation_down's slack", LOWER, "radius_up(s.at) + s.slack)", ["radius_up(s.at))"], ON_LOWER),
     row("fine_separation_down's own rounding", LOWER, "1.000002f * ", ["1.000001f * ", ""], ON_LOWER),
     row("fine_separation_down's flush", LOWER, " + 1e-36f", [" + 1e-38f", ""], ON_LOWER),
-    row("fine_separation_down's steps", LOWER, "next_down(next_down(farthest) - off)",
-        ["next_down(farthest - off)", "(farthest - off)"], ON_LOWER),
-    row("fine_separation_down's corner", LOWER, "min(-rounded(two_dot(s.b, r)), -rounded(two_dot(s.c, r)))",
-        ["-rounded(two_dot(s.b, r))"], ON_LOWER),
-    row("separation_down's rounding", LOWER, "return quotient_down(reach, length_up);",
-        ["return reach * (1.0f / length_up);"], ON_LOWER),
+    row("fine_separation_down's corner", LOWER, "smaller(two_dot(s.b, back), two_dot(s.c, back))",
+        ["two_dot(s.b, back)"], ON_LOWER),
+    row("smaller's low parts", LOWER, "min((x.hi - m.hi) + x.lo, (y.hi - m.hi) + y.lo)",
+        ["max((x.hi - m.hi) + x.lo, (y.hi - m.hi) + y.lo)", "0.0f"], ON_LOWER),
+    row("coarse_distance_down's rounding", LOWER, "lowered(quotient_down(reach, length) - s.base)",
+        ["(quotient_down(reach, length) - s.base)", "reach * (1.0f / length) - s.base"], ON_LOWER),
 
     # host/frame.cpp
     row("what two floats leave", FRAME, "return left + subtraction", ["return 0.5 * left + subtraction",

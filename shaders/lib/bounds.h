@@ -3,7 +3,8 @@
 //
 // T is a sub-triangle of A as computed in a local frame, S a triangle of B in the same frame. Each
 // bound holds in exact arithmetic for the computed T; the caller adds position_slack for the
-// distance from it to the exact one. All of them rest on three facts. d(., B) <= d(., S). d(., S)
+// distance from it to the exact one. Distances and bounds are what they are above one base
+// (View::base), and may be negative. All of them rest on three facts. d(., B) <= d(., S). d(., S)
 // is convex, since S is, so its maximum over a polygon is at a corner. d(., B) is 1-Lipschitz.
 #ifndef VKH_SHADERS_LIB_BOUNDS_H
 #define VKH_SHADERS_LIB_BOUNDS_H
@@ -35,6 +36,12 @@ VKH_FN vec3 corner_distances(Patch t, Surface s) {
               surface_distance_up(t.c, s));
 }
 
+// `bound` moved by `shift` >= 0, rounded up, as it is kept: a bound below the base is one of the
+// base too.
+VKH_FN float kept_bound(float bound, float shift) {
+  return round_up(max(bound + shift, 0.0f), 1.0f);
+}
+
 VKH_FN float max3(vec3 d) { return max(d.x, max(d.y, d.z)); }
 
 // ha for one S, and the exact case where S is closest to all three corners: h(T, S) = max over the
@@ -42,18 +49,19 @@ VKH_FN float max3(vec3 d) { return max(d.x, max(d.y, d.z)); }
 VKH_FN float bound_single(vec3 d) { return max3(d); }
 
 // u1, the anchor bound (eq. 6): from one corner, the farther of the other two. `d` bounds the
-// corners' distances from B.
+// corners' distances from B. Not below 0, nor is u2.
 VKH_FN float bound_u1(Patch t, vec3 d) {
   float ab = norm_up(t.at.b - t.at.a);
   float bc = norm_up(t.at.c - t.at.b);
   float ca = norm_up(t.at.a - t.at.c);
-  return round_up(min(d.x + max(ab, ca), min(d.y + max(ab, bc), d.z + max(bc, ca))), 6.0f);
+  float farther = min(d.x + max(ab, ca), min(d.y + max(ab, bc), d.z + max(bc, ca)));
+  return round_up(max(farther, 0.0f), 6.0f);
 }
 
 // u2 (eq. 7): every point of T is within g of a corner, g the radius of T's smallest enclosing
 // ball. The ball at hand may have another centre; then it is larger, and the bound still holds.
 VKH_FN float bound_u2(Patch t, vec3 d) {
-  return round_up(enclosing_radius_up(t.at) + max3(d), 2.0f);
+  return round_up(max(enclosing_radius_up(t.at) + max3(d), 0.0f), 2.0f);
 }
 
 VKH_FN float pick3(vec3 v, uint i) { return i == 0u ? v.x : (i == 1u ? v.y : v.z); }

@@ -1,10 +1,11 @@
 // The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
 // (algorithm.md §2.4), and no lower bound rests on it (report_lower.comp visits every triangle), so
-// it needs no rounding analysis. Include after `nodes` and `triangles` are declared.
+// it needs no rounding analysis. Include after `nodes`, `triangles`, `triangle_lows` and `control`
+// are declared.
 #ifndef VKH_SHADERS_LIB_BVH_GLSL
 #define VKH_SHADERS_LIB_BVH_GLSL
 
-#include "shaders/lib/triangle.h"
+#include "shaders/lib/surface.glsl"
 
 Corners triangle_corners(uint i) {
   Corners t;
@@ -30,29 +31,66 @@ float box_distance2(vec3 p, vec3 lo, vec3 hi) {
 
 struct Nearest {
   uint triangle;
-  float distance2;
+  float distance2;  // in plain floats
+  float above;      // what the distance is above the base: to 48 bits in a tight walk
 };
+
+Nearest nothing_near() { return Nearest(kNone, 3.0e38, 3.0e38); }
 
 void try_triangle(vec3 p, uint i, inout Nearest best) {
   float d2 = closest_point(vec3(0.0), local_triangle(i, p)).distance2;
-  if (d2 < best.distance2) best = Nearest(i, d2);
+  if (d2 < best.distance2) best = Nearest(i, d2, 0.0);
+}
+
+// Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
+// of A is equally far from several: a tight walk compares those next to the best to 48 bits.
+float reach_of(Nearest best) {
+  float d = 1.000001 * sqrt(best.distance2) + 3.0e-7;  // uncertified: steers
+  return d * d;
+}
+
+void try_tight(Two3 p, uint i, float base, inout Nearest best) {
+  Surface s = load_surface(i, view_from(p, base));
+  Closest c = closest_point(vec3(0.0), s.at);
+  if (c.distance2 > reach_of(best)) return;
+  float above = distance_to_up(two(vec3(0.0)), s, c);
+  bool closer = above < best.above;
+  best = Nearest(closer ? i : best.triangle, min(c.distance2, best.distance2),
+                 closer ? above : best.above);
+}
+
+struct Query {
+  Two3 p;
+  float base;
+  bool tight;
+};
+
+void try_query(Query q, uint i, inout Nearest best) {
+  if (q.tight) {
+    try_tight(q.p, i, q.base, best);
+  } else {
+    try_triangle(q.p.hi, i, best);
+  }
 }
 
 // The triangle closest to p, starting from `start` if that is one. Depth first, near child first; a
 // node is pushed at most once a level, so kStackDepth entries suffice.
-Nearest nearest_triangle(vec3 p, uint start) {
-  Nearest best = Nearest(kNone, 3.0e38);
-  if (start != kNone) try_triangle(p, start, best);
+Nearest nearest_triangle(Query q, uint start) {
+  Nearest best = nothing_near();
+  if (start != kNone) try_query(q, start, best);
   uint stack[kStackDepth];
   float stack_distance2[kStackDepth];
   uint top = 0u;
   uint at = 0u;
+  vec3 p = q.p.hi;
+  float reach = q.tight ? reach_of(best) : best.distance2;
   while (true) {
     bool descend = false;
     if ((at & kLeafFlag) != 0u) {
       uint first = at & (kMaxTriangles - 1u);
       uint last = first + ((at >> 28) & 7u);
-      for (uint i = first; i <= last; ++i) try_triangle(p, i, best);
+      for (uint i = first; i <= last; ++i) try_query(q, i, best);
+      reach = q.tight ? reach_of(best) : best.distance2;
     } else {
       Node node = nodes[at];
       float d0 = box_distance2(p, node.lo0, node.hi0);
@@ -60,10 +98,10 @@ Nearest nearest_triangle(vec3 p, uint start) {
       bool swap = d1 < d0;
       float near_d = swap ? d1 : d0;
       float far_d = swap ? d0 : d1;
-      if (near_d < best.distance2) {
+      if (near_d < reach) {
         at = swap ? node.child1 : node.child0;
         descend = true;
-        if (far_d < best.distance2) {
+        if (far_d < reach) {
           stack[top] = swap ? node.child0 : node.child1;
           stack_distance2[top] = far_d;
           ++top;
@@ -74,11 +112,13 @@ Nearest nearest_triangle(vec3 p, uint start) {
     bool found = false;
     while (top > 0u && !found) {
       --top;
-      found = stack_distance2[top] < best.distance2;
+      found = stack_distance2[top] < reach;
     }
-    if (!found) return best;
+    if (!found) break;
     at = stack[top];
   }
+  // uncertified: steers; the report certifies the witness
+  if (!q.tight) best.above = sqrt(best.distance2) - q.base;  // uncertified
   return best;
 }
 

@@ -4,6 +4,7 @@
 #define VKH_SHADERS_LIB_CANDIDATE_GLSL
 
 #include "shaders/lib/bary.h"
+#include "shaders/lib/base.glsl"
 #include "shaders/lib/bounds.h"
 #include "shaders/lib/root.glsl"
 
@@ -13,12 +14,26 @@ uint reading(uint i) { return control.parity * control.capacity + i; }
 uint parent_at(uint i) { return reading(control.deferred + i); }
 uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
 
-// How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the distance
-// are kept for the certificate of the lower bound; asking for less than 16 ulp would refine the
-// rounding of distances.
+// A bound that was kept above the old base.
+float rebased(float upper) {
+  float error = kUlp2 * control.base;
+  float moved = (upper + control.rebase_hi) + (control.rebase_lo + error);
+  return control.rebase_hi == 0.0 ? upper : max(raised(moved), 0.0);
+}
+
+// A candidate's u, of the frontier being read.
+float upper_of(Candidate c) { return rebased(c.upper); }
+
+// How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the
+// distances that samples are known by are kept for the certificate of the lower bound: of what they
+// are above the base and, where they are compared in plain floats, of the base too; 64 kUlp2 of it
+// otherwise. Asking for less would refine the rounding of distances; where only what is above the
+// base is too coarse, a quarter is asked for all the same: the next plan moves the base.
 float effective_tolerance() {
-  float ulp = kUlp * uintBitsToFloat(control.maximum[kMaxLower]);
-  return max(control.cull_tolerance - 16.0 * ulp, 16.0 * ulp);
+  float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 16.0 * kUlp);
+  float above_noise = 16.0 * kUlp * uintBitsToFloat(control.maximum[kMaxLower]);
+  float left = max(control.cull_tolerance - noise - above_noise, 0.25 * control.cull_tolerance);
+  return max(left, noise);
 }
 
 // Candidates with u <= this are closed: they can never widen the interval beyond the tolerance.
@@ -29,12 +44,10 @@ float cull_threshold(bool tolerant) {
   return tolerant ? lower + effective_tolerance() : lower;
 }
 
-// How a candidate's surfaces are measured: sharply where 14 ulp of the distances at hand are more
-// than a twentieth of the tolerance. (Plain floats for small surfaces were tried and did not pay:
-// bunny and 79741 within 1 % on lavapipe.)
+// How a candidate's surfaces are measured.
 View view_of(Placement placed) {
-  float lower = uintBitsToFloat(control.maximum[kMaxLower]);
-  return View(placed.origin, placed.reach, 3.0e-5 * lower > control.cull_tolerance);
+  float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
+  return View(placed.origin, placed.reach, control.base, needs_sharp(distance));
 }
 
 #endif

@@ -56,7 +56,7 @@ Child split_child(uint code) {
   c.at = child_of(split_points(unpack_corners(parent.corners), split), corner);
   c.nearest = uvec3(nearest_of(parent, index, corner.x), nearest_of(parent, index, corner.y),
                     nearest_of(parent, index, corner.z));
-  c.upper = parent.upper;
+  c.upper = upper_of(parent);
   return c;
 }
 

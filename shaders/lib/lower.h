@@ -10,19 +10,15 @@
 
 VKH_LIB_BEGIN
 
-// The bound from `reach` <= min (p - s).r.
-VKH_FN float separation_down(float reach, vec3 r) {
-  float length_up = norm_up(r);
-  if (!(reach > 0.0f) || length_up < 1e-15f) return 0.0f;
-  return quotient_down(reach, length_up);
-}
-
-// In plain floats, p at the origin: off by 3 ulp of |s| |r| and an ulp of |s| for its own rounding.
-// Good to 1e-6 of S's size.
+// The bound in plain floats, p at the origin: off by 3 ulp of |s| |r| and an ulp of |s| for its own
+// rounding. Good to 1e-6 of S's size.
 VKH_FN float coarse_distance_down(Surface s, vec3 r) {
   float farthest = min(dot(-s.at.a, r), min(dot(-s.at.b, r), dot(-s.at.c, r)));
   float off = round_up(4.25f * kUlp * radius_up(s.at) * norm_up(r) + s.slack * norm_up(r), 8.0f);
-  return separation_down(round_down(farthest, 1.0f) - off, r);
+  float reach = round_down(farthest, 1.0f) - off;
+  float length = norm_up(r);
+  if (!(reach > 0.0f) || length < 1e-15f) return lowered(-s.base);
+  return lowered(quotient_down(reach, length) - s.base);
 }
 
 // What must be taken from r so that it is orthogonal to u, and to v too where `both`.
@@ -48,21 +44,37 @@ VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool both) {
   return two_sum(r.hi, r.lo);  // on a sliver the second correction is not small
 }
 
-// The bound for a direction of 48 bits, to 48 bits of S's size and an ulp of the distance.
-VKH_FN float fine_separation_down(Surface s, Two3 r) {
-  float farthest =
-      min(-rounded(two_dot(s.a, r)), min(-rounded(two_dot(s.b, r)), -rounded(two_dot(s.c, r))));
-  float length = sharp_norm_up(r);
-  if (!(farthest > 0.0f) || length < 1e-15f) return 0.0f;
-  // A square of lengths: kTiny would be too much of it, flushed products are under 2^-120.
-  float off = 1.000002f * ((9.0f * kUlp2 * radius_up(s.at) + s.slack) * length) + 1e-36f;
-  float reach = next_down(next_down(farthest) - off);
-  return reach > 0.0f ? quotient_down(reach, length) : 0.0f;
+// r times a power of two, so that its largest component is in [1, 2) and no square underflows; 0 if
+// it is too short to be a direction.
+VKH_FN Two3 scaled(Two3 r) {
+  float largest = max(abs(r.hi.x), max(abs(r.hi.y), abs(r.hi.z)));
+  uint exponent = floatBitsToUint(largest) >> 23;
+  float factor = exponent > 27u ? uintBitsToFloat((254u - exponent) << 23) : 0.0f;
+  r.hi = factor * r.hi;
+  r.lo = factor * r.lo;
+  return r;
 }
 
-// <= d(origin, S). A corner is separated along the offset, an edge by what is orthogonal to it, the
-// inside by the normal; where the closest point lies next to a border, rounding may have named the
-// wrong one, so all are tried.
+VKH_FN Two smaller(Two x, Two y) {
+  Two m;
+  m.hi = min(x.hi, y.hi);
+  m.lo = min((x.hi - m.hi) + x.lo, (y.hi - m.hi) + y.lo);
+  return m;
+}
+
+// The bound for a direction of 48 bits, to 48 bits of S's size and of the distance.
+VKH_FN float fine_separation_down(Surface s, Two3 direction) {
+  Two3 r = scaled(direction);
+  Two3 back = two_difference(two(vec3(0.0f, 0.0f, 0.0f)), r);
+  Two reach = smaller(two_dot(s.a, back), smaller(two_dot(s.b, back), two_dot(s.c, back)));
+  // Not kTiny: flushed products are under 2^-120.
+  float off = 1.000002f * ((9.0f * kUlp2 * radius_up(s.at) + s.slack) * norm_up(r.hi)) + 1e-36f;
+  return quotient_above_down(reach, off, r, s.base);
+}
+
+// <= d(origin, S) - base. A corner is separated along the offset, an edge by what is orthogonal to
+// it, the inside by the normal; where the closest point lies next to a border, rounding may have
+// named the wrong one, so all are tried.
 VKH_FN float fine_distance_down(Surface s, Closest c) {
   vec3 offset = rounded(offset_from(two(vec3(0.0f, 0.0f, 0.0f)), s, c));
   Two3 ab = two_difference(s.b, s.a);
@@ -75,8 +87,8 @@ VKH_FN float fine_distance_down(Surface s, Closest c) {
   return max(best, fine_separation_down(s, orthogonal(offset, bc, ac, false)));
 }
 
-// <= d(origin, S). Precise only where it has to be: a triangle that is farther than `enough` by
-// plain floats stays at that.
+// <= d(origin, S) - base. Precise only where it has to be: a triangle that is farther than base +
+// `enough` by plain floats stays at that.
 VKH_FN float triangle_distance_down(Surface s, float enough) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float coarse = coarse_distance_down(s, c.offset);

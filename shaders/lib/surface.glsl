@@ -17,14 +17,6 @@ Surface load_surface(uint i, View from) {
 }
 
 // To measure one point from, as precisely as it goes.
-View view_from(Two3 p) { return View(p, norm_up(p.hi), true); }
-
-// The distance of p from triangle i for steering: where the meshes have low parts, a float32
-// position is not good enough.
-float steering_distance(Two3 p, uint i, float distance2) {
-  if (control.two_float == 0u)
-    return sqrt(distance2);  // uncertified: steers; the report certifies the witness
-  return surface_distance_up(two(vec3(0.0)), load_surface(i, view_from(p)));
-}
+View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true); }
 
 #endif

@@ -85,7 +85,8 @@ VKH_FN float radius_up(Corners t) {
 struct View {
   Two3 origin;  // near the points; they are given relative to it
   float reach;  // >= |origin|, and >= |p| for every p whose distance will be asked
-  bool sharp;   // a distance's own rounding matters: it is taken to 4 ulp instead of 14
+  float base;   // >= 0; distances are given as what they are above it, which may be negative
+  bool sharp;   // a distance's own rounding matters: it is taken to 48 bits instead of 20
 };
 
 // A triangle of B around a local origin: its corners to 48 bits, and rounded to find the closest
@@ -93,6 +94,7 @@ struct View {
 struct Surface {
   Two3 a, b, c;
   Corners at;
+  float base;   // as View::base
   bool sharp;   // as View::sharp
   float slack;  // what distances leave out: see make_surface
 };
@@ -102,6 +104,7 @@ struct Surface {
 // R), its first term by |p| + R. Together 2 reach + 26 R + 5 |p|.
 VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   Surface s;
+  s.base = from.base;
   s.sharp = from.sharp;
   s.a = two_difference(a, from.origin);
   s.b = two_difference(b, from.origin);
@@ -125,11 +128,16 @@ VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
   return two_combination(from_base, -c.v, u, -c.w, v);
 }
 
-// >= d(p, S), for p taken as it is.
+// >= d(p, S) - base, for p taken as it is and the point of S that `c` names.
+VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
+  Two3 offset = offset_from(p, s, c);
+  if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
+  return raised(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base);
+}
+
+// >= d(p, S) - base, for p taken as it is.
 VKH_FN float surface_distance_up(Two3 p, Surface s) {
-  Two3 offset = offset_from(p, s, closest_point(rounded(p), s.at));
-  if (s.sharp) return next_up(sharp_norm_up(offset) + s.slack);
-  return round_up(norm_up(rounded(offset)) + s.slack, 3.0f);
+  return distance_to_up(p, s, closest_point(rounded(p), s.at));
 }
 
 // Altitude on the longest edge over the longest edge, eq. 3 of the paper. Steers subdivision only.

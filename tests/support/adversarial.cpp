@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/round_to_float.h"
+#include "tests/support/closest.h"
 
 namespace vkh::test {
 namespace {
@@ -137,6 +138,20 @@ StoredTriangle hard_triangle(Random& random, Shape shape) {
 StoredTriangle hard_triangle_near(Random& random, const dvec3& about, double size) {
   const Shape shape = any_shape(random);
   return finished(random, shape, make(random, shape, about + random.in_cube(size), size));
+}
+
+float hard_base(Random& random, const StoredTriangle& t, const dvec3& p) {
+  const double distance = point_triangle_distance(p, t.at(0), t.at(1), t.at(2));
+  switch (random.below(4)) {
+    case 0:
+      return 0.0f;
+    case 1:
+      return static_cast<float>(distance * (1.0 - log_uniform(random, -24, 0)));
+    case 2:
+      return static_cast<float>(distance * (1.0 + log_uniform(random, -24, 0)));
+    default:
+      return static_cast<float>(log_uniform(random, -30, 2));
+  }
 }
 
 dvec3 barycentrics(Random& random) {

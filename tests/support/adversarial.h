@@ -50,6 +50,9 @@ StoredTriangle hard_triangle_near(Random& random, const glm::dvec3& about, doubl
 /// an edge, at a corner, or anywhere in the cube.
 glm::dvec3 hard_point(Random& random, const StoredTriangle& t);
 
+/// What distances from t may be measured above: 0, next to p's distance, or anything.
+float hard_base(Random& random, const StoredTriangle& t, const glm::dvec3& p);
+
 /// Barycentrics of a point of the closed triangle, often on its border.
 glm::dvec3 barycentrics(Random& random);
 glm::dvec3 on_triangle(const StoredTriangle& t, const glm::dvec3& weights);

@@ -176,6 +176,19 @@ inline bool is_upper_bound(double bound, const Rational& squared) {
   return Rational(b * b) >= squared;
 }
 
+/// base + above >= sqrt(squared), and <= it, decided exactly.
+inline bool is_upper_bound(double base, double above, const Rational& squared) {
+  if (std::isnan(above)) return false;
+  if (std::isinf(above)) return above > 0;
+  const Rational b = Rational(base) + Rational(above);
+  return b >= 0 && Rational(b * b) >= squared;
+}
+inline bool is_lower_bound(double base, double above, const Rational& squared) {
+  if (std::isnan(above)) return false;
+  const Rational b = Rational(base) + Rational(above);
+  return b <= 0 || Rational(b * b) <= squared;
+}
+
 /// bound <= sqrt(squared), decided exactly.
 inline bool is_lower_bound(double bound, const Rational& squared) {
   if (std::isnan(bound)) return false;

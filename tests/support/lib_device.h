@@ -93,10 +93,11 @@ double wide(F x) {
 
 /// The triangle around `origin`, for points within `reach` of it.
 inline Surface surface_around(const test::StoredTriangle& t, const test::Stored& origin,
-                              float reach, bool sharp) {
+                              float reach, bool sharp, float base = 0.0f) {
   View from;
   from.origin = given(origin);
   from.reach = reach;
+  from.base = base;
   from.sharp = sharp;
   return make_surface(given(t.corner[0]), given(t.corner[1]), given(t.corner[2]), from);
 }
