@@ -62,8 +62,10 @@ struct Whim {
         return x < 0;
       case Direction::kFromZero:
         return x > 0;
-      case Direction::kScript:
-        return (script[operation / 64 % 8] >> (operation++ % 64) & 1u) != 0;
+      case Direction::kScript: {
+        const uint32_t i = operation++;
+        return (script[i / 64 % script.size()] >> (i % 64) & 1u) != 0;
+      }
       default:
         return (draw() >> 40 & 1u) != 0;
     }
