@@ -68,7 +68,7 @@ void move_base() {
   float above = uintBitsToFloat(control.maximum[kMaxLower]);
   if (!needs_sharp(above)) return;
   float from = control.base;
-  control.base = from + 0.999 * above;
+  control.base = from + base_under(above);
   Two by = two_sum(from, -control.base);
   control.rebase_hi = by.hi;
   control.rebase_lo = by.lo;

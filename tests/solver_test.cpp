@@ -166,6 +166,30 @@ TEST_CASE("V against its hull: the maximum is inside a face whose corners are al
   }
 }
 
+TEST_CASE("1e-9 closes where h is a large part of the diagonal") {
+  const auto check = [](const Mesh& a, const Mesh& b, double exact) {
+    const Report r = distance(a, b, with_tolerance(1e-9));
+    CAPTURE(text(r));
+    CHECK(r.status == Status::kClosed);
+    CHECK(r.lower <= exact);
+    CHECK(exact <= r.upper);
+  };
+  for (const double gap : {0.3, 1.0, 7.0})
+    check(square_patch(4, gap), square_patch(3, 0.0), gap);
+}
+
+// From 0 at the vertices to a third of the diagonal: the base must follow the lower bound. The last
+// bit of a barycentric ends it, 2^-20 of a face of A that is as large as A.
+TEST_CASE("3e-7 closes where the lower bound rises from 0") {
+  for (const double valley : {-0.75, -0.3, 0.0, 0.5}) {
+    const Report r = distance(v_lid(), v_sheet(1.0, valley), with_tolerance(3e-7));
+    CAPTURE(text(r));
+    CHECK(r.status == Status::kClosed);
+    CHECK(r.lower <= v_lid_distance(1.0, valley));
+    CHECK(v_lid_distance(1.0, valley) <= r.upper);
+  }
+}
+
 TEST_CASE("a triangle against a triangle") {
   const Mesh t = single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   check_closed(t, t, 0);

@@ -3,10 +3,13 @@
 #ifndef VKH_SHADERS_LIB_BASE_GLSL
 #define VKH_SHADERS_LIB_BASE_GLSL
 
-// Close enough to gain ten bits, far enough for the plain floats that it comes from; 0 where
-// distances are as small as the rounding of coordinates.
+// Under a distance, by 84 ulp: near enough to gain 16 bits, far enough for the rounding of the plain
+// floats that it comes from.
+float base_under(float distance) { return 0.99999 * distance; }
+
+// 0 where distances are as small as the rounding of coordinates.
 float base_of_run() {
-  return max(0.999 * uintBitsToFloat(control.maximum[kMaxVertex]) - 1.0e-6, 0.0);
+  return max(base_under(uintBitsToFloat(control.maximum[kMaxVertex])) - 1.0e-6, 0.0);
 }
 
 // Whether 14 ulp of the distances at hand, as plain floats leave them, are more than a twentieth of

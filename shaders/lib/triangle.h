@@ -17,6 +17,7 @@ struct Corners {
 struct Closest {
   vec3 offset;  // from the point to p, in plain floats: steers
   float distance2;
+  float rank;    // squared distance within the triangle's plane: see closest_point
   uint feature;  // kEdgeAb, kEdgeAc, kEdgeBc, kInside
   float v, w;
 };
@@ -26,25 +27,32 @@ VKH_CONST uint kEdgeAc = 1u;
 VKH_CONST uint kEdgeBc = 2u;
 VKH_CONST uint kInside = 3u;
 
+// Where plain floats tell distances apart, the smaller one; else the smaller rank.
 VKH_FN Closest closer(Closest x, Closest y) {
-  if (y.distance2 < x.distance2) return y;
+  bool surely = y.distance2 < (1.0f - 8.0f * kUlp) * x.distance2;
+  bool perhaps = y.distance2 <= (1.0f + 8.0f * kUlp) * x.distance2;
+  if (surely || (perhaps && y.rank < x.rank)) return y;
   return x;
 }
 
-VKH_FN Closest closest_on_edge(vec3 from_start, vec3 edge, float t, uint feature) {
+// `normal`: from the triangle's plane to p.
+VKH_FN Closest closest_on_edge(vec3 from_start, vec3 edge, float t, uint feature, vec3 normal) {
   Closest c;
   c.v = clamp(t, 0.0f, 1.0f);
   c.w = 0.0f;
   c.feature = feature;
   c.offset = from_start - c.v * edge;
   c.distance2 = dot(c.offset, c.offset);
+  c.rank = dot(c.offset - normal, c.offset - normal);
   return c;
 }
 
 // All three edges are tried, and the interior in the orthogonal frame (ab, h) with h the altitude
 // from ab to c: Gram-Schmidt is backward stable, so a needle or a cap costs a few ulp of its
 // longest edge, where the normal equations would lose a factor (longest edge / altitude)^2.
-// Degenerate triangles fall to their edges or to a point.
+// Degenerate triangles fall to their edges or to a point. Next to a corner, feet that are sqrt(ulp)
+// d apart are equally far in plain floats, which would cost half an ulp of d: features are told
+// apart within the plane.
 VKH_FN Closest closest_point(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -60,14 +68,19 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
       ratio(dot(ap - x * ab, h), hh);  // not ap: h is only orthogonal to ab up to an ulp of ac
   float v = x - w * s;
 
-  Closest best = closest_on_edge(ap, ab, x, kEdgeAb);
-  best = closer(best, closest_on_edge(ap, ac, ratio(dot(ap, ac), dot(ac, ac)), kEdgeAc));
-  best = closer(best, closest_on_edge(bp, bc, ratio(dot(bp, bc), dot(bc, bc)), kEdgeBc));
+  vec3 normal = hh > kSmallSquare ? (ap - v * ab) - w * ac : vec3(0.0f, 0.0f, 0.0f);
+
+  Closest best = closest_on_edge(ap, ab, x, kEdgeAb, normal);
+  float along_ac = ratio(dot(ap, ac), dot(ac, ac));
+  best = closer(best, closest_on_edge(ap, ac, along_ac, kEdgeAc, normal));
+  float along_bc = ratio(dot(bp, bc), dot(bc, bc));
+  best = closer(best, closest_on_edge(bp, bc, along_bc, kEdgeBc, normal));
   // 4 kUlp under 1, so that v + w <= 1 holds for the exact sum too.
   if (hh > kSmallSquare && v >= 0.0f && w >= 0.0f && v + w <= 1.0f - 4.0f * kUlp) {
     Closest inner;
-    inner.offset = (ap - v * ab) - w * ac;
+    inner.offset = normal;
     inner.distance2 = dot(inner.offset, inner.offset);
+    inner.rank = 0.0f;
     inner.feature = kInside;
     inner.v = v;
     inner.w = w;
