@@ -24,7 +24,8 @@ struct Problem {
   bool two_float = false;
   Hierarchy b;
   Workspace ws;
-  Slice<gpu::Area> areas;  // of each face of A, closed; then of each, open. No buffer: not recorded
+  Slice<gpu::Area> areas =
+      {};  // of each face of A, closed; then of each, open. No buffer: not recorded
 };
 
 void record_seed(Recorder& rec, const Problem& p);

@@ -174,8 +174,7 @@ TEST_CASE("1e-9 closes where h is a large part of the diagonal") {
     CHECK(r.lower <= exact);
     CHECK(exact <= r.upper);
   };
-  for (const double gap : {0.3, 1.0, 7.0})
-    check(square_patch(4, gap), square_patch(3, 0.0), gap);
+  for (const double gap : {0.3, 1.0, 7.0}) check(square_patch(4, gap), square_patch(3, 0.0), gap);
 }
 
 // From 0 at the vertices to a third of the diagonal: the base must follow the lower bound. The last

@@ -3,8 +3,8 @@
 #ifndef VKH_SHADERS_LIB_BASE_GLSL
 #define VKH_SHADERS_LIB_BASE_GLSL
 
-// Under a distance, by 84 ulp: near enough to gain 16 bits, far enough for the rounding of the plain
-// floats that it comes from.
+// Under a distance, by 84 ulp: near enough to gain 16 bits, far enough for the rounding of the
+// plain floats that it comes from.
 float base_under(float distance) { return 0.99999 * distance; }
 
 // 0 where distances are as small as the rounding of coordinates.
