@@ -17,6 +17,7 @@ static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witn
 static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
 static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
 static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
+static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
 static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_ROOT_CENTROID == gpu::kUseRootCentroid);
 static_assert(VKH_STATUS_MEMORY == gpu::kStatusMemory &&
               VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords);
@@ -49,7 +50,8 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
           .b = view_hierarchy(p.b),
-          .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount)};
+          .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
+          .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
 }
 
 bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize range) {
@@ -137,6 +139,7 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
   if (problem->twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   vkh::record_load(rec, a, p.ws.vertices, p.ws.faces);
   vkh::record_seed(rec, p);
+  if (p.areas.buffer != VK_NULL_HANDLE) rec.fill(p.areas, 0);
 }
 
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,

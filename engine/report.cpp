@@ -3,6 +3,18 @@
 
 namespace vkh {
 
+namespace {
+
+void record_open(Recorder& rec, const Problem& p) {
+  if (p.areas.buffer == VK_NULL_HANDLE) return;
+  const VkDeviceSize half = p.face_count * sizeof(gpu::Area);
+  rec.fill(Slice<gpu::Area>{p.areas.buffer, p.areas.offset + half, half}, 0);
+  rec.run<k::ReportOpen>({.control = p.ws.control, .frontier = p.ws.frontier, .areas = p.areas}, {},
+                         Items{p.ws.capacity});
+}
+
+}  // namespace
+
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
   const Workspace& ws = p.ws;
@@ -31,6 +43,7 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
                            .triangles = p.b.triangles,
                            .report = report},
                           {}, Groups{1});
+  record_open(rec, p);
   rec.stage("report");
 }
 

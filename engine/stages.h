@@ -28,6 +28,8 @@ struct Problem {
   bool warm = false;  // the workspace holds an earlier run to start from
   Hierarchy b;
   Workspace ws;
+  Slice<gpu::Area> areas =
+      {};  // of each face of A, closed; then of each, open. No buffer: not recorded
 };
 
 void record_seed(Recorder& rec, const Problem& p);

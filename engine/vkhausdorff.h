@@ -94,6 +94,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_PAIRS = 16,         /* u3, the pairwise split bound */
   VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
+  VKH_SWITCH_COVERAGE = 128,     /* no stage of the method: VkhProblem::coverageBuffer is written */
   VKH_SWITCH_GROUP_WALK =
       256, /* few queries: a workgroup walks for one; for GPUs, not CPU devices */
   VKH_SWITCH_ROOT_CENTROID = 512, /* CENTROID for whole faces of A only: h(A, A) closes at once */
@@ -259,6 +260,14 @@ typedef struct VkhProblem {
    * the interval is as true, and takes longer. Zero it for a first frame, and where a run must
    * repeat to the last bit. */
   VkBool32 warm;
+  /* Null, or with a context of VKH_SWITCH_COVERAGE: 16 bytes a face of A, usage STORAGE_BUFFER and
+   * TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute shaders and transfers:
+   * vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport what is open. It holds
+   * faceCount 64-bit integers (two little-endian words each), what of each face has been closed,
+   * and faceCount more, what is open, in units of 2^-40 of the face. After vkhCmdWriteReport the
+   * two are 2^40 together, or both 0 for a face that waits for its first bound. */
+  VkBuffer coverageBuffer;
+  VkDeviceSize coverageOffset; /* bytes */
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.

@@ -5,6 +5,12 @@
 namespace vkh {
 namespace {
 
+// Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
+Slice<gpu::Area> areas_of(const Problem& p) {
+  if (p.areas.buffer != VK_NULL_HANDLE) return p.areas;
+  return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
+}
+
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -34,7 +40,8 @@ void record_subdivide(Recorder& rec, const Problem& p) {
                                       .triangles = p.b.triangles,
                                       .splits = ws.splits,
                                       .points = ws.points,
-                                      .triangle_lows = p.b.triangle_lows},
+                                      .triangle_lows = p.b.triangle_lows,
+                                      .areas = areas_of(p)},
                                      {}, ws.dispatch(gpu::kDispatchSubdivide));
   rec.stage("subdivide");
 }
@@ -65,7 +72,8 @@ void record_filter(Recorder& rec, const Problem& p) {
                                    .points = ws.points,
                                    .survivors = ws.survivors,
                                    .centroids = ws.centroids,
-                                   .triangle_lows = p.b.triangle_lows},
+                                   .triangle_lows = p.b.triangle_lows,
+                                   .areas = areas_of(p)},
                                   {}, ws.dispatch(gpu::kDispatchFilter));
   rec.run<k::WaveSurvivors>({.control = ws.control, .dispatches = ws.dispatches}, {}, Groups{1});
   rec.stage("filter");
@@ -84,7 +92,8 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .points = ws.points,
                                   .survivors = ws.survivors,
                                   .centroids = ws.centroids,
-                                  .triangle_lows = p.b.triangle_lows},
+                                  .triangle_lows = p.b.triangle_lows,
+                                  .areas = areas_of(p)},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
 }

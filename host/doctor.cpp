@@ -8,6 +8,7 @@
 #include "host/default_pair.h"
 #include "host/device.h"
 #include "host/report_print.h"
+#include "host/self_test.h"
 #include "host/solver.h"
 #include "host/vulkan_api.h"
 
@@ -44,6 +45,22 @@ bool self_check(std::ostream& out, Device& device) {
   return passed;
 }
 
+/// What the certificate takes for granted about arithmetic, measured.
+bool check_arithmetic(std::ostream& out, const Device& device) {
+  const SelfTestResult r = run_self_test(device);
+  out << "arithmetic  " << r.items << " hard inputs: ";
+  if (!r.fault.empty()) {
+    out << "FAILED: " << r.fault << '\n';
+    return false;
+  }
+  out << "passed; + - * round " << (r.rounds_to_nearest ? "to nearest" : "to a neighbour")
+      << ", division within " << decimal(r.worst_quotient_ulp, 3, Rounding::kUp)
+      << " ulp (2.5 allowed), roots within " << decimal(r.worst_root_ulp, 3, Rounding::kUp)
+      << " (6), results under 2^-126 " << (r.flushes ? "flushed" : "kept") << ", subgroups of "
+      << r.largest_subgroup << '\n';
+  return true;
+}
+
 void print_device(std::ostream& out, const DeviceDescription& d) {
   out << "  " << d.index << "  " << d.name << " (" << d.type << "), driver " << d.driver
       << ", Vulkan " << d.api_version << ", "
@@ -75,7 +92,8 @@ bool examine_devices(std::ostream& out, const std::string& selector) {
   out << "chosen      " << chosen.index << "  " << chosen.name
       << (chosen.type == "cpu" ? " (a CPU device, no GPU)" : "") << "\ndriver      "
       << chosen.driver << ", Vulkan " << chosen.api_version << std::endl;
-  return self_check(out, device);
+  const bool sound = check_arithmetic(out, device);
+  return self_check(out, device) && sound;
 }
 
 }  // namespace vkh

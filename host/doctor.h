@@ -7,7 +7,8 @@
 namespace vkh {
 
 /// Lists every Vulkan device, says which one `selector` chooses and with which driver and loader,
-/// and solves a pair whose distance is known on it: false if the interval misses it or stays open.
+/// probes the arithmetic that the certificate rests on, and solves a pair whose distance is known
+/// on it: false if a promise is broken, or if the interval misses the distance or stays open.
 /// Throws DeviceError if no device is usable.
 bool examine_devices(std::ostream& out, const std::string& selector);
 

@@ -97,6 +97,17 @@ double Frame::length_up(double frame_length) const {
              : length;
 }
 
+FileInterval Frame::to_files(double lower, double upper, double displacement,
+                             double joint_diagonal) const {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double moved = std::nextafter(displacement, infinity);
+  const double down = std::max(0.0, std::nextafter(lower - moved, -infinity));
+  const double up = std::nextafter(upper + moved, infinity);
+  // The joint diagonal is rounded to nearest: a little more is surely above it.
+  const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
+  return {length_down(down), std::min(length_up(up), farthest)};
+}
+
 StoredMesh store_in(const Frame& frame, const Mesh& mesh) {
   StoredMesh stored;
   stored.high.resize(3 * mesh.vertices.size());

@@ -16,6 +16,11 @@ Box bounding_box(const Mesh& mesh);
 Box join(const Box& x, const Box& y);
 double diagonal(const Box& box);  ///< rounded to nearest
 
+/// Distances in the files' units, rounded outward.
+struct FileInterval {
+  double lower, upper;
+};
+
 /// frame = (given - centre) * 2^exponent. Any frame is a true one, since what storing displaces is
 /// measured vertex by vertex; a good one keeps it small.
 struct Frame {
@@ -29,6 +34,11 @@ struct Frame {
   /// double.
   double length_down(double frame_length) const;
   double length_up(double frame_length) const;
+  /// What the device certifies of the stored coordinates, for those given: widened by the
+  /// displacement of both meshes. `joint_diagonal`, rounded to nearest, bounds any distance, also
+  /// before the first bounds exist.
+  FileInterval to_files(double lower, double upper, double displacement,
+                        double joint_diagonal) const;
 };
 
 /// A mesh's vertices in a frame: sums of two float32, high and low, three per vertex.

@@ -22,6 +22,7 @@
 #include "host/options.h"
 #include "host/report_print.h"
 #include "host/solver.h"
+#include "host/verify.h"
 
 namespace vkh {
 namespace {
@@ -40,7 +41,7 @@ struct Arguments {
   std::string file_a, file_b;
   std::string tolerance = "1e-6", device, memory, time, waves;
   std::vector<std::string> enabled, disabled;
-  bool json = false, verbose = false, symmetric = false;
+  bool json = false, verbose = false, symmetric = false, verify = false;
   std::string json_file;  ///< empty: JSON goes to stdout
 };
 
@@ -115,6 +116,7 @@ Request understand(const Arguments& arguments) {
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
   check_switches(arguments.disabled);
   options.enabled = arguments.enabled;
+  options.coverage = arguments.verify;
   options.disabled = arguments.disabled;
   for (const std::string& input : {arguments.file_a, arguments.file_b}) {
     std::error_code none;
@@ -164,6 +166,12 @@ Answer answer_for(const Arguments& arguments, const Request& request, const Mesh
                 .a_to_b = {},
                 .b_to_a = {}};
   solve(solver, pair, arguments.symmetric, request.options, answer);
+  if (arguments.verify) {
+    answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
+    if (answer.b_to_a) {
+      answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
+    }
+  }
   for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (report == nullptr) continue;
     report->times.load_ms = load_ms;
@@ -203,6 +211,20 @@ void check_writable(const std::string& path) {
   if (!existed) std::filesystem::remove(path, none);
 }
 
+/// After the answer is printed: whoever asked wants to see what was refuted.
+void check_verified(const Answer& answer) {
+  for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (r == nullptr || !r->witness_check) continue;
+    if (!r->coverage_check || !r->coverage_check->holds) {
+      throw DeviceError("--verify: a part of A is in no bound: do not trust this device or driver");
+    }
+    if (r->witness_check->holds) continue;
+    throw DeviceError(
+        "--verify: the host finds the witness closer than the certified lower bound: "
+        "do not trust this device or driver");
+  }
+}
+
 template <typename Load>
 int run_pair(const Arguments& arguments, Load load) {
   std::signal(SIGINT, on_interrupt);
@@ -212,6 +234,7 @@ int run_pair(const Arguments& arguments, Load load) {
   const MeshPair pair = load();
   const Answer answer = answer_for(arguments, request, pair, ms_since(start));
   print(arguments, answer);
+  check_verified(answer);
   return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
 }
 
@@ -269,6 +292,9 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
       ->allow_extra_args(false);
   command.add_flag("--verbose", arguments.verbose,
                    "Also print stages, waves and culled candidates");
+  command.add_flag("--verify", arguments.verify,
+                   "Check the answer on the host: the witness against every face of B, by brute "
+                   "force in 113-bit arithmetic; the parts of A as exact integers");
   command.add_flag("--symmetric", arguments.symmetric,
                    "Both directions: the interval of max(h(A,B), h(B,A))");
 }

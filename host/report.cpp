@@ -138,6 +138,21 @@ Json tolerance_json(const Tolerance& asked, const Report& r, const char* diagona
           {"diagonal_a", r.diagonal_a}};
 }
 
+std::string verified_json(const Report& r) {
+  const WitnessCheck& check = *r.witness_check;
+  JsonObject json;
+  json.add("witness", check.holds);
+  json.add_bound("distance_lower", check.distance_lower, Rounding::kDown);
+  json.add_bound("distance_upper", check.distance_upper, Rounding::kUp);
+  if (r.coverage_check) {
+    const CoverageCheck& c = *r.coverage_check;
+    json.add("coverage", c.holds);
+    json.add("faces", {{"whole", c.whole}, {"waiting", c.waiting}, {"wrong", c.wrong}});
+    json.add("closed", c.closed);
+  }
+  return json.text();
+}
+
 std::string directed_json(const Answer& answer, const Directed& d) {
   const Report& r = d.report;
   JsonObject json;
@@ -145,6 +160,7 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   json.add("tolerance", tolerance_json(answer.tolerance, r, d.diagonal_of));
   json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
+  if (r.witness_check) json.add_text("verified", verified_json(r));
   json.add("mesh_a", mesh_json(d.file_a, r.mesh_a));
   json.add("mesh_b", mesh_json(d.file_b, r.mesh_b));
   json.add("device", device_json(r.device));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,21 @@ struct Times {
   double wall_ms = 0;       ///< host clock around Solver::distance
 };
 
+/// The host's own check of a run, asked for with --verify (host/verify.h).
+struct WitnessCheck {
+  double distance_lower = 0, distance_upper = 0;  ///< enclose d(witness, B), in the files' units
+  bool holds = false;  ///< every face of B is at least `lower` away from the witness
+};
+
+/// Likewise: are the closed and the open parts of each face of A the whole face?
+struct CoverageCheck {
+  uint64_t whole = 0;    ///< faces whose parts sum to the whole, as exact integers
+  uint64_t waiting = 0;  ///< faces without a part: they have no bound yet, and `upper` knows
+  uint64_t wrong = 0;    ///< the rest: none
+  double closed = 0;     ///< share of A's faces that was closed
+  bool holds = false;
+};
+
 struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
@@ -91,6 +107,8 @@ struct Report {
   std::vector<WaveStats> wave_stats;
   Times times;
   std::vector<std::string> switched_off;  ///< names given to --disable
+  std::optional<WitnessCheck> witness_check;
+  std::optional<CoverageCheck> coverage_check;
 
   double gap() const { return diagonal_a > 0 ? (upper - lower) / diagonal_a : upper - lower; }
 };

@@ -84,9 +84,23 @@ std::string device_text(const DeviceDescription& d) {
   return d.name + " (" + type + "), driver " + d.driver + ", Vulkan " + d.api_version;
 }
 
+std::string verified_text(const WitnessCheck& check) {
+  return "the witness is " + bounds(check.distance_lower, check.distance_upper) + " from " +
+         "the other mesh, by brute force: lower " + (check.holds ? "holds" : "DOES NOT HOLD");
+}
+
+std::string coverage_text(const CoverageCheck& c) {
+  return printed("%llu faces whole, ", static_cast<Count>(c.whole)) +
+         printed("%llu waiting, ", static_cast<Count>(c.waiting)) +
+         printed("%llu not accounted for: ", static_cast<Count>(c.wrong)) +
+         (c.holds ? "nothing is lost" : "SOMETHING IS LOST");
+}
+
 void print_direction(std::ostream& out, const Report& r, const char* a, const char* b) {
   row(out, "witness", std::string(a) + " " + at(r.witness_a));
   row(out, "", std::string(b) + " " + at(r.witness_b));
+  if (r.witness_check) row(out, "verified", verified_text(*r.witness_check));
+  if (r.coverage_check) row(out, "", coverage_text(*r.coverage_check));
   const Times& t = r.times;
   row(out, "work",
       counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +

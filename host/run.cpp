@@ -157,7 +157,18 @@ void Runner::place(const RunInput& in, RunOutput& out) {
   problem_.cullTolerance = in.cull_tolerance;
   problem_.knownLower = in.known_lower;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
+  place_areas(in, out);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
+}
+
+void Runner::place_areas(const RunInput& in, RunOutput& out) {
+  problem_.coverageBuffer = VK_NULL_HANDLE;
+  if (!in.coverage) return;
+  out.areas.resize(2 * in.a.mesh->faces.size());
+  const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
+  grow(areas_, device_, bytes, kWorking, Placement::kDevice);
+  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
+  problem_.coverageBuffer = areas_.handle();
 }
 
 VkCommandBuffer Runner::begin() {
@@ -199,6 +210,9 @@ void Runner::record_start(VkCommandBuffer commands, const RunInput& in) {
 void Runner::submit(RunOutput& out) {
   submitter_.submit_and_wait({});
   std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
+  if (!out.areas.empty()) {
+    std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
+  }
   const std::vector<double> ms = submitter_.read_timestamps(profile_.count);
   for (uint32_t i = 1; i < profile_.count; ++i) {
     if (names_[i] != nullptr) out.stages.push_back({names_[i], ms[i] - ms[i - 1]});
@@ -227,6 +241,10 @@ RunOutput Runner::run(const RunInput& in) {
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
     const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
     device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
+    if (in.coverage) {
+      const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
+      device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
+    }
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
     submit(out);
     first = false;

@@ -35,6 +35,7 @@ struct RunInput {
   uint32_t wave_limit = UINT32_MAX;
   float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
+  bool coverage = false;  ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
 };
@@ -51,6 +52,8 @@ struct RunOutput {
   VkhReport report{};
   std::vector<StageTime> stages;  ///< one per timestamp interval, in order
   uint64_t workspace_bytes = 0;
+  /// Asked for: of each face of A the closed part, then of each the open one; 2^40 is a whole face.
+  std::vector<uint64_t> areas;
   double upload_ms = 0;  ///< host: buffers and copying into them
 };
 
@@ -70,13 +73,14 @@ class Runner {
   VkCommandBuffer begin();
   VkhProfile* profile() { return device_.has_timestamps() ? &profile_ : nullptr; }
   void record_upload(VkCommandBuffer commands);
+  void place_areas(const RunInput& input, RunOutput& output);
   void record_start(VkCommandBuffer commands, const RunInput& input);
   void submit(RunOutput& output);
 
   const Device& device_;
   std::map<uint32_t, ContextHandle> contexts_;
   Submitter submitter_;
-  Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_;
+  Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_, areas_, areas_readback_;
   VkhContext context_ = nullptr;
   VkDeviceSize uploaded_bytes_ = 0;
   VkhMesh mesh_b_{};

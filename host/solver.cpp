@@ -9,6 +9,7 @@
 #include "host/error.h"
 #include "host/frame.h"
 #include "host/run.h"
+#include "host/verify.h"
 
 namespace vkh {
 namespace {
@@ -52,12 +53,9 @@ uint32_t switches_of(const SolveOptions& options, const Device& device) {
   uint32_t on = default_switches(device);
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
+  if (options.coverage) on |= VKH_SWITCH_COVERAGE;
   return options.certified ? on : on & ~uint32_t{VKH_SWITCH_CERTIFICATE};
 }
-
-struct Bounds {
-  double lower, upper;
-};
 
 // A run's meshes as they are stored in one frame. Proof that any frame will do: the device encloses
 // the stored meshes' h in the frame's units, whatever the frame, for coordinates up to 2^15
@@ -75,23 +73,14 @@ struct Pair {
   Box box_a, joint;
 };
 
-// From the frame's certified floats to the files' units, widened by the displacement of the stored
-// coordinates. The joint diagonal bounds any distance, also before the first bounds exist.
-Bounds to_files(const VkhReport& r, const Pair& pair) {
+FileInterval to_files(const VkhReport& r, const Pair& pair) {
   const double infinity = std::numeric_limits<double>::infinity();
-  const double moved = std::nextafter(pair.displacement, infinity);
   // Sums of two floats: exact in double, or off by half an ulp, which nextafter covers.
-  const double certified =
+  const double lower =
       std::nextafter(static_cast<double>(r.base) + static_cast<double>(r.lowerAbove), -infinity);
-  const double bound =
+  const double upper =
       std::nextafter(static_cast<double>(r.base) + static_cast<double>(r.upperAbove), infinity);
-  const double lower = std::max(0.0, std::nextafter(certified - moved, -infinity));
-  const double upper = std::nextafter(bound + moved, infinity);
-  // The joint diagonal is rounded to nearest: a little more is surely above it.
-  const double farthest =
-      std::nextafter(diagonal(pair.joint) * (1 + 0x1p-40), infinity) + 0x1p-1070;
-  const double upper_given = std::min(pair.frame.length_up(upper), farthest);
-  return {pair.frame.length_down(lower), upper_given};
+  return pair.frame.to_files(lower, upper, pair.displacement, diagonal(pair.joint));
 }
 
 Status status_of(const VkhReport& r, const Report& out, Status ended) {
@@ -190,7 +179,7 @@ struct Watch {
 
   bool operator()(const VkhReport& r) {
     if (r.status != VKH_STATUS_RUNNING) return false;
-    const Bounds now = to_files(r, pair);
+    const FileInterval now = to_files(r, pair);
     const double gap =
         diagonal_a > 0 ? (now.upper - now.lower) / diagonal_a : now.upper - now.lower;
     if (options.progress && !options.progress({r.waves, r.remaining, now.lower, now.upper, gap})) {
@@ -225,6 +214,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, double toleran
           .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
           .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
           .two_float = two_float,
+          .coverage = options.coverage,
           .advanced = {}};
 }
 
@@ -249,7 +239,7 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   const double framed_ms = ms_since(start);
   const RunOutput run = runner.run(in);
 
-  const Bounds bounds = to_files(run.report, pair);
+  const FileInterval bounds = to_files(run.report, pair);
   out.lower = bounds.lower;
   out.upper = bounds.upper;
   out.status = status_of(run.report, out, watch.ended);
@@ -263,6 +253,8 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   fill_counts(run.report, pair.frame, out);
   fill_stages(run, out);
   fill_witness(run.report, pair.a, pair.b, out);
+  // Before every face of A has a bound, `upper` says so: 3e38.
+  if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
   out.times.upload_ms = framed_ms + run.upload_ms;
   out.times.wall_ms = ms_since(start);
   return out;

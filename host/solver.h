@@ -31,6 +31,7 @@ struct SolveOptions {
   uint64_t memory_bytes = 0;          ///< workspace; 0: chosen from the meshes and the device
   std::vector<std::string> enabled;   ///< switch names; u4 is off otherwise
   std::vector<std::string> disabled;  ///< switch names, see switch_names()
+  bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   /// false: bounds in plain floats, a report that nothing vouches for; for vkh_bench alone, which
   /// measures what the certificate costs.
   bool certified = true;

@@ -41,6 +41,17 @@ namespace vkh {
   X(CmdCopyBuffer)               \
   X(CmdPipelineBarrier)          \
   X(CmdResetQueryPool)           \
+  X(CmdBindPipeline)             \
+  X(CmdPushDescriptorSetKHR)     \
+  X(CmdDispatch)                 \
+  X(CreateShaderModule)          \
+  X(DestroyShaderModule)         \
+  X(CreateDescriptorSetLayout)   \
+  X(DestroyDescriptorSetLayout)  \
+  X(CreatePipelineLayout)        \
+  X(DestroyPipelineLayout)       \
+  X(CreateComputePipelines)      \
+  X(DestroyPipeline)             \
   X(QueueSubmit)                 \
   X(CreateFence)                 \
   X(DestroyFence)                \

@@ -63,6 +63,7 @@ VKH_CONST uint kUseGroupWalk = 256u;     // few queries: a workgroup walks for o
 VKH_CONST uint kUseRootCentroid = 512u;  // query the centroid of a whole face of A, if of no other
 VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
 VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u;
+VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
 
@@ -258,6 +259,33 @@ struct Report {
   uint peak_frontier;
   uint culled[8];
   WaveRecord waves[64];
+};
+
+// A part of a face of A as a 64-bit integer: 2^40 is the whole.
+struct Area {
+  uint lo, hi;
+};
+
+// self_test: what a device is asked, and what it answers (host/self_test.cpp judges).
+struct SelfTestQuestion {
+  float a, b;
+  uint bits;  // of a normal float
+};
+
+struct SelfTestAnswer {
+  float sum, difference, product, quotient, root;  // a + b, a - b, a b, a / b, sqrt(|a|)
+  float sum_hi, sum_lo, product_hi, product_lo;    // two_sum, two_product
+  uint bits;                                       // as given, by way of a float
+  float larger, smaller;
+  uint subgroup;  // which one the invocation was in; they are numbered as they come
+  float highest;  // |a| in the subgroup
+  uint keepers;   // invocations of the subgroup with a > b,
+  uint rank;      // and of them those before this one
+};
+
+struct SelfTestTotals {
+  uint highest, lowest;  // |a| of all, as bits
+  uint items, subgroups;
 };
 
 // ---- push constants

@@ -23,10 +23,12 @@ layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 9) readonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 10) readonly buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 12) buffer Areas { Area areas[]; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
+#include "shaders/lib/coverage.glsl"
 #include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
 
@@ -123,6 +125,7 @@ void main() {
     Child c = load_child(survivors[i]);
     uint centre = asked.distance >= 0.0 ? asked.nearest : kNone;
     v = bound_child(survivors[i], c, load_root(c.root), centre, threshold);
+    close_area(v.upper <= threshold, c.root, c.at);
     next = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
   }
   bool closed = mine && v.upper <= threshold;

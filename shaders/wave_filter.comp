@@ -23,10 +23,12 @@ layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 9) buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 10) buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 12) buffer Areas { Area areas[]; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
+#include "shaders/lib/coverage.glsl"
 #include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
 
@@ -105,6 +107,7 @@ void main() {
     Child c = load_child(code);
     Root root = load_root(c.root);
     v = filter_child(code, c, root, threshold);
+    close_area(v.upper <= threshold, c.root, c.at);
     centre = place(root, centroid_of(c.at));
   }
   bool closed = mine && v.upper <= threshold;

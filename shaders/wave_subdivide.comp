@@ -20,9 +20,11 @@ layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 6) writeonly buffer Splits { uint splits[]; };
 layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
 layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 9) buffer Areas { Area areas[]; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
+#include "shaders/lib/coverage.glsl"
 #include "shaders/lib/stream.glsl"
 
 // The code of the candidate's split; kSplitNone where the barycentric bits have run out.
@@ -75,6 +77,7 @@ void main() {
     bool tiny = enclosing_radius_up(place_corners(root, at).at) < 0.03125 * effective_tolerance();
     if (!closed && !tiny) split = choose_split(at, root);
     splits[i] = split;
+    close_area(split == kSplitNone, c.root, at);
     write_points(i, c, at, root, split);
   }
   bool ended = mine && split == kSplitNone;

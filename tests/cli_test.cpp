@@ -207,6 +207,20 @@ TEST_CASE("the witness proves lower") {
   CHECK(std::sqrt(squared) >= hex(r, "lower_hex") * (1 - 1e-6));
 }
 
+TEST_CASE("--verify: the host's own check, in JSON and in the table, both ways") {
+  const Words pair = {"distance", square_a(), square_b(), "--verify"};
+  const json r = parse_only_line(run(pair + Words{"--json"}).out)["verified"];
+  CHECK(r["witness"] == true);
+  CHECK(r["coverage"] == true);
+  CHECK(r["closed"].get<double>() <= 1.0);
+  CHECK(r["faces"]["wrong"] == 0);
+  CHECK(hex(r, "distance_lower_hex") <= hex(r, "distance_upper_hex"));
+  const Outcome table = run(pair + Words{"--symmetric"});
+  CHECK(table.exit_code == 0);
+  CHECK(table.out.find("lower holds") != table.out.rfind("lower holds"));
+  CHECK(table.out.find("nothing is lost") != std::string::npos);
+}
+
 TEST_CASE("the table says interval, tolerance, meshes and device") {
   const std::string a = square_a();
   const Outcome outcome = run({"distance", a, square_b()});

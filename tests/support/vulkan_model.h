@@ -10,6 +10,7 @@
 #endif
 #define VKH_SHADERS_LIB_GLSL_H
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -34,13 +35,15 @@ using glm::uvec3;
 using glm::uvec4;
 using namespace vkh::gpu;
 
-enum class Direction { kNearest, kUp, kDown, kToZero, kFromZero, kAny, kCount };
+enum class Direction { kNearest, kUp, kDown, kToZero, kFromZero, kAny, kScript };
 
 /// How the operations that follow go wrong.
 struct Whim {
   Direction direction = Direction::kNearest;
   bool flush = false;
   uint64_t state = 1;
+  std::array<uint64_t, 8> script{};  ///< kScript: bit i says that operation i rounds up
+  uint32_t operation = 0;
 
   uint64_t draw() {  // xorshift64*
     state ^= state >> 12;
@@ -59,6 +62,10 @@ struct Whim {
         return x < 0;
       case Direction::kFromZero:
         return x > 0;
+      case Direction::kScript: {
+        const uint32_t i = operation++;
+        return (script[i / 64 % script.size()] >> (i % 64) & 1u) != 0;
+      }
       default:
         return (draw() >> 40 & 1u) != 0;
     }

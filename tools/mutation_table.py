@@ -1,0 +1,197 @@
+"""The error terms of the certificate, and how each is weakened (tools/mutation.py).
+
+A row: a name, the file, the text as it stands (the nth occurrence), what replaces it step by step from one too small to
+removed, and the tests that are asked, the cheapest first.
+"""
+
+TWO = "shaders/lib/two_float.h"
+CERTIFIED = "shaders/lib/certified.h"
+TRIANGLE = "shaders/lib/triangle.h"
+BOUNDS = "shaders/lib/bounds.h"
+BARY = "shaders/lib/bary.h"
+LOWER = "shaders/lib/lower.h"
+FRAME = "host/frame.cpp"
+
+ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
+ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
+ON_ABOVE = ["lib_attack_test", "lib_triangle_test", "lib_lower_test", "lib_bounds_test", "lib_model_test"]
+ON_TRIANGLE = ["lib_attack_test", "lib_triangle_test", "lib_model_test"]
+ON_BOUNDS = ["lib_attack_test", "lib_bounds_test", "lib_model_test"]
+ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
+ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
+ON_FRAME = ["frame_test"]
+
+
+def row(name, file, old, new, tests, nth=1):
+    return {"name": name, "file": file, "old": old, "new": new, "tests": tests, "nth": nth}
+
+
+def counts(name, file, text, tests, nth=1, steps=None):
+    """A count of ulps, written `text` with its number as {}: one less, then less and less."""
+    number = text[text.index("{") + 1:text.index("}")]
+    value = float(number.rstrip("f"))
+    lower = steps or [v for v in (value - 1, value / 2, value / 4, value / 16, 0.0)
+                      if v < value]
+    lower = list(dict.fromkeys(lower))
+    plain = text.replace("{", "").replace("}", "")
+    return row(name, file, plain, [text.replace("{" + number + "}", f"{v!r}f") for v in lower], tests, nth)
+
+
+ROWS = [
+    # two_float.h
+    row("kUlp2", TWO, "5.6843419e-14f", [f"{2.0 ** -e!r}f" for e in (45, 46, 47, 48, 50)], ON_TWO),
+    row("two_sum's low part (vectors)", TWO, "r.lo = e;", ["r.lo = 0.0f * e;"], ON_TWO),
+    row("two_sum's low part", TWO, "r.lo = e;", ["r.lo = 0.0f;"], ON_TWO, nth=3),
+    row("two_product's low part", TWO, "r.lo = e;", ["r.lo = 0.0f;"], ON_TWO, nth=2),
+    row("upper_half's rounding", TWO, " + 0x800u", [""], ON_TWO),
+    row("upper_half's width", TWO, "0xfffff000u", ["0xffffe000u"], ON_TWO),
+    row("two_product's last product", TWO, " + al * bl", [""], ON_TWO),
+    row("two_difference's low parts", TWO, "d.lo + (a.lo - b.lo)", ["d.lo + a.lo", "d.lo"], ON_TWO),
+    row("two_combination's sums", TWO, "((base.lo + s.lo) + t.lo)", ["(base.lo + s.lo)", "base.lo"], ON_TWO),
+    row("two_combination's products", TWO, "(p.lo + q.lo)", ["p.lo"], ON_TWO),
+    row("two_combination's low factors", TWO, " + (x * u.lo + y * v.lo)", [" + x * u.lo", ""], ON_TWO),
+    row("two_dot's products", TWO, "((x.lo + y.lo) + (z.lo + s.lo))", ["((x.lo + y.lo) + s.lo)"], ON_TWO),
+    row("two_dot's last sum", TWO, "(t.lo + (dot(a.hi, b.lo)", ["((dot(a.hi, b.lo)"], ON_TWO),
+    row("two_dot's low factors", TWO, "dot(a.hi, b.lo) + dot(a.lo, b.hi)", ["dot(a.hi, b.lo)"], ON_TWO),
+
+    # certified.h
+    row("kUlp", CERTIFIED, "1.1920929e-7f", [f"{2.0 ** -e!r}f" for e in (24, 25)], ON_CERTIFIED),
+    row("kTiny", CERTIFIED, "8.6736174e-19f", ["4.3e-19f", "2.2e-19f", "1e-20f", "1e-26f", "0.0f"], ON_CERTIFIED),
+    counts("round_up's two ulps", CERTIFIED, "1.0f + (n + {2.0f}) * kUlp", ON_CERTIFIED),
+    row("round_up's kTiny", CERTIFIED, " * kUlp) + kTiny", [" * kUlp)"], ON_CERTIFIED),
+    counts("round_down's two ulps", CERTIFIED, "1.0f - (n + {2.0f}) * kUlp", ON_CERTIFIED),
+    row("round_down's kTiny", CERTIFIED, " * kUlp) - kTiny", [" * kUlp)"], ON_CERTIFIED),
+    row("round_down's floor at 0", CERTIFIED, "max(x * (1.0f - (n + 2.0f) * kUlp) - kTiny, 0.0f)",
+        ["(x * (1.0f - (n + 2.0f) * kUlp) - kTiny)"], ON_CERTIFIED),
+    counts("sqrt_up", CERTIFIED, "round_up(sqrt(x), {6.0f})", ON_CERTIFIED),
+    counts("sqrt_down", CERTIFIED, "round_down(sqrt(x), {6.0f})", ON_CERTIFIED),
+    counts("norm_up", CERTIFIED, "round_up(sqrt(dot(v, v)), {8.0f})", ON_CERTIFIED),
+    counts("norm_down", CERTIFIED, "round_down(sqrt(dot(v, v)), {8.0f})", ON_CERTIFIED),
+    counts("length_up", CERTIFIED, "round_up(sqrt(square), {8.0f})", ON_CERTIFIED),
+    row("next_up", CERTIFIED, "floatBitsToUint(x) + 1u", ["floatBitsToUint(x)"], ON_CERTIFIED),
+    row("next_down", CERTIFIED, "floatBitsToUint(x) - 1u", ["floatBitsToUint(x)"], ON_CERTIFIED),
+    row("next_up around 0", CERTIFIED, "2.0f * kTiny", ["kTiny", "0.0f"], ON_CERTIFIED),
+    row("kSmallSquare", CERTIFIED, "1.2621774e-29f", ["0.0f"], ON_CERTIFIED),
+    row("sharp_norm_up's steps", CERTIFIED, "next_up(next_up(s + 0.5f * ratio(e, s)))",
+        ["next_up(s + 0.5f * ratio(e, s))", "(s + 0.5f * ratio(e, s))"], ON_CERTIFIED),
+    row("sharp_norm_up's low square", CERTIFIED, "+ x.lo;", [";"], ON_CERTIFIED),
+    row("sharp_norm_up's small lengths", CERTIFIED, "!(x.hi > 1e-30f)", ["!(x.hi > 1e-34f)", "!(x.hi > 0.0f)"], ON_CERTIFIED),
+    row("sharp_norm_up's remainder", CERTIFIED, "((x.hi - square.hi) - square.lo)", ["(x.hi - square.hi)"],
+        ON_CERTIFIED),
+    row("quotient_down's steps", CERTIFIED, "next_down(next_down(q + remainder / b))",
+        ["next_down(q + remainder / b)", "(q + remainder / b)"], ON_CERTIFIED),
+    row("quotient_down's kTiny", CERTIFIED, "remainder / b)) - kTiny", ["remainder / b))"], ON_CERTIFIED),
+    row("quotient_down's remainder", CERTIFIED, "q + remainder / b", ["q"], ON_CERTIFIED),
+
+    counts("raised", CERTIFIED, "x + ({4.0f} * kUlp", ON_ABOVE, steps=[3.0, 2.0, 1.0, 0.5, 0.0]),
+    row("raised's kTiny", CERTIFIED, "x + (4.0f * kUlp * abs(x) + kTiny)", ["x + (4.0f * kUlp * abs(x))"], ON_ABOVE),
+    counts("lowered", CERTIFIED, "x - ({4.0f} * kUlp", ON_ABOVE, steps=[3.0, 2.0, 1.0, 0.5, 0.0]),
+    row("lowered's kTiny", CERTIFIED, "x - (4.0f * kUlp * abs(x) + kTiny)", ["x - (4.0f * kUlp * abs(x))"], ON_ABOVE),
+    counts("sharp_norm_above_up's length", CERTIFIED, "kUlp2 * ({20.0f} * s", ON_ABOVE),
+    row("sharp_norm_above_up's base", CERTIFIED, "(20.0f * s + base)", ["(20.0f * s)"], ON_ABOVE),
+    row("sharp_norm_above_up's low sum", CERTIFIED, "t.hi + (t.lo + (0.5f * ratio(e, s)", ["t.hi + ((0.5f * ratio(e, s)"],
+        ON_ABOVE),
+    row("sharp_norm_above_up's low square", CERTIFIED, "- square.lo) + x.lo;", ["- square.lo);"], ON_ABOVE, nth=2),
+    counts("quotient_above_down's quotient", CERTIFIED, "kUlp2 * ({64.0f} * q", ON_ABOVE),
+    row("quotient_above_down's base", CERTIFIED, "(64.0f * q + base)", ["(64.0f * q)"], ON_ABOVE),
+    counts("quotient_above_down's off", CERTIFIED, "round_up(off / l, {16.0f})", ON_ABOVE),
+    row("quotient_above_down's length", CERTIFIED, " - q * extra", [""], ON_ABOVE),
+    row("quotient_above_down's low reach", CERTIFIED, "- product.lo) + reach.lo)", ["- product.lo))"], ON_ABOVE),
+
+    # triangle.h
+    counts("closest_point's guard under 1", TRIANGLE, "1.0f - {4.0f} * kUlp", ON_TRIANGLE, steps=[3.0, 2.0, 1.0, 0.0]),
+    row("closest_point's clamp", TRIANGLE, "clamp(t, 0.0f, 1.0f)", ["clamp(t, 0.0f, 1.0000005f)"], ON_TRIANGLE),
+    row("closest_point's inside", TRIANGLE, "v >= 0.0f && w >= 0.0f", ["w >= 0.0f"], ON_TRIANGLE),
+    row("closest_point's altitude", TRIANGLE, "hh > kSmallSquare && ", [""], ON_TRIANGLE),
+    counts("Surface::slack, reach", TRIANGLE, "{8.0f} * from.reach", ON_TRIANGLE),
+    counts("Surface::slack, radius", TRIANGLE, "{28.0f} * radius_up(s.at)", ON_TRIANGLE),
+    counts("Surface::slack, its rounding", TRIANGLE, "radius_up(s.at)), {4.0f})", ON_TRIANGLE),
+    row("distance_to_up's slack, sharp", TRIANGLE, "sharp_norm_above_up(offset, s.base) + s.slack",
+        ["sharp_norm_above_up(offset, s.base) + 0.1f * s.slack", "sharp_norm_above_up(offset, s.base)"], ON_TRIANGLE),
+    row("surface_distance_up's slack", TRIANGLE, "norm_up(rounded(offset)) + s.slack",
+        ["norm_up(rounded(offset)) + 0.1f * s.slack", "norm_up(rounded(offset))"], ON_TRIANGLE),
+    row("distance_to_up's rounding, sharp", TRIANGLE, "raised(sharp_norm_above_up(offset, s.base) + s.slack)",
+        ["(sharp_norm_above_up(offset, s.base) + s.slack)"], ON_TRIANGLE),
+    row("distance_to_up's rounding", TRIANGLE, "raised(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base)",
+        ["(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base)"], ON_TRIANGLE),
+    counts("surface_distance_up's sum", TRIANGLE, "+ s.slack, {3.0f})", ON_TRIANGLE),
+    row("radius_up's corners", TRIANGLE, "max(dot(t.b, t.b), dot(t.c, t.c))", ["dot(t.b, t.b)"], ON_TRIANGLE),
+    counts("enclosing_radius_up", TRIANGLE, "round_up(r, {6.0f})", ON_TRIANGLE),
+    row("enclosing_radius_up's corners", TRIANGLE, "max(norm_up(ab - centre), norm_up(ac - centre))",
+        ["norm_up(ab - centre)"], ON_TRIANGLE),
+    row("offset_from's third corner", TRIANGLE, "-c.v, u, -c.w, v", ["-c.v, u, 0.0f, v"], ON_TRIANGLE),
+
+    # bounds.h
+    counts("kept_bound", BOUNDS, "max(bound + shift, 0.0f), {1.0f})", ON_BOUNDS),
+    row("bound_single's corners", BOUNDS, "max(d.x, max(d.y, d.z))", ["max(d.x, d.y)"], ON_BOUNDS),
+    counts("bound_u1", BOUNDS, "max(farther, 0.0f), {6.0f})", ON_BOUNDS),
+    row("bound_u1's farther corner", BOUNDS, "d.x + max(ab, ca)", ["d.x + ab"], ON_BOUNDS),
+    counts("bound_u2", BOUNDS, "max3(d), 0.0f), {2.0f})", ON_BOUNDS),
+    row("bound_u2's worst corner", BOUNDS, "enclosing_radius_up(t.at) + max3(d)",
+        ["enclosing_radius_up(t.at) + min(d.x, min(d.y, d.z))"], ON_BOUNDS),
+    row("cut_distance's larger", BOUNDS, "max(surface_distance_up(p, s), surface_distance_up(p, r))",
+        ["min(surface_distance_up(p, s), surface_distance_up(p, r))"], ON_BOUNDS),
+    row("bound_pair's corners", BOUNDS, "max(corners, max(ci, cj))", ["max(ci, cj)"], ON_BOUNDS),
+    row("bound_pair's second cut", BOUNDS, "max(corners, max(ci, cj))", ["max(corners, ci)"], ON_BOUNDS),
+    row("bound_pair's one side", BOUNDS, "return na ? max3(ds) : max3(dr)", ["return na ? max3(dr) : max3(dr)"],
+        ON_BOUNDS),
+
+    # bary.h
+    counts("Placement::slack", BARY, "{24.0f} * kUlp2", ON_BARY, steps=[23.0, 12.0, 6.0, 1.5, 0.5]),
+    counts("Placement::slack, its rounding", BARY, "kUlp2 * p.reach, {3.0f})", ON_BARY),
+    counts("Placement::reach", BARY, "norm_up(r.ac.hi), {8.0f})", ON_BARY),
+    row("Placement::reach's terms", BARY, "norm_up(r.origin.hi) + norm_up(r.ab.hi) + norm_up(r.ac.hi)",
+        ["norm_up(r.origin.hi) + norm_up(r.ab.hi)", "norm_up(r.origin.hi)"], ON_BARY),
+    row("kBaryUnit", BARY, "9.5367431640625e-7f", ["9.5367426e-7f"], ON_BARY),
+    row("place's second edge", BARY, "float(point.y) * kBaryUnit", ["0.0f * float(point.y)"], ON_BARY),
+    row("middle", BARY, "(p.x + q.x) >> 1", ["(p.x + q.x + 1u) >> 1", "((p.x + q.x) >> 2) * 2u"], ON_BARY),
+    row("has_middle", BARY, "((p.x + q.x) | (p.y + q.y)) & 1u", ["(p.x + q.x) & 1u"], ON_BARY),
+    row("the fourth child", BARY, "return uvec3(3u, 4u, 5u);", ["return uvec3(0u, 5u, 4u);"], ON_BARY),
+
+    # lower.h
+    counts("coarse_distance_down's corners", LOWER, "{4.25f} * kUlp", ON_LOWER, steps=[4.0, 3.0, 2.0, 1.0, 0.5, 0.0]),
+    row("coarse_distance_down's slack", LOWER, " + s.slack * norm_up(r)", [" + 0.1f * s.slack * norm_up(r)", ""],
+        ON_LOWER),
+    counts("coarse_distance_down's own rounding", LOWER, "norm_up(r), {8.0f})", ON_LOWER),
+    counts("coarse_distance_down's step", LOWER, "round_down(farthest, {1.0f})", ON_LOWER),
+    row("coarse_distance_down's corner", LOWER, "min(dot(-s.at.b, r), dot(-s.at.c, r))", ["dot(-s.at.b, r)"], ON_LOWER),
+    counts("fine_separation_down's products", LOWER, "({9.0f} * kUlp2", ON_LOWER),
+    row("fine_separation_down's slack", LOWER, "radius_up(s.at) + s.slack)", ["radius_up(s.at))"], ON_LOWER),
+    row("fine_separation_down's own rounding", LOWER, "1.000002f * ", ["1.000001f * ", ""], ON_LOWER),
+    row("fine_separation_down's flush", LOWER, " + 1e-36f", [" + 1e-38f", ""], ON_LOWER),
+    row("fine_separation_down's corner", LOWER, "smaller(two_dot(s.b, back), two_dot(s.c, back))",
+        ["two_dot(s.b, back)"], ON_LOWER),
+    row("smaller's low parts", LOWER, "min((x.hi - m.hi) + x.lo, (y.hi - m.hi) + y.lo)",
+        ["max((x.hi - m.hi) + x.lo, (y.hi - m.hi) + y.lo)", "0.0f"], ON_LOWER),
+    row("coarse_distance_down's rounding", LOWER, "lowered(quotient_down(reach, length) - s.base)",
+        ["(quotient_down(reach, length) - s.base)", "reach * (1.0f / length) - s.base"], ON_LOWER),
+
+    # host/frame.cpp
+    row("what two floats leave", FRAME, "return left + subtraction", ["return 0.5 * left + subtraction",
+                                                                       "return subtraction"], ON_FRAME),
+    row("the frame's subtraction", FRAME, "std::abs(exact) * 0x1p-52",
+        ["std::abs(exact) * 0x1p-53", "std::abs(exact) * 0x1p-54", "std::abs(exact) * 0x1p-56", "0.0"], ON_FRAME),
+    row("the frame's underflow", FRAME, "0x1p-1000", ["0x1p-1060", "0.0"], ON_FRAME),
+    row("the largest displacement", FRAME, "worst * (1 + 0x1p-50)", ["worst"], ON_FRAME),
+    row("the sum of three displacements", FRAME, "sum += store(", ["sum = store("], ON_FRAME),
+    row("lower's displacement", FRAME, "lower - moved", ["lower - 0.5 * moved",
+                                                                            "lower"], ON_FRAME),
+    row("upper's displacement", FRAME, "upper + moved", ["upper + 0.5 * moved",
+                                                                            "upper"], ON_FRAME),
+    row("lower's step", FRAME, "std::nextafter(lower - moved, -infinity)",
+        ["(lower - moved)"], ON_FRAME),
+    row("upper's step", FRAME, "std::nextafter(upper + moved, infinity)",
+        ["(upper + moved)"], ON_FRAME),
+    row("the sum of both displacements, rounded", FRAME, "std::nextafter(displacement, infinity)", ["displacement"],
+        ON_FRAME),
+    row("the joint diagonal's rounding", FRAME, "std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070",
+        ["std::nextafter(joint_diagonal, infinity)", "joint_diagonal"], ON_FRAME),
+    row("length_down", FRAME, "? std::nextafter(length, 0.0) : length", ["? length : length"], ON_FRAME),
+    row("length_up (frame)", FRAME, "? std::nextafter(length, std::numeric_limits<double>::infinity())",
+        ["? length"], ON_FRAME),
+]
+
+QUICK = {"kUlp2", "norm_up", "bound_u2's worst corner", "place's second edge"}
+
+# Rows that no test can notice, and why.
+EXPECTED_SURVIVORS = {}

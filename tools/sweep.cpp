@@ -1,0 +1,271 @@
+// Solves thousands of small, hard, generated pairs on one device and holds each interval against an
+// independent double-precision solver with a rounding margin of its own, and against the exact
+// distance where that is known. One line of summary, one for each violation, with what repeats it:
+//
+//   vkh_sweep [--count N] [--first I] [--seed S] [--family NAME] [--device D] [--tol T] [--threads
+//   N]
+//
+// Exit code 1 for any violation. Pair i depends on the seed and i alone.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <glm/common.hpp>
+#include <map>
+#include <thread>
+
+#include "host/decimal.h"
+#include "host/solver.h"
+#include "host/verify.h"
+#include "tests/support/hard_pairs.h"
+#include "tests/support/reference_solver.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+struct Arguments {
+  uint64_t count = 10000, first = 0, seed = 1;
+  std::string family, device;
+  double tolerance = 0;  ///< 0: each family's own
+  double spoil =
+      0;  ///< lower bounds are raised by so much of themselves: shows that the sweep sees it
+  uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
+};
+
+struct Job {
+  size_t family = 0;
+  uint64_t seed = 0;
+};
+
+struct Outcome {
+  Interval reference;  ///< in units of 2^-exponent
+  Interval found, again;
+  int exponent = 0;
+  Status status = Status::kClosed;
+  double tolerance = 0, diagonal_a = 0, solve_ms = 0;
+  bool repeated = false;
+  WitnessCheck witness;
+  std::optional<CoverageCheck> coverage;
+};
+
+class Families {
+ public:
+  explicit Families(const Arguments& args) : args_(args), names_(family_names()) {
+    if (args.family.empty()) return;
+    const auto at = std::find(names_.begin(), names_.end(), args.family);
+    if (at == names_.end()) throw std::runtime_error("no family is called '" + args.family + "'");
+    only_ = static_cast<size_t>(at - names_.begin());
+    all_ = false;
+  }
+  Job job(uint64_t i) const {
+    const size_t family = all_ ? i % names_.size() : only_;
+    return {family, Random(args_.seed * 0x9e3779b97f4a7c15u + i).bits()};
+  }
+  const char* name(const Job& job) const { return names_[job.family].c_str(); }
+
+ private:
+  const Arguments& args_;
+  std::vector<std::string> names_;
+  size_t only_ = 0;
+  bool all_ = true;
+};
+
+/// A power of two that brings the joint box to about 1: the reference squares twice. Scaling up is
+/// exact; scaling down loses less than 2^-1000 of the box.
+int exponent_of(const MeshPair& pair) {
+  glm::dvec3 lo = pair.a.vertices.front(), hi = lo;
+  for (const Mesh* mesh : {&pair.a, &pair.b}) {
+    for (const glm::dvec3& v : mesh->vertices) {
+      lo = glm::min(lo, v);
+      hi = glm::max(hi, v);
+    }
+  }
+  const glm::dvec3 extent = hi - lo;
+  const double largest = std::max({extent.x, extent.y, extent.z});
+  return largest > 0 ? -std::ilogb(largest) : 0;
+}
+
+Mesh rescaled(const Mesh& mesh, int exponent) {
+  std::vector<glm::dvec3> vertices = mesh.vertices;
+  for (glm::dvec3& v : vertices) {
+    for (int i = 0; i < 3; ++i) v[i] = std::ldexp(v[i], exponent);
+  }
+  return make_mesh(mesh.name, std::move(vertices), mesh.faces);
+}
+
+void ask_reference(const Job& job, Outcome& out) {
+  constexpr double kTolerance = 1e-10;  // of the joint box
+  constexpr uint64_t kCandidates = 100'000;
+  const HardPair hard = hard_pair(job.family, job.seed);
+  out.exponent = exponent_of(hard.pair);
+  out.reference = reference_hausdorff(rescaled(hard.pair.a, out.exponent),
+                                      rescaled(hard.pair.b, out.exponent), kTolerance, kCandidates);
+}
+
+SolveOptions options_for(const HardPair& hard, const Job& job, double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance > 0 ? tolerance : hard.tolerance;
+  Random random(job.seed ^ 0x5eed);
+  // Nearly all as users run them; some out of memory or cut short, where intervals hold too.
+  const uint32_t way = random.below(16);
+  if (way == 0 && !hard.largest_gap_at_zero) options.wave_limit = 1 + random.below(4);
+  if (way == 1) options.memory_bytes = 1;
+  options.coverage = way < 3;
+  // A mesh that is one point has no diagonal to take a fraction of.
+  return options;
+}
+
+void ask_solver(Solver& solver, const Job& job, double tolerance, Outcome& out) {
+  const HardPair hard = hard_pair(job.family, job.seed);
+  const SolveOptions options = options_for(hard, job, tolerance);
+  const auto start = std::chrono::steady_clock::now();
+  const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
+  out.solve_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  out.found = {r.lower, r.upper};
+  out.status = r.status;
+  out.tolerance = r.tolerance;
+  out.diagonal_a = r.diagonal_a;
+  out.witness = verify_witness(hard.pair.a, hard.pair.b, r);
+  out.coverage = r.coverage_check;
+  out.repeated = job.seed % 16 == 0;
+  if (!out.repeated) return;
+  const Report again = solver.distance(hard.pair.a, hard.pair.b, options);
+  out.again = {again.lower, again.upper};
+}
+
+/// What is untrue of an outcome; empty where nothing is.
+std::string fault_of(const Job& job, const Outcome& out) {
+  const Interval found = out.found;
+  if (!(found.lower >= 0 && found.lower <= found.upper && std::isfinite(found.upper)))
+    return "no interval";
+  if (!out.witness.holds) return "has a witness closer than lower";
+  if (out.coverage && !out.coverage->holds) return "has lost a part of A";
+  const Interval unit = {std::ldexp(found.lower, out.exponent),
+                         std::ldexp(found.upper, out.exponent)};
+  if (!unit.meets(out.reference)) return "misses the reference";
+  const HardPair hard = hard_pair(job.family, job.seed);
+  if (hard.exact && !found.contains(*hard.exact)) return "misses the exact distance";
+  if (out.status == Status::kClosed && found.upper - found.lower > out.tolerance)
+    return "says closed and is wider than the tolerance";
+  if (out.repeated && (out.again.lower != found.lower || out.again.upper != found.upper))
+    return "differs from run to run";
+  return {};
+}
+
+/// A true interval that is wider than it should be. A mesh that is a point has no diagonal to ask a
+/// fraction of.
+bool is_wide_around_zero(const Job& job, const Outcome& out) {
+  const HardPair hard = hard_pair(job.family, job.seed);
+  return hard.largest_gap_at_zero && out.diagonal_a > 0 &&
+         out.found.upper > *hard.largest_gap_at_zero * out.diagonal_a;
+}
+
+struct Totals {
+  uint64_t violations = 0, wide_around_zero = 0, closed = 0, wide_references = 0, repeated = 0,
+           exact = 0;
+  double solve_ms = 0;
+  struct PerFamily {
+    uint64_t count = 0, closed = 0, violations = 0;
+  };
+  std::map<std::string, PerFamily> families;
+};
+
+void judge(const Families& families, uint64_t i, const Outcome& out, Totals& totals) {
+  const Job job = families.job(i);
+  const std::string fault = fault_of(job, out);
+  Totals::PerFamily& family = totals.families[families.name(job)];
+  ++family.count;
+  const bool closed = out.status == Status::kClosed;
+  totals.closed += closed ? 1 : 0;
+  family.closed += closed ? 1 : 0;
+  totals.repeated += out.repeated ? 1 : 0;
+  totals.solve_ms += out.solve_ms;
+  // So wide that it would not see an error of the size of a float's ulp.
+  totals.wide_references += out.reference.upper - out.reference.lower > 1e-8 ? 1 : 0;
+  totals.exact += hard_pair(job.family, job.seed).exact ? 1 : 0;
+  const bool wide = is_wide_around_zero(job, out);
+  totals.wide_around_zero += wide ? 1 : 0;
+  if (fault.empty() && !wide) return;
+  totals.violations += fault.empty() ? 0 : 1;
+  family.violations += fault.empty() ? 0 : 1;
+  std::printf("%s pair %llu (%s) %s: [%s, %s] %s, reference [%s, %s] 2^%d\n",
+              fault.empty() ? "WIDE" : "VIOLATION", static_cast<unsigned long long>(i),
+              families.name(job), fault.empty() ? "is wide around 0" : fault.c_str(),
+              hex_float(out.found.lower).c_str(), hex_float(out.found.upper).c_str(),
+              status_name(out.status), hex_float(out.reference.lower).c_str(),
+              hex_float(out.reference.upper).c_str(), -out.exponent);
+}
+
+void print_summary(const Arguments& args, const Totals& t, const Device& device, double seconds) {
+  for (const auto& [name, f] : t.families) {
+    std::printf("  %-12s %6llu pairs, %6llu closed, %llu violations\n", name.c_str(),
+                static_cast<unsigned long long>(f.count), static_cast<unsigned long long>(f.closed),
+                static_cast<unsigned long long>(f.violations));
+  }
+  std::printf(
+      "sweep: %llu pairs (seed %llu, from %llu) on %s: %llu violations; %llu closed, %llu with an "
+      "exact distance, %llu run twice, %llu references wider than 1e-8, %llu of h(A,A) above 1e-9 "
+      "diag(A); "
+      "solver %.1f s, all %.1f "
+      "s\n",
+      static_cast<unsigned long long>(args.count), static_cast<unsigned long long>(args.seed),
+      static_cast<unsigned long long>(args.first), device.description().name.c_str(),
+      static_cast<unsigned long long>(t.violations), static_cast<unsigned long long>(t.closed),
+      static_cast<unsigned long long>(t.exact), static_cast<unsigned long long>(t.repeated),
+      static_cast<unsigned long long>(t.wide_references),
+      static_cast<unsigned long long>(t.wide_around_zero), t.solve_ms / 1000, seconds);
+}
+
+int sweep(const Arguments& args) {
+  const Families families(args);
+  Device device({.selector = args.device});
+  Solver solver(device);
+  std::vector<Outcome> outcomes(args.count);
+  const auto start = std::chrono::steady_clock::now();
+  std::atomic<uint64_t> next = 0;
+  std::vector<std::thread> helpers;
+  for (uint32_t t = 0; t < args.threads; ++t) {
+    helpers.emplace_back([&] {
+      for (uint64_t i = next++; i < args.count; i = next++)
+        ask_reference(families.job(args.first + i), outcomes[i]);
+    });
+  }
+  for (uint64_t i = 0; i < args.count; ++i)
+    ask_solver(solver, families.job(args.first + i), args.tolerance, outcomes[i]);
+  for (Outcome& out : outcomes)
+    out.found.lower = std::min(out.found.lower * (1 + args.spoil), out.found.upper);
+  for (std::thread& helper : helpers) helper.join();
+  Totals totals;
+  for (uint64_t i = 0; i < args.count; ++i) judge(families, args.first + i, outcomes[i], totals);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  print_summary(args, totals, device, elapsed.count());
+  return totals.violations > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments args;
+  CLI::App app("Generated hard pairs on a device, against an independent solver.", "vkh_sweep");
+  app.add_option("--count", args.count, "Pairs");
+  app.add_option("--first", args.first, "Number of the first pair");
+  app.add_option("--seed", args.seed, "Of the whole sweep");
+  app.add_option("--family", args.family, "Only this one; 'patch' is the paper's section 6.1");
+  app.add_option("--device", args.device, "As for vkhausdorff");
+  app.add_option("--tol", args.tolerance, "Instead of each family's own tolerance");
+  app.add_option("--spoil", args.spoil,
+                 "Raise each lower bound by so much of itself: the sweep must see it");
+  app.add_option("--threads", args.threads, "For the reference");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return sweep(args);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vkh_sweep: %s\n", error.what());
+    return 2;
+  }
+}
