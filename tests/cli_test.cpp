@@ -187,7 +187,8 @@ TEST_CASE("distance --json: one object of the schema and nothing else on stdout"
     CHECK(r["times"]["setup_ms"].get<double>() > 0);
     CHECK(keys(r["culled"]) ==
           sorted({"exact", "u1", "u2", "ha", "u3", "u4", "lower_raised", "precision"}));
-    CHECK(r["switched_off"] == Words{"u4"});  // off unless --enable u4
+    CHECK(r["switched_off"] ==
+          Words{"u4", "group_walk", "root_centroid"});  // off unless --enable u4
   }
 }
 
@@ -331,7 +332,7 @@ TEST_CASE("switches are echoed, one option or several, before or after the files
         Words{"distance", "--disable", both, a, b, "--json"},
         Words{"distance", a, b, "--json", "--disable", names[0], "--disable", names[1]}}) {
     const json r = parse_only_line(run(words).out);
-    CHECK(r["switched_off"] == Words{names[0], names[1], "u4"});
+    CHECK(r["switched_off"] == Words{names[0], names[1], "u4", "group_walk", "root_centroid"});
     check_interval(r, 0.25);
   }
 }

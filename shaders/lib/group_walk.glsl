@@ -39,11 +39,12 @@ float farthest_distance2(vec3 p, vec3 lo, vec3 hi) {
   return dot(d, d);
 }
 
-// How far a box may be and still matter, whatever the other invocations have found by now: every
-// triangle as far as the nearest is tried, so that the result does not depend on their order.
-float group_reach(Query q) {
-  Nearest best = Nearest(kNone, uintBitsToFloat(nearest_bits), 0.0);
-  return 1.000002 * reach_of(q, best);
+// How far a box may be and still matter: (d + 1e-6)^2, for coordinates of order 1. Whatever the
+// other invocations have found by now, every triangle that plain floats may take for as near as the
+// nearest is tried, so that the result does not depend on their order.
+float group_reach() {
+  float d = 1.000001 * sqrt(uintBitsToFloat(nearest_bits)) + 1.0e-6;  // uncertified: steers
+  return d * d;
 }
 
 // The k-th of all children of the boxes on `side`.
@@ -61,7 +62,7 @@ void descend(Query q, Level below, uint side) {
     uint child = entry_of(side, k);
     if (child >= below.count) continue;
     Box b = boxes[below.start + child];
-    if (box_distance2(q.p.hi, b.lo, b.hi) > group_reach(q)) continue;
+    if (box_distance2(q.p.hi, b.lo, b.hi) > group_reach()) continue;
     uint slot = atomicAdd(level_count[1u - side], 1u);
     if (slot < kGroupWalkBoxes) level_boxes[1u - side][slot] = child;
     float within = 1.000002 * farthest_distance2(q.p.hi, b.lo, b.hi);
