@@ -51,7 +51,7 @@ class Tree:
         objects = []
         for source in [f"tests/{test}.cpp", *sources]:
             made = self.folder / (source.replace("/", "_") + ".o")
-            self.shell(compile_line.split(" -o ")[0] + f" -w -o {made} -c {self.folder / source}")
+            self.shell(compile_line.split(" -o ")[0] + f" -O1 -w -o {made} -c {self.folder / source}")
             objects.append(str(made))
         program = self.folder / test
         before, after = link_line.split(f" -o tests/{test} ")
