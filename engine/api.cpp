@@ -46,7 +46,9 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   return {.vertex_count = p.a.vertexCount,
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
+          .known_lower = p.knownLower,
           .two_float = p.twoFloat != VK_FALSE,
+          .warm = p.warm != VK_FALSE,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
@@ -95,7 +97,10 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
                                       VkhHierarchyRequirements* requirements) {
   if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
-  *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount)};
+  // The pyramid stands at the front of the scratch, so a refit needs no more than reaches its end.
+  const vkh::BuildScratch scratch = vkh::view_scratch({}, faceCount);
+  *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount),
+                   scratch.pyramid.offset + scratch.pyramid.size};
   return VKH_SUCCESS;
 }
 
@@ -119,6 +124,14 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
   hierarchy->vertexCount = mesh->vertexCount;
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_build(rec, *mesh, vkh::view_scratch(*scratch, mesh->faceCount),
+                    vkh::view_hierarchy(*hierarchy));
+}
+
+void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
+                          const VkhHierarchy* hierarchy, const VkhMemory* scratch,
+                          VkhProfile* profile) {
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_refit(rec, *mesh, vkh::view_scratch(*scratch, mesh->faceCount),
                     vkh::view_hierarchy(*hierarchy));
 }
 

@@ -29,6 +29,13 @@ void record_pyramid(Recorder& rec, const BuildScratch& s, const Hierarchy& h) {
   }
 }
 
+// All boxes of the nodes, from the triangles and the topology as they are.
+void record_boxes(Recorder& rec, const BuildScratch& s, const Hierarchy& h) {
+  record_pyramid(rec, s, h);
+  rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = s.pyramid, .nodes = h.nodes},
+                       gpu::CountPush{h.face_count}, Items{h.face_count});
+}
+
 }  // namespace
 
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
@@ -86,10 +93,20 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .triangle_lows = h.triangle_lows},
                         count, faces);
   rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
-  record_pyramid(rec, s, h);
-  rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = s.pyramid, .nodes = h.nodes}, count,
-                       faces);
+  record_boxes(rec, s, h);
   rec.stage("hierarchy");
+}
+
+void record_refit(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
+  const auto scope = rec.scope("refit");
+  record_load(rec, b, h.vertices, h.faces);
+  rec.run<k::BvhMove>({.vertices = h.vertices,
+                       .faces = h.faces,
+                       .triangles = h.triangles,
+                       .triangle_lows = h.triangle_lows},
+                      gpu::CountPush{b.faceCount}, Items{b.faceCount});
+  record_boxes(rec, s, h);
+  rec.stage("refit");
 }
 
 }  // namespace vkh

@@ -17,11 +17,16 @@ void record_sort(Recorder& rec, const BuildScratch& scratch, uint32_t count);
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
                   const Hierarchy& hierarchy);
 
+// New positions, and boxes over the old order. Of the scratch only the pyramid is used.
+void record_refit(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
+                  const Hierarchy& hierarchy);
+
 // What a run works on.
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
-  float cull_tolerance = 0;
+  float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
+  bool warm = false;  // the workspace holds an earlier run to start from
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =

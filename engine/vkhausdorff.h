@@ -12,8 +12,12 @@
  *
  * Order of use, once a device:      vkhQuerySupport, vkhCreateContext
  *               once a mesh B:      vkhGetHierarchyRequirements, vkhCmdBuildHierarchy
+ *               whenever B moves:   vkhCmdRefitHierarchy, or build again
  *               once a pair:        vkhGetWorkspaceRequirements, vkhCmdBegin
  *               then as you like:   vkhCmdAdvance (n waves), vkhCmdWriteReport
+ * All of it may stand in one command buffer, or be spread over many: two waves a frame and a report
+ * after each. Reports of one run nest: lower never falls and upper never rises, but for rounding.
+ * For a mesh that deforms, each frame is: refit, begin (warm), advance, report.
  *
  * Coordinates should be of order 1: scale by a power of two and move the meshes near the origin
  * first (both are exact or nearly so; h scales along). The error analysis holds for coordinates up
@@ -21,14 +25,37 @@
  *
  * Threads. A context is immutable and may be used from several threads at once. A command buffer,
  * as always in Vulkan, is recorded by one thread at a time. Two recordings that run at the same
- * time on the device must not share a workspace.
+ * time on the device must not share a workspace, a scratch or a report, and a hierarchy must not be
+ * built or refitted while a run reads it.
  *
- * Synchronization. Every vkhCmd* function starts with a barrier that makes earlier compute and
- * transfer writes of the same queue visible to it; wait for anything else (host writes are covered
- * by the submission, other queues by your semaphores) yourself. What they write is written in
- * VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT with VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT; put your own
- * barrier from there to your use of it. They leave compute pipeline, push constants and push
- * descriptors of set 0 at VK_PIPELINE_BIND_POINT_COMPUTE changed. Queue: VK_QUEUE_COMPUTE_BIT. */
+ * Recording. Outside a render pass, into a primary or secondary command buffer whose pool's queue
+ * family has VK_QUEUE_COMPUTE_BIT. The command buffer may be submitted any number of times, one at
+ * a time, and works on what the buffers hold then. The structs and arrays that a function is given
+ * are read before it returns; buffers and the context must live until the command buffer has run.
+ *
+ * Synchronization. Every vkhCmd* function starts with a memory barrier of its own:
+ *   from COMPUTE_SHADER and ALL_TRANSFER, SHADER_WRITE and TRANSFER_WRITE,
+ *   to COMPUTE_SHADER, ALL_TRANSFER and DRAW_INDIRECT, all accesses that the engine makes there.
+ * So a compute shader or copy before it, in the same queue, may write a mesh, and one may have read
+ * an older report, without a barrier of yours; and vkhCmd* functions need none between them. Wait
+ * for anything else yourself: host writes are covered by the submission, other queues by your
+ * semaphores, other stages (a vertex shader that still reads the buffer which the report is to be
+ * written to) by your barrier to COMPUTE_SHADER.
+ *   What is yours after it: the report (and each hierarchy) is written in COMPUTE_SHADER with
+ * SHADER_STORAGE_WRITE; put a barrier from there to your use of it. Your meshes are read in
+ * COMPUTE_SHADER with SHADER_STORAGE_READ; compute shaders and copies that are recorded later may
+ * write them again as they are, since the engine's own barriers stand between; before any other
+ * stage writes them, wait for COMPUTE_SHADER (no access mask: nothing is written). Scratch and
+ * workspace are written by ALL_TRANSFER too: before you use that memory for something else, wait
+ * for both.
+ *
+ * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
+ * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
+ *
+ * Errors. Functions that can fail return VkhResult and then leave their output as it was (a context
+ * becomes null). Recording cannot fail: what could go wrong is refused before by the Get functions
+ * or is a rule below, and breaking a rule is undefined as in Vulkan. The validation layers see the
+ * engine's commands as yours. */
 #ifndef VKHAUSDORFF_H
 #define VKHAUSDORFF_H
 
@@ -42,14 +69,19 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
 
+/* Pipelines for one device and one set of switches; no device memory of its own. */
 typedef struct VkhContext_T* VkhContext;
 
 typedef enum VkhResult {
   VKH_SUCCESS = 0,
   VKH_ERROR_UNSUPPORTED = -1, /* the device lacks something; vkhQuerySupport says what */
   VKH_ERROR_PIPELINE = -2, /* the driver refused a pipeline or ran out of host or device memory */
-  VKH_ERROR_TOO_LARGE = -3 /* a mesh or workspace exceeds a limit of the device or of the engine */
+  VKH_ERROR_TOO_LARGE = -3 /* a mesh exceeds 2^28 vertices or faces, or what one storage buffer
+                              binding of the device reaches; or it has none */
 } VkhResult;
 
 /* Stages that can be switched off, for ablations; the interval stays true without any of them. */
@@ -67,7 +99,9 @@ typedef enum VkhSwitchBits {
                                    leaves: measured, 0 of 400,000 */
 } VkhSwitchBits;
 
-/* The caller's device. `device` may be null for vkhQuerySupport. */
+/* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader
+ * may be opened by you, or be somebody's layer. `device` may be null for vkhQuerySupport. Labels
+ * for captures are recorded where VK_EXT_debug_utils is enabled. */
 typedef struct VkhDeviceInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   VkInstance instance; /* Vulkan 1.2 or later */
@@ -75,15 +109,16 @@ typedef struct VkhDeviceInfo {
   VkDevice device; /* created with what vkhGetRequiredExtensions and vkhQuerySupport name */
 } VkhDeviceInfo;
 
-/* Device extensions that must be enabled, a static array: VK_KHR_synchronization2 and
- * VK_KHR_push_descriptor. The features scalarBlockLayout (Vulkan 1.2) and synchronization2 must be
- * enabled too. Nothing else is: no fp64, no 64-bit or float atomics, no ray queries, no fixed
- * subgroup size. */
+/* Device extensions that must be enabled, a static array of `count` static strings:
+ * VK_KHR_synchronization2 and VK_KHR_push_descriptor. The features scalarBlockLayout (Vulkan 1.2)
+ * and synchronization2 must be enabled too. Nothing else is: no fp64, no 64-bit or float atomics,
+ * no ray queries, no fixed subgroup size. */
 const char* const* vkhGetRequiredExtensions(uint32_t* count);
 
-/* Whether a physical device can run the engine. Writes the reasons why not, separated by "; " and
- * cut at `capacity` bytes including the end; `reasons` may be null if capacity is 0. Returns
- * VKH_SUCCESS or VKH_ERROR_UNSUPPORTED. */
+/* Whether a physical device can run the engine: extensions, features, limits, subgroup operations.
+ * Writes the reasons why not, separated by "; " and cut at `capacity` bytes including the end;
+ * `reasons` may be null if capacity is 0. Returns VKH_SUCCESS or VKH_ERROR_UNSUPPORTED. That the
+ * extensions and features are enabled on your device cannot be seen from here. */
 VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity);
 
 typedef struct VkhContextCreateInfo {
@@ -92,8 +127,10 @@ typedef struct VkhContextCreateInfo {
   uint32_t switches;             /* VkhSwitchBits that are on; VKH_SWITCH_ALL is the full method */
 } VkhContextCreateInfo;
 
-/* Creates the pipelines, on up to 8 threads of its own while it runs. Nothing of `info` but the
- * handles in `device` is kept; they must outlive the context. */
+/* Creates the pipelines, on up to 8 threads of its own while it runs; this is the one slow call
+ * (seconds where the driver has not compiled them before, so keep a pipeline cache). Nothing of
+ * `info` but the handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
+ * VKH_ERROR_UNSUPPORTED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left. */
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context);
 /* No command buffer that was recorded with the context may still be pending. Null is fine. */
 void vkhDestroyContext(VkhContext context);
@@ -102,10 +139,11 @@ void vkhDestroyContext(VkhContext context);
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount:
  * indices out of range and coordinates that are not finite are not checked on the GPU and give
- * undefined results. Vertices that no face uses are not part of the mesh. Degenerate faces are
- * segments or points. Both buffers: VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; each range is at most
- * maxStorageBufferRange. Indices are read in words
- * of 4 bytes: with 16-bit indices the buffer must reach to the end of the last index's word. */
+ * undefined results (an interval, but not a true one). Vertices that no face uses are not part of
+ * the mesh. Degenerate faces are segments or points. Both buffers:
+ * VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; each range is at most maxStorageBufferRange less 256 bytes.
+ * Indices are read in words of 4 bytes: with 16-bit indices the buffer must reach to the end of the
+ * last index's word. A and B may share buffers. The engine never writes them. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */
@@ -122,9 +160,10 @@ typedef struct VkhMesh {
   VkDeviceSize vertexLowOffset; /* bytes, a multiple of 4 */
 } VkhMesh;
 
-/* A range of a buffer that the caller owns. offset: a multiple of 256 bytes. Usage: STORAGE_BUFFER,
+/* A range of a buffer that the caller owns; ranges may share a buffer and must not overlap unless
+ * it is said that they may. offset: a multiple of 256 bytes. Usage: STORAGE_BUFFER,
  * INDIRECT_BUFFER, TRANSFER_SRC and TRANSFER_DST. Memory: device-local is best; it need not be
- * host-visible. */
+ * host-visible. Content before the first use: anything. */
 typedef struct VkhMemory {
   VkBuffer buffer;
   VkDeviceSize offset; /* bytes */
@@ -134,15 +173,18 @@ typedef struct VkhMemory {
 typedef struct VkhHierarchyRequirements {
   VkDeviceSize hierarchySize; /* bytes; kept as long as the hierarchy is used */
   VkDeviceSize scratchSize;   /* bytes; free again once the build has run, e.g. for the workspace */
+  VkDeviceSize refitScratchSize; /* bytes, likewise for a refit: boxes, under 2 bytes a face */
 } VkhHierarchyRequirements;
 
-/* B's bounding volume hierarchy: memory that vkhCmdBuildHierarchy has filled. */
+/* B's bounding volume hierarchy: memory that vkhCmdBuildHierarchy has filled. It holds a copy of B
+ * and serves any number of runs. A value: copy it into each VkhProblem that uses it. */
 typedef struct VkhHierarchy {
   VkhMemory memory;
   uint32_t faceCount;   /* set by the build */
   uint32_t vertexCount; /* set by the build */
 } VkhHierarchy;
 
+/* Sizes for B. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhHierarchyRequirements* requirements);
 
@@ -153,14 +195,15 @@ typedef struct VkhWorkspaceRequirements {
 } VkhWorkspaceRequirements;
 
 /* Sizes for A. Anything from minimum to maximum is right: a smaller workspace costs time, never
- * truth. */
+ * truth. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements);
 
 /* Timestamps, for those who want them: one is written at the start of each vkhCmd* function and one
- * after each stage, from query `count` on; names[i] is the stage that ends with query i, null where
- * a function starts. The caller resets the pool and provides `capacity` names; recording stops to
- * write when it is full. */
+ * after each stage (at ALL_COMMANDS), from query `count` on; names[i] is the stage that ends with
+ * query i, null where a function starts. The caller resets the pool and provides `capacity` names;
+ * recording stops to write when it is full. `profile` may be null everywhere. Needs a queue family
+ * with timestampValidBits > 0. */
 typedef struct VkhProfile {
   VkQueryPool pool;
   uint32_t capacity;
@@ -168,13 +211,26 @@ typedef struct VkhProfile {
   const char** names; /* static strings */
 } VkhProfile;
 
-/* Builds the hierarchy of B into `hierarchy->memory` (filled in by the caller) and sets
- * hierarchy->faceCount. Reads the mesh's buffers in compute shaders; writes hierarchy and scratch.
- * The mesh's buffers are not needed afterwards. */
+/* Builds the hierarchy of B into `hierarchy->memory` (filled in by the caller, hierarchySize bytes)
+ * and sets hierarchy->faceCount and vertexCount. Reads the mesh's buffers in compute shaders;
+ * writes hierarchy and scratch (scratchSize bytes; it may lie in what will be the workspace). The
+ * mesh's buffers are not needed afterwards. */
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile);
 
-/* One run: h(a, b). */
+/* B has moved: takes its vertices from `mesh` again and fits the boxes to them, over the old order
+ * of triangles; a few dispatches, no sort. The mesh has the faceCount and vertexCount of the build;
+ * its indices are read again and should be the same faces in the same order. Reads the mesh's
+ * buffers in compute shaders; reads and writes the hierarchy; writes scratch (refitScratchSize
+ * bytes). A report after a refit is as true as after a build: the certificate rests on the copy of
+ * B that the refit replaces. Boxes overlap more the further B is from the shape that it was built
+ * for, so that walks take longer: build again when the time a frame takes says so. */
+void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
+                          const VkhHierarchy* hierarchy, const VkhMemory* scratch,
+                          VkhProfile* profile);
+
+/* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport;
+ * after the begin only `b`, `workspace`, a's counts and twoFloat are read. */
 typedef struct VkhProblem {
   VkhMesh a;
   VkhHierarchy b;
@@ -185,6 +241,18 @@ typedef struct VkhProblem {
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
    * way, for the vertices that this selects. */
   VkBool32 twoFloat;
+  /* >= 0, in the coordinates' units; 0 where nothing is known. A value that the answer need not
+   * resolve below, such as lower of h(b, a) when the larger of both directions is asked for:
+   * candidates within cullTolerance of it are closed, too. The report stays true; upper then gets
+   * no smaller than about knownLower + cullTolerance. */
+  float knownLower;
+  /* Start from the run that `workspace` holds: its closest triangle of B for each vertex of A, and
+   * its witness, moved along with A, as the first lower bound. For an A that has moved, with the
+   * same counts, against a refitted (or the same) B. It must be the same range of memory; scratch
+   * must not have overlapped it since. It only steers: after another mesh, a rebuilt B or garbage
+   * the interval is as true, and takes longer. Zero it for a first frame, and where a run must
+   * repeat to the last bit. */
+  VkBool32 warm;
   /* Null, or with a context of VKH_SWITCH_COVERAGE: 16 bytes a face of A, usage STORAGE_BUFFER and
    * TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute shaders and transfers:
    * vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport what is open. It holds
@@ -196,12 +264,16 @@ typedef struct VkhProblem {
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.
- * After it the workspace holds the run; a's buffers are not needed afterwards. */
+ * Reads a's buffers and the hierarchy in compute shaders, writes the workspace. After it the
+ * workspace holds the run, and a's buffers are not needed. */
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                  VkhProfile* profile);
 
-/* Records `waves` waves. A wave after the end costs a few empty dispatches, so more than are needed
- * may be recorded; the same command buffer may be submitted again. */
+/* Records `waves` waves: each refines what is undecided and narrows the interval. A wave after the
+ * end costs a few empty dispatches, so more than are needed may be recorded: a frame's budget is a
+ * number of waves. A command buffer of waves alone, submitted again, goes on where the run stands;
+ * one that starts with vkhCmdBegin does the run again. Reads the hierarchy, reads and writes the
+ * workspace. */
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                    uint32_t waves, VkhProfile* profile);
 
@@ -219,7 +291,9 @@ typedef struct VkhWaveRecord {
   float lower, upper; /* as they steer the run; not certified */
 } VkhWaveRecord;
 
-/* What vkhCmdWriteReport writes: sizeof(VkhReport) bytes, little-endian, no padding. */
+/* What vkhCmdWriteReport writes: sizeof(VkhReport) bytes of 4-byte words, in the device's byte
+ * order, no padding: in GLSL a struct of the same members in a scalar or std430 block. Lengths in
+ * the coordinates' units. */
 typedef struct VkhReport {
   float lower; /* certified: lower <= h(A, B) */
   float upper; /* certified: h(A, B) <= upper; 3e38 while faces of A wait for their first bound */
@@ -243,11 +317,15 @@ typedef struct VkhReport {
 } VkhReport;
 
 /* Certifies the witness against every triangle of B and writes the report at `offset` (a multiple
- * of 256 bytes) of `buffer` (usage STORAGE_BUFFER). Costs a pass over B's triangles. The run can be
- * advanced further afterwards. */
+ * of 256 bytes) of `buffer` (usage STORAGE_BUFFER; TRANSFER_SRC if you copy it), in COMPUTE_SHADER
+ * with SHADER_STORAGE_WRITE: your next shader can read it without the host. Costs a pass over B's
+ * triangles. The run can be advanced further afterwards; before the first wave upper is 3e38. */
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -168,12 +168,18 @@ std::string nothing_usable(const std::vector<Choice>& choices, const std::string
   return text;
 }
 
-uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
+std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
+                                                    VkPhysicalDevice physical) {
   uint32_t count = 0;
   vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  for (uint32_t i = 0; i < count; ++i) {
+  return families;
+}
+
+uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, physical);
+  for (uint32_t i = 0; i < families.size(); ++i) {
     if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].timestampValidBits > 0)
       return i;
   }
@@ -188,9 +194,12 @@ Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   create_device();
 }
 
+Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }
+
 Device::Device(Empty) : vk_(load_vulkan()) {}
 
 Device::~Device() {
+  if (!owned_) return;
   if (device_ != VK_NULL_HANDLE) {
     vk_.DeviceWaitIdle(device_);
     vk_.DestroyDevice(device_, nullptr);
@@ -259,6 +268,38 @@ void Device::create_device() {
   check(vk_.CreateDevice(physical_, &info, nullptr, &device_), "creating the device");
   load_device(vk_, device_);
   vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
+  read_limits();
+}
+
+void Device::adopt(const AdoptedDevice& adopted) {
+  const auto refuse = [](const std::string& why) {
+    throw DeviceError("the device that was handed over cannot be used: " + why);
+  };
+  if (adopted.get_instance_proc_addr == nullptr || adopted.instance == VK_NULL_HANDLE ||
+      adopted.physical == VK_NULL_HANDLE || adopted.device == VK_NULL_HANDLE ||
+      adopted.queue == VK_NULL_HANDLE)
+    refuse("a handle is null");
+  vk_.GetInstanceProcAddr = adopted.get_instance_proc_addr;
+  load_instance(vk_, adopted.instance);
+  if (vk_.GetPhysicalDeviceProperties2 == nullptr) refuse("Vulkan 1.2 is missing");
+  description_ = describe(vk_, adopted.instance, adopted.physical);
+  if (!description_.usable) refuse(description_.reason);
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, adopted.physical);
+  if (adopted.queue_family >= families.size() ||
+      (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
+    refuse("its queue family " + std::to_string(adopted.queue_family) + " has no compute");
+  has_timestamps_ = families[adopted.queue_family].timestampValidBits > 0;
+  instance_ = adopted.instance;
+  physical_ = adopted.physical;
+  device_ = adopted.device;
+  queue_ = adopted.queue;
+  queue_family_ = adopted.queue_family;
+  queue_mutex_ = adopted.queue_mutex;
+  load_device(vk_, device_);
+  read_limits();
+}
+
+void Device::read_limits() {
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   vk_.GetPhysicalDeviceProperties2(physical_, &properties);

@@ -1,8 +1,8 @@
-// A Vulkan instance, device and queue of our own, for everything that is not embedded in somebody
-// else's.
+// A Vulkan instance, device and queue: our own, or somebody else's that we may use.
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,11 +18,29 @@ struct DeviceRequest {
                             ///< and count messages
 };
 
-/// Owns instance, device and one compute queue. Throws DeviceError if nothing usable matches, with
-/// each device's reason. Discrete before integrated before virtual before CPU.
+/// Handles of the caller's, who keeps and destroys them, after the Device and all that was made
+/// with it. The device: created with the extensions that vkhGetRequiredExtensions names and with
+/// scalarBlockLayout and synchronization2 enabled. The queue: of a family with compute; nobody else
+/// may use it while a call of Solver runs, unless all submit under `queue_mutex`.
+struct AdoptedDevice {
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;  ///< Vulkan 1.2 or later
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queue_family = 0;
+  std::mutex* queue_mutex = nullptr;  ///< may be null; held around every vkQueueSubmit
+};
+
+/// One compute queue and what it belongs to.
 class Device {
  public:
+  /// Owns instance, device and queue. Throws DeviceError if nothing usable matches, with each
+  /// device's reason. Discrete before integrated before virtual before CPU.
   explicit Device(const DeviceRequest& request = {});
+  /// Destroys nothing but its own objects. Throws DeviceError that names what is missing. What was
+  /// enabled at creation cannot be asked for and is the caller's to know.
+  explicit Device(const AdoptedDevice& adopted);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -36,6 +54,9 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   VkPhysicalDevice physical() const { return physical_; }
+  std::mutex* queue_mutex() const { return queue_mutex_; }  ///< may be null
+  /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.
+  bool has_timestamps() const { return has_timestamps_; }
   double timestamp_period_ns() const { return timestamp_period_ns_; }
   /// For the engine's C API.
   VkhDeviceInfo engine_info() const;
@@ -47,6 +68,8 @@ class Device {
   void create_instance(bool validation);
   void choose(const std::string& selector);
   void create_device();
+  void adopt(const AdoptedDevice& adopted);
+  void read_limits();
 
   VulkanApi vk_;
   DeviceDescription description_;
@@ -56,6 +79,9 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queue_family_ = 0;
+  std::mutex* queue_mutex_ = nullptr;
+  bool owned_ = true;
+  bool has_timestamps_ = true;
   double timestamp_period_ns_ = 1;
   std::unique_ptr<uint32_t> messages_ =
       std::make_unique<uint32_t>(0);  // the messenger keeps its address

@@ -69,8 +69,7 @@ double ms_since(Clock::time_point start) {
 /// A line on stderr that rewrites itself, on a terminal only.
 class ProgressLine {
  public:
-  explicit ProgressLine(const char* direction)
-      : direction_(direction), shown_(isatty(STDERR_FILENO) == 1) {}
+  ProgressLine() : shown_(isatty(STDERR_FILENO) == 1) {}
   ~ProgressLine() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }
@@ -80,8 +79,9 @@ class ProgressLine {
   void show(const Progress& p) {
     constexpr double kRedrawMs = 100;
     if (!shown_ || (drawn_ && ms_since(last_) < kRedrawMs)) return;
-    std::fprintf(stderr, "\r\033[K%s  wave %u  %llu candidates  [%s, %s]  gap %.2e", direction_,
-                 p.wave, static_cast<unsigned long long>(p.candidates),
+    std::fprintf(stderr, "\r\033[K%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
+                 p.back ? "h(B,A)" : "h(A,B)", p.wave,
+                 static_cast<unsigned long long>(p.candidates),
                  decimal(p.lower, 7, Rounding::kDown).c_str(),
                  decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
     std::fflush(stderr);
@@ -90,7 +90,6 @@ class ProgressLine {
   }
 
  private:
-  const char* direction_;
   bool shown_;
   bool drawn_ = false;
   Clock::time_point last_;
@@ -130,32 +129,27 @@ Request understand(const Arguments& arguments) {
   return request;
 }
 
-Report solve(Solver& solver, const Mesh& a, const Mesh& b, SolveOptions options,
-             const char* direction) {
-  ProgressLine line(direction);
-  options.progress = [&line](const Progress& progress) {
-    line.show(progress);
-    return g_interrupted == 0;
-  };
-  return solver.distance(a, b, options);
-}
-
-/// The way back has the way there's tolerance, which is a fraction of A's diagonal, and what is
-/// left of the time.
-SolveOptions options_back(SolveOptions options, const Report& there, double elapsed_s) {
-  constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
-  // A mesh that is one point has no diagonal, so the tolerance is 0, which the solver refuses.
-  options.tolerance = std::max(there.tolerance, std::numeric_limits<double>::min());
-  options.tolerance_is_absolute = true;
-  options.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
-  return options;
-}
-
 std::vector<std::string> input_notes(const MeshPair& pair) {
   std::vector<std::string> notes;
   for (const std::string& note : pair.a.notes) notes.push_back("A: " + note);
   for (const std::string& note : pair.b.notes) notes.push_back("B: " + note);
   return notes;
+}
+
+void solve(Solver& solver, const MeshPair& pair, bool symmetric, SolveOptions options,
+           Answer& answer) {
+  ProgressLine line;
+  options.progress = [&line](const Progress& progress) {
+    line.show(progress);
+    return g_interrupted == 0;
+  };
+  if (!symmetric) {
+    answer.a_to_b = solver.distance(pair.a, pair.b, options);
+    return;
+  }
+  SymmetricReport both = solver.symmetric(pair.a, pair.b, options);
+  answer.a_to_b = std::move(both.a_to_b);
+  answer.b_to_a = std::move(both.b_to_a);
 }
 
 Answer answer_for(const Arguments& arguments, const Request& request, const MeshPair& pair,
@@ -171,12 +165,7 @@ Answer answer_for(const Arguments& arguments, const Request& request, const Mesh
                 .notes = input_notes(pair),
                 .a_to_b = {},
                 .b_to_a = {}};
-  const auto start = Clock::now();
-  answer.a_to_b = solve(solver, pair.a, pair.b, request.options, "h(A,B)");
-  if (arguments.symmetric) {
-    const SolveOptions back = options_back(request.options, answer.a_to_b, ms_since(start) / 1000);
-    answer.b_to_a = solve(solver, pair.b, pair.a, back, "h(B,A)");
-  }
+  solve(solver, pair, arguments.symmetric, request.options, answer);
   if (arguments.verify) {
     answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
     if (answer.b_to_a) {

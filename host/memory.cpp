@@ -101,6 +101,7 @@ Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {
   VkFenceCreateInfo fence{};
   fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   check(vk.CreateFence(device.handle(), &fence, nullptr, &fence_), "creating a fence");
+  if (!device.has_timestamps()) return;
   VkQueryPoolCreateInfo queries{};
   queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -111,7 +112,8 @@ Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {
 
 Submitter::~Submitter() {
   const VulkanApi& vk = device_.vk();
-  vk.DeviceWaitIdle(device_.handle());
+  // Not vkDeviceWaitIdle: the device may be somebody else's, with queues in use on other threads.
+  if (pending_) vk.WaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
   vk.DestroyQueryPool(device_.handle(), timestamps_, nullptr);
   vk.DestroyFence(device_.handle(), fence_, nullptr);
   vk.DestroyCommandPool(device_.handle(), pool_, nullptr);
@@ -124,7 +126,7 @@ VkCommandBuffer Submitter::begin() {
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vk.BeginCommandBuffer(commands_, &info), "beginning a command buffer");
-  vk.CmdResetQueryPool(commands_, timestamps_, 0, kTimestamps);
+  if (timestamps_ != VK_NULL_HANDLE) vk.CmdResetQueryPool(commands_, timestamps_, 0, kTimestamps);
   return commands_;
 }
 
@@ -135,7 +137,12 @@ void Submitter::submit_and_wait(const std::function<void()>& waiting) {
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;
-  check(vk.QueueSubmit(device_.queue(), 1, &submit, fence_), "submitting");
+  {
+    std::unique_lock<std::mutex> lock;
+    if (device_.queue_mutex() != nullptr) lock = std::unique_lock(*device_.queue_mutex());
+    check(vk.QueueSubmit(device_.queue(), 1, &submit, fence_), "submitting");
+  }
+  pending_ = true;
   constexpr uint64_t slice_ns = 50'000'000;
   VkResult result = VK_TIMEOUT;
   while (result == VK_TIMEOUT) {
@@ -143,6 +150,7 @@ void Submitter::submit_and_wait(const std::function<void()>& waiting) {
     if (waiting) waiting();
   }
   check(result, "waiting for the device");
+  pending_ = false;
   check(vk.ResetFences(device_.handle(), 1, &fence_), "resetting a fence");
 }
 

@@ -54,7 +54,7 @@ class Submitter {
   /// DeviceError if the device is lost.
   void submit_and_wait(const std::function<void()>& waiting);
 
-  VkQueryPool timestamps() const { return timestamps_; }
+  VkQueryPool timestamps() const { return timestamps_; }  ///< null if the queue has none
   static constexpr uint32_t kTimestamps = 1024;
   /// The first `count` timestamps of the last submission, in milliseconds.
   std::vector<double> read_timestamps(uint32_t count) const;
@@ -67,6 +67,7 @@ class Submitter {
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;
+  bool pending_ = false;
   VkQueryPool timestamps_ = VK_NULL_HANDLE;
 };
 

@@ -113,7 +113,7 @@ Json wave_stats_json(const std::vector<WaveStats>& waves) {
   return rows;
 }
 
-void add_head(JsonObject& json, const char* schema, const Interval& interval) {
+void add_head(JsonObject& json, const char* schema, const CertifiedInterval& interval) {
   json.add("schema", schema);
   json.add("version", program_version());
   json.add("status", status_name(interval.status));
@@ -158,6 +158,7 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   JsonObject json;
   add_head(json, "vkhausdorff.distance/1", {r.lower, r.upper, r.gap(), r.status});
   json.add("tolerance", tolerance_json(answer.tolerance, r, d.diagonal_of));
+  json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
   if (r.witness_check) json.add_text("verified", verified_json(r));
   json.add("mesh_a", mesh_json(d.file_a, r.mesh_a));
@@ -195,6 +196,8 @@ const char* status_name(Status status) {
       return "memory";
     case Status::kCancelled:
       return "cancelled";
+    case Status::kPruned:
+      return "pruned";
   }
   return "unknown";
 }
@@ -213,15 +216,14 @@ const char* stop_reason(Status status) {
       return "the memory did not hold what had to be refined";
     case Status::kCancelled:
       return "it was interrupted";
+    case Status::kPruned:
+      return "it exceeds the other direction's lower bound by no more than the tolerance";
   }
   return "unknown";
 }
 
-Interval interval_of(const Answer& answer) {
-  const Report& r = answer.a_to_b;
-  if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
-  const Report& back = *answer.b_to_a;
-  Interval both;
+CertifiedInterval symmetric_interval(const Report& r, const Report& back) {
+  CertifiedInterval both;
   both.lower = std::max(r.lower, back.lower);
   both.upper = std::max(r.upper, back.upper);
   const double width = both.upper - both.lower;
@@ -230,13 +232,19 @@ Interval interval_of(const Answer& answer) {
   // the direction with the larger upper is what keeps the interval open.
   const double tolerance = std::min(r.tolerance, back.tolerance);
   const bool narrow = std::nextafter(width, std::numeric_limits<double>::infinity()) <= tolerance;
-  const bool all_closed = r.status == Status::kClosed && back.status == Status::kClosed;
-  const Report& open =
-      back.status == Status::kClosed || (r.status != Status::kClosed && r.upper >= back.upper)
-          ? r
-          : back;
-  both.status = narrow || all_closed ? Status::kClosed : open.status;
+  // Pruned by the way there (not by what a caller knew besides), the way back decides nothing.
+  const bool pruned = back.status == Status::kPruned && back.upper - r.lower <= back.tolerance;
+  const bool back_closed = back.status == Status::kClosed || pruned;
+  const bool all_closed = r.status == Status::kClosed && back_closed;
+  const bool open_there = back_closed || (r.status != Status::kClosed && r.upper >= back.upper);
+  both.status = narrow || all_closed ? Status::kClosed : (open_there ? r : back).status;
   return both;
+}
+
+CertifiedInterval interval_of(const Answer& answer) {
+  const Report& r = answer.a_to_b;
+  if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
+  return symmetric_interval(r, *answer.b_to_a);
 }
 
 std::string to_json(const Answer& answer) {

@@ -21,9 +21,11 @@ enum class Status {
   kWaves,      ///< the wave budget ended
   kMemory,     ///< candidates were spilled and could not be refined
   kCancelled,  ///< the caller asked for the end
+  kPruned,     ///< upper <= known_lower + tolerance, which was all that was asked; the interval is
+               ///< true, but lower was not sought: only upper says something
 };
-const char* status_name(
-    Status status);  ///< "closed", "precision", "time", "waves", "memory", "cancelled"
+const char* status_name(Status status);  ///< "closed", "precision", "time", "waves", "memory",
+                                         ///< "cancelled", "pruned"
 
 /// A point on a face, in the files' own coordinates.
 struct SurfacePoint {
@@ -93,6 +95,7 @@ struct Report {
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
   double diagonal_a = 0;        ///< of A's bounding box
   double tolerance = 0;         ///< absolute, in the files' units
+  double known_lower = 0;       ///< SolveOptions::known_lower
   SurfacePoint witness_a, witness_b;
   MeshCounts mesh_a, mesh_b;
   DeviceDescription device;
@@ -108,6 +111,21 @@ struct Report {
   std::optional<CoverageCheck> coverage_check;
 
   double gap() const { return diagonal_a > 0 ? (upper - lower) / diagonal_a : upper - lower; }
+};
+
+struct CertifiedInterval {
+  double lower = 0, upper = 0;
+  double gap = 0;  ///< (upper - lower) / diag(A)
+  Status status = Status::kClosed;
+};
+/// Of max(h(A,B), h(B,A)): [max of the lowers, max of the uppers].
+CertifiedInterval symmetric_interval(const Report& a_to_b, const Report& b_to_a);
+
+/// Both directions. The way back was pruned by the way there: its own interval is true but may be
+/// wide (Status::kPruned).
+struct SymmetricReport {
+  Report a_to_b, b_to_a;
+  CertifiedInterval interval() const { return symmetric_interval(a_to_b, b_to_a); }
 };
 
 }  // namespace vkh

@@ -40,6 +40,7 @@ std::string bounds(double lower, double upper) {
 }
 
 std::string verdict(Status status) {
+  if (status == Status::kPruned) return std::string("pruned: ") + stop_reason(status);
   return std::string(status == Status::kClosed ? "closed" : "NOT CLOSED (") +
          (status == Status::kClosed ? "" : std::string(status_name(status)) + ")") + ": " +
          stop_reason(status);
@@ -166,7 +167,7 @@ void print_switched_off(std::ostream& out, const std::vector<std::string>& names
 
 void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   const Report& r = answer.a_to_b;
-  const Interval whole = interval_of(answer);
+  const CertifiedInterval whole = interval_of(answer);
   out << "vkhausdorff " << program_version() << ": "
       << (answer.b_to_a ? "symmetric distance max(h(A,B), h(B,A))" : "directed distance h(A,B)")
       << '\n';

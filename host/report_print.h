@@ -22,13 +22,8 @@ struct Answer {
   std::optional<Report> b_to_a;  ///< there for a symmetric run
 };
 
-/// The whole answer's interval. Of a symmetric run: [max of the lowers, max of the uppers].
-struct Interval {
-  double lower = 0, upper = 0;
-  double gap = 0;  ///< (upper - lower) / diag(A)
-  Status status = Status::kClosed;
-};
-Interval interval_of(const Answer& answer);
+/// The whole answer's interval.
+CertifiedInterval interval_of(const Answer& answer);
 
 /// One sentence for each status.
 const char* stop_reason(Status status);

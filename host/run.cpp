@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <string>
+#include <tuple>
 
 #include "host/error.h"
 
@@ -51,25 +52,27 @@ struct MeshBytes {
   VkDeviceSize total() const { return 2 * vertices + faces; }
 };
 
-VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const Mesh& m, bool has_low) {
-  const MeshBytes bytes(m);
+VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
+  const MeshBytes bytes(*m.mesh);
   return {.vertexBuffer = buffer,
           .vertexOffset = offset,
           .vertexStride = 12,
-          .vertexCount = static_cast<uint32_t>(m.vertices.size()),
+          .vertexCount = static_cast<uint32_t>(m.mesh->vertices.size()),
           .indexBuffer = buffer,
           .indexOffset = offset + 2 * bytes.vertices,
           .indexType = VK_INDEX_TYPE_UINT32,
-          .faceCount = static_cast<uint32_t>(m.faces.size()),
-          .vertexLowBuffer = has_low ? buffer : VK_NULL_HANDLE,
+          .faceCount = static_cast<uint32_t>(m.mesh->faces.size()),
+          .vertexLowBuffer = m.stored->has_low ? buffer : VK_NULL_HANDLE,
           .vertexLowOffset = offset + bytes.vertices};
 }
 
-void write(std::byte* to, const Frame::Stored& stored, const Mesh& m) {
-  const MeshBytes bytes(m);
-  std::memcpy(to, stored.high.data(), stored.high.size() * sizeof(float));
-  std::memcpy(to + bytes.vertices, stored.low.data(), stored.low.size() * sizeof(float));
-  std::memcpy(to + 2 * bytes.vertices, m.faces.data(), m.faces.size() * sizeof(m.faces[0]));
+void write(std::byte* to, const MeshData& m) {
+  const MeshBytes bytes(*m.mesh);
+  const auto& [high, low] = std::tie(m.stored->high, m.stored->low);
+  std::memcpy(to, high.data(), high.size() * sizeof(float));
+  std::memcpy(to + bytes.vertices, low.data(), low.size() * sizeof(float));
+  std::memcpy(to + 2 * bytes.vertices, m.mesh->faces.data(),
+              m.mesh->faces.size() * sizeof(m.mesh->faces[0]));
 }
 
 // Makes what one stage wrote visible to the next: copies before and after the engine's commands.
@@ -97,22 +100,42 @@ VkhContext Runner::context_for(uint32_t switches) {
   return context;
 }
 
-void Runner::upload(const RunInput& in) {
-  const VkDeviceSize bytes_a = MeshBytes(*in.a).total();
-  const VkDeviceSize bytes = bytes_a + MeshBytes(*in.b).total();
-  grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
-  grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
-  write(staging_.mapped(), in.frame->a, *in.a);
-  write(staging_.mapped() + bytes_a, in.frame->b, *in.b);
-  problem_.a = view(meshes_.handle(), 0, *in.a, in.frame->has_low);
-  mesh_b_ = view(meshes_.handle(), bytes_a, *in.b, in.frame->has_low);
+VkhHierarchyRequirements Runner::hierarchy_requirements() const {
+  VkhHierarchyRequirements needed{};
+  check_engine(
+      vkhGetHierarchyRequirements(context_, mesh_b_.vertexCount, mesh_b_.faceCount, &needed),
+      "mesh B");
+  return needed;
+}
+
+// Either may be missing.
+void Runner::upload(const MeshData& a, const MeshData& b) {
+  const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
+  const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
+  uploaded_bytes_ = bytes_a + bytes_b;
+  grow(staging_, device_, uploaded_bytes_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+  grow(meshes_, device_, uploaded_bytes_, kWorking, Placement::kDevice);
+  if (bytes_a > 0) write(staging_.mapped(), a);
+  if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
+  if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
+  if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
+}
+
+// Where B's hierarchy is or will be built; returns the scratch that building needs.
+VkDeviceSize Runner::place_b(const RunInput& in) {
+  if (in.resident != nullptr) {
+    const ResidentMesh& b = *in.resident;
+    problem_.b = {{b.hierarchy.handle(), 0, b.hierarchy.size()}, b.face_count, b.vertex_count};
+    return 0;
+  }
+  const VkhHierarchyRequirements needed = hierarchy_requirements();
+  grow(hierarchy_, device_, needed.hierarchySize, kWorking, Placement::kDevice);
+  problem_.b = {
+      {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
+  return needed.scratchSize;
 }
 
 void Runner::place(const RunInput& in, RunOutput& out) {
-  VkhHierarchyRequirements hierarchy{};
-  check_engine(
-      vkhGetHierarchyRequirements(context_, mesh_b_.vertexCount, mesh_b_.faceCount, &hierarchy),
-      "mesh B");
   VkhWorkspaceRequirements workspace{};
   check_engine(vkhGetWorkspaceRequirements(context_, problem_.a.vertexCount, problem_.a.faceCount,
                                            &workspace),
@@ -120,15 +143,14 @@ void Runner::place(const RunInput& in, RunOutput& out) {
   VkDeviceSize bytes = in.memory_bytes == 0 ? workspace.recommended : in.memory_bytes;
   bytes = std::clamp(bytes, workspace.minimum, workspace.maximum);
   out.workspace_bytes = bytes;
-  grow(hierarchy_, device_, hierarchy.hierarchySize, kWorking, Placement::kDevice);
-  grow(workspace_, device_, std::max(bytes, hierarchy.scratchSize), kWorking, Placement::kDevice);
+  const VkDeviceSize scratch = place_b(in);
+  grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
   grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
   grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
        Placement::kReadback);
-  problem_.b = {
-      {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
+  problem_.knownLower = in.known_lower;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
   place_areas(in, out);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
@@ -137,19 +159,55 @@ void Runner::place(const RunInput& in, RunOutput& out) {
 void Runner::place_areas(const RunInput& in, RunOutput& out) {
   problem_.coverageBuffer = VK_NULL_HANDLE;
   if (!in.coverage) return;
-  out.areas.resize(2 * in.a->faces.size());
+  out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
   grow(areas_, device_, bytes, kWorking, Placement::kDevice);
   grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
   problem_.coverageBuffer = areas_.handle();
 }
 
-void Runner::record_start(VkCommandBuffer commands, const RunInput& in) {
-  const VkBufferCopy copy{0, 0, MeshBytes(*in.a).total() + MeshBytes(*in.b).total()};
+void Runner::record_copies(VkCommandBuffer commands, const RunOutput& out) {
+  const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
+  device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
+  if (out.areas.empty()) return;
+  const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
+  device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
+}
+
+VkCommandBuffer Runner::begin() {
+  const VkCommandBuffer commands = submitter_.begin();
+  profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
+  return commands;
+}
+
+void Runner::record_upload(VkCommandBuffer commands) {
+  const VkBufferCopy copy{0, 0, uploaded_bytes_};
   device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
-  vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &problem_.b, &scratch_, &profile_);
-  vkhCmdBegin(context_, commands, &problem_, &profile_);
+}
+
+ResidentMesh Runner::build(const MeshData& b) {
+  // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
+  context_ = context_for(VKH_SWITCH_DEFAULT);
+  upload({}, b);
+  const VkhHierarchyRequirements needed = hierarchy_requirements();
+  ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),
+                        mesh_b_.vertexCount, mesh_b_.faceCount};
+  grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
+  VkhHierarchy hierarchy{{resident.hierarchy.handle(), 0, resident.hierarchy.size()}, 0, 0};
+  const VkhMemory scratch{workspace_.handle(), 0, workspace_.size()};
+  const VkCommandBuffer commands = begin();
+  record_upload(commands);
+  vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &hierarchy, &scratch, nullptr);
+  submitter_.submit_and_wait({});
+  return resident;
+}
+
+void Runner::record_start(VkCommandBuffer commands, const RunInput& in) {
+  record_upload(commands);
+  if (in.resident == nullptr)
+    vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &problem_.b, &scratch_, profile());
+  vkhCmdBegin(context_, commands, &problem_, profile());
 }
 
 void Runner::submit(RunOutput& out) {
@@ -168,7 +226,7 @@ RunOutput Runner::run(const RunInput& in) {
   RunOutput out;
   context_ = context_for(in.switches);
   const double start = now_ms();
-  upload(in);
+  upload(in.a, in.resident != nullptr ? MeshData{} : in.b);
   place(in, out);
   out.upload_ms = now_ms() - start;
   bool first = true;
@@ -179,18 +237,12 @@ RunOutput Runner::run(const RunInput& in) {
     waves = std::min(waves, waves_left);  // exactly the budget: how they are grouped depends on the
                                           // clock, the result must not
     const double submitted = now_ms();
-    const VkCommandBuffer commands = submitter_.begin();
-    profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
+    const VkCommandBuffer commands = begin();
     if (first) record_start(commands, in);
-    vkhCmdAdvance(context_, commands, &problem_, waves, &profile_);
-    vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, &profile_);
+    vkhCmdAdvance(context_, commands, &problem_, waves, profile());
+    vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, profile());
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
-    const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
-    device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
-    if (in.coverage) {
-      const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
-      device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
-    }
+    record_copies(commands, out);
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
     submit(out);
     first = false;

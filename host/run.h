@@ -15,14 +15,25 @@ namespace vkh {
 /// Pipelines for one set of switches; destroyed with the handle.
 using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
 
+/// A mesh as it is uploaded.
+struct MeshData {
+  const Mesh* mesh = nullptr;
+  const StoredMesh* stored = nullptr;
+};
+
+/// Mesh B on the device: its hierarchy, in a buffer of its own.
+struct ResidentMesh {
+  Buffer hierarchy;
+  uint32_t vertex_count = 0, face_count = 0;
+};
+
 struct RunInput {
-  const Frame* frame = nullptr;
-  const Mesh* a = nullptr;
-  const Mesh* b = nullptr;
+  MeshData a, b;
+  const ResidentMesh* resident = nullptr;  ///< instead of uploading and building b
   uint32_t switches = VKH_SWITCH_DEFAULT;
   uint64_t memory_bytes = 0;  ///< 0: recommended
   uint32_t wave_limit = UINT32_MAX;
-  float cull_tolerance = 0;
+  float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
   bool coverage = false;  ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
   /// Called after each submission with the report so far; false ends the run.
@@ -47,14 +58,21 @@ struct RunOutput {
 class Runner {
  public:
   explicit Runner(const Device& device);
+  ResidentMesh build(const MeshData& b);
   RunOutput run(const RunInput& input);
 
  private:
   VkhContext context_for(uint32_t switches);
-  void upload(const RunInput& input);
+  VkhHierarchyRequirements hierarchy_requirements() const;
+  void upload(const MeshData& a, const MeshData& b);
   void place(const RunInput& input, RunOutput& output);
   void place_areas(const RunInput& input, RunOutput& output);
+  VkDeviceSize place_b(const RunInput& input);
+  VkCommandBuffer begin();
+  VkhProfile* profile() { return device_.has_timestamps() ? &profile_ : nullptr; }
+  void record_upload(VkCommandBuffer commands);
   void record_start(VkCommandBuffer commands, const RunInput& input);
+  void record_copies(VkCommandBuffer commands, const RunOutput& output);
   void submit(RunOutput& output);
 
   const Device& device_;
@@ -62,6 +80,7 @@ class Runner {
   Submitter submitter_;
   Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_, areas_, areas_readback_;
   VkhContext context_ = nullptr;
+  VkDeviceSize uploaded_bytes_ = 0;
   VkhMesh mesh_b_{};
   VkhProblem problem_{};
   VkhMemory scratch_{};

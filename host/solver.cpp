@@ -55,28 +55,36 @@ uint32_t switches_of(const SolveOptions& options) {
   return on;
 }
 
-FileInterval to_files(const VkhReport& r, const Frame& frame, double joint_diagonal) {
+// A run's meshes as they are stored in one frame. Proof that any frame will do: the device encloses
+// the stored meshes' h in the frame's units, whatever the frame, for coordinates up to 2^15
+// (vkhausdorff.h); a stored vertex is within the displacement, which store_in() bounded for this
+// very frame, of the given one; h moves by no more than both displacements together.
+struct Pair {
+  const Mesh& a;
+  const Mesh& b;
+  const Frame& frame;
+  const StoredMesh& stored_a;
+  const StoredMesh* stored_b;  // null: resident
+  const ResidentMesh* resident;
+  double displacement;  // of both
+  bool has_low;         // either
+  Box box_a, joint;
+};
+
+// Sums of two floats: exact in double, or off by half an ulp, which nextafter covers.
+FileInterval to_files(const VkhReport& r, const Pair& pair) {
   const double infinity = std::numeric_limits<double>::infinity();
-  // Sums of two floats: exact in double, or off by half an ulp, which nextafter covers.
-  const double lower =
-      std::nextafter(static_cast<double>(r.base) + static_cast<double>(r.lowerAbove), -infinity);
-  const double upper =
-      std::nextafter(static_cast<double>(r.base) + static_cast<double>(r.upperAbove), infinity);
-  return frame.to_files(lower, upper, joint_diagonal);
+  const double base = static_cast<double>(r.base);
+  const FileInterval certified = {
+      std::nextafter(base + static_cast<double>(r.lowerAbove), -infinity),
+      std::nextafter(base + static_cast<double>(r.upperAbove), infinity)};
+  return pair.frame.to_files(certified, pair.displacement, diagonal(pair.joint));
 }
 
-double joint_diagonal(const Mesh& a, const Mesh& b) {
-  Box x = bounding_box(a);
-  const Box y = bounding_box(b);
-  for (int i = 0; i < 3; ++i) {
-    x.lo[i] = std::min(x.lo[i], y.lo[i]);
-    x.hi[i] = std::max(x.hi[i], y.hi[i]);
-  }
-  return diagonal(x);
-}
-
-Status status_of(const VkhReport& r, bool closed) {
-  if (closed) return Status::kClosed;
+Status status_of(const VkhReport& r, const Report& out, Status ended) {
+  if (out.upper - out.lower <= out.tolerance) return Status::kClosed;
+  if (out.known_lower > 0 && out.upper - out.known_lower <= out.tolerance) return Status::kPruned;
+  if (r.status == VKH_STATUS_RUNNING && ended != Status::kClosed) return ended;
   return r.status == VKH_STATUS_MEMORY ? Status::kMemory : Status::kPrecision;
 }
 
@@ -134,6 +142,7 @@ std::vector<std::string> switch_names() {
 
 struct Solver::Impl {
   explicit Impl(Device& d) : device(d), runner(d) {}
+  Report solve(const Pair& pair, const SolveOptions& options, Clock::time_point start);
   Device& device;
   Runner runner;
 };
@@ -141,19 +150,34 @@ struct Solver::Impl {
 Solver::Solver(Device& device) : impl_(std::make_unique<Impl>(device)) {}
 Solver::~Solver() = default;
 
+struct PreparedMesh::Impl {
+  Mesh mesh;
+  Box box;
+  Frame frame;
+  double displacement = 0;
+  bool has_low = false;
+  ResidentMesh resident;
+};
+
+PreparedMesh::PreparedMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+PreparedMesh::PreparedMesh(PreparedMesh&&) noexcept = default;
+PreparedMesh& PreparedMesh::operator=(PreparedMesh&&) noexcept = default;
+PreparedMesh::~PreparedMesh() = default;
+const Mesh& PreparedMesh::mesh() const { return impl_->mesh; }
+
 namespace {
 
 // Watches the budgets between submissions and tells the caller how far the run is.
 struct Watch {
   const SolveOptions& options;
-  const Frame& frame;
-  double diagonal_a, joint;
+  const Pair& pair;
+  double diagonal_a;
   Clock::time_point start;
   Status ended = Status::kClosed;
 
   bool operator()(const VkhReport& r) {
     if (r.status != VKH_STATUS_RUNNING) return false;
-    const FileInterval now = to_files(r, frame, joint);
+    const FileInterval now = to_files(r, pair);
     const double gap =
         diagonal_a > 0 ? (now.upper - now.lower) / diagonal_a : now.upper - now.lower;
     if (options.progress && !options.progress({r.waves, r.remaining, now.lower, now.upper, gap})) {
@@ -169,59 +193,157 @@ struct Watch {
   }
 };
 
-}  // namespace
+// How finely the device has to work. Its errors are relative to the coordinates, which a prepared
+// B's frame lets exceed 1.
+RunInput input_for(const Pair& pair, const SolveOptions& options, double tolerance_given) {
+  const double size = std::max(1.0, pair.frame.reach(pair.joint));
+  const double tolerance = pair.frame.to_frame(tolerance_given);
+  const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
+  const double floor = kToleranceFloor * size;
+  const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
+                       (two_float ? floor : kRoundedPosition * size);
+  const double known = std::clamp(pair.frame.to_frame(options.known_lower), 0.0, 1e30);
+  return {.a = {&pair.a, &pair.stored_a},
+          .b = {&pair.b, pair.stored_b},
+          .resident = pair.resident,
+          .switches = switches_of(options),
+          .memory_bytes = options.memory_bytes,
+          .wave_limit = options.wave_limit,
+          .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
+          .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
+          .two_float = two_float,
+          .coverage = options.coverage,
+          .advanced = {}};
+}
 
-Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
-  const auto start = Clock::now();
+void check_options(const SolveOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw UsageError("the tolerance must be positive and finite");
-  const uint32_t switches = switches_of(options);
-  const Frame frame = make_frame(a, b);
+  if (!(options.known_lower >= 0)) throw UsageError("the known lower bound must be 0 or more");
+}
+
+}  // namespace
+
+Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock::time_point start) {
   Report out;
-  out.diagonal_a = diagonal(bounding_box(a));
+  out.diagonal_a = diagonal(pair.box_a);
   out.tolerance =
       options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
-  const double joint = joint_diagonal(a, b);
-  const double tolerance = frame.to_frame(out.tolerance);
-  const bool two_float = frame.has_low || tolerance < kPlainTolerance;
-  const double spare = tolerance * (1 - kKept) - 2 * frame.displacement() -
-                       (two_float ? kToleranceFloor : kRoundedPosition);
-  RunInput in{.frame = &frame,
-              .a = &a,
-              .b = &b,
-              .switches = switches,
-              .memory_bytes = options.memory_bytes,
-              .wave_limit = options.wave_limit,
-              .cull_tolerance = static_cast<float>(std::clamp(spare, kToleranceFloor, 1e30)),
-              .two_float = two_float,
-              .coverage = options.coverage,
-              .advanced = {}};
-  Watch watch{options, frame, out.diagonal_a, joint, start};
+  out.known_lower = options.known_lower;
+  RunInput in = input_for(pair, options, out.tolerance);
+  Watch watch{options, pair, out.diagonal_a, start};
   in.advanced = [&](const VkhReport& r) { return watch(r); };
   const double framed_ms = ms_since(start);
-  const RunOutput run = impl_->runner.run(in);
+  const RunOutput run = runner.run(in);
 
-  const FileInterval interval = to_files(run.report, frame, joint);
-  out.lower = interval.lower;
-  out.upper = interval.upper;
-  const bool closed = out.upper - out.lower <= out.tolerance;
-  const bool budget = run.report.status == VKH_STATUS_RUNNING && watch.ended != Status::kClosed;
-  out.status = budget && !closed ? watch.ended : status_of(run.report, closed);
-  out.device = impl_->device.description();
-  out.mesh_a = a.counts;
-  out.mesh_b = b.counts;
+  const FileInterval bounds = to_files(run.report, pair);
+  out.lower = bounds.lower;
+  out.upper = bounds.upper;
+  out.status = status_of(run.report, out, watch.ended);
+  out.device = device.description();
+  out.mesh_a = pair.a.counts;
+  out.mesh_b = pair.b.counts;
   out.workspace_bytes = run.workspace_bytes;
   for (const auto& [name, bit] : kSwitches) {
-    if ((switches & bit) == 0) out.switched_off.emplace_back(name);
+    if ((in.switches & bit) == 0) out.switched_off.emplace_back(name);
   }
-  fill_counts(run.report, frame, out);
+  fill_counts(run.report, pair.frame, out);
   fill_stages(run, out);
-  fill_witness(run.report, a, b, out);
+  fill_witness(run.report, pair.a, pair.b, out);
   // Before every face of A has a bound, `upper` says so: 3e38.
   if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
   out.times.upload_ms = framed_ms + run.upload_ms;
   out.times.wall_ms = ms_since(start);
   return out;
+}
+
+Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+  const auto start = Clock::now();
+  check_options(options);
+  const FramedPair framed = frame_pair(a, b);
+  const Box box_a = bounding_box(a);
+  const Pair pair{.a = a,
+                  .b = b,
+                  .frame = framed.frame,
+                  .stored_a = framed.a,
+                  .stored_b = &framed.b,
+                  .resident = nullptr,
+                  .displacement = framed.a.displacement + framed.b.displacement,
+                  .has_low = framed.a.has_low || framed.b.has_low,
+                  .box_a = box_a,
+                  .joint = join(box_a, bounding_box(b))};
+  return impl_->solve(pair, options, start);
+}
+
+PreparedMesh Solver::prepare(Mesh b) {
+  auto kept = std::make_unique<PreparedMesh::Impl>();
+  kept->mesh = std::move(b);
+  kept->box = bounding_box(kept->mesh);
+  const FramedMesh framed = frame_mesh(kept->mesh);
+  kept->frame = framed.frame;
+  kept->displacement = framed.stored.displacement;
+  kept->has_low = framed.stored.has_low;
+  kept->resident = impl_->runner.build({&kept->mesh, &framed.stored});
+  return PreparedMesh(std::move(kept));
+}
+
+// B's frame is B's alone, so that the answer does not depend on the A's before. B fills it; an A
+// up to four times as far out costs two of the 48 bits. Farther ones would lose the tolerance, not
+// the truth, and get a frame around both. A point has no size to choose a frame by.
+bool PreparedMesh::serves(const Mesh& a) const {
+  const double reach = impl_->frame.reach(join(bounding_box(a), impl_->box));
+  return reach >= 0.5 && reach <= 4;
+}
+
+Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options) {
+  if (!b.serves(a)) return distance(a, b.mesh(), options);
+  const auto start = Clock::now();
+  check_options(options);
+  const PreparedMesh::Impl& kept = *b.impl_;
+  const StoredMesh stored = store_in(kept.frame, a);
+  const Box box_a = bounding_box(a);
+  const Pair pair{.a = a,
+                  .b = kept.mesh,
+                  .frame = kept.frame,
+                  .stored_a = stored,
+                  .stored_b = nullptr,
+                  .resident = &kept.resident,
+                  .displacement = stored.displacement + kept.displacement,
+                  .has_low = stored.has_low || kept.has_low,
+                  .box_a = box_a,
+                  .joint = join(box_a, kept.box)};
+  return impl_->solve(pair, options, start);
+}
+
+namespace {
+
+// The way back has the way there's tolerance, which is a fraction of A's diagonal, and what is left
+// of the time. Every candidate whose u is within the tolerance of the way there's lower bound can
+// be closed: max(h(A,B), h(B,A)) is no smaller than that bound.
+SolveOptions options_back(const SolveOptions& options, const Report& there, double elapsed_s) {
+  constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
+  SolveOptions back = options;
+  // A mesh that is one point has no diagonal, so the tolerance is 0, which is refused.
+  back.tolerance = std::max(there.tolerance, std::numeric_limits<double>::min());
+  back.tolerance_is_absolute = true;
+  back.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
+  back.known_lower = std::max(options.known_lower, there.lower);
+  const bool cancelled = there.status == Status::kCancelled;
+  back.progress = [&options, cancelled](Progress progress) {
+    progress.back = true;
+    return !cancelled && (!options.progress || options.progress(progress));
+  };
+  return back;
+}
+
+}  // namespace
+
+SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+  const auto start = Clock::now();
+  SymmetricReport both;
+  both.a_to_b = distance(a, b, options);
+  both.b_to_a = distance(b, a, options_back(options, both.a_to_b, ms_since(start) / 1000));
+  return both;
 }
 
 }  // namespace vkh

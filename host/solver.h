@@ -1,4 +1,4 @@
-// Two meshes in, a certified interval out; blocking, on a device of our own.
+// Two meshes in, a certified interval out; blocking.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,9 @@ struct Progress {
   uint32_t wave = 0;
   uint64_t candidates = 0;  ///< undecided now
   double lower = 0,
-         upper = 0;  ///< in the files' units; upper is infinite before the first bounds exist
-  double gap = 0;    ///< (upper - lower) / diag(A)
+         upper = 0;   ///< in the files' units; upper is infinite before the first bounds exist
+  double gap = 0;     ///< (upper - lower) / diag(A)
+  bool back = false;  ///< of h(B,A), in a symmetric run
 };
 
 struct SolveOptions {
@@ -32,13 +33,38 @@ struct SolveOptions {
   std::vector<std::string> disabled;  ///< switch names, see switch_names()
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   std::function<bool(const Progress&)>
-      progress;  ///< return false to cancel; the interval so far is returned
+      progress;  ///< return false to cancel; the interval so far is returned. May throw: the run
+                 ///< ends, the solver stays usable
+  /// In the files' units; 0: nothing. A distance that the answer need not resolve below: candidates
+  /// within the tolerance of it are closed, and a run that this decides ends as Status::kPruned.
+  double known_lower = 0;
 };
 
 /// Names that `disabled` takes.
 std::vector<std::string> switch_names();
 
-/// Keeps pipelines and buffers of one device between runs. One thread at a time.
+/// Mesh B on the device with its hierarchy, for many A's. Made by a Solver, used by any Solver of
+/// the same device, outlives neither the device nor its owner's handles.
+class PreparedMesh {
+ public:
+  PreparedMesh(PreparedMesh&&) noexcept;
+  PreparedMesh& operator=(PreparedMesh&&) noexcept;
+  ~PreparedMesh();
+  const Mesh& mesh() const;
+  /// Whether h(a, this) is found with what is kept. False: A reaches four times farther than B, or
+  /// B is a single point; distance() then does what it does without preparation.
+  bool serves(const Mesh& a) const;
+
+ private:
+  friend class Solver;
+  struct Impl;
+  explicit PreparedMesh(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Keeps pipelines and buffers of one device between runs. One thread at a time. Everything throws
+/// DeviceError if the device is lost or out of memory, and UsageError for an unknown switch or a
+/// tolerance that is not positive and finite.
 class Solver {
  public:
   explicit Solver(Device& device);
@@ -46,9 +72,17 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  /// Encloses h(a, b). Throws DeviceError if the device is lost or out of memory, UsageError for an
-  /// unknown switch or a tolerance that is not positive and finite.
+  /// Encloses h(a, b).
   Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
+
+  /// Uploads B and builds its hierarchy.
+  PreparedMesh prepare(Mesh b);
+  /// Encloses h(a, b). The answer depends on a and b alone, not on the A's before.
+  Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
+
+  /// Encloses max(h(a, b), h(b, a)). The way back has the way there's tolerance, what is left of
+  /// the time, and is pruned by the way there's lower bound.
+  SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
  private:
   struct Impl;

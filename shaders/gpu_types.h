@@ -209,7 +209,8 @@ struct Control {
   uint witness_point_key, witness_point;
   uint witness_centroid_key, witness_centroid;
   float cull_tolerance;
-  float base;  // distances of the run are kept as what they are above it
+  float known_lower;  // candidates near it are closed as if it were a sample's distance
+  float base;         // distances of the run are kept as what they are above it
   // The old base less the new one, in two floats: what the frontier being read is to be moved by. 0
   // but in the wave that follows a change of base.
   float rebase_hi, rebase_lo;
@@ -321,7 +322,16 @@ struct BeginPush {
   uint capacity;
   uint face_count;
   float cull_tolerance;
+  float known_lower;
   uint two_float;
+  uint warm;  // the last run's witness is kept
+};
+
+// seed_query: A's vertices and, where `warm`, the last run's witness behind them.
+struct SeedPush {
+  uint vertex_count;
+  uint triangle_count;  // of B
+  uint warm;            // start from the last run's closest triangles
 };
 
 #ifdef __cplusplus

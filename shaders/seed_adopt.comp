@@ -1,5 +1,6 @@
 // What: writes the seed's witness and base into the control block. One invocation. In:
-// control.witness_point from seed_witness.
+// control.witness_point from seed_witness; kNone where a warm run's old witness is farther than
+// every vertex and stays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,13 +14,17 @@ layout(scalar, binding = 3) buffer ControlBlock { Control control; };
 
 #include "shaders/lib/base.glsl"
 
-void main() {
+void adopt_corner() {
   uint face = control.witness_point / 3u;  // uncertified: integers
   uint corner = control.witness_point % 3u;
   uint vertex = faces[face][corner];
   control.witness =
       Witness(vertices[vertex].hi, uintBitsToFloat(control.maximum[kMaxLower]), face,
               corner == 1u ? kBaryOne : 0u, corner == 2u ? kBaryOne : 0u, vertex_nearest[vertex]);
+}
+
+void main() {
+  if (control.witness_point != kNone) adopt_corner();
   control.witness_point = kNone;
   float base = base_of_run();
   control.base = base;

@@ -1,11 +1,12 @@
-// What: the control block's first state. One invocation. In: push. Out: control.
+// What: the control block's first state. One invocation. In: push. Out: control; of a warm run the
+// last run's witness stays, for seed_query.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
 layout(local_size_x = 1) in;
-layout(scalar, binding = 0) writeonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
 void main() {
@@ -24,12 +25,13 @@ void main() {
   control.witness_centroid_key = kNone;
   control.witness_centroid = kNone;
   control.cull_tolerance = push.cull_tolerance;
+  control.known_lower = push.known_lower;
   control.base = 0.0;
   control.rebase_hi = 0.0;
   control.rebase_lo = 0.0;
   control.two_float = push.two_float;
   control.tight = 0u;
-  control.witness = Witness(vec3(0.0), -1.0, kNone, 0u, 0u, kNone);
+  if (push.warm == 0u) control.witness = Witness(vec3(0.0), -1.0, kNone, 0u, 0u, kNone);
   control.capacity = push.capacity;
   control.face_count = push.face_count;
   control.candidate_total = 0u;

@@ -1,7 +1,7 @@
 // What: the first lower bound, to 48 bits above the base. In: vertex_distance in plain floats and
-// their maximum, from which the base follows. Out: vertex_distance above the base, at least 0;
-// vertex_nearest of the farthest, looked for again where the run is tight;
-// control.maximum[kMaxLower].
+// their maximum, from which the base follows; in a warm run control.witness likewise. Out:
+// vertex_distance above the base, at least 0; vertex_nearest of the farthest, looked for again
+// where the run is tight; in a warm run control.witness likewise; control.maximum[kMaxLower].
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,26 +16,41 @@ layout(scalar, binding = 3) buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 4) buffer VertexDistance { float vertex_distance[]; };
 layout(scalar, binding = 5) buffer ControlBlock { Control control; };
 layout(scalar, binding = 6) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
-layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+layout(scalar, binding = 7) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, push_constant) uniform PushBlock { SeedPush push; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/base.glsl"
+#include "shaders/lib/seed.glsl"
 #include "shaders/lib/stream.glsl"
+
+// A sample as known in plain floats, above the base; a tight run looks again where that is over 0.
+Nearest look_again(uint i, uint nearest, float distance, float base, bool tight) {
+  Nearest known = Nearest(nearest, 0.0, max(distance - base, 0.0));
+  if (!tight || known.above == 0.0) return known;
+  known = nearest_triangle(Query(seed_point(i), base, true), nearest);
+  known.above = max(known.above, 0.0);
+  return known;
+}
 
 void main() {
   uint i = item_index();
   float base = base_of_run();
   bool tight = is_tight(base);
+  bool is_vertex = i < push.vertex_count && vertex_nearest[i] != kNone;
   float d = 0.0;
-  if (i < push.count && vertex_nearest[i] != kNone) {
-    d = max(vertex_distance[i] - base, 0.0);
-    if (tight && d > 0.0) {
-      Two3 p = Two3(vertices[i].hi, vertices[i].lo);
-      Nearest found = nearest_triangle(Query(p, base, true), vertex_nearest[i]);
+  if (is_vertex || is_old_witness(i)) {
+    Nearest found =
+        look_again(i, is_vertex ? vertex_nearest[i] : control.witness.nearest,
+                   is_vertex ? vertex_distance[i] : control.witness.distance, base, tight);
+    d = found.above;
+    if (is_vertex) {
       vertex_nearest[i] = found.triangle;
-      d = max(found.above, 0.0);
+      vertex_distance[i] = d;
+    } else {
+      control.witness.nearest = found.triangle;
+      control.witness.distance = d;
     }
-    vertex_distance[i] = d;
   }
   raise(kMaxLower, d);
 }

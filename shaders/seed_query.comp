@@ -1,6 +1,10 @@
-// What: the closest triangle of B to each vertex of A, in plain floats.
-// In: vertices; vertex_nearest from seed_mark. Out: vertex_nearest, vertex_distance;
-// control.maximum[kMaxVertex].
+// What: the closest triangle of B to each vertex of A, in plain floats. A warm run starts each walk
+// from the triangle that the last run found, and queries the last run's witness as one more item.
+// What the last run left may be anything: starts are checked, and the witness is moved into A, so
+// that it costs time at worst.
+// In: vertices, faces; vertex_distance from seed_mark; where push.warm, vertex_nearest and
+// control.witness. Out: vertex_nearest (kNone where no face uses the vertex), vertex_distance;
+// control.maximum[kMaxVertex]; where push.warm, control.witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,23 +16,48 @@ layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 3) buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 4) writeonly buffer VertexDistance { float vertex_distance[]; };
+layout(scalar, binding = 4) buffer VertexDistance { float vertex_distance[]; };
 layout(scalar, binding = 5) buffer ControlBlock { Control control; };
 layout(scalar, binding = 6) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
-layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+layout(scalar, binding = 7) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, push_constant) uniform PushBlock { SeedPush push; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/seed.glsl"
 #include "shaders/lib/stream.glsl"
+
+// The triangle to start from: what the last run left there, if it is one of B.
+uint start_of(uint i) {
+  if (push.warm == 0u) return kNone;
+  uint start = i < push.vertex_count ? vertex_nearest[i] : control.witness.nearest;
+  return start < push.triangle_count ? start : kNone;
+}
+
+// Makes the witness a sample of A, if it was none.
+void clamp_witness() {
+  control.witness.root = min(control.witness.root, control.face_count - 1u);
+  control.witness.j = min(control.witness.j, kBaryOne);
+  control.witness.k = min(control.witness.k, kBaryOne - control.witness.j);
+}
 
 void main() {
   uint i = item_index();
+  bool is_vertex = i < push.vertex_count && vertex_distance[i] >= 0.0;
   float d = 0.0;
-  if (i < push.count && vertex_nearest[i] != kNone) {
-    Two3 p = Two3(vertices[i].hi, vertices[i].lo);
-    Nearest found = nearest_triangle(Query(p, 0.0, false), kNone);
+  if (i < push.vertex_count && !is_vertex) vertex_nearest[i] = kNone;
+  if (is_old_witness(i)) clamp_witness();
+  if (is_vertex || is_old_witness(i)) {
+    Two3 p = seed_point(i);
+    Nearest found = nearest_triangle(Query(p, 0.0, false), start_of(i));
     d = found.above;
-    vertex_nearest[i] = found.triangle;
-    vertex_distance[i] = d;
+    if (is_vertex) {
+      vertex_nearest[i] = found.triangle;
+      vertex_distance[i] = d;
+    } else {
+      control.witness.position = p.hi;
+      control.witness.nearest = found.triangle;
+      control.witness.distance = d;
+    }
   }
   raise(kMaxVertex, d);
 }

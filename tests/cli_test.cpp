@@ -154,12 +154,12 @@ TEST_CASE("help and version are answers, not errors") {
   CHECK(version.out == std::string("vkhausdorff ") + vkh::program_version() + "\n");
 }
 
-const Words kDistanceKeys =
-    sorted({"schema",    "version",       "status",          "stop_reason",  "lower",
-            "lower_hex", "upper",         "upper_hex",       "gap",          "tolerance",
-            "witness",   "mesh_a",        "mesh_b",          "device",       "times",
-            "stages",    "culled",        "waves",           "wave_stats",   "candidates",
-            "queries",   "peak_frontier", "workspace_bytes", "switched_off", "notes"});
+const Words kDistanceKeys = sorted(
+    {"schema",     "version",    "status",  "stop_reason",   "lower",           "lower_hex",
+     "upper",      "upper_hex",  "gap",     "tolerance",     "witness",         "mesh_a",
+     "mesh_b",     "device",     "times",   "stages",        "culled",          "waves",
+     "wave_stats", "candidates", "queries", "peak_frontier", "workspace_bytes", "switched_off",
+     "notes",      "known_lower"});
 
 TEST_CASE("distance --json: one object of the schema and nothing else on stdout") {
   const std::string a = square_a(), b = square_b();

@@ -63,8 +63,9 @@ Rational squared_displacement(const Frame& frame, const glm::dvec3& given, const
   return sum;
 }
 
-void check_stored(const Frame& frame, const Mesh& mesh, const Frame::Stored& stored_mesh,
-                  double displacement, Tally& tally) {
+void check_stored(const Frame& frame, const Mesh& mesh, const StoredMesh& stored_mesh,
+                  Tally& tally) {
+  const double displacement = stored_mesh.displacement;
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     const float* high = &stored_mesh.high[3 * v];
     const float* low = &stored_mesh.low[3 * v];
@@ -99,17 +100,20 @@ void check_lengths(const Frame& frame, Random& random, Tally& tally) {
 }
 
 /// The device's floats stand for the stored meshes; the given ones are displaced from those.
-void check_interval(const Frame& frame, Random& random, Tally& tally) {
+void check_interval(const FramedPair& framed, Random& random, Tally& tally) {
+  const Frame& frame = framed.frame;
+  const double displacement = framed.a.displacement + framed.b.displacement;
   const int exponent = -static_cast<int>(random.below(60));
   const float lower =
       random.below(4) == 0 ? 0.0f : std::abs(hard_float(random, exponent, exponent));
   const float upper = std::nextafter(lower, 1e30f);
-  const FileInterval got = frame.to_files(static_cast<double>(lower), static_cast<double>(upper),
-                                          std::numeric_limits<double>::infinity());
-  const Rational unit = power(-frame.exponent), moved(frame.displacement_a + frame.displacement_b);
+  const FileInterval got = frame.to_files({static_cast<double>(lower), static_cast<double>(upper)},
+                                          displacement, std::numeric_limits<double>::infinity());
+  const Rational unit = power(-frame.exponent),
+                 moved = Rational(framed.a.displacement) + Rational(framed.b.displacement);
   const auto describe = [&] {
-    return hex(static_cast<double>(lower)) + " displaced by " + hex(frame.displacement()) +
-           " got " + hex(got.lower) + ", " + hex(got.upper);
+    return hex(static_cast<double>(lower)) + " displaced by " + hex(displacement) + " got " +
+           hex(got.lower) + ", " + hex(got.upper);
   };
   const Rational below = (Rational(static_cast<double>(lower)) - moved) * unit;
   const Rational above = (Rational(static_cast<double>(upper)) + moved) * unit;
@@ -127,7 +131,7 @@ void check_farthest(const MeshPair& pair, const Frame& frame, Tally& tally) {
     const Rational extent = Rational(joint.hi[i]) - Rational(joint.lo[i]);
     squared += extent * extent;
   }
-  const FileInterval got = frame.to_files(0.0, 3e38, vkh::diagonal(joint));
+  const FileInterval got = frame.to_files({0.0, 3e38}, 0.0, vkh::diagonal(joint));
   tally.require(is_upper_bound(got.upper, squared), "the diagonal bounds any distance",
                 [&] { return hex(got.upper); });
 }
@@ -140,14 +144,15 @@ TEST_CASE("the frame's displacement covers every vertex; its lengths are rounded
   Tally tally("frame");
   for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
     const MeshPair pair = hard_pair_of_points(random);
-    const Frame frame = make_frame(pair.a, pair.b);
-    check_stored(frame, pair.a, frame.a, frame.displacement_a, tally);
-    check_stored(frame, pair.b, frame.b, frame.displacement_b, tally);
+    const FramedPair framed = frame_pair(pair.a, pair.b);
+    const Frame& frame = framed.frame;
+    check_stored(frame, pair.a, framed.a, tally);
+    check_stored(frame, pair.b, framed.b, tally);
     check_lengths(frame, random, tally);
-    check_interval(frame, random, tally);
+    check_interval(framed, random, tally);
     check_farthest(pair, frame, tally);
     tally.count("with a centre", frame.centre != glm::dvec3(0));
-    tally.count("displaced", frame.displacement() > 0x1p-500);
+    tally.count("displaced", framed.a.displacement > 0x1p-500);
   }
   tally.conclude(4 * count);
   CHECK(tally.counted("with a centre") > count / 10);

@@ -208,6 +208,7 @@ Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b, bool two_
   const Problem p{.vertex_count = vertices,
                   .face_count = faces,
                   .cull_tolerance = 1e-6f,
+                  .known_lower = 0,
                   .two_float = two_float,
                   .b = b,
                   .ws = view_workspace({memory.buffer, 0, memory.size}, bench.context()->limits,

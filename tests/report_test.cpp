@@ -40,7 +40,7 @@ vkh::Report directed(vkh::Status status, double lower, double upper) {
   return r;
 }
 
-vkh::Interval both(const vkh::Report& there, const vkh::Report& back) {
+vkh::CertifiedInterval both(const vkh::Report& there, const vkh::Report& back) {
   vkh::Answer answer;
   answer.a_to_b = there;
   answer.b_to_a = back;
@@ -53,7 +53,7 @@ TEST_CASE("a symmetric interval is closed by what decides it") {
   CHECK(both(closed, directed(Status::kClosed, 0.2, 0.21)).status == Status::kClosed);
   CHECK(both(closed, directed(Status::kTime, 0, 0.9)).status == Status::kClosed);
   CHECK(both(directed(Status::kTime, 0, 0.9), closed).status == Status::kClosed);
-  const vkh::Interval open = both(closed, directed(Status::kTime, 0, 2));
+  const vkh::CertifiedInterval open = both(closed, directed(Status::kTime, 0, 2));
   CHECK(open.status == Status::kTime);
   CHECK(open.lower == 1);
   CHECK(open.upper == 2);
@@ -62,6 +62,17 @@ TEST_CASE("a symmetric interval is closed by what decides it") {
         Status::kWaves);
   CHECK(both(directed(Status::kWaves, 0, 2), directed(Status::kTime, 0, 3)).status ==
         Status::kTime);
+}
+
+TEST_CASE("a pruned way back decides nothing, unless something else pruned it") {
+  using vkh::Status;
+  const vkh::Report closed = directed(Status::kClosed, 1, 1.0099);
+  const vkh::Report pruned = directed(Status::kPruned, 0, 1.00999);
+  CHECK(both(closed, pruned).status == Status::kClosed);
+  CHECK(both(closed, pruned).lower == 1);
+  CHECK(both(closed, pruned).upper == 1.00999);
+  CHECK(both(directed(Status::kTime, 1, 3), pruned).status == Status::kTime);
+  CHECK(both(closed, directed(Status::kPruned, 0, 1.5)).status == Status::kPruned);
 }
 
 TEST_CASE("an upper bound that is still infinite is null in JSON and inf in hex") {

@@ -28,8 +28,8 @@ files() {
 
 mapfile -t shaders < <(files shaders -- comp glsl h)
 mapfile -t recording < <(files engine -- cpp h)
-mapfile -t formatted < <(files shaders engine host tests tools -- comp glsl h cpp)
-mapfile -t counted < <(files engine host tests tools cmake -- cpp h py sh cmake)
+mapfile -t formatted < <(files shaders engine host examples tests tools -- comp vert frag glsl h c cpp)
+mapfile -t counted < <(files engine host examples tests tools cmake -- cpp h py sh cmake)
 
 # Prints 'file:line:<tab>marked<tab>code' for every line with code on it, comments and #includes taken out; marked is 1
 # where an '// uncertified: why' covers the line. 'why' may not be empty.

@@ -24,6 +24,12 @@ float rebased(float upper) {
 // A candidate's u, of the frontier being read.
 float upper_of(Candidate c) { return rebased(c.upper); }
 
+// What candidates are closed against, above the base: the best sample's distance, or a known one
+// that is larger.
+float reached() {
+  return max(uintBitsToFloat(control.maximum[kMaxLower]), control.known_lower - control.base);
+}
+
 // How far above the lower bound a candidate may be closed. Of the tolerance, 16 ulp of the
 // distances that samples are known by are kept for the certificate of the lower bound: of what they
 // are above the base and, where they are compared in plain floats, of the base too; 64 kUlp2 of it
@@ -31,7 +37,7 @@ float upper_of(Candidate c) { return rebased(c.upper); }
 // base is too coarse, a quarter is asked for all the same: the next plan moves the base.
 float effective_tolerance() {
   float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 16.0 * kUlp);
-  float above_noise = 16.0 * kUlp * uintBitsToFloat(control.maximum[kMaxLower]);
+  float above_noise = 16.0 * kUlp * reached();
   float left = max(control.cull_tolerance - noise - above_noise, 0.25 * control.cull_tolerance);
   return max(left, noise);
 }
@@ -40,8 +46,7 @@ float effective_tolerance() {
 // `tolerant` is the switch kUseToleranceCull; without it only what is under the lower bound is
 // closed.
 float cull_threshold(bool tolerant) {
-  float lower = uintBitsToFloat(control.maximum[kMaxLower]);
-  return tolerant ? lower + effective_tolerance() : lower;
+  return tolerant ? reached() + effective_tolerance() : reached();
 }
 
 // How a candidate's surfaces are measured.

@@ -1,0 +1,176 @@
+// vkh_frames: what a frame costs that certifies a deforming mesh against its LOD. Each frame moves
+// both meshes on the device and runs three ways on the same shape:
+//   warm     refit B's hierarchy, start from the last frame's run
+//   cold     refit, start from nothing
+//   rebuild  build the hierarchy anew, start from nothing
+// Prints CSV to stdout and a summary to stderr. gpu_ms is the device's time from the hierarchy to
+// the report, wall_ms the host's, recording included.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numbers>
+#include <string>
+
+#include "examples/scene.h"
+
+namespace {
+
+using example::Pair;
+
+struct Options {
+  uint32_t frames = 300;
+  uint32_t cells_u = 250, cells_v = 200;  // 100,000 faces against 25,000
+  uint32_t waves = 8;
+  float tolerance = 4e-6f;  // about 1e-6 of the diagonal
+  bool reverse = false;     // h(LOD, mesh) in place of h(mesh, LOD)
+  bool validation = false;
+};
+
+struct Mode {
+  const char* name;
+  Pair::Hierarchy hierarchy;
+  bool warm;
+};
+constexpr std::array<Mode, 3> kModes = {{{"warm", Pair::Hierarchy::kRefit, true},
+                                         {"cold", Pair::Hierarchy::kRefit, false},
+                                         {"rebuild", Pair::Hierarchy::kBuild, false}}};
+
+struct Sample {
+  double gpu_ms, wall_ms;
+};
+
+double now_ms() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+Options parse(int argc, char** argv) {
+  Options o;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    const auto value = [&] {
+      if (i + 1 == argc) throw std::runtime_error(name + " needs a value");
+      return std::strtod(argv[++i], nullptr);
+    };
+    if (name == "--frames") {
+      o.frames = static_cast<uint32_t>(value());
+    } else if (name == "--cells") {
+      o.cells_u = static_cast<uint32_t>(value());
+      o.cells_v = static_cast<uint32_t>(value());
+    } else if (name == "--waves") {
+      o.waves = static_cast<uint32_t>(value());
+    } else if (name == "--tolerance") {
+      o.tolerance = static_cast<float>(value());
+    } else if (name == "--reverse") {
+      o.reverse = true;
+    } else if (name == "--validation") {
+      o.validation = true;
+    } else {
+      throw std::runtime_error(
+          "usage: vkh_frames [--frames N] [--cells U V] [--waves N] [--tolerance T] "
+          "[--reverse] [--validation]");
+    }
+  }
+  if (o.frames == 0 || o.waves == 0 || o.cells_u < 6 || o.cells_v < 6 || o.cells_u % 2 != 0 ||
+      o.cells_v % 2 != 0)
+    throw std::runtime_error("at least one frame and one wave; cells are even and at least 6");
+  return o;
+}
+
+class Bench {
+ public:
+  explicit Bench(const Options& o)
+      : options_(o),
+        gpu_({.validation = o.validation}),
+        scene_(gpu_, o.cells_u, o.cells_v, 2),
+        pairs_{{make_pair(), make_pair(), make_pair()}},
+        report_(gpu_.buffer(sizeof(VkhReport), example::Memory::kHost)) {
+    deform(0);
+    for (Pair& pair : pairs_) run(pair, kModes[2]);  // every pair has a hierarchy and a run
+  }
+
+  void frame(uint32_t number) {
+    deform(number);
+    for (size_t m = 0; m < kModes.size(); ++m) {
+      const Sample s = run(pairs_[m], kModes[m]);
+      samples_[m].push_back(s);
+      VkhReport r;
+      std::memcpy(&r, report_.mapped, sizeof(r));
+      const bool closed = r.status == VKH_STATUS_DECIDED;
+      not_closed_ += !closed;
+      std::printf("%u,%s,%.4f,%.4f,%.9g,%.9g,%d,%u\n", number, kModes[m].name, s.gpu_ms, s.wall_ms,
+                  static_cast<double>(r.lower), static_cast<double>(r.upper), closed ? 1 : 0,
+                  r.waves);
+    }
+  }
+
+  void summarize() {
+    std::fprintf(stderr, "%s: h of %u faces against %u, %u frames, tolerance %g, %u not closed\n",
+                 gpu_.name().c_str(), scene_.levels()[options_.reverse ? 1 : 0].face_count(),
+                 scene_.levels()[options_.reverse ? 0 : 1].face_count(), options_.frames,
+                 static_cast<double>(options_.tolerance), not_closed_);
+    for (size_t m = 0; m < kModes.size(); ++m) {
+      std::fprintf(stderr, "%-8s gpu_ms median %.3f p99 %.3f   wall_ms median %.3f p99 %.3f\n",
+                   kModes[m].name, quantile(m, &Sample::gpu_ms, 0.5),
+                   quantile(m, &Sample::gpu_ms, 0.99), quantile(m, &Sample::wall_ms, 0.5),
+                   quantile(m, &Sample::wall_ms, 0.99));
+    }
+  }
+
+  bool clean() const { return gpu_.validation_messages() == 0; }
+
+ private:
+  Pair make_pair() {
+    return {gpu_, scene_, options_.reverse ? 1u : 0u, options_.reverse ? 0u : 1u};
+  }
+
+  void deform(uint32_t number) {
+    // A period of the deformation is 2 pi: three of them in 300 frames.
+    const float time = static_cast<float>(number) * static_cast<float>(std::numbers::pi) / 50;
+    gpu_.run([&](VkCommandBuffer c) { scene_.deform(c, time); });
+  }
+
+  Sample run(Pair& pair, const Mode& mode) {
+    const double start = now_ms();
+    const double gpu_ms = gpu_.run([&](VkCommandBuffer c) {
+      pair.certify(c, mode.hierarchy, mode.warm, options_.waves, options_.tolerance);
+      pair.write_report(c, report_, 0);
+      example::barrier(c, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    });
+    return {gpu_ms, now_ms() - start};
+  }
+
+  double quantile(size_t mode, double Sample::*member, double q) const {
+    std::vector<double> sorted;
+    for (const Sample& s : samples_[mode]) sorted.push_back(s.*member);
+    std::sort(sorted.begin(), sorted.end());
+    const auto last = static_cast<double>(sorted.size() - 1);
+    return sorted[static_cast<size_t>(q * last + 0.5)];
+  }
+
+  Options options_;
+  example::Gpu gpu_;
+  example::Scene scene_;
+  std::array<Pair, 3> pairs_;
+  example::Buffer report_;
+  std::array<std::vector<Sample>, 3> samples_;
+  uint32_t not_closed_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Options options = parse(argc, argv);
+  Bench bench(options);
+  std::puts("frame,mode,gpu_ms,wall_ms,lower,upper,closed,waves");
+  for (uint32_t frame = 1; frame <= options.frames; ++frame) bench.frame(frame);
+  bench.summarize();
+  return bench.clean() ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "vkh_frames: %s\n", error.what());
+  return 1;
+}

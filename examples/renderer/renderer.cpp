@@ -1,0 +1,213 @@
+#include "examples/renderer/renderer.h"
+
+#include <cmath>
+#include <cstring>
+#define GLM_FORCE_DEPTH_ZERO_TO_ONE
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "examples/renderer/font.h"
+
+namespace example {
+namespace {
+#include "examples/caption_frag.h"
+#include "examples/caption_vert.h"
+#include "examples/choose_comp.h"
+#include "examples/colour_comp.h"
+#include "examples/mesh_frag.h"
+#include "examples/mesh_vert.h"
+
+constexpr VkDeviceSize kReportStride = (sizeof(VkhReport) + 255) / 256 * 256;
+constexpr uint32_t kReportWords = kReportStride / 4;
+constexpr float kFieldOfView = 0.8f;  // radians, vertical
+constexpr float kExtent = 1.75f;      // no part of the mesh is farther from the origin
+
+// As in frame.glsl.
+struct Choice {
+  VkDrawIndirectCommand draw;
+  uint32_t level;
+  float fill[kLevels - 1];
+  uint32_t text[kRows * kColumns];
+};
+enum Mode : uint32_t { kPlain = 0, kEdges = 1, kDistance = 2 };
+
+struct ChoosePush {
+  uint32_t report_words, frame;
+  float camera, pixel;
+};
+struct MeshPush {
+  glm::mat4 view_projection;
+  glm::vec3 eye;
+  uint32_t mode, report_words;
+};
+struct CaptionPush {
+  uint32_t x, y, scale;
+};
+
+template <class T>
+Buffer filled(Gpu& gpu, const T& content) {
+  const Buffer made = gpu.buffer(content.size() * sizeof(content[0]), Memory::kHost);
+  std::memcpy(made.mapped, content.data(), made.size);
+  return made;
+}
+
+}  // namespace
+
+Renderer::Renderer(const RendererOptions& options)
+    : options_(options),
+      gpu_({.validation = options.validation, .graphics = true}),
+      scene_(gpu_, options.cells_u, options.cells_v, kLevels),
+      pairs_{{{gpu_, scene_, 0, 1}, {gpu_, scene_, 0, 2}, {gpu_, scene_, 0, 3}}},
+      target_(gpu_, options.width, options.height),
+      reports_(gpu_.buffer(kReportStride * (kLevels - 1), Memory::kDevice)),
+      levels_(filled(gpu_, scene_.levels())),
+      choice_(gpu_.buffer(sizeof(Choice), Memory::kDevice)),
+      font_(filled(gpu_, font_columns())),
+      readback_(gpu_.buffer(reports_.size + sizeof(Choice), Memory::kHost)),
+      choose_(gpu_.compute_pipeline(k_choose_comp)),
+      colour_(gpu_.compute_pipeline(k_colour_comp)),
+      mesh_(target_.pipeline(gpu_.shader(k_mesh_vert), gpu_.shader(k_mesh_frag), true)),
+      caption_(target_.pipeline(gpu_.shader(k_caption_vert), gpu_.shader(k_caption_frag), false)) {}
+
+uint32_t Renderer::text_scale() const { return std::max(options_.width / (9 * kColumns), 1u); }
+
+VkRect2D Renderer::caption_part() const {
+  const uint32_t height = 10 * kRows * text_scale() + 4;
+  return {{0, static_cast<int32_t>(options_.height - height)}, {options_.width, height}};
+}
+
+// Left, two thirds wide: what the camera sees. The close-ups stand beside it.
+VkRect2D Renderer::large_part() const {
+  const uint32_t height = options_.height - caption_part().extent.height;
+  return {{0, 0}, {options_.width - height / 2, height}};
+}
+
+RenderedFrame Renderer::frame(uint32_t number, float time, float camera) {
+  const auto rows = static_cast<float>(large_part().extent.height);
+  const float pixel = 2 * std::tan(kFieldOfView / 2) * (camera - kExtent) / rows;
+  gpu_.run([&](VkCommandBuffer commands) {
+    scene_.deform(commands, time);
+    certify(commands, number, pixel);
+    choose(commands, number, camera, pixel);
+    draw(commands, time, camera);
+    read_back(commands);
+  });
+  RenderedFrame result{};
+  result.rgba = reinterpret_cast<const uint8_t*>(target_.pixels().mapped);
+  result.pixel = pixel;
+  for (uint32_t k = 0; k + 1 < kLevels; ++k)
+    std::memcpy(&result.reports[k], readback_.mapped + k * kReportStride, sizeof(VkhReport));
+  Choice choice;
+  std::memcpy(&choice, readback_.mapped + reports_.size, sizeof(choice));
+  result.drawn = choice.level;
+  for (uint32_t i = 0; i < kRows * kColumns; ++i)
+    result.caption[i / kColumns] += static_cast<char>(choice.text[i]);
+  return result;
+}
+
+// The first frame builds and starts cold; later ones refit, and start from the frame before. An
+// eighth of a pixel decides between levels well enough.
+void Renderer::certify(VkCommandBuffer commands, uint32_t number, float pixel) {
+  const auto hierarchy = number == 0 ? Pair::Hierarchy::kBuild : Pair::Hierarchy::kRefit;
+  for (uint32_t k = 0; k + 1 < kLevels; ++k) {
+    pairs_[k].certify(commands, hierarchy, number > 0, options_.waves, 0.125f * pixel);
+    pairs_[k].write_report(commands, reports_, k * kReportStride);
+  }
+}
+
+void Renderer::choose(VkCommandBuffer commands, uint32_t number, float camera, float pixel) {
+  constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+  constexpr VkAccessFlags reads_writes = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+  const auto after_compute = [&] {
+    barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, reads_writes);
+  };
+  after_compute();  // from the engine's report to a shader of ours: all that there is to it
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, choose_);
+  gpu_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+            {reports_.handle, levels_.handle, choice_.handle},
+            bytes_of(ChoosePush{kReportWords, number, camera, pixel}));
+  vkCmdDispatch(commands, 1, 1, 1);
+  after_compute();
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, colour_);
+  gpu_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+            {scene_.vertices().handle, levels_.handle, choice_.handle}, bytes_of(0));
+  vkCmdDispatch(commands, (scene_.levels()[0].vertex_count() + 63) / 64, 1, 1);
+  barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT,
+          VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+              VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+          VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
+              VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+void Renderer::draw(VkCommandBuffer commands, float time, float camera) {
+  const VkRect2D large = large_part();
+  const uint32_t side = large.extent.height / 2;
+  const auto x = static_cast<int32_t>(large.extent.width);
+  const float angle = 0.6f + 0.1f * time;
+  target_.begin(commands);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, mesh_);
+  draw_mesh(commands, large, camera, angle, kPlain);
+  draw_mesh(commands, {{x, 0}, {side, side}}, 3.9f, angle, kDistance);
+  draw_mesh(commands, {{x, static_cast<int32_t>(side)}, {side, side}}, 3.9f, angle, kEdges);
+  draw_caption(commands);
+  target_.end(commands);
+}
+
+void Renderer::draw_mesh(VkCommandBuffer commands, VkRect2D part, float camera, float angle,
+                         uint32_t mode) {
+  const glm::vec3 eye = camera * glm::vec3(0.8f * std::cos(angle), 0.8f * std::sin(angle), 0.6f);
+  const float aspect =
+      static_cast<float>(part.extent.width) / static_cast<float>(part.extent.height);
+  glm::mat4 projection = glm::perspective(kFieldOfView, aspect, 0.2f, camera + 2 * kExtent);
+  projection[1][1] = -projection[1][1];  // Vulkan's y points down
+  const glm::mat4 view = glm::lookAt(eye, glm::vec3(0), glm::vec3(0, 0, 1));
+  target_.view(commands, part);
+  gpu_.bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+            {scene_.vertices().handle, levels_.handle, choice_.handle, scene_.index_buffer().handle,
+             reports_.handle, font_.handle},
+            bytes_of(MeshPush{projection * view, eye, mode, kReportWords}));
+  if (mode == kDistance) {
+    vkCmdDraw(commands, 3 * scene_.levels()[0].face_count(), 1, 0, 0);
+  } else {
+    vkCmdDrawIndirect(commands, choice_.handle, offsetof(Choice, draw), 1, 0);
+  }
+}
+
+void Renderer::draw_caption(VkCommandBuffer commands) {
+  const VkRect2D part = caption_part();
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, caption_);
+  target_.view(commands, part);
+  const CaptionPush push{(part.extent.width - 6 * kColumns * text_scale()) / 2,
+                         static_cast<uint32_t>(part.offset.y) + 2, text_scale()};
+  gpu_.bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+            {scene_.vertices().handle, levels_.handle, choice_.handle, scene_.index_buffer().handle,
+             reports_.handle, font_.handle},
+            bytes_of(push));
+  vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+// For the host alone: the device has used all of it already.
+void Renderer::read_back(VkCommandBuffer commands) {
+  const VkBufferCopy reports{0, 0, reports_.size};
+  const VkBufferCopy choice{0, reports_.size, sizeof(Choice)};
+  vkCmdCopyBuffer(commands, reports_.handle, readback_.handle, 1, &reports);
+  vkCmdCopyBuffer(commands, choice_.handle, readback_.handle, 1, &choice);
+  barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+          VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+}
+
+std::vector<SceneVertex> Renderer::vertices(uint32_t level) {
+  const Level& l = scene_.levels()[level];
+  std::vector<SceneVertex> result(l.vertex_count());
+  const Buffer host = gpu_.buffer(result.size() * sizeof(SceneVertex), Memory::kHost);
+  gpu_.run([&](VkCommandBuffer commands) {
+    const VkBufferCopy copy{l.first_vertex * sizeof(SceneVertex), 0, host.size};
+    vkCmdCopyBuffer(commands, scene_.vertices().handle, host.handle, 1, &copy);
+    barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+  });
+  std::memcpy(result.data(), host.mapped, host.size);
+  return result;
+}
+
+}  // namespace example

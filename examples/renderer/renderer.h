@@ -1,0 +1,65 @@
+// A headless renderer on a device of its own: a mesh deforms on the device, the engine certifies
+// how far each level of detail is from it, and a shader draws the coarsest level whose upper bound
+// is under a pixel. The host only records.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "examples/renderer/target.h"
+#include "examples/scene.h"
+
+namespace example {
+
+constexpr uint32_t kLevels = 4;  // the finest is level 0
+constexpr uint32_t kRows = 4;    // of the caption
+constexpr uint32_t kColumns = 52;
+
+struct RendererOptions {
+  uint32_t width = 960, height = 640;
+  uint32_t cells_u = 192, cells_v = 96;  // multiples of 8
+  uint32_t waves = 4;                    // a frame's budget for each level
+  bool validation = false;
+};
+
+struct RenderedFrame {
+  const uint8_t* rgba;                         ///< until the next frame
+  std::array<VkhReport, kLevels - 1> reports;  ///< of levels 1, 2, 3 against level 0
+  uint32_t drawn;                              ///< the level that the device chose
+  float pixel;                                 ///< what a pixel covers at the nearest part
+  std::array<std::string, kRows> caption;      ///< as the device wrote it
+};
+
+class Renderer {
+ public:
+  explicit Renderer(const RendererOptions& options);
+
+  /// Call with 0, 1, 2, ..; `camera` is its distance, at least 2.2.
+  RenderedFrame frame(uint32_t number, float time, float camera);
+  /// A level's positions as the engine saw them in the last frame.
+  std::vector<SceneVertex> vertices(uint32_t level);
+  const Scene& scene() const { return scene_; }
+  Gpu& gpu() { return gpu_; }
+  /// Where the caption stands in the picture, and the pixels of one of its dots.
+  VkRect2D caption_part() const;
+  uint32_t text_scale() const;
+
+ private:
+  void certify(VkCommandBuffer commands, uint32_t number, float pixel);
+  void choose(VkCommandBuffer commands, uint32_t number, float camera, float pixel);
+  void draw(VkCommandBuffer commands, float time, float camera);
+  void draw_mesh(VkCommandBuffer commands, VkRect2D part, float camera, float angle, uint32_t mode);
+  void draw_caption(VkCommandBuffer commands);
+  void read_back(VkCommandBuffer commands);
+  VkRect2D large_part() const;
+
+  RendererOptions options_;
+  Gpu gpu_;
+  Scene scene_;
+  std::array<Pair, kLevels - 1> pairs_;
+  Target target_;
+  Buffer reports_, levels_, choice_, font_, readback_;
+  VkPipeline choose_, colour_, mesh_, caption_;
+};
+
+}  // namespace example

@@ -1,0 +1,24 @@
+// What Python gets: one object for a directed or a symmetric distance, plain values in it.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "host/report.h"
+
+namespace vkh::python {
+
+/// Of a symmetric run, the witness is that of the direction with the larger lower bound, told in
+/// terms of A and B all the same.
+struct Answer {
+  double lower = 0, upper = 0;
+  Status status = Status::kClosed;
+  SurfacePoint witness_a, witness_b;
+  pybind11::dict stats;
+
+  bool closed() const { return status == Status::kClosed; }
+};
+
+Answer answer_of(const Report& report);
+Answer answer_of(const SymmetricReport& both);
+
+}  // namespace vkh::python

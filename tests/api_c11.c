@@ -1,0 +1,138 @@
+/* The C API from plain C11: every declaration compiles, and what needs no command buffer runs. The
+ * loader is opened here, as a program would; without one, or without a device, this is skipped. */
+#include <assert.h>
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "engine/vkhausdorff.h"
+
+enum { kSkipped = 77, kMostDevices = 8 };
+
+static int failures = 0;
+
+static void check(int holds, const char* what) {
+  if (holds) return;
+  fprintf(stderr, "api_c11: not so: %s\n", what);
+  ++failures;
+}
+#define CHECK(condition) check((condition), #condition)
+
+static PFN_vkGetInstanceProcAddr open_loader(void) {
+  PFN_vkGetInstanceProcAddr get = NULL;
+  void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  void* symbol = library != NULL ? dlsym(library, "vkGetInstanceProcAddr") : NULL;
+  memcpy(&get, &symbol, sizeof get); /* ISO C has no cast from an object to a function */
+  return get;
+}
+
+static VkInstance create_instance(PFN_vkGetInstanceProcAddr get) {
+  VkApplicationInfo app = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO};
+  VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  VkInstance instance = VK_NULL_HANDLE;
+  PFN_vkCreateInstance create = (PFN_vkCreateInstance)get(NULL, "vkCreateInstance");
+  app.apiVersion = VK_API_VERSION_1_2;
+  info.pApplicationInfo = &app;
+  if (create == NULL || create(&info, NULL, &instance) != VK_SUCCESS) return VK_NULL_HANDLE;
+  return instance;
+}
+
+/* The first device that is supported; the reasons against the others are text. */
+static VkPhysicalDevice choose(VkhDeviceInfo info) {
+  VkPhysicalDevice devices[kMostDevices], chosen = VK_NULL_HANDLE;
+  uint32_t count = kMostDevices, i;
+  PFN_vkEnumeratePhysicalDevices list = (PFN_vkEnumeratePhysicalDevices)info.getInstanceProcAddr(
+      info.instance, "vkEnumeratePhysicalDevices");
+  if (list(info.instance, &count, devices) < 0) return VK_NULL_HANDLE;
+  for (i = 0; i < count; ++i) {
+    char reasons[256] = "untouched", start[8] = "-------";
+    VkhResult result;
+    info.physicalDevice = devices[i];
+    result = vkhQuerySupport(&info, reasons, sizeof reasons);
+    CHECK(result == VKH_SUCCESS || result == VKH_ERROR_UNSUPPORTED);
+    CHECK((result == VKH_SUCCESS) == (reasons[0] == '\0'));
+    CHECK(vkhQuerySupport(&info, NULL, 0) == result);
+    CHECK(vkhQuerySupport(&info, start, sizeof start) == result);
+    CHECK(strlen(start) < sizeof start && strncmp(start, reasons, strlen(start)) == 0);
+    if (result == VKH_SUCCESS && chosen == VK_NULL_HANDLE) chosen = devices[i];
+  }
+  return chosen;
+}
+
+/* Nothing is enabled but what the header asks for. */
+static VkDevice create_device(const VkhDeviceInfo* info) {
+  const float priority = 1.0f;
+  VkDevice device = VK_NULL_HANDLE;
+  VkPhysicalDeviceSynchronization2Features synchronization = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
+  VkPhysicalDeviceScalarBlockLayoutFeatures scalar = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
+  VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+  VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  PFN_vkCreateDevice create_with =
+      (PFN_vkCreateDevice)info->getInstanceProcAddr(info->instance, "vkCreateDevice");
+  synchronization.synchronization2 = VK_TRUE;
+  scalar.scalarBlockLayout = VK_TRUE;
+  scalar.pNext = &synchronization;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+  create.pNext = &scalar;
+  create.queueCreateInfoCount = 1;
+  create.pQueueCreateInfos = &queue;
+  create.ppEnabledExtensionNames = vkhGetRequiredExtensions(&create.enabledExtensionCount);
+  if (create_with(info->physicalDevice, &create, NULL, &device) != VK_SUCCESS)
+    return VK_NULL_HANDLE;
+  return device;
+}
+
+static void check_sizes(VkhContext context) {
+  VkhHierarchyRequirements hierarchy = {0, 0}, larger = {0, 0};
+  VkhWorkspaceRequirements workspace = {0, 0, 0};
+  CHECK(vkhGetHierarchyRequirements(context, 3, 1, &hierarchy) == VKH_SUCCESS);
+  CHECK(vkhGetHierarchyRequirements(context, 30000, 60000, &larger) == VKH_SUCCESS);
+  CHECK(hierarchy.hierarchySize > 0 && hierarchy.scratchSize > 0);
+  CHECK(larger.hierarchySize > hierarchy.hierarchySize);
+  CHECK(vkhGetWorkspaceRequirements(context, 3, 1, &workspace) == VKH_SUCCESS);
+  CHECK(workspace.minimum > 0 && workspace.minimum <= workspace.recommended);
+  CHECK(workspace.recommended <= workspace.maximum);
+  CHECK(vkhGetHierarchyRequirements(context, 3, 0, &hierarchy) == VKH_ERROR_TOO_LARGE);
+  CHECK(vkhGetWorkspaceRequirements(context, UINT32_MAX, 1, &workspace) == VKH_ERROR_TOO_LARGE);
+}
+
+static void check_context(VkhDeviceInfo info) {
+  VkhContextCreateInfo create;
+  VkhContext context = NULL;
+  PFN_vkDestroyDevice destroy =
+      (PFN_vkDestroyDevice)info.getInstanceProcAddr(info.instance, "vkDestroyDevice");
+  info.device = create_device(&info);
+  CHECK(info.device != VK_NULL_HANDLE);
+  if (info.device == VK_NULL_HANDLE) return;
+  create.device = info;
+  create.pipelineCache = VK_NULL_HANDLE;
+  create.switches = VKH_SWITCH_DEFAULT;
+  CHECK(vkhCreateContext(&create, &context) == VKH_SUCCESS);
+  if (context != NULL) check_sizes(context);
+  vkhDestroyContext(context);
+  vkhDestroyContext(NULL);
+  destroy(info.device, NULL);
+}
+
+int main(void) {
+  VkhDeviceInfo info = {NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE};
+  uint32_t count = 0;
+  const char* const* extensions = vkhGetRequiredExtensions(&count);
+  CHECK(count == 2 && strcmp(extensions[0], "VK_KHR_synchronization2") == 0);
+  CHECK(count == 2 && strcmp(extensions[1], "VK_KHR_push_descriptor") == 0);
+  static_assert(sizeof(VkhReport) == 4 * (4 + 3 + 13 + 8 + 7 * VKH_MAX_WAVE_RECORDS), "no padding");
+  info.getInstanceProcAddr = open_loader();
+  if (info.getInstanceProcAddr != NULL) info.instance = create_instance(info.getInstanceProcAddr);
+  if (info.instance != VK_NULL_HANDLE) info.physicalDevice = choose(info);
+  if (info.physicalDevice == VK_NULL_HANDLE) {
+    puts("api_c11: no loader or no supported device; only what needs none was checked");
+    return failures > 0 ? 1 : kSkipped;
+  }
+  check_context(info);
+  ((PFN_vkDestroyInstance)info.getInstanceProcAddr(info.instance, "vkDestroyInstance"))(
+      info.instance, NULL);
+  return failures > 0 ? 1 : 0;
+}

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Installs the build, moves what was installed, and uses it as strangers would: find_package, pkg-config, the program,
+# the Python module. usage: package_test.sh BUILD SOURCE PYTHON|none
+set -euo pipefail
+
+build=$1 source=$2 python=$3
+consumer=$source/tests/package/consumer
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "package_test: $*" >&2; exit 1; }
+
+cmake --install "$build" --prefix "$folder/first" >"$folder/log" || { cat "$folder/log"; fail "cmake --install"; }
+package=$folder/moved
+mv "$folder/first" "$package"
+if grep -rIlE "$folder|$build|$source" "$package"; then fail "absolute paths of the build in the files above"; fi
+
+# A shared library made of all of the archive exports the API and nothing else of ours. What libstdc++ forces to be
+# visible, inline functions of std (weak, unique), is in every library of C++ and is let pass. A relinked object with all but
+# vkh* made local (ld -r, objcopy) would do no more: nothing of ours is visible outside a library, and namespace vkh is ours.
+${CXX:-c++} -shared -o "$folder/engine.so" -Wl,--whole-archive "$package/lib/libvkhausdorff.a" -Wl,--no-whole-archive
+nm -D --defined-only "$folder/engine.so" | awk '!($2 ~ /[WVu]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
+grep -ohE '\bvkh[A-Z]\w*\(' "$package/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
+diff "$folder/declared" "$folder/exported" || fail "the engine exports (>) other symbols than it declares (<)"
+nm -g --undefined-only "$package/lib/libvkhausdorff.a" | grep -E ' vk[A-Z]' && fail "the engine links to the Vulkan loader"
+
+printf 'OFF\n3 1 0\n0 0 0.25\n1 0 0.25\n0 1 0.25\n3 0 1 2\n' >"$folder/a.off"
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$folder/b.off"
+expected="0.25 <= h($folder/a.off, B) <= 0.25"
+# check_consumers FOLDER: the two programs there.
+check_consumers() {
+  [ "$("$1/engine" | head -1)" = VK_KHR_synchronization2 ] || fail "$1/engine printed something else"
+  local line
+  line=$("$1/host" "$folder/b.off" "$folder/a.off") || fail "$1/host failed"
+  awk '{exit !($1 <= 0.25 && $6 >= 0.25 && $6 - $1 < 1e-5 && $7 == "closed")}' <<<"${line/:/}" ||
+    fail "$1/host printed '$line', not about '$expected'"
+}
+
+cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$package" -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
+  cmake --build "$folder/cmake" >>"$folder/log" 2>&1 || { cat "$folder/log"; fail "the consumer does not build"; }
+check_consumers "$folder/cmake"
+sed 's/VkHausdorff 0.1/VkHausdorff 0.2/' "$consumer/CMakeLists.txt" >"$folder/CMakeLists.txt"
+if cmake -S "$folder" -B "$folder/newer" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" 2>&1; then
+  fail "find_package took this version for 0.2"
+fi
+grep -q 'version: 0.1' "$folder/log" || { cat "$folder/log"; fail "find_package failed, but not for the version"; }
+
+export PKG_CONFIG_PATH=$package/lib/pkgconfig
+pkg_config() { pkg-config "$@" || fail "pkg-config $*"; }
+mkdir "$folder/pc"
+# Words are split on purpose.
+# shellcheck disable=SC2046
+${CC:-cc} -std=c11 -pedantic -Wall -Werror "$consumer/engine.c" -o "$folder/pc/engine" \
+  $(pkg_config --cflags --libs vkhausdorff)
+# shellcheck disable=SC2046
+${CXX:-c++} -std=c++20 -Wall -Wextra -Werror "$consumer/host.cpp" -o "$folder/pc/host" \
+  $(pkg_config --cflags --libs vkhausdorff-host)
+check_consumers "$folder/pc"
+
+"$package/bin/vkhausdorff" distance "$folder/a.off" "$folder/b.off" >/dev/null || fail "the installed program"
+if [ "$python" != none ]; then
+  module=$(find "$package" -name 'vkhausdorff*.so')
+  PYTHONPATH=$(dirname "$module") "$python" "$source/tests/package/example.py" >"$folder/log" || fail "example.py"
+  grep -c closed "$folder/log" | grep -qx 3 || { cat "$folder/log"; fail "example.py printed something else"; }
+  exported=$(nm -D --defined-only "$module" | awk '$2 !~ /[WVu]/ {print $3}')
+  [ "$exported" = PyInit_vkhausdorff ] || fail "the module exports $exported"
+fi

@@ -1,0 +1,190 @@
+// The renderer in frames: its intervals against the CPU reference, its choice of level, its
+// pictures, its caption as it can be read off them.
+#include "examples/renderer/renderer.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+#include <string>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_THREAD_LOCALS
+#include <stb/stb_image.h>
+
+#include "examples/renderer/font.h"
+#include "tests/support/api_bench.h"
+#include "tests/support/program.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+using example::RenderedFrame;
+using example::Renderer;
+
+constexpr uint32_t kWidth = 320, kHeight = 240;
+
+bool validation() {
+  const char* value = std::getenv("VKH_VALIDATION");
+  return value != nullptr && *value != '\0';
+}
+
+Renderer& renderer() {
+  static Renderer one({.width = kWidth,
+                       .height = kHeight,
+                       .cells_u = 48,
+                       .cells_v = 24,
+                       .validation = validation()});
+  return one;
+}
+
+Mesh mesh_of(Renderer& r, uint32_t level) {
+  Mesh mesh;
+  for (const example::SceneVertex& v : r.vertices(level))
+    mesh.vertices.emplace_back(v.position[0], v.position[1], v.position[2]);
+  const std::vector<uint32_t> corners = r.scene().indices(level);
+  for (size_t i = 0; i < corners.size(); i += 3)
+    mesh.faces.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
+  return mesh;
+}
+
+struct Pixel {
+  int r, g, b;
+  bool operator==(const Pixel&) const = default;
+};
+Pixel pixel(const RenderedFrame& f, uint32_t x, uint32_t y) {
+  const uint8_t* p = f.rgba + 4 * (y * kWidth + x);
+  return {p[0], p[1], p[2]};
+}
+
+/// The character in a cell of the caption: the one whose dots are white and whose others are not.
+char read_character(const RenderedFrame& f, uint32_t left, uint32_t top) {
+  for (char c = ' '; c <= '_'; ++c) {
+    const example::Glyph rows = example::glyph(c);
+    bool matches = c == ' ' || rows != example::glyph(' ');
+    for (uint32_t y = 0; y < example::kGlyphRows && matches; ++y) {
+      for (uint32_t x = 0; x < example::kGlyphColumns && matches; ++x) {
+        const bool white = pixel(f, left + x, top + y) == Pixel{255, 255, 255};
+        matches = white == ((rows[y] >> (4 - x) & 1) != 0);
+      }
+    }
+    if (matches) return c;
+  }
+  return '?';
+}
+
+std::string read_row(Renderer& r, const RenderedFrame& f, uint32_t row) {
+  REQUIRE(r.text_scale() == 1);
+  const uint32_t left = (kWidth - 6 * example::kColumns) / 2;
+  const auto top = static_cast<uint32_t>(r.caption_part().offset.y) + 2 + 10 * row + 1;
+  std::string text;
+  for (uint32_t column = 0; column < example::kColumns; ++column)
+    text += read_character(f, left + 6 * column, top);
+  return text;
+}
+
+/// What the picture says of level k: "... H IN lower..upper ..." holds the report's interval.
+void check_row(const std::string& text, const VkhReport& report) {
+  CAPTURE(text);
+  const size_t at = text.find("H IN ");
+  REQUIRE(at != std::string::npos);
+  const double lower = std::strtod(text.substr(at + 5, 7).c_str(), nullptr);
+  const double upper = std::strtod(text.substr(at + 14, 7).c_str(), nullptr);
+  CHECK(lower <= static_cast<double>(report.lower));
+  CHECK(upper >= static_cast<double>(report.upper));
+  CHECK(upper - lower <= static_cast<double>(report.upper - report.lower) + 3e-5);
+  CHECK(lower > 0);
+}
+
+/// Pixels of the large view that are not background, and different colours in the whole picture.
+struct Seen {
+  size_t covered = 0;
+  std::set<int> colours;
+};
+Seen look(Renderer& r, const RenderedFrame& f) {
+  Seen seen;
+  const auto bottom = static_cast<uint32_t>(r.caption_part().offset.y);
+  const uint32_t right = kWidth - bottom / 2;
+  const Pixel background = pixel(f, 0, 0);
+  for (uint32_t y = 0; y < bottom; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      const Pixel p = pixel(f, x, y);
+      seen.covered += x < right && p != background;
+      seen.colours.insert(p.r << 16 | p.g << 8 | p.b);
+    }
+  }
+  return seen;
+}
+
+struct Picture {
+  int width = 0, height = 0, channels = 0;
+  size_t colours = 0;
+};
+
+Picture load(const std::string& path) {
+  Picture p;
+  uint8_t* pixels = stbi_load(path.c_str(), &p.width, &p.height, &p.channels, 4);
+  REQUIRE_MESSAGE(pixels != nullptr, path);
+  std::set<uint32_t> colours;
+  for (int i = 0; i < p.width * p.height; ++i)
+    colours.insert(uint32_t{pixels[4 * i]} << 16 | uint32_t{pixels[4 * i + 1]} << 8 |
+                   pixels[4 * i + 2]);
+  p.colours = colours.size();
+  stbi_image_free(pixels);
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("frames: intervals against the reference, the level, the picture and its caption") {
+  Renderer& r = renderer();
+  std::set<uint32_t> drawn;
+  size_t covered = kWidth * kHeight;
+  const float cameras[] = {2.6f, 8.0f, 16.0f, 45.0f};
+  for (uint32_t i = 0; i < 4; ++i) {
+    CAPTURE(i);
+    const RenderedFrame f = r.frame(i, 0.3f * static_cast<float>(i), cameras[i]);
+    uint32_t coarsest = 0;
+    const Seen seen = look(r, f);
+    for (uint32_t row = 0; row < example::kRows; ++row)
+      CHECK(read_row(r, f, row) == f.caption[row]);
+    CHECK(f.caption[0].substr(0, 10) == "FRAME 00" + std::to_string(i) + " ");
+    for (uint32_t k = 1; k < example::kLevels; ++k) {
+      check_row(f.caption[k], f.reports[k - 1]);
+      if (f.reports[k - 1].upper < f.pixel) coarsest = k;
+    }
+    CHECK(f.drawn == coarsest);
+    drawn.insert(f.drawn);
+    CHECK(seen.covered > 60);
+    CHECK(seen.covered < covered);  // the camera moves away
+    CHECK(seen.colours.size() > 300);
+    covered = seen.covered;
+    const Mesh finest = mesh_of(r, 0);  // last: it submits
+    for (uint32_t k = 1; k < example::kLevels; ++k) {
+      CAPTURE(k);
+      check_true(f.reports[k - 1], reference_hausdorff(finest, mesh_of(r, k), 1e-5));
+    }
+  }
+  CHECK(drawn.size() >= 3);
+  CHECK(r.gpu().validation_messages() == 0);
+}
+
+TEST_CASE("the program writes its frames as pictures, and a line of CSV each") {
+  const std::string out = folder() / "frames";
+  Words words = {"--frames", "2", "--size", "400", "300", "--cells", "48", "24", "--out", out};
+  if (validation()) words.push_back("--validation");
+  const Outcome outcome = run(words);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);  // not 0 if the validation layer said anything
+  CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 3);
+  for (const char* name : {"/frame_000.png", "/frame_001.png"}) {
+    const Picture picture = load(out + name);
+    CHECK(picture.width == 400);
+    CHECK(picture.height == 300);
+    CHECK(picture.colours > 500);
+  }
+}

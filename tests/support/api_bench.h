@@ -1,0 +1,95 @@
+// A pair of meshes on the test device through the C API alone, with barriers as the header asks for
+// and no more.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/vkhausdorff.h"
+#include "host/memory.h"
+#include "host/mesh.h"
+#include "tests/support/reference_solver.h"
+
+namespace vkh::test {
+
+/// How a mesh lies in its buffers.
+struct MeshLayout {
+  uint32_t stride = 12;
+  uint32_t vertex_offset = 0;
+  uint32_t index_offset = 0;
+  bool is_16bit = false;
+};
+
+/// A mesh in buffers of its own, rounded to float32, which it keeps as `mesh` too.
+class ApiMesh {
+ public:
+  explicit ApiMesh(const Mesh& mesh, MeshLayout layout = {});
+  /// New positions, same faces. Not while a submission runs.
+  void move(const Mesh& moved);
+  const Mesh& mesh() const { return mesh_; }
+  const VkhMesh& view() const { return view_; }
+
+ private:
+  Mesh mesh_;
+  MeshLayout layout_;
+  Buffer vertices_, indices_;
+  VkhMesh view_{};
+};
+
+/// Command buffers that may be submitted again and again.
+class ApiCommands {
+ public:
+  ApiCommands();
+  ~ApiCommands();
+  ApiCommands(const ApiCommands&) = delete;
+  ApiCommands& operator=(const ApiCommands&) = delete;
+
+  VkCommandBuffer record(const std::function<void(VkCommandBuffer)>& record);
+  void submit_and_wait(VkCommandBuffer commands);
+
+ private:
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+};
+
+/// h(a, b): memory filled with garbage, a problem, reports.
+class ApiPair {
+ public:
+  ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance);
+
+  void build(VkCommandBuffer commands);
+  void refit(VkCommandBuffer commands);
+  void begin(VkCommandBuffer commands, bool warm = false);
+  /// A cold begin with a's vertices, as many as before, at another place.
+  void begin_at(VkCommandBuffer commands, VkBuffer vertices, VkDeviceSize offset);
+  void advance(VkCommandBuffer commands, uint32_t waves);
+  /// Writes report `slot` (0..3), and makes it visible to the host.
+  void report(VkCommandBuffer commands, uint32_t slot = 0);
+  VkhReport read(uint32_t slot = 0) const;
+  VkBuffer report_buffer() const { return reports_.handle(); }
+  static VkDeviceSize report_offset(uint32_t slot);
+
+  /// Records with `record`, submits, waits, gives report 0.
+  VkhReport run(const std::function<void(VkCommandBuffer)>& record);
+  /// The workspace, mapped.
+  std::byte* workspace() const { return workspace_.mapped(); }
+  VkDeviceSize workspace_size() const { return problem_.workspace.size; }
+  ApiCommands& commands() { return commands_; }
+  const VkhProblem& problem() const { return problem_; }
+
+ private:
+  VkhContext context_;
+  ApiCommands commands_;
+  ApiMesh& a_;
+  ApiMesh& b_;
+  Buffer hierarchy_, scratch_, workspace_, reports_;
+  VkDeviceSize refit_scratch_size_ = 0;
+  VkhProblem problem_{};
+};
+
+Interval interval(const VkhReport& report);
+/// lower <= h(a, b) <= upper, as far as the reference encloses h.
+void check_true(const VkhReport& report, const Interval& exact);
+void check_true(const VkhReport& report, const ApiMesh& a, const ApiMesh& b);
+
+}  // namespace vkh::test
