@@ -98,19 +98,19 @@ void record_bound(Recorder& rec, const Problem& p) {
   rec.stage("bound");
 }
 
-void record_defer(Recorder& rec, const Problem& p) {
+void record_witness(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
-  rec.run_indirect<k::WaveDefer>({.control = ws.control,
-                                  .frontier = ws.frontier,
-                                  .vertices = ws.vertices,
-                                  .faces = ws.faces,
-                                  .vertex_nearest = ws.vertex_nearest,
-                                  .splits = ws.splits,
-                                  .points = ws.points,
-                                  .survivors = ws.survivors,
-                                  .centroids = ws.centroids},
-                                 {}, ws.dispatch(gpu::kDispatchDefer));
-  rec.stage("defer");
+  rec.run_indirect<k::WaveWitness>({.control = ws.control,
+                                    .frontier = ws.frontier,
+                                    .vertices = ws.vertices,
+                                    .faces = ws.faces,
+                                    .vertex_nearest = ws.vertex_nearest,
+                                    .splits = ws.splits,
+                                    .points = ws.points,
+                                    .survivors = ws.survivors,
+                                    .centroids = ws.centroids},
+                                   {}, ws.dispatch(gpu::kDispatchWitness));
+  rec.stage("witness");
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ void record_wave(Recorder& rec, const Problem& p) {
   record_filter(rec, p);
   record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
-  record_defer(rec, p);
+  record_witness(rec, p);
 }
 
 }  // namespace vkh

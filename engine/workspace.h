@@ -34,7 +34,7 @@ struct Workspace {
   Slice<uint32_t> vertex_nearest;
   Slice<float> vertex_distance;
   Slice<gpu::Candidate> frontier;  // two halves of `capacity`
-  Slice<uint32_t> splits;
+  Slice<gpu::Split> splits;
   Slice<gpu::Point> points;
   Slice<uint32_t> survivors;
   Slice<gpu::Point> centroids;

@@ -93,7 +93,9 @@ VKH_CONST uint kMaxCount = 6u;
 VKH_CONST uint kCountFrontier = 0u;   // candidates being read
 VKH_CONST uint kCountNext = 1u;       // candidates being written
 VKH_CONST uint kCountSurvivors = 2u;  // candidates past the filter in this wave
-VKH_CONST uint kCountCount = 3u;
+VKH_CONST uint kCountRefined = 3u;   // where some are deferred: refined ones that have their place,
+VKH_CONST uint kCountDeferred = 4u;  // and deferred ones
+VKH_CONST uint kCountCount = 5u;
 
 // Indirect dispatches, in the order in which a wave runs them.
 VKH_CONST uint kDispatchSubdivide = 0u;
@@ -101,7 +103,7 @@ VKH_CONST uint kDispatchQueryPoints = 1u;
 VKH_CONST uint kDispatchFilter = 2u;
 VKH_CONST uint kDispatchQueryCentroids = 3u;
 VKH_CONST uint kDispatchBound = 4u;
-VKH_CONST uint kDispatchDefer = 5u;
+VKH_CONST uint kDispatchWitness = 5u;
 VKH_CONST uint kDispatchCount = 6u;
 
 // Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
@@ -112,10 +114,13 @@ VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 VKH_CONST uint kSortPasses = 4u;
 
-// Candidates that stay free in the frontier unless a single one is refined: a candidate has at most
-// kBaryBits generations below it, each of which leaves three more than it takes, so 3 * 20 places
-// let one be refined to its end.
+// Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
+// u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
+// frontier with no more room than this is gone through depth first. A candidate has at most
+// kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places.
 VKH_CONST uint kReserve = 64u;
+
+VKH_CONST uint kPlanGroup = 256u;  // invocations of wave_plan: one plans, all select
 
 VKH_CONST uint kMaxWaveRecords = 64u;
 
@@ -174,6 +179,12 @@ struct Candidate {
   float upper;            // u: h(candidate, B) <= Control::base + upper, rounding included
 };
 
+// A refined candidate in its wave.
+struct Split {
+  uint code;    // lib/bary.h; kSplitNone where it ends here
+  uint parent;  // its place in the half of the frontier being read
+};
+
 // One closest-point query: in, a position and triangles to start from; out, the closest triangle
 // found.
 struct Point {
@@ -202,7 +213,7 @@ struct Witness {
 };
 
 struct Control {
-  uint count[3];    // kCount*
+  uint count[5];    // kCount*
   uint maximum[6];  // kMax*
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
@@ -210,8 +221,10 @@ struct Control {
   uint status;       // kStatus*
   uint root_cursor;  // faces of A before this one were admitted
   uint roots;        // faces of A admitted in this wave
-  uint deferred;  // the first `deferred` candidates of the frontier stay as they are in this wave,
-  uint parents;   // the `parents` after them are refined
+  uint deferred;     // candidates that stay as they are in this wave
+  uint parents;      // candidates that it refines
+  uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
+  uint select_tie;   // lib/candidate.glsl
   // Among a wave's new points, and among its centroids, those at the new lower: the smallest key
   // (lib/witness.glsl), and the index of one that has it; kNone.
   uint witness_point_key, witness_point;

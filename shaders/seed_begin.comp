@@ -10,7 +10,7 @@ layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
 void main() {
-  for (int i = 0; i < 3; ++i) control.count[i] = 0u;
+  for (int i = 0; i < 5; ++i) control.count[i] = 0u;
   for (int i = 0; i < 6; ++i) control.maximum[i] = 0u;
   for (int i = 0; i < 8; ++i) control.culled[i] = 0u;
   control.parity = 0u;

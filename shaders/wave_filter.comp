@@ -18,7 +18,7 @@ layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 7) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 7) readonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 9) buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 10) buffer Centroids { Point centroids[]; };
@@ -98,7 +98,7 @@ bool asks_centroid(uint code) {
 void main() {
   uint code = item_index();
   bool mine = code < 4u * control.parents + control.roots &&
-              (is_root(code) || splits[code >> 2] != kSplitNone);
+              (is_root(code) || splits[code >> 2].code != kSplitNone);
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));

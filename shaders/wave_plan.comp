@@ -1,20 +1,20 @@
 // What: everything that a wave decides as a whole: adopts the last wave's witness, flips the
 // frontier's halves, moves the base of distances, tests for the end, shares the room out between
-// refined, deferred and newly admitted candidates, writes the sizes of the wave's first half. One
-// invocation. After the end it writes zeros, so that recorded waves cost empty dispatches only.
-// Invariant: deferred + 4 parents
-// + roots <= capacity, so no stream of the wave can overflow.
+// refined, deferred and newly admitted candidates, selects which ones are refined, writes the sizes
+// of the wave's first half. One workgroup, of which one invocation plans. After the end it writes
+// zeros, so that recorded waves cost empty dispatches only. Invariant: deferred + 4 parents + roots
+// <= capacity, so no stream of the wave can overflow.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
 layout(constant_id = 0) const uint kSwitches = kUseAll;
-layout(local_size_x = 1) in;
-layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(local_size_x = kPlanGroup) in;
+layout(scalar, binding = 0) coherent buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
 layout(scalar, binding = 2) readonly buffer Frontier { Candidate frontier[]; };
-layout(scalar, binding = 3) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 3) readonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 4) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 5) readonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
@@ -85,11 +85,10 @@ void move_base() {
   control.maximum[kMaxLower] = floatBitsToUint(control.witness.distance);
 }
 
-// A refined candidate leaves at most four where it was one. The last ones are refined and their
-// children stand behind the deferred ones: a stack. While more than the reserve is free, as many as
-// surely fit; else the last one alone, whose descendants fit the reserve (kReserve), so that the
-// run always goes on. Faces of A are admitted while the frontier is at most a quarter full, so that
-// it can be refined as a whole.
+// A refined candidate leaves at most four where it was one. While more than the reserve is free, as
+// many are refined as surely fit; else one alone, whose descendants fit the reserve (kReserve), so
+// that the run always goes on. Faces of A are admitted while the frontier is at most a quarter
+// full, so that it can be refined as a whole.
 void share_room() {
   uint held = control.count[kCountFrontier];
   uint room = control.capacity - held;
@@ -102,7 +101,6 @@ void share_room() {
                       ? min(waiting, min(quarter - held, room - 3u * control.parents - kReserve))
                       : 0u;
   control.root_cursor += control.roots;
-  control.count[kCountNext] = control.deferred;
 }
 
 // All that is left is within the tolerance: what culling would find out with one more wave.
@@ -126,7 +124,104 @@ void end_if_done() {
   }
 }
 
-void main() {
+// ---- selection: the `parents` smallest keys, by digits of 8 bits from the top. A boundary that
+// leaves at least half of the room used will do.
+
+shared uint histogram[256];
+shared Key prefix;    // of the keys that are still undecided
+shared uint decided;  // digits of it
+shared uint before;   // keys under it
+shared bool selecting;
+
+uint digit_of(Key k, uint d) {
+  return ((d < 4u ? k.first : k.second) >> (24u - 8u * (d & 3u))) & 255u;
+}
+
+bool has_prefix(Key k) {
+  for (uint d = 0u; d < decided; ++d) {
+    if (digit_of(k, d) != digit_of(prefix, d)) return false;
+  }
+  return true;
+}
+
+void with_digit(inout Key k, uint d, uint value) {
+  uint shift = 24u - 8u * (d & 3u);
+  if (d < 4u) {
+    k.first = (k.first & ~(255u << shift)) | (value << shift);
+  } else {
+    k.second = (k.second & ~(255u << shift)) | (value << shift);
+  }
+}
+
+void count_digits(uint held) {
+  uint lane = gl_LocalInvocationID.x;
+  histogram[lane] = 0u;
+  barrier();
+  for (uint i = lane; i < held; i += kPlanGroup) {
+    Key k = key_of(frontier[reading(i)]);
+    if (has_prefix(k)) atomicAdd(histogram[digit_of(k, decided)], 1u);
+  }
+  barrier();
+}
+
+// Goes on with the first digit whose keys do not all fit `room`, or stops under it.
+void narrow(uint room) {
+  uint digit = 0u;
+  while (digit < 255u && before + histogram[digit] <= room) {
+    before += histogram[digit];
+    ++digit;
+  }
+  with_digit(prefix, decided, digit);
+  ++decided;
+  bool all_fit = before + histogram[digit] <= room;
+  if (all_fit) before += histogram[digit];
+  selecting = !all_fit && 2u * before < room + 1u && decided < 8u;
+  if (selecting) return;
+  // Keys under the prefix were counted: the largest of them, or the prefix itself if it was, too.
+  for (uint d = decided; d < 8u; ++d) with_digit(prefix, d, all_fit ? 255u : 0u);
+  control.select_key = prefix.first;
+  control.select_tie = prefix.second;
+  if (!all_fit && before > 0u) {
+    control.select_tie = prefix.second - 1u;
+    if (prefix.second == 0u) control.select_key = prefix.first - 1u;
+  }
+  uint refined = max(before, 1u);
+  control.deferred += control.parents - refined;
+  control.parents = refined;
+}
+
+void select_smallest(uint held) {
+  if (gl_LocalInvocationID.x == 0u) {
+    prefix = Key(0u, 0u);
+    decided = 0u;
+    before = 0u;
+    selecting = true;
+  }
+  barrier();
+  while (selecting) {
+    count_digits(held);
+    if (gl_LocalInvocationID.x == 0u) narrow(control.parents);
+    barrier();
+  }
+}
+
+void write_sizes() {
+  bool running = control.status == kStatusRunning;
+  uint parents = running ? control.parents : 0u;
+  dispatches[kDispatchSubdivide] = groups_for(running ? parents + control.deferred : 0u);
+  dispatches[kDispatchQueryPoints] =
+      groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
+  dispatches[kDispatchFilter] = groups_for(running ? 4u * parents + control.roots : 0u);
+  if (!running) return;
+  control.count[kCountNext] = control.deferred;
+  control.count[kCountRefined] = 0u;
+  control.count[kCountDeferred] = 0u;
+  control.wave += 1u;
+}
+
+shared uint held_in_short_room;  // candidates, where not all can be refined
+
+void plan() {
   if (control.status == kStatusRunning) {
     adopt_witness();
     close_wave();
@@ -135,12 +230,15 @@ void main() {
     share_room();
     end_if_done();
   }
-  bool running = control.status == kStatusRunning;
-  uint parents = running ? control.parents : 0u;
-  uint children = running ? 4u * control.parents + control.roots : 0u;
-  if (running) control.wave += 1u;
-  dispatches[kDispatchSubdivide] = groups_for(parents);
-  dispatches[kDispatchQueryPoints] =
-      groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
-  dispatches[kDispatchFilter] = groups_for(children);
+  bool short_room = control.status == kStatusRunning && control.deferred > 0u;
+  held_in_short_room = short_room ? control.count[kCountFrontier] : 0u;
+}
+
+void main() {
+  bool first = gl_LocalInvocationID.x == 0u;
+  if (first) plan();
+  memoryBarrierBuffer();
+  barrier();
+  if (held_in_short_room > 0u) select_smallest(held_in_short_room);
+  if (first) write_sizes();
 }

@@ -1,8 +1,9 @@
 // What: chooses each refined candidate's split and writes its three new points as queries.
 // Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1
-// -> 4. In: the refined candidates. Out: splits; points[3 i + k], started from the best triangle
-// known to the candidate. A candidate that the risen lower bound closes, or that is too small to be
-// decided, gets kSplitNone; its u is kept.
+// -> 4. Candidates that there is no room to refine (wave_plan's selection) are copied to the next
+// frontier. In: the frontier's reading half. Out: splits; points[3 i + k], started from the best
+// triangle known to the candidate; deferred candidates and kMaxNext. A candidate that the risen
+// lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,12 +13,12 @@
 layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
-layout(scalar, binding = 6) writeonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 6) writeonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
 layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 9) buffer Areas { Area areas[]; };
@@ -62,23 +63,42 @@ void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
   }
 }
 
+// Where refined candidate `at`, a place in the half being read, stands among the wave's parents;
+// kNone if there is no room for it in this wave: then it is copied to the next frontier. Where none
+// is deferred, places are parents.
+uint place_of(uint at, bool held, Candidate c, float upper) {
+  if (control.deferred == 0u) return held ? at : kNone;
+  bool refined = held && not_after(key_of(c), Key(control.select_key, control.select_tie));
+  uint place = stream_append(kCountRefined, refined);
+  refined = refined && place < control.parents;
+  bool deferred = held && !refined;
+  uint slot = stream_append(kCountDeferred, deferred);
+  raise(kMaxNext, deferred ? upper : 0.0);
+  c.upper = upper;
+  if (deferred) frontier[writing(slot)] = c;
+  return refined ? place : kNone;
+}
+
 void main() {
-  uint i = item_index();
-  bool mine = i < control.parents;
-  Candidate c = frontier[parent_at(mine ? i : 0u)];
+  uint at = item_index();
+  bool held = at < control.count[kCountFrontier];
+  Candidate c = frontier[reading(held ? at : 0u)];
   float upper = upper_of(c);
+  uint i = place_of(at, held, c, upper);
+  bool mine = i != kNone;
   bool closed = mine && upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   uint split = kSplitNone;
   if (mine) {
-    Bary3 at = unpack_corners(c.corners);
+    Bary3 corners = unpack_corners(c.corners);
     Root root = load_root(c.root);
     // Where the candidate is this small and still open, it is rounding that holds its u up: no
     // split helps.
-    bool tiny = enclosing_radius_up(place_corners(root, at).at) < 0.03125 * effective_tolerance();
-    if (!closed && !tiny) split = choose_split(at, root);
-    splits[i] = split;
-    close_area(split == kSplitNone, c.root, at);
-    write_points(i, c, at, root, split);
+    bool tiny =
+        enclosing_radius_up(place_corners(root, corners).at) < 0.03125 * effective_tolerance();
+    if (!closed && !tiny) split = choose_split(corners, root);
+    splits[i] = Split(split, at);
+    close_area(split == kSplitNone, c.root, corners);
+    write_points(i, c, corners, root, split);
   }
   bool ended = mine && split == kSplitNone;
   count_culled(kCullLowerRaised, closed);

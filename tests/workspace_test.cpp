@@ -190,6 +190,23 @@ TEST_CASE("a caller who cancels gets the interval so far") {
   }
 }
 
+TEST_CASE("in any memory, a run again is the same run, bit by bit") {
+  for (const Pair& pair : pairs()) {
+    for (const uint64_t bytes : {1ull, 64ull << 10, 256ull << 10}) {
+      CAPTURE(bytes);
+      const Report first = check_true(pair, with_memory(bytes));
+      for (int repeat = 0; repeat < 2; ++repeat) {
+        const Report again = check_true(pair, with_memory(bytes));
+        CHECK(again.lower == first.lower);
+        CHECK(again.upper == first.upper);
+        CHECK(again.waves == first.waves);
+        CHECK(again.candidates == first.candidates);
+        CHECK(again.witness_a.point == first.witness_a.point);
+      }
+    }
+  }
+}
+
 TEST_CASE("progress tells of intervals that are true and shrink") {
   // Little memory: many waves, so that there are many submissions.
   for (const Pair& pair : pairs()) {

@@ -86,8 +86,8 @@ double stage_ms(const vkh::Report& r, const std::string& name) {
   return 0;
 }
 
-constexpr const char* kStages[] = {"morton", "sort",   "hierarchy", "seed",  "plan",  "subdivide",
-                                   "query",  "filter", "bound",     "defer", "report"};
+constexpr const char* kStages[] = {"morton", "sort",   "hierarchy", "seed",    "plan",  "subdivide",
+                                   "query",  "filter", "bound",     "witness", "report"};
 
 void print_header(const vkh::Device& device, const Arguments& args) {
   std::printf("# device %s, driver %s, tolerance %g, repeat %d, disabled",

@@ -6,12 +6,11 @@
 #include "shaders/lib/bary.h"
 #include "shaders/lib/base.glsl"
 #include "shaders/lib/bounds.h"
+#include "shaders/lib/hash.h"
 #include "shaders/lib/root.glsl"
 
 // The half of the frontier that this wave reads, and the one that it writes.
 uint reading(uint i) { return control.parity * control.capacity + i; }
-// Refined candidates stand behind the deferred ones.
-uint parent_at(uint i) { return reading(control.deferred + i); }
 uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
 
 // A bound that was kept above the old base.
@@ -53,6 +52,28 @@ float cull_threshold(bool tolerant) {
 View view_of(Placement placed, bool plain) {
   float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
   return View(placed.origin, placed.reach, control.base, needs_sharp(distance), plain);
+}
+
+// Which candidates are refined where there is no room for all: the smallest u first; of equal ones
+// the smallest in area, so that a candidate's children come before its equals (kReserve); then by a
+// hash of what the candidate is. The choice does not depend on where in the frontier they stand.
+struct Key {
+  uint first, second;
+};
+
+Key key_of(Candidate c) {
+  Bary3 t = unpack_corners(c.corners);
+  vec2 ab = vec2(ivec2(t.b) - ivec2(t.a));
+  vec2 ac = vec2(ivec2(t.c) - ivec2(t.a));
+  // A dyadic area is a power of two: its exponent, 0 to 42, and 26 bits of the hash.
+  uint exponent = (floatBitsToUint(max(abs(ab.x * ac.y - ab.y * ac.x), 1.0)) >> 23) - 127u;
+  uint hash = mixed(mixed(mixed(mixed(mixed(0u, c.root), c.corners.x), c.corners.y), c.corners.z),
+                    c.corners.w);
+  return Key(floatBitsToUint(c.upper), (exponent << 26) | (hash >> 6));
+}
+
+bool not_after(Key k, Key than) {
+  return k.first < than.first || (k.first == than.first && k.second <= than.second);
 }
 
 #endif

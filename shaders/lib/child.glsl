@@ -48,8 +48,8 @@ uint nearest_of(Candidate parent, uint parent_index, uint point) {
 
 Child split_child(uint code) {
   uint index = code >> 2;
-  Candidate parent = frontier[parent_at(index)];
-  uint split = splits[index];
+  uint split = splits[index].code;
+  Candidate parent = frontier[reading(splits[index].parent)];
   uvec3 corner = child_points(split, code & 3u);
   Child c;
   c.root = parent.root;
@@ -68,7 +68,7 @@ Child load_child(uint code) {
 // The parent's samples are free: its other corners, its other new points, its centroid.
 void know_parent_samples(uint code, inout Known known) {
   if (is_root(code)) return;
-  Candidate parent = frontier[parent_at(code >> 2)];
+  Candidate parent = frontier[reading(splits[code >> 2].parent)];
   for (uint i = 0u; i < 6u; ++i) know(known, nearest_of(parent, code >> 2, i));
   know(known, parent.nearest_centroid);
 }

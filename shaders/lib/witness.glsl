@@ -2,21 +2,17 @@
 // that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
 // that the report says of a witness, so that two samples with one key are one to the report. First
 // every sample at the new lower bound offers its key (wave_filter, wave_bound), then those with the
-// smallest key offer their index (wave_defer), then one invocation adopts it (wave_plan,
+// smallest key offer their index (wave_witness), then one invocation adopts it (wave_plan,
 // report_begin), before the wave's streams are overwritten. Include after `control`, `frontier`,
 // `splits`, `points`, `survivors` and `centroids` are declared and lib/child.glsl is included.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
+#include "shaders/lib/hash.h"
+
 bool is_new_lower(float distance) {
   return distance == uintBitsToFloat(control.maximum[kMaxLower]) &&
          distance > control.witness.distance;
-}
-
-// A 32-bit integer hash step (multiply and xor-shift by primes; any mixing will do).
-uint mixed(uint hash, uint word) {
-  hash = (hash ^ word) * 0x9e3779b1u;
-  return hash ^ (hash >> 15);
 }
 
 uint witness_key(uint root, uvec2 at, uint nearest) {
@@ -30,8 +26,9 @@ struct Sample {
 
 Sample sample_of_point(uint p) {
   uint parent_index = p / 3u;  // uncertified: integers
-  Candidate parent = frontier[parent_at(parent_index)];
-  Bary6 six = split_points(unpack_corners(parent.corners), splits[parent_index]);
+  Split split = splits[parent_index];
+  Candidate parent = frontier[reading(split.parent)];
+  Bary6 six = split_points(unpack_corners(parent.corners), split.code);
   return Sample(parent.root, corner_of(six.fresh, p % 3u));
 }
 

@@ -1,7 +1,5 @@
-// What: keeps the candidates that this wave does not refine: copies them to the same places of the
-// next frontier; and settles the wave's witness (lib/witness.glsl). In: frontier[0, deferred); the
-// samples of the wave and the smallest key among those at the new lower bound. Out: frontier's
-// writing half, kMaxNext; control.witness_point, .witness_centroid.
+// What: settles the wave's witness (lib/witness.glsl). In: the samples of the wave and the smallest
+// key among those at the new lower bound. Out: control.witness_point, .witness_centroid.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,18 +8,17 @@
 
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 5) readonly buffer Splits { uint splits[]; };
+layout(scalar, binding = 5) readonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 6) readonly buffer Points { Point points[]; };
 layout(scalar, binding = 7) readonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 8) readonly buffer Centroids { Point centroids[]; };
 
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
-#include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
 
 void settle_witness(uint i) {
@@ -35,12 +32,4 @@ void settle_witness(uint i) {
   }
 }
 
-void main() {
-  uint i = item_index();
-  bool held = i < control.deferred;
-  Candidate c = frontier[reading(held ? i : 0u)];
-  c.upper = upper_of(c);
-  raise(kMaxNext, held ? c.upper : 0.0);
-  if (held) frontier[writing(i)] = c;
-  settle_witness(i);
-}
+void main() { settle_witness(item_index()); }
