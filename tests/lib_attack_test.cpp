@@ -224,7 +224,9 @@ math::Surface surface_of(Inputs& in, math::Two3& origin, math::Two3& p, float re
   from.origin = origin;
   const Wide reach = std::max(size(exact(origin)), size(exact(p)));
   from.reach = float_up(static_cast<double>(reach) * (1 + 0x1p-50)) * reach_factor;
+  from.base = 0.0f;
   from.sharp = true;
+  from.plain = false;
   return math::make_surface(a, b, c, from);
 }
 

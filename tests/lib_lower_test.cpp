@@ -83,5 +83,6 @@ TEST_CASE("lower.h: triangle_distance_down never exceeds the distance, and is ti
   }
   tally.conclude(count);
   const double loose = static_cast<double>(tally.counted("whole triangles, loose"));
-  CHECK(loose <= Device::kRare * static_cast<double>(tally.counted("whole triangles")));
+  // A few more, where there are few cases.
+  CHECK(loose <= 8.0 + Device::kRare * static_cast<double>(tally.counted("whole triangles")));
 }
