@@ -220,13 +220,11 @@ math::Surface surface_of(Inputs& in, math::Two3& origin, math::Two3& p, float re
   const math::Two3 a = in.two3(), b = in.two3(), c = in.two3();
   origin = in.two3();
   p = in.two3();
-  math::View from;
+  math::View from{};
   from.origin = origin;
   const Wide reach = std::max(size(exact(origin)), size(exact(p)));
   from.reach = float_up(static_cast<double>(reach) * (1 + 0x1p-50)) * reach_factor;
-  from.base = 0.0f;
   from.sharp = true;
-  from.plain = false;
   return math::make_surface(a, b, c, from);
 }
 
