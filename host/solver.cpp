@@ -25,17 +25,11 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
     {"group_walk", VKH_SWITCH_GROUP_WALK},
     {"root_centroid", VKH_SWITCH_ROOT_CENTROID}};
 
-// By how much the lower bound that steers the run can be above the one that is certified in the
-// end: a sample is measured to a point of B that 24-bit weights place, up to sqrt(3) 2^-24 off,
-// which counts where it lies next to B.
-constexpr double kRoundedWeights = 1.1e-7;
-// Tighter tolerances give up this part of themselves for it, and end at `precision` where more is
-// missing.
-constexpr double kMostForWeights = 0.1;
 // Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
-// as much off.
+// up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that
+// is certified in the end.
 constexpr double kRoundedPosition = 1.1e-7;
-// Tolerances from here on can afford both.
+// Tolerances from here on can afford that.
 constexpr double kPlainTolerance = 8 * kRoundedPosition;
 // Of the tolerance, kept for rounding it and the sum of it and the lower bound to float32.
 constexpr double kKept = 1e-4;
@@ -208,8 +202,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, double toleran
   const double tolerance = pair.frame.to_frame(tolerance_given);
   const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
   const double floor = kToleranceFloor * size;
-  const double weights = std::min(kRoundedWeights * size, kMostForWeights * tolerance);
-  const double spare = tolerance * (1 - kKept) - 2 * pair.displacement - weights -
+  const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
                        (two_float ? floor : kRoundedPosition * size);
   const double known = std::clamp(pair.frame.to_frame(options.known_lower), 0.0, 1e30);
   return {.a = {&pair.a, &pair.stored_a},

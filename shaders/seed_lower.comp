@@ -28,7 +28,8 @@ layout(scalar, push_constant) uniform PushBlock { SeedPush push; };
 Nearest look_again(uint i, uint nearest, float distance, float base, bool tight) {
   Nearest known = Nearest(nearest, 0.0, max(distance - base, 0.0));
   if (!tight || known.above == 0.0) return known;
-  known = nearest_triangle(Query(seed_point(i), base, true), nearest);
+  Query q = Query(seed_point(i), base, true);
+  known = measured(q, nearest_triangle(q, nearest));
   known.above = max(known.above, 0.0);
   return known;
 }

@@ -83,6 +83,15 @@ void bound_u4(Patch t, uvec3 nearest, View view, float shift, inout Verdict v) {
   }
 }
 
+// The child's face of A is a face of B, too.
+bool is_shared(uint root, Known known) {
+  uvec3 f = faces[root];
+  for (uint k = 0u; k < known.count; ++k) {
+    if (lies_in(vertex_at(f.x), vertex_at(f.y), vertex_at(f.z), known.triangle[k])) return true;
+  }
+  return false;
+}
+
 Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold) {
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
@@ -96,6 +105,7 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   know(known, c.nearest.z);
   if ((kSwitches & kUseParentSamples) != 0u) know_parent_samples(code, known);
 
+  if (is_root(code) && is_shared(c.root, known)) return Verdict(0.0, kCullHa);
   Verdict v = Verdict(c.upper, kCullLowerRaised);
   vec3 d[kMaxKnown];
   vec3 own = vec3(3.0e38);

@@ -79,7 +79,8 @@ void move_base() {
   rebase_maximum(kMaxSpilled);
   Witness w = control.witness;
   Two3 p = place(load_root(w.root), uvec2(w.j, w.k));
-  Nearest found = nearest_triangle(Query(p, control.base, true), w.nearest);
+  Query q = Query(p, control.base, true);
+  Nearest found = measured(q, nearest_triangle(q, w.nearest));
   control.witness.nearest = found.triangle;
   control.witness.distance = max(found.above, 0.0);
   control.maximum[kMaxLower] = floatBitsToUint(control.witness.distance);

@@ -79,6 +79,17 @@ uint place_of(uint at, bool held, Candidate c, float upper) {
   return refined ? place : kNone;
 }
 
+// Whether it is rounding that holds u up, so that no split helps: the candidate is tiny; or it lies
+// on B, where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
+// A's.
+bool is_noise(Bary3 corners, Root root, float upper) {
+  float radius = enclosing_radius_up(place_corners(root, corners).at);
+  float root_radius = enclosing_radius_up(place_corners(root, whole_root()).at);
+  float left = upper - uintBitsToFloat(control.maximum[kMaxLower]);
+  return radius < 0.03125 * effective_tolerance() ||
+         (control.base == 0.0 && left <= kUlp * root_radius);
+}
+
 void main() {
   uint at = item_index();
   bool held = at < control.count[kCountFrontier];
@@ -91,11 +102,7 @@ void main() {
   if (mine) {
     Bary3 corners = unpack_corners(c.corners);
     Root root = load_root(c.root);
-    // Where the candidate is this small and still open, it is rounding that holds its u up: no
-    // split helps.
-    bool tiny =
-        enclosing_radius_up(place_corners(root, corners).at) < 0.03125 * effective_tolerance();
-    if (!closed && !tiny) split = choose_split(corners, root);
+    if (!closed && !is_noise(corners, root, upper)) split = choose_split(corners, root);
     splits[i] = Split(split, at);
     close_area(split == kSplitNone, c.root, corners);
     write_points(i, c, corners, root, split);

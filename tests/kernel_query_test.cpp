@@ -98,8 +98,9 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
   const double found = base + above;
   CHECK_MESSAGE(there - least <= allowed(least), "a triangle at " << there << ", not " << least);
   if (two_float) {
-    // The distance to the triangle found is then taken anew from 48 bits, rounded up.
-    CHECK_MESSAGE(found >= there - 1e-13, found << " for " << there);
+    // The distance to the triangle found is then taken anew from 48 bits: rounded up, or next to
+    // the surface bounded from below, to 48 bits of coordinates but for needles and the like.
+    CHECK_MESSAGE(found >= (there > 1e-4 ? there - 1e-13 : 0.0), found << " for " << there);
     // A foot that is off sideways by rounding costs little, but next to the surface.
     CHECK_MESSAGE(found <= std::hypot(there, 1e-6) * (1 + 1e-5), found << " for " << there);
   } else {

@@ -198,6 +198,17 @@ TEST_CASE("a triangle against a triangle") {
   check_closed(single_triangle({5, 0, 0}, {6, 0, 0}, {5, 1, 0}), t, 5);
 }
 
+TEST_CASE("a mesh against itself: [0, u] with u under 1e-9 of its diagonal") {
+  for (const Mesh& mesh :
+       {icosphere(1.0, 3), torus(1.0, 0.3, 24, 12), square_patch(9, 0.25), soup(5, 80)}) {
+    CAPTURE(mesh.faces.size());
+    const Report r = distance(mesh, mesh, with_tolerance(1e-9));
+    CAPTURE(text(r));
+    CHECK(r.lower == 0.0);
+    CHECK(r.upper <= 1e-9 * r.diagonal_a);
+  }
+}
+
 TEST_CASE("a large mesh against itself is decided by its corners") {
   const Mesh a = icosphere(1.0, 5);     // 20,480 faces
   const Mesh b = height_field(118, 1);  // 27,848 faces

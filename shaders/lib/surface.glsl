@@ -16,6 +16,26 @@ Surface load_surface(uint i, View from) {
                       Two3(triangles[i].c, low.c), from);
 }
 
+bool is_corner(Two3 p, Two3 a, Two3 b, Two3 c) {
+  return (p.hi == a.hi && p.lo == a.lo) || (p.hi == b.hi && p.lo == b.lo) ||
+         (p.hi == c.hi && p.lo == c.lo);
+}
+
+// Whether each corner of a triangle is one of triangle i: then it lies in that, and its distance
+// from B is 0 whatever the rounding.
+bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
+  TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
+  if (control.two_float != 0u) {
+    low.a = triangle_lows[i].a;
+    low.b = triangle_lows[i].b;
+    low.c = triangle_lows[i].c;
+  }
+  Two3 a = Two3(triangles[i].a, low.a);
+  Two3 b = Two3(triangles[i].b, low.b);
+  Two3 c = Two3(triangles[i].c, low.c);
+  return is_corner(p, a, b, c) && is_corner(q, a, b, c) && is_corner(r, a, b, c);
+}
+
 // To measure one point from, as precisely as it goes.
 View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false); }
 
