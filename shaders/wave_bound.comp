@@ -105,7 +105,8 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   know(known, c.nearest.z);
   if ((kSwitches & kUseParentSamples) != 0u) know_parent_samples(code, known);
 
-  if (is_root(code) && is_shared(c.root, known)) return Verdict(0.0, kCullHa);
+  if ((is_root(code) || control.base == 0.0) && is_shared(c.root, known))
+    return Verdict(0.0, kCullHa);
   Verdict v = Verdict(c.upper, kCullLowerRaised);
   vec3 d[kMaxKnown];
   vec3 own = vec3(3.0e38);
