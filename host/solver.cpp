@@ -31,6 +31,9 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
 constexpr double kRoundedPosition = 1.1e-7;
 // Tolerances from here on can afford that.
 constexpr double kPlainTolerance = 8 * kRoundedPosition;
+// With low parts, feet placed by 24-bit weights leave as much; tighter tolerances give up this part
+// of themselves for it.
+constexpr double kMostForWeights = 0.1;
 // Of the tolerance, kept for rounding it and the sum of it and the lower bound to float32.
 constexpr double kKept = 1e-4;
 // 48-bit arithmetic in a frame of order 1 leaves less than this (3.9e-11 seen, where faces of A and
@@ -202,8 +205,9 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, double toleran
   const double tolerance = pair.frame.to_frame(tolerance_given);
   const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
   const double floor = kToleranceFloor * size;
+  const double weights = std::min(kRoundedPosition * size, kMostForWeights * tolerance);
   const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
-                       (two_float ? floor : kRoundedPosition * size);
+                       (two_float ? floor + weights : kRoundedPosition * size);
   const double known = std::clamp(pair.frame.to_frame(options.known_lower), 0.0, 1e30);
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
