@@ -3,7 +3,25 @@
 
 namespace vkh {
 
+namespace {
+
 constexpr uint32_t kNegative = 0xbf800000u;  // -1.0f
+
+// One item a vertex of A, and one for the last run's witness where `push.warm`.
+template <class Kernel>
+void record_walks(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
+  rec.run<Kernel>({.vertices = p.ws.vertices,
+                   .nodes = p.b.nodes,
+                   .triangles = p.b.triangles,
+                   .vertex_nearest = p.ws.vertex_nearest,
+                   .vertex_distance = p.ws.vertex_distance,
+                   .control = p.ws.control,
+                   .triangle_lows = p.b.triangle_lows,
+                   .faces = p.ws.faces},
+                  push, Items{p.vertex_count + push.warm});
+}
+
+}  // namespace
 
 void record_seed(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("seed");
@@ -17,29 +35,12 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .warm = p.warm ? 1u : 0u};
   const gpu::SeedPush seed{
       .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
-  const Items points{p.vertex_count + seed.warm};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});
   rec.fill(ws.vertex_distance, kNegative, Order::kIndependent);
   rec.run<k::SeedMark>({.faces = ws.faces, .vertex_distance = ws.vertex_distance}, faces,
                        Items{p.face_count});
-  rec.run<k::SeedQuery>({.vertices = ws.vertices,
-                         .nodes = p.b.nodes,
-                         .triangles = p.b.triangles,
-                         .vertex_nearest = ws.vertex_nearest,
-                         .vertex_distance = ws.vertex_distance,
-                         .control = ws.control,
-                         .triangle_lows = p.b.triangle_lows,
-                         .faces = ws.faces},
-                        seed, points);
-  rec.run<k::SeedLower>({.vertices = ws.vertices,
-                         .nodes = p.b.nodes,
-                         .triangles = p.b.triangles,
-                         .vertex_nearest = ws.vertex_nearest,
-                         .vertex_distance = ws.vertex_distance,
-                         .control = ws.control,
-                         .triangle_lows = p.b.triangle_lows,
-                         .faces = ws.faces},
-                        seed, points);
+  record_walks<k::SeedQuery>(rec, p, seed);
+  record_walks<k::SeedLower>(rec, p, seed);
   rec.run<k::SeedWitness>(
       {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
       Items{p.face_count});

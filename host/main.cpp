@@ -95,13 +95,13 @@ class ProgressLine {
   Clock::time_point last_;
 };
 
-void check_switches(const std::vector<std::string>& disabled) {
+void check_switches(const char* option, const std::vector<std::string>& names) {
   const std::vector<std::string> known = switch_names();
-  for (const std::string& name : disabled) {
+  for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string list;
     for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
-    throw UsageError("--disable '" + name + "': expected one of " + list);
+    throw UsageError(std::string(option) + " '" + name + "': expected one of " + list);
   }
 }
 
@@ -114,7 +114,8 @@ Request understand(const Arguments& arguments) {
   if (!arguments.memory.empty()) options.memory_bytes = parse_memory(arguments.memory);
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
-  check_switches(arguments.disabled);
+  check_switches("--enable", arguments.enabled);
+  check_switches("--disable", arguments.disabled);
   options.enabled = arguments.enabled;
   options.coverage = arguments.verify;
   options.disabled = arguments.disabled;

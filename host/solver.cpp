@@ -200,7 +200,8 @@ struct Watch {
 
 // How finely the device has to work. Its errors are relative to the coordinates, which a prepared
 // B's frame lets exceed 1.
-RunInput input_for(const Pair& pair, const SolveOptions& options, double tolerance_given) {
+RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
+                   double tolerance_given) {
   const double size = std::max(1.0, pair.frame.reach(pair.joint));
   const double tolerance = pair.frame.to_frame(tolerance_given);
   const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
@@ -212,7 +213,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, double toleran
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
           .resident = pair.resident,
-          .switches = 0,
+          .switches = switches,
           .memory_bytes = options.memory_bytes,
           .wave_limit = options.wave_limit,
           .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
@@ -236,8 +237,7 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   out.tolerance =
       options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
   out.known_lower = options.known_lower;
-  RunInput in = input_for(pair, options, out.tolerance);
-  in.switches = switches_of(options, device);
+  RunInput in = input_for(pair, options, switches_of(options, device), out.tolerance);
   Watch watch{options, pair, out.diagonal_a, start};
   in.advanced = [&](const VkhReport& r) { return watch(r); };
   const double framed_ms = ms_since(start);

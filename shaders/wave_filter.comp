@@ -15,17 +15,16 @@ layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
-layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
-layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 7) readonly buffer Splits { Split splits[]; };
-layout(scalar, binding = 8) readonly buffer Points { Point points[]; };
-layout(scalar, binding = 9) buffer Survivors { uint survivors[]; };
-layout(scalar, binding = 10) buffer Centroids { Point centroids[]; };
-layout(scalar, binding = 11) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
-layout(scalar, binding = 12) buffer Areas { Area areas[]; };
+layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 5) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 6) readonly buffer Splits { Split splits[]; };
+layout(scalar, binding = 7) readonly buffer Points { Point points[]; };
+layout(scalar, binding = 8) buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 9) buffer Centroids { Point centroids[]; };
+layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 
-#include "shaders/lib/bvh.glsl"
+#include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"

@@ -11,22 +11,14 @@
 
 #include "host/error.h"
 #include "host/frame.h"
-#include "host/solver.h"
-#include "tests/support/kernel_bench.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solver_bench.h"
 
 namespace {
 
 using namespace vkh;
 using namespace vkh::test;
-
-Solver& solver() {
-  static Solver one(test_device());
-  return one;
-}
-
-Interval interval(const Report& r) { return {r.lower, r.upper}; }
 
 std::string text(const Report& r) {
   return std::string(status_name(r.status)) + " [" + std::to_string(r.lower) + ", " +

@@ -8,11 +8,10 @@
 #include <functional>
 #include <string>
 
-#include "host/solver.h"
 #include "tests/support/cgal_oracle.h"
-#include "tests/support/kernel_bench.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solver_bench.h"
 
 namespace {
 
@@ -48,13 +47,6 @@ const Kind kKinds[] = {
        return single_triangle(r.in_cube(1.0), r.in_cube(1.0), r.in_cube(1.0));
      }},
 };
-
-Solver& solver() {
-  static Solver one(test_device());
-  return one;
-}
-
-Interval interval(const Report& r) { return {r.lower, r.upper}; }
 
 void check_against(const Interval& oracle, const Mesh& a, const Mesh& b,
                    const SolveOptions& options) {

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "host/error.h"
-#include "tests/support/kernel_bench.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solver_bench.h"
 
 namespace {
 
@@ -26,8 +26,6 @@ Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {}) 
   CHECK(r.lower <= r.upper);
   return r;
 }
-
-Interval interval(const Report& r) { return {r.lower, r.upper}; }
 
 std::string text(const Report& r) {
   return std::string(status_name(r.status)) + " [" + std::to_string(r.lower) + ", " +

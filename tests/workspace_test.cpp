@@ -7,22 +7,14 @@
 #include <string>
 
 #include "host/error.h"
-#include "host/solver.h"
-#include "tests/support/kernel_bench.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solver_bench.h"
 
 namespace {
 
 using namespace vkh;
 using namespace vkh::test;
-
-Solver& solver() {
-  static Solver one(test_device());
-  return one;
-}
-
-Interval interval(const Report& r) { return {r.lower, r.upper}; }
 
 struct Pair {
   std::string name;

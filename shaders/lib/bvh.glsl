@@ -91,8 +91,9 @@ Nearest measured(Query q, Nearest best) {
   if (q.tight && best.above > next) return best;
   Surface s = load_surface(best.triangle, view_from(q.p, q.base));
   if (!q.tight) best.above = surface_distance_up(two(vec3(0.0)), s);
-  bool raises = best.above > uintBitsToFloat(control.maximum[kMaxLower]);  // else it is no matter
-  if (raises && best.above <= next) best.above = triangle_distance_down(s, 3.0e38);
+  // Not above the last witness, it is no matter. Not kMaxLower: others raise it at the same time.
+  bool matters = best.above > control.witness.distance;
+  if (matters && best.above <= next) best.above = triangle_distance_down(s, 3.0e38);
   return best;
 }
 
