@@ -41,9 +41,17 @@ void record_seed(Recorder& rec, const Problem& p) {
                        Items{p.face_count});
   record_walks<k::SeedQuery>(rec, p, seed);
   record_walks<k::SeedLower>(rec, p, seed);
-  rec.run<k::SeedWitness>(
-      {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
-      Items{p.face_count});
+  rec.run<k::SeedFaces>({.faces = ws.faces,
+                         .vertex_distance = ws.vertex_distance,
+                         .control = ws.control,
+                         .vertices = ws.vertices,
+                         .triangles = p.b.triangles,
+                         .triangle_lows = p.b.triangle_lows,
+                         .codes = p.b.codes,
+                         .box = p.b.box,
+                         .face_shared = ws.face_shared},
+                        {.face_count = p.face_count, .triangle_count = p.b.face_count},
+                        Items{p.face_count});
   rec.run<k::SeedAdopt>({.vertices = ws.vertices,
                          .faces = ws.faces,
                          .vertex_nearest = ws.vertex_nearest,

@@ -31,6 +31,9 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/witness.glsl"
 
+const uint kAdoptGroup = kPlanGroup;
+#include "shaders/lib/adopt.glsl"
+
 // Adds what the wave before this one did to the totals.
 void close_wave() {
   if (control.wave == 0u) return;
@@ -212,7 +215,9 @@ void write_sizes() {
   dispatches[kDispatchSubdivide] = groups_for(running ? parents + control.deferred : 0u);
   dispatches[kDispatchQueryPoints] =
       groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
-  dispatches[kDispatchFilter] = groups_for(running ? 4u * parents + control.roots : 0u);
+  uint children = running ? 4u * parents + control.roots : 0u;
+  dispatches[kDispatchFilter] = groups_for(children);
+  dispatches[kDispatchBound] = groups_for_children(children, (kSwitches & kUseGroupWalk) != 0u);
   if (!running) return;
   control.count[kCountNext] = control.deferred;
   control.count[kCountRefined] = 0u;
@@ -224,7 +229,6 @@ shared uint held_in_short_room;  // candidates, where not all can be refined
 
 void plan() {
   if (control.status == kStatusRunning) {
-    adopt_witness();
     close_wave();
     flip();
     move_base();
@@ -237,6 +241,7 @@ void plan() {
 
 void main() {
   bool first = gl_LocalInvocationID.x == 0u;
+  adopt_witness();
   if (first) plan();
   memoryBarrierBuffer();
   barrier();
