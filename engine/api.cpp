@@ -50,6 +50,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
           .asks_centroids = (context.switches & gpu::kUseCentroid) != 0,
+          .walks_in_groups = (context.switches & gpu::kUseGroupWalk) != 0,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};

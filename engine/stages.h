@@ -25,8 +25,9 @@ struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
   float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
-  bool warm = false;           // the workspace holds an earlier run to start from
-  bool asks_centroids = true;  // the context's kUseCentroid: waves have a filter
+  bool warm = false;  // the workspace holds an earlier run to start from
+  // The context's switches: waves have a filter; few queries are workgroups.
+  bool asks_centroids = true, walks_in_groups = true;
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =

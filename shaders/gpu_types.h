@@ -112,6 +112,8 @@ VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 VKH_CONST uint kSortPasses = 4u;
+// Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
+VKH_CONST uint kSortFewBlocks = 64u;
 
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
@@ -120,6 +122,9 @@ VKH_CONST uint kSortPasses = 4u;
 VKH_CONST uint kReserve = 64u;
 
 VKH_CONST uint kPlanGroup = 256u;  // invocations of wave_plan: one plans, all select
+
+// wave_subdivide: invocations of a candidate where kUseGroupWalk is on.
+VKH_CONST uint kSplitLanes = 4u;
 
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
 // small, so that it fills the device. Measured on an H200 (docs/measurements.md).

@@ -1,8 +1,8 @@
-// What: where centroids are queried, the cheap half of the cascade, over every child: exact case, u1, u2, ha with
-// the triangles already known. In: the refined candidates, their splits and queried points; the
-// admitted faces of A. Out: survivors (codes), and for each its centroid as a query that starts
-// from the best single triangle. Every closed child's u is kept (kMaxDropped). Also offers the new
-// points that may become the witness.
+// What: where centroids are queried, the cheap half of the cascade, over every child: exact case,
+// u1, u2, ha with the triangles already known. In: the refined candidates, their splits and queried
+// points; the admitted faces of A. Out: survivors (codes), and for each its centroid as a query
+// that starts from the best single triangle. Every closed child's u is kept (kMaxDropped). Also
+// offers the new points that may become the witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

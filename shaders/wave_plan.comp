@@ -212,12 +212,13 @@ void select_smallest(uint held) {
 void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
-  dispatches[kDispatchSubdivide] = groups_for(running ? parents + control.deferred : 0u);
-  dispatches[kDispatchQueryPoints] =
-      groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
+  bool spread = (kSwitches & kUseGroupWalk) != 0u;
+  uint held = running ? parents + control.deferred : 0u;
+  dispatches[kDispatchSubdivide] = groups_for(spread ? kSplitLanes * held : held);
+  dispatches[kDispatchQueryPoints] = groups_for_queries(3u * parents, spread);
   uint children = running ? 4u * parents + control.roots : 0u;
   dispatches[kDispatchFilter] = groups_for(children);
-  dispatches[kDispatchBound] = groups_for_children(children, (kSwitches & kUseGroupWalk) != 0u);
+  dispatches[kDispatchBound] = groups_for_children(children, spread);
   if (!running) return;
   control.count[kCountNext] = control.deferred;
   control.count[kCountRefined] = 0u;
