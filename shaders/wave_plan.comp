@@ -21,8 +21,8 @@ layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 7) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 8) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 10) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 11) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 10) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 11) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
 #include "shaders/lib/bvh.glsl"
