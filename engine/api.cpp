@@ -56,10 +56,11 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
 }
 
-bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize range) {
+bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize face_bytes,
+               VkDeviceSize range) {
   return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
          face_count <= gpu::kMaxTriangles && vertex_count * sizeof(gpu::Vertex) <= range &&
-         face_count * sizeof(gpu::Node) <= range;
+         face_count * face_bytes <= range;
 }
 
 }  // namespace
@@ -98,7 +99,8 @@ void vkhDestroyContext(VkhContext context) {
 
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhHierarchyRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
+  if (!vkh::mesh_fits(vertexCount, faceCount, sizeof(vkh::gpu::Node),
+                      context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
   *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount)};
   return VKH_SUCCESS;
@@ -106,7 +108,8 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
 
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
+  if (!vkh::mesh_fits(vertexCount, faceCount, sizeof(vkh::gpu::uvec3),
+                      context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
   // A frontier is refined whole while four times its length fits; few pairs hold more than 2^18

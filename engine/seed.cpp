@@ -9,8 +9,8 @@ constexpr uint32_t kNegative = 0xbf800000u;  // -1.0f
 
 // One item a vertex of A, and one for the last run's witness where `push.warm`.
 void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
-  // As lib/dispatch.glsl has it: a workgroup an item where they are few.
-  const bool in_groups = p.walks_in_groups && p.vertex_count <= gpu::kGroupWalkQueries;
+  // As seed_query has it: a workgroup an item where they are few.
+  const bool in_groups = p.walks_in_groups && p.vertex_count <= gpu::kGroupWalkVertices;
   const uint32_t items = p.vertex_count + push.warm;
   const uint32_t groups = in_groups ? items : (items + gpu::kQueryGroup - 1) / gpu::kQueryGroup;
   rec.run<k::SeedQuery>({.vertices = p.ws.vertices,

@@ -5,12 +5,15 @@
 
 namespace vkh {
 
-void record_sort(Recorder& rec, const BuildScratch& s, uint32_t count) {
+uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
+
+void record_sort(Recorder& rec, const BuildScratch& s, uint32_t count, uint32_t first_bit) {
+  const uint32_t passes = (32 - first_bit) / 8;
   const uint32_t blocks = (count + gpu::kSortBlock - 1) / gpu::kSortBlock;
-  for (uint32_t pass = 0; pass < gpu::kSortPasses; ++pass) {
-    const uint32_t from = pass % 2;
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    const uint32_t from = (passes - pass) % 2;
     const uint32_t to = 1 - from;
-    const gpu::SortPush push{.count = count, .shift = 8 * pass, .blocks = blocks};
+    const gpu::SortPush push{.count = count, .shift = first_bit + 8 * pass, .blocks = blocks};
     rec.run<k::SortCount>({.keys = s.keys[from], .counts = s.counts}, push, Groups{blocks});
     if (blocks > gpu::kSortFewBlocks) {
       rec.run<k::SortScan>({.counts = s.counts, .totals = s.totals}, push,

@@ -11,8 +11,11 @@ namespace vkh {
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
-// Sorts scratch.keys[0] with scratch.values[0], stable, ascending; the result is on side 0 again.
-void record_sort(Recorder& rec, const BuildScratch& scratch, uint32_t count);
+// Sorts scratch.keys with scratch.values by bits first_bit and up, 8 a pass, stable, ascending:
+// from the side that sort_side names to side 0.
+uint32_t sort_side(uint32_t first_bit);
+void record_sort(Recorder& rec, const BuildScratch& scratch, uint32_t count,
+                 uint32_t first_bit = 0);
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
                   const Hierarchy& hierarchy);

@@ -19,9 +19,9 @@ constexpr VkBufferUsageFlags kWorking =
 constexpr uint32_t kFirstWaves = 8;
 constexpr uint32_t kFirstWavesOnCpu = 2;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard; an empty wave costs
-// little.
+// little, but a few of them as much as another report.
 constexpr double kSubmissionMs = 100;
-constexpr uint32_t kMostWaves = 8;
+constexpr uint32_t kMostWaves = 4;
 
 uint32_t next_waves(uint32_t last, double last_ms) {
   const double per_wave = std::max(last_ms / last, 1e-3);

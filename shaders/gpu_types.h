@@ -38,8 +38,10 @@ VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
 // Invocations of wave_query: one query each, or one for all where a wave has few queries.
 VKH_CONST uint kQueryGroup = 32u;
-VKH_CONST uint kGroupWalkQueries = 1u << 14;  // up to so many are few: measured on an H200,
+VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: measured on an H200,
                                               // where 12,000 a dispatch take equally long
+// Vertices of A, whose walks start from nowhere: the group's is long, too.
+VKH_CONST uint kGroupWalkVertices = 1u << 11;
 VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds; more: walk alone
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
@@ -105,13 +107,16 @@ VKH_CONST uint kDispatchQueryCentroids = 3u;
 VKH_CONST uint kDispatchBound = 4u;
 VKH_CONST uint kDispatchCount = 5u;
 
-// Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
+// Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts
 // at a time.
 VKH_CONST uint kSortGroup = 256u;
 VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
-VKH_CONST uint kSortPasses = 4u;
+// Up to so many faces are told apart well enough by 24 bits of their codes: the lowest 6 are 0, and
+// are not sorted by.
+VKH_CONST uint kFewFaces = 1u << 16;
+VKH_CONST uint kFewFacesFirstBit = 6u;
 // Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
 VKH_CONST uint kSortFewBlocks = 64u;
 

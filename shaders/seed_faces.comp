@@ -52,7 +52,7 @@ bool is_face_of_b(uvec3 f) {
   Two3 p = vertex_at(f.x);
   Two3 q = vertex_at(f.y);
   Two3 r = vertex_at(f.z);
-  uint code = face_code(face_middle(p.hi, q.hi, r.hi), box);
+  uint code = face_code(face_middle(p.hi, q.hi, r.hi), box, push.triangle_count);
   uint first = first_with(code);
   uint end = min(push.triangle_count, first + kMostOfOneCode);
   for (uint i = first; i < end && codes[i] == code; ++i) {

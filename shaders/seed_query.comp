@@ -60,7 +60,7 @@ float answer(uint i, vec3 p, Nearest found) {
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  bool in_groups = (kSwitches & kUseGroupWalk) != 0u && walks_in_groups(push.vertex_count);
+  bool in_groups = (kSwitches & kUseGroupWalk) != 0u && push.vertex_count <= kGroupWalkVertices;
   uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   bool is_vertex = i < push.vertex_count && vertex_distance[i] >= 0.0;
   float d = 0.0;
