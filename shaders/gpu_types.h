@@ -143,6 +143,10 @@ VKH_CONST uint kMaxOffers = 64u;  // of a wave; where there are more, all its sa
 
 VKH_CONST uint kMaxWaveRecords = 64u;
 
+// What seed_faces says of a vertex of A: 0 where no face uses it.
+VKH_CONST uint kVertexUsed = 1u;
+VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
+
 // Status codes of the report.
 VKH_CONST uint kStatusRunning =
     0u;  // candidates are left: advance further, or take the interval as it is

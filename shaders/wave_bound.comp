@@ -111,10 +111,14 @@ void main() {
   uint centre = kNone;
   if (mine) {
     offer(i, code);
+    c.root = root_of(code);
+    c.at = whole_root();
+    bounded = !(is_root(code) && face_shared[c.root] != 0u);
+  }
+  if (bounded) {
     c = load_child(code);
     centre = centre_of(i);
-    bounded = !(is_root(code) && face_shared[c.root] != 0u);
-    if (bounded) hold(lane, c, known_to(c, code, centre));
+    hold(lane, c, known_to(c, code, centre));
   }
   barrier();
   measure_corners(fine);
