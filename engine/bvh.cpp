@@ -80,19 +80,19 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
                          .box = s.centroid_box,
-                         .keys = s.keys[0],
-                         .values = s.values[0]},
+                         .keys = s.sort.keys[0],
+                         .values = s.sort.values[0]},
                         count, faces);
   rec.stage("morton");
-  record_sort(rec, s, b.faceCount);
+  record_sort(rec, s.sort, b.faceCount);
   rec.stage("sort");
   rec.run<k::BvhLeaves>({.vertices = h.vertices,
                          .faces = h.faces,
-                         .values = s.values[0],
+                         .values = s.sort.values[0],
                          .triangles = h.triangles,
                          .triangle_lows = h.triangle_lows},
                         count, faces);
-  rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
+  rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .nodes = h.nodes}, count, faces);
   record_boxes(rec, h);
   rec.stage("hierarchy");
 }

@@ -32,7 +32,8 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .cull_tolerance = p.cull_tolerance,
                              .known_lower = p.known_lower,
                              .two_float = p.two_float ? 1u : 0u,
-                             .warm = p.warm ? 1u : 0u};
+                             .warm = p.warm ? 1u : 0u,
+                             .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom};
   const gpu::SeedPush seed{
       .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});

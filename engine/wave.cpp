@@ -11,6 +11,11 @@ Slice<gpu::Area> areas_of(const Problem& p) {
   return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
 }
 
+// Likewise, without kUseSort.
+Slice<uint32_t> order_of(const Problem& p) {
+  return (p.switches & gpu::kUseSort) != 0 ? p.ws.sort.values[0] : p.ws.lower_bits;
+}
+
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -41,7 +46,8 @@ void record_subdivide(Recorder& rec, const Problem& p) {
                                       .splits = ws.splits,
                                       .points = ws.points,
                                       .triangle_lows = p.b.triangle_lows,
-                                      .areas = areas_of(p)},
+                                      .areas = areas_of(p),
+                                      .order = order_of(p)},
                                      {}, ws.dispatch(gpu::kDispatchSubdivide));
   rec.stage("subdivide");
 }
@@ -57,6 +63,22 @@ void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& poin
                                   .boxes = p.b.pyramid},
                                  push, p.ws.dispatch(dispatch));
   rec.stage("query");
+}
+
+// The new points: packets, unless the wave has few and a workgroup walks for each; the plan knows.
+void record_query_points(Recorder& rec, const Problem& p) {
+  const bool packets = (p.switches & gpu::kUsePacket) != 0;
+  if (packets) {
+    rec.run_indirect<k::WavePacket>({.control = p.ws.control,
+                                     .nodes = p.b.nodes,
+                                     .triangles = p.b.triangles,
+                                     .points = p.ws.points,
+                                     .triangle_lows = p.b.triangle_lows},
+                                    {}, p.ws.dispatch(gpu::kDispatchPacket));
+    rec.stage("query");
+  }
+  if (!packets || (p.switches & gpu::kUseGroupWalk) != 0)
+    record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
 }
 
 void record_filter(Recorder& rec, const Problem& p) {
@@ -116,8 +138,9 @@ void record_witness(Recorder& rec, const Problem& p) {
 void record_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");
   record_plan(rec, p);
+  if ((p.switches & gpu::kUseSort) != 0) record_wave_sort(rec, p);
   record_subdivide(rec, p);
-  record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
+  record_query_points(rec, p);
   record_filter(rec, p);
   record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);

@@ -62,7 +62,13 @@ VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's know
 VKH_CONST uint kUseGroupWalk = 256u;     // few queries: a workgroup walks for one
 VKH_CONST uint kUseRootCentroid = 512u;  // query the centroid of a whole face of A, if of no other
 VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
-VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u;
+VKH_CONST uint kUseSort = 2048u;         // sort the frontier before it is refined
+VKH_CONST uint kUsePacket = 4096u;       // an invocation walks for a candidate's three new points
+VKH_CONST uint kUseDefer = 8192u;        // candidates that there is no room to refine wait
+VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refined first
+VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
+// The method of ours: without what the paper has in another place.
+VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
@@ -104,7 +110,11 @@ VKH_CONST uint kDispatchFilter = 2u;
 VKH_CONST uint kDispatchQueryCentroids = 3u;
 VKH_CONST uint kDispatchBound = 4u;
 VKH_CONST uint kDispatchWitness = 5u;
-VKH_CONST uint kDispatchCount = 6u;
+VKH_CONST uint kDispatchPacket = 6u;      // in place of kDispatchQueryPoints
+VKH_CONST uint kDispatchSortKeys = 7u;    // the sort of the frontier: its keys,
+VKH_CONST uint kDispatchSortBlocks = 8u;  // blocks of them,
+VKH_CONST uint kDispatchSortDigits = 9u;  // digits
+VKH_CONST uint kDispatchCount = 10u;
 
 // Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
 // at a time.
@@ -113,6 +123,13 @@ VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 VKH_CONST uint kSortPasses = 4u;
+
+// The frontier's sort key: defer | mode | morton30 (paper.md eq. 4).
+VKH_CONST uint kKeyDeferred = 0x80000000u;
+VKH_CONST uint kKeyThin = 0x40000000u;
+// Frontiers of fewer candidates are not sorted unless a run says otherwise: thirteen dispatches
+// more a wave, 45 us on an H200 by its price of one, against walks that take 16 us for so few.
+VKH_CONST uint kSortFrom = 1u << 14;
 
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
@@ -225,6 +242,10 @@ struct Control {
   uint parents;      // candidates that it refines
   uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
   uint select_tie;   // lib/candidate.glsl
+  uint select_largest;  // in this wave the largest u come first
+  uint sort_from;       // frontiers of fewer candidates are not sorted
+  uint sorted;          // this wave's is
+  uint lost;            // candidates that could neither be refined nor wait
   // Among a wave's new points, and among its centroids, those at the new lower: the smallest key
   // (lib/witness.glsl), and the index of one that has it; kNone.
   uint witness_point_key, witness_point;
@@ -329,9 +350,7 @@ struct PyramidPush {
 };
 
 struct SortPush {
-  uint count;
-  uint shift;   // of the digit in the key
-  uint blocks;  // ceil(count / kSortBlock)
+  uint shift;  // of the digit in the key
 };
 
 // wave_query: which stream of points.
@@ -347,6 +366,7 @@ struct BeginPush {
   float known_lower;
   uint two_float;
   uint warm;  // the last run's witness is kept
+  uint sort_from;
 };
 
 // seed_query: A's vertices and, where `warm`, the last run's witness behind them.

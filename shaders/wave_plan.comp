@@ -29,6 +29,7 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/schedule.glsl"
 #include "shaders/lib/witness.glsl"
 
 // Adds what the wave before this one did to the totals.
@@ -96,6 +97,8 @@ void share_room() {
   control.parents =
       min(held, room > kReserve + 3u ? (room - kReserve) / 3u : 1u);  // uncertified: integers
   control.deferred = held - control.parents;
+  held = schedule(held, room);
+  room = control.capacity - held;
   uint quarter = (control.capacity - kReserve) / 4u;  // uncertified: integers
   uint waiting = control.face_count - control.root_cursor;
   control.roots = held < quarter
@@ -113,7 +116,7 @@ bool within_tolerance() {
 void end_if_done() {
   if (within_tolerance() && control.roots == 0u) {
     control.maximum[kMaxDropped] = max(control.maximum[kMaxDropped], control.maximum[kMaxFrontier]);
-    control.status = control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+    control.status = status_decided();
     return;
   }
   if (control.parents + control.roots > 0u) return;
@@ -121,7 +124,7 @@ void end_if_done() {
     control.maximum[kMaxSpilled] = max(control.maximum[kMaxSpilled], control.maximum[kMaxFrontier]);
     control.status = kStatusMemory;
   } else {
-    control.status = control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+    control.status = status_decided();
   }
 }
 
@@ -210,11 +213,11 @@ void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
   dispatches[kDispatchSubdivide] = groups_for(running ? parents + control.deferred : 0u);
-  dispatches[kDispatchQueryPoints] =
-      groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
+  write_query_sizes(parents);
+  write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
   dispatches[kDispatchFilter] = groups_for(running ? 4u * parents + control.roots : 0u);
   if (!running) return;
-  control.count[kCountNext] = control.deferred;
+  control.count[kCountNext] = may_wait() ? control.deferred : 0u;
   control.count[kCountRefined] = 0u;
   control.count[kCountDeferred] = 0u;
   control.wave += 1u;
@@ -231,7 +234,7 @@ void plan() {
     share_room();
     end_if_done();
   }
-  bool short_room = control.status == kStatusRunning && control.deferred > 0u;
+  bool short_room = control.status == kStatusRunning && control.deferred > 0u && may_wait();
   held_in_short_room = short_room ? control.count[kCountFrontier] : 0u;
 }
 
