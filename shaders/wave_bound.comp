@@ -28,6 +28,7 @@ layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
+#include "shaders/lib/paper_u3.glsl"
 #include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
 
@@ -118,6 +119,10 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   float simple = kept_bound(min(bound_u1(t, own), bound_u2(t, own)), shift);
   if (simple < v.upper) v = Verdict(simple, kCullU2);
   if (v.upper <= threshold) return v;
+  if ((kSwitches & kUsePaperU3) != 0u) {
+    float u3 = kept_bound(paper_u3(t, c.nearest, view), shift);
+    if (u3 < v.upper) v = Verdict(u3, kCullU3);
+  }
   if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, view, shift, threshold, v);
   if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, view, shift, v);
   return v;
