@@ -103,6 +103,7 @@ std::array<uint32_t, kKernelCount> costliest_first(
 bool is_needed(uint32_t kernel, uint32_t switches) {
   if (kernel == kIndexOfWavePacket) return (switches & gpu::kUsePacket) != 0;
   if (kernel == kIndexOfWaveSort) return (switches & gpu::kUseSort) != 0;
+  if (kernel == kIndexOfWaveBisect) return (switches & gpu::kUsePaperU3) != 0;
   return true;
 }
 

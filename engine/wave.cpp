@@ -16,6 +16,12 @@ Slice<uint32_t> order_of(const Problem& p) {
   return (p.switches & gpu::kUseSort) != 0 ? p.ws.sort.values[0] : p.ws.lower_bits;
 }
 
+// Likewise, without kUsePaperU3.
+Slice<float> u3_bounds_of(const Problem& p) {
+  if ((p.switches & gpu::kUsePaperU3) != 0) return p.ws.u3_bounds;
+  return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
+}
+
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -100,8 +106,25 @@ void record_filter(Recorder& rec, const Problem& p) {
   rec.stage("filter");
 }
 
+void record_bisect(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run_indirect<k::WaveBisect>({.control = ws.control,
+                                   .frontier = ws.frontier,
+                                   .vertices = ws.vertices,
+                                   .faces = ws.faces,
+                                   .triangles = p.b.triangles,
+                                   .vertex_nearest = ws.vertex_nearest,
+                                   .splits = ws.splits,
+                                   .points = ws.points,
+                                   .survivors = ws.survivors,
+                                   .triangle_lows = p.b.triangle_lows,
+                                   .u3_bounds = ws.u3_bounds},
+                                  {}, ws.dispatch(gpu::kDispatchBisect));
+}
+
 void record_bound(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
+  if ((p.switches & gpu::kUsePaperU3) != 0) record_bisect(rec, p);
   rec.run_indirect<k::WaveBound>({.control = ws.control,
                                   .frontier = ws.frontier,
                                   .vertices = ws.vertices,
@@ -113,7 +136,8 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .survivors = ws.survivors,
                                   .centroids = ws.centroids,
                                   .triangle_lows = p.b.triangle_lows,
-                                  .areas = areas_of(p)},
+                                  .areas = areas_of(p),
+                                  .u3_bounds = u3_bounds_of(p)},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
 }

@@ -45,7 +45,8 @@ struct Workspace {
   Slice<uint32_t> survivors;
   Slice<gpu::Point> centroids;
   Slice<uint32_t> lower_bits;
-  SortStreams sort;  // none but with kUseSort
+  SortStreams sort;        // none but with kUseSort
+  Slice<float> u3_bounds;  // none but with kUsePaperU3
   uint32_t capacity = 0;
 
   Slice<gpu::Dispatch> dispatch(uint32_t which) const {

@@ -114,7 +114,8 @@ VKH_CONST uint kDispatchPacket = 6u;      // in place of kDispatchQueryPoints
 VKH_CONST uint kDispatchSortKeys = 7u;    // the sort of the frontier: its keys,
 VKH_CONST uint kDispatchSortBlocks = 8u;  // blocks of them,
 VKH_CONST uint kDispatchSortDigits = 9u;  // digits
-VKH_CONST uint kDispatchCount = 10u;
+VKH_CONST uint kDispatchBisect = 10u;     // the paper's u3
+VKH_CONST uint kDispatchCount = 11u;
 
 // Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
 // at a time.

@@ -23,12 +23,12 @@ layout(scalar, binding = 8) readonly buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 9) readonly buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 11) buffer Areas { Area areas[]; };
+layout(scalar, binding = 12) readonly buffer U3Bounds { float u3_bounds[]; };
 
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
-#include "shaders/lib/paper_u3.glsl"
 #include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
 
@@ -119,10 +119,6 @@ Verdict bound_child(uint code, Child c, Root root, uint centre, float threshold)
   float simple = kept_bound(min(bound_u1(t, own), bound_u2(t, own)), shift);
   if (simple < v.upper) v = Verdict(simple, kCullU2);
   if (v.upper <= threshold) return v;
-  if ((kSwitches & kUsePaperU3) != 0u) {
-    float u3 = kept_bound(paper_u3(t, c.nearest, view), shift);
-    if (u3 < v.upper) v = Verdict(u3, kCullU3);
-  }
   if ((kSwitches & kUsePairs) != 0u) bound_pairs(t, known, d, view, shift, threshold, v);
   if (v.upper > threshold && (kSwitches & kUseU4) != 0u) bound_u4(t, c.nearest, view, shift, v);
   return v;
@@ -140,6 +136,8 @@ void main() {
     Child c = load_child(survivors[i]);
     uint centre = asked.distance >= 0.0 ? asked.nearest : kNone;
     v = bound_child(survivors[i], c, load_root(c.root), centre, threshold);
+    if ((kSwitches & kUsePaperU3) != 0u && u3_bounds[i] < v.upper)
+      v = Verdict(u3_bounds[i], kCullU3);
     close_area(v.upper <= threshold, c.root, c.at);
     next = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
   }

@@ -19,5 +19,6 @@ void main() {
   dispatches[kDispatchQueryCentroids] =
       groups_for_queries(survivors, (kSwitches & kUseGroupWalk) != 0u);
   dispatches[kDispatchBound] = groups_for(survivors);
+  dispatches[kDispatchBisect] = groups_for(survivors);
   dispatches[kDispatchWitness] = groups_for(max(survivors, points));
 }
