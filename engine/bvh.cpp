@@ -81,21 +81,21 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
                          .box = h.box,
-                         .keys = s.keys[side],
-                         .values = s.values[side]},
+                         .keys = s.sort.keys[side],
+                         .values = s.sort.values[side]},
                         count, faces);
   rec.stage("morton");
-  record_sort(rec, s, b.faceCount, first_bit);
+  record_sort(rec, s.sort, b.faceCount, first_bit);
   rec.stage("sort");
   rec.run<k::BvhLeaves>({.vertices = h.vertices,
                          .faces = h.faces,
-                         .values = s.values[0],
+                         .values = s.sort.values[0],
                          .triangles = h.triangles,
                          .triangle_lows = h.triangle_lows,
-                         .keys = s.keys[0],
+                         .keys = s.sort.keys[0],
                          .codes = h.codes},
                         count, faces);
-  rec.run<k::BvhHierarchy>({.keys = s.keys[0], .branches = h.branches}, count, faces,
+  rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .branches = h.branches}, count, faces,
                            Order::kIndependent);
   record_boxes(rec, h);
   rec.stage("hierarchy");

@@ -8,7 +8,8 @@ namespace {
 // One item a vertex of A, and one for the last run's witness where `push.warm`.
 void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
   // As seed_query has it: a workgroup an item where they are few.
-  const bool in_groups = p.walks_in_groups && p.vertex_count <= gpu::kGroupWalkVertices;
+  const bool in_groups =
+      (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
   const uint32_t items = p.vertex_count + push.warm;
   const uint32_t groups = in_groups ? items : (items + gpu::kQueryGroup - 1) / gpu::kQueryGroup;
   rec.run<k::SeedQuery>({.vertices = p.ws.vertices,
@@ -46,7 +47,8 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .cull_tolerance = p.cull_tolerance,
                              .known_lower = p.known_lower,
                              .two_float = p.two_float ? 1u : 0u,
-                             .warm = p.warm ? 1u : 0u};
+                             .warm = p.warm ? 1u : 0u,
+                             .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom};
   const gpu::SeedPush seed{
       .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});

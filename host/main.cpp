@@ -41,6 +41,7 @@ struct Arguments {
   std::string file_a, file_b;
   std::string tolerance = "1e-6", device, memory, time, waves;
   std::vector<std::string> enabled, disabled;
+  std::string preset;
   bool json = false, verbose = false, symmetric = false, verify = false;
   std::string json_file;  ///< empty: JSON goes to stdout
 };
@@ -95,8 +96,8 @@ class ProgressLine {
   Clock::time_point last_;
 };
 
-void check_switches(const char* option, const std::vector<std::string>& names) {
-  const std::vector<std::string> known = switch_names();
+void check_names(const char* option, const std::vector<std::string>& names,
+                 const std::vector<std::string>& known) {
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string list;
@@ -114,8 +115,10 @@ Request understand(const Arguments& arguments) {
   if (!arguments.memory.empty()) options.memory_bytes = parse_memory(arguments.memory);
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
-  check_switches("--enable", arguments.enabled);
-  check_switches("--disable", arguments.disabled);
+  check_names("--enable", arguments.enabled, switch_names());
+  check_names("--disable", arguments.disabled, switch_names());
+  if (!arguments.preset.empty()) check_names("--preset", {arguments.preset}, preset_names());
+  options.preset = arguments.preset;
   options.enabled = arguments.enabled;
   options.coverage = arguments.verify;
   options.disabled = arguments.disabled;
@@ -284,7 +287,12 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
           "Print one JSON object instead of the table, or beside it into FILE")
       ->type_name("[FILE]")
       ->expected(0, 1);
-  command.add_option("--enable", arguments.enabled, "Switch on parts that are off by default: u4")
+  command.add_option("--preset", arguments.preset,
+                     "Which parts of the method are on: default, what pays on the device; paper, "
+                     "what the paper has; baseline-gpu, the paper's baseline [default]");
+  command
+      .add_option("--enable", arguments.enabled,
+                  "Switch on parts that the preset has not, by name: u4,sort")
       ->delimiter(',')
       ->allow_extra_args(false);
   command

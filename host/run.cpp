@@ -156,6 +156,7 @@ void Runner::place(const RunInput& in, RunOutput& out) {
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
   problem_.knownLower = in.known_lower;
+  problem_.sortFrom = in.sort_from;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
   place_areas(in, out);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
@@ -231,6 +232,7 @@ RunOutput Runner::run(const RunInput& in) {
   uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
   uint32_t waves_left = std::max(in.wave_limit, 1u);
   do {
+    if (!in.multiwave) waves = 1;
     waves = std::min(waves, waves_left);  // exactly the budget: how they are grouped depends on the
                                           // clock, the result must not
     const double submitted = now_ms();

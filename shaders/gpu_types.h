@@ -64,7 +64,13 @@ VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's know
 VKH_CONST uint kUseGroupWalk = 256u;     // few queries or children: more invocations for each
 VKH_CONST uint kUseSharedFaces = 512u;   // faces of A that are faces of B too are closed at once
 VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
-VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u;
+VKH_CONST uint kUseSort = 2048u;         // sort the frontier before it is refined
+VKH_CONST uint kUsePacket = 4096u;       // an invocation walks for a candidate's three new points
+VKH_CONST uint kUseDefer = 8192u;        // candidates that there is no room to refine wait
+VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refined first
+VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
+// The method of ours: without what the paper has in another place.
+VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
@@ -105,7 +111,12 @@ VKH_CONST uint kDispatchQueryPoints = 1u;
 VKH_CONST uint kDispatchFilter = 2u;
 VKH_CONST uint kDispatchQueryCentroids = 3u;
 VKH_CONST uint kDispatchBound = 4u;
-VKH_CONST uint kDispatchCount = 5u;
+VKH_CONST uint kDispatchPacket = 5u;      // in place of kDispatchQueryPoints
+VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
+VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
+VKH_CONST uint kDispatchSortDigits = 8u;  // digits
+VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
+VKH_CONST uint kDispatchCount = 10u;
 
 // Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts
 // at a time.
@@ -119,6 +130,13 @@ VKH_CONST uint kFewFaces = 1u << 16;
 VKH_CONST uint kFewFacesFirstBit = 6u;
 // Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
 VKH_CONST uint kSortFewBlocks = 64u;
+
+// The frontier's sort key: defer | mode | morton30 (paper.md eq. 4).
+VKH_CONST uint kKeyDeferred = 0x80000000u;
+VKH_CONST uint kKeyThin = 0x40000000u;
+// Frontiers of fewer candidates are not sorted unless a run says otherwise: thirteen dispatches
+// more a wave, 45 us on an H200 by its price of one, against walks that take 16 us for so few.
+VKH_CONST uint kSortFrom = 1u << 14;
 
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
@@ -250,14 +268,18 @@ struct Control {
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
   uint wave;
-  uint status;        // kStatus*
-  uint root_cursor;   // faces of A before this one were admitted
-  uint roots;         // faces of A admitted in this wave
-  uint deferred;      // candidates that stay as they are in this wave
-  uint parents;       // candidates that it refines
-  uint select_key;    // where some are deferred, those with a smaller or the same key are refined:
-  uint select_tie;    // lib/candidate.glsl
-  uint seed_witness;  // 3 * face + corner of A where the first witness is; kNone
+  uint status;       // kStatus*
+  uint root_cursor;  // faces of A before this one were admitted
+  uint roots;        // faces of A admitted in this wave
+  uint deferred;     // candidates that stay as they are in this wave
+  uint parents;      // candidates that it refines
+  uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
+  uint select_tie;   // lib/candidate.glsl
+  uint select_largest;  // in this wave the largest u come first
+  uint sort_from;       // frontiers of fewer candidates are not sorted
+  uint sorted;          // this wave's is
+  uint lost;            // candidates that could neither be refined nor wait
+  uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
   // The wave's samples that were at the new lower bound when they were looked at: how many, and the
   // first of them.
   uint offer_count;
@@ -362,9 +384,7 @@ struct PyramidPush {
 };
 
 struct SortPush {
-  uint count;
-  uint shift;   // of the digit in the key
-  uint blocks;  // ceil(count / kSortBlock)
+  uint shift;  // of the digit in the key
 };
 
 // seed_faces
@@ -386,6 +406,7 @@ struct BeginPush {
   float known_lower;
   uint two_float;
   uint warm;  // the last run's witness is kept
+  uint sort_from;
 };
 
 // seed_query: A's vertices and, where `warm`, the last run's witness behind them.

@@ -136,8 +136,8 @@ void check_codes(const Mesh& mesh) {
     CHECK(from_ordered(found.lo[axis]) == box.lo[axis]);
     CHECK(from_ordered(found.hi[axis]) == box.hi[axis]);
   }
-  const Words codes = bench.get(built.scratch.keys[0]);
-  const Words order = bench.get(built.scratch.values[0]);
+  const Words codes = bench.get(built.scratch.sort.keys[0]);
+  const Words order = bench.get(built.scratch.sort.values[0]);
   CHECK(std::is_sorted(codes.begin(), codes.end()));
   size_t sharp = 0;
   for (size_t i = 0; i < codes.size(); ++i) sharp += check_code(mesh, box, order[i], codes[i]);
