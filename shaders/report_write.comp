@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
+layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer LowerBits { uint lower_bits[]; };
@@ -57,8 +58,8 @@ void write_report() {
   report.remaining = remaining();
   // The last recorded wave is only closed by the plan after it: its work is added here.
   uint candidates = control.status == kStatusRunning ? 4u * control.parents + control.roots : 0u;
-  uint queries =
-      control.status == kStatusRunning ? 3u * control.parents + control.count[kCountSurvivors] : 0u;
+  uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
+  uint queries = control.status == kStatusRunning ? 3u * control.parents + asked : 0u;
   report.candidate_total = control.candidate_total + candidates;
   report.query_total = control.query_total + queries;
   report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);

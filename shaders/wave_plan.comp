@@ -40,7 +40,8 @@ void close_wave() {
   if (control.wave == 0u) return;
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = 4u * control.parents + control.roots;
-  uint queries = 3u * control.parents + control.count[kCountSurvivors];
+  uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
+  uint queries = 3u * control.parents + asked;
   float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
                                     max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(
