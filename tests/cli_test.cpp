@@ -162,7 +162,7 @@ const Words kDistanceKeys = sorted(
      "switched_on", "switched_off", "notes",   "known_lower"});
 
 // On a CPU device.
-const Words kOffUnlessAsked = {"u4",     "group_walk",    "root_centroid", "sort",
+const Words kOffUnlessAsked = {"u4",     "group_walk",    "shared_faces", "sort",
                                "packet", "largest_first", "u3_paper"};
 
 TEST_CASE("distance --json: one object of the schema and nothing else on stdout") {
