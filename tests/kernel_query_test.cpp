@@ -153,16 +153,16 @@ Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, u
   bench.run([&](Recorder& rec) {
     if (mode.packet) {
       rec.run<k::WavePacket>({.control = control,
-                              .nodes = h.nodes,
-                              .triangles = h.triangles,
+                              .nodes = as<gpu::uvec4>(h.nodes),
+                              .triangles = as<gpu::uvec4>(h.triangles),
                               .points = points,
                               .triangle_lows = h.triangle_lows},
                              {}, Groups{count / 3 + 1});
       return;
     }
     rec.run<k::WaveQuery>({.control = control,
-                           .nodes = h.nodes,
-                           .triangles = h.triangles,
+                           .nodes = as<gpu::uvec4>(h.nodes),
+                           .triangles = as<gpu::uvec4>(h.triangles),
                            .points = points,
                            .triangle_lows = h.triangle_lows,
                            .boxes = h.pyramid},
