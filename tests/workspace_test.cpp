@@ -237,7 +237,7 @@ TEST_CASE("each switch off, or all, gives a true interval") {
 }
 
 TEST_CASE("what does not pay on a CPU device is off unless asked for") {
-  const std::vector<std::string> off = {"u4",     "group_walk",    "shared_faces", "sort",
+  const std::vector<std::string> off = {"u4",     "group_walk",    "sort",
                                         "packet", "largest_first", "u3_paper"};
   for (const Pair& pair : pairs()) {
     CHECK(check_true(pair, {}).switched_off == off);
