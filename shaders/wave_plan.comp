@@ -30,6 +30,7 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/schedule.glsl"
+#include "shaders/lib/select.glsl"
 #include "shaders/lib/witness.glsl"
 
 const uint kAdoptGroup = kPlanGroup;
@@ -39,8 +40,8 @@ const uint kAdoptGroup = kPlanGroup;
 void close_wave() {
   if (control.wave == 0u) return;
   uint w = (control.wave - 1u) % kMaxWaveRecords;
-  uint candidates = 4u * control.parents + control.roots;
-  uint queries = 3u * control.parents + control.count[kCountSurvivors];
+  uint candidates = child_count();
+  uint queries = point_count() + control.count[kCountSurvivors];
   float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
                                     max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(
@@ -106,10 +107,12 @@ void share_room() {
   held = schedule(held, room);
   parents = control.parents;
   room = capacity - held;
-  uint quarter = (capacity - kReserve) / 4u;  // uncertified: integers
+  bool twice = control.deferred == 0u && may_split_twice(parents, room);
+  control.twice = twice ? 1u : 0u;
+  uint needed = (twice ? 15u : 3u) * parents;  // places besides the candidates' own
+  uint quarter = (capacity - kReserve) / 4u;   // uncertified: integers
   uint waiting = control.face_count - cursor;
-  uint roots =
-      held < quarter ? min(waiting, min(quarter - held, room - 3u * parents - kReserve)) : 0u;
+  uint roots = held < quarter ? min(waiting, min(quarter - held, room - needed - kReserve)) : 0u;
   control.roots = roots;
   control.root_cursor = cursor + roots;
 }
@@ -135,99 +138,15 @@ void end_if_done() {
   }
 }
 
-// ---- selection: the `parents` smallest keys, by digits of 8 bits from the top. A boundary that
-// leaves at least half of the room used will do.
-
-shared uint histogram[256];
-shared Key prefix;    // of the keys that are still undecided
-shared uint decided;  // digits of it
-shared uint before;   // keys under it
-shared bool selecting;
-shared uint read_from;           // where the half of the frontier that the wave reads starts
-shared uint room_for;            // candidates that can be refined
-shared uint held_in_short_room;  // candidates, where not all can be refined
-
-uint digit_of(Key k, uint d) {
-  return ((d < 4u ? k.first : k.second) >> (24u - 8u * (d & 3u))) & 255u;
-}
-
-bool has_prefix(Key k) {
-  for (uint d = 0u; d < decided; ++d) {
-    if (digit_of(k, d) != digit_of(prefix, d)) return false;
-  }
-  return true;
-}
-
-void with_digit(inout Key k, uint d, uint value) {
-  uint shift = 24u - 8u * (d & 3u);
-  if (d < 4u) {
-    k.first = (k.first & ~(255u << shift)) | (value << shift);
-  } else {
-    k.second = (k.second & ~(255u << shift)) | (value << shift);
-  }
-}
-
-void count_digits(uint held) {
-  uint lane = gl_LocalInvocationID.x;
-  histogram[lane] = 0u;
-  barrier();
-  for (uint i = lane; i < held; i += kPlanGroup) {
-    Key k = key_of(frontier[read_from + i]);
-    if (has_prefix(k)) atomicAdd(histogram[digit_of(k, decided)], 1u);
-  }
-  barrier();
-}
-
-// Goes on with the first digit whose keys do not all fit `room`, or stops under it.
-void narrow(uint room) {
-  uint digit = 0u;
-  while (digit < 255u && before + histogram[digit] <= room) {
-    before += histogram[digit];
-    ++digit;
-  }
-  with_digit(prefix, decided, digit);
-  ++decided;
-  bool all_fit = before + histogram[digit] <= room;
-  if (all_fit) before += histogram[digit];
-  selecting = !all_fit && 2u * before < room + 1u && decided < 8u;
-  if (selecting) return;
-  // Keys under the prefix were counted: the largest of them, or the prefix itself if it was, too.
-  for (uint d = decided; d < 8u; ++d) with_digit(prefix, d, all_fit ? 255u : 0u);
-  control.select_key = prefix.first;
-  control.select_tie = prefix.second;
-  if (!all_fit && before > 0u) {
-    control.select_tie = prefix.second - 1u;
-    if (prefix.second == 0u) control.select_key = prefix.first - 1u;
-  }
-  uint refined = max(before, 1u);
-  control.deferred += room_for - refined;
-  control.parents = refined;
-}
-
-void select_smallest(uint held) {
-  if (gl_LocalInvocationID.x == 0u) {
-    prefix = Key(0u, 0u);
-    decided = 0u;
-    before = 0u;
-    selecting = true;
-  }
-  barrier();
-  while (selecting) {
-    count_digits(held);
-    if (gl_LocalInvocationID.x == 0u) narrow(room_for);
-    barrier();
-  }
-}
-
 void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
   bool spread = (kSwitches & kUseGroupWalk) != 0u;
   uint held = running ? parents + control.deferred : 0u;
-  dispatches[kDispatchSubdivide] = groups_for(spread ? kSplitLanes * held : held);
+  dispatches[kDispatchSubdivide] = groups_for(held * split_lanes());
   write_query_sizes(parents);
   write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
-  uint children = running ? 4u * parents + control.roots : 0u;
+  uint children = running ? child_count() : 0u;
   dispatches[kDispatchFilter] = groups_for(children);
   dispatches[kDispatchBound] = groups_for_children(children, spread);
   if (!running) return;

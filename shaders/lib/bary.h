@@ -115,6 +115,7 @@ VKH_FN Placement place_corners(Root r, Bary3 t) {
 // 0..2 are the corners.
 
 VKH_CONST uint kSplitMidpoint = 0u;
+VKH_CONST uint kInnerNone = 31u;          // as kSplitNone, in 5 bits
 VKH_CONST uint kSplitNone = 0xffffffffu;  // not split: closed before its subdivision
 
 VKH_FN uint pick(uvec3 t, uint i) { return i == 0u ? t.x : (i == 1u ? t.y : t.z); }
