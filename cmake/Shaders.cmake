@@ -3,6 +3,8 @@
 # A kernel is compiled again when a file that it includes changes.
 find_program(VKH_GLSLANG glslangValidator REQUIRED)
 find_program(VKH_SPIRV_VAL spirv-val REQUIRED)
+find_program(VKH_SPIRV_OPT spirv-opt REQUIRED)
+option(VKH_FLATTEN_SHADERS "Inline and tidy the kernels' SPIR-V, for drivers that do so slowly" ON)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools VKH_EMBED_DIR)
 set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
@@ -34,15 +36,32 @@ function(vkh_add_shaders target)
   endif()
 endfunction()
 
-# No -g0: reflection reads the debug names. No spirv-opt: the drivers (NVIDIA's, lavapipe's LLVM)
-# optimise, and what the validation layer and a profiler show stays what was written.
+# lavapipe inlines and brings to SSA form at every start of a program, three times slower than it takes what is so already
+# (docs/startup.md). Nothing here may touch a floating-point operation: no -O, no --simplify-instructions, which reassociate
+# whatever is not `precise`. That is left to the drivers, whose rounding is specified.
+set(VKH_FLATTEN
+  --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+  --private-to-local --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive
+  --scalar-replacement=0 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
+  --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive
+  --redundancy-elimination --eliminate-dead-branches --vector-dce --eliminate-dead-inserts
+  --eliminate-dead-code-aggressive --merge-blocks --compact-ids)
+if(NOT VKH_FLATTEN_SHADERS)
+  set(VKH_FLATTEN)
+endif()
+
+# No -g0: reflection reads the debug names, of what the compiler wrote, for the optimiser drops buffers that are not used.
 function(vkh_add_kernel name shader out)
   set(spv ${out}/${name}.spv)
+  set(flat ${out}/${name}.flat.spv)
   add_custom_command(
     OUTPUT ${spv}
     COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR} --depfile ${spv}.d
             -o ${spv} ${shader}
     COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
+    COMMAND ${VKH_SPIRV_OPT} --target-env=vulkan1.2 --scalar-block-layout ${VKH_FLATTEN} -o ${flat} ${spv}
+    COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${flat}
+    BYPRODUCTS ${flat}
     DEPENDS ${shader}
     DEPFILE ${spv}.d
     COMMENT "Compiling ${name}.comp"
@@ -51,7 +70,7 @@ function(vkh_add_kernel name shader out)
   add_custom_command(
     OUTPUT ${out}/${name}.cpp
     BYPRODUCTS ${out}/${name}.h
-    COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out}
+    COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
     DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py
     COMMENT "Embedding ${name}"
     VERBATIM)

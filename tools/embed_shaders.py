@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """SPIR-V in, C++ out: one header and one source per kernel, checked against shaders/gpu_types.h.
 
-  embed_shaders.py kernel SPV OUT_DIR      OUT_DIR/NAME.h (only when it changes) and NAME.cpp
+  embed_shaders.py kernel SPV OUT_DIR [FLAT]  OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
+                                           with FLAT, that is embedded, and SPV tells of its buffers
   embed_shaders.py index OUT_DIR NAME...   OUT_DIR/all_kernels.h and .cpp, and no other kernel's
 
 The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... without a gap, storage
@@ -357,16 +358,19 @@ def write_if_changed(path, text):
         path.write_text(text)
 
 
-def embed_kernel(spv, out_dir):
+def read_words(spv):
     data = spv.read_bytes()
-    words = struct.unpack(f"<{len(data) // 4}I", data)
+    return struct.unpack(f"<{len(data) // 4}I", data)
+
+
+def embed_kernel(spv, out_dir, flat):
     try:
-        kernel = reflect(spv.stem, words)
+        kernel = reflect(spv.stem, read_words(spv))
     except (ContractError, ValueError) as error:
         sys.exit(f"shaders/{spv.stem}.comp: {error}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
     # Always: it is the output by which a Makefile knows that this ran.
-    (out_dir / f"{kernel.name}.cpp").write_text(source_text(kernel, words))
+    (out_dir / f"{kernel.name}.cpp").write_text(source_text(kernel, read_words(flat)))
 
 
 def embed_index(out_dir, names):
@@ -378,8 +382,8 @@ def embed_index(out_dir, names):
 
 
 def main(args):
-    if len(args) == 3 and args[0] == "kernel":
-        embed_kernel(Path(args[1]), Path(args[2]))
+    if len(args) in (3, 4) and args[0] == "kernel":
+        embed_kernel(Path(args[1]), Path(args[2]), Path(args[-1 if len(args) == 4 else 1]))
     elif len(args) >= 2 and args[0] == "index":
         embed_index(Path(args[1]), sorted(args[2:]))
     else:
