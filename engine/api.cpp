@@ -18,7 +18,7 @@ static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness
 static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
 static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
 static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
-static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_ROOT_CENTROID == gpu::kUseRootCentroid);
+static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_SHARED_FACES == gpu::kUseSharedFaces);
 static_assert(VKH_STATUS_MEMORY == gpu::kStatusMemory &&
               VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords);
 
@@ -49,6 +49,8 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .known_lower = p.knownLower,
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
+          .asks_centroids = (context.switches & gpu::kUseCentroid) != 0,
+          .walks_in_groups = (context.switches & gpu::kUseGroupWalk) != 0,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
@@ -69,6 +71,7 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
   auto* created = new (std::nothrow) VkhContext_T;
   if (created == nullptr) return VKH_ERROR_PIPELINE;
   created->device = info->device.device;
+  created->switches = info->switches;
   if (!vkh::load_functions(info->device, created->vk)) {
     delete created;
     return VKH_ERROR_UNSUPPORTED;

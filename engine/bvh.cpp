@@ -70,16 +70,14 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   const gpu::CountPush count{b.faceCount};
   const Items faces{b.faceCount};
   record_load(rec, b, h.vertices, h.faces);
-  const VkDeviceSize half_box = s.centroid_box.size / 2;
-  rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset, half_box}, 0xffffffffu,
+  const VkDeviceSize half_box = h.box.size / 2;
+  rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset, half_box}, 0xffffffffu, Order::kIndependent);
+  rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset + half_box, half_box}, 0,
            Order::kIndependent);
-  rec.fill(Slice<uint32_t>{s.centroid_box.buffer, s.centroid_box.offset + half_box, half_box}, 0,
-           Order::kIndependent);
-  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = s.centroid_box}, count,
-                     faces);
+  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count, faces);
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
-                         .box = s.centroid_box,
+                         .box = h.box,
                          .keys = s.keys[0],
                          .values = s.values[0]},
                         count, faces);
@@ -90,7 +88,9 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .faces = h.faces,
                          .values = s.values[0],
                          .triangles = h.triangles,
-                         .triangle_lows = h.triangle_lows},
+                         .triangle_lows = h.triangle_lows,
+                         .keys = s.keys[0],
+                         .codes = h.codes},
                         count, faces);
   rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
   record_boxes(rec, h);

@@ -59,5 +59,6 @@ struct VkhContext_T {
   VkDevice device = VK_NULL_HANDLE;
   vkh::DeviceFunctions vk;
   vkh::Limits limits;
+  uint32_t switches = 0;
   std::array<vkh::KernelPipeline, vkh::kMaxKernels> kernels{};
 };

@@ -8,17 +8,33 @@ namespace {
 constexpr uint32_t kNegative = 0xbf800000u;  // -1.0f
 
 // One item a vertex of A, and one for the last run's witness where `push.warm`.
-template <class Kernel>
-void record_walks(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
-  rec.run<Kernel>({.vertices = p.ws.vertices,
-                   .nodes = p.b.nodes,
-                   .triangles = p.b.triangles,
-                   .vertex_nearest = p.ws.vertex_nearest,
-                   .vertex_distance = p.ws.vertex_distance,
-                   .control = p.ws.control,
-                   .triangle_lows = p.b.triangle_lows,
-                   .faces = p.ws.faces},
-                  push, Items{p.vertex_count + push.warm});
+void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
+  // As lib/dispatch.glsl has it: a workgroup an item where they are few.
+  const bool in_groups = p.walks_in_groups && p.vertex_count <= gpu::kGroupWalkQueries;
+  const uint32_t items = p.vertex_count + push.warm;
+  const uint32_t groups = in_groups ? items : (items + gpu::kQueryGroup - 1) / gpu::kQueryGroup;
+  rec.run<k::SeedQuery>({.vertices = p.ws.vertices,
+                         .nodes = p.b.nodes,
+                         .triangles = p.b.triangles,
+                         .vertex_nearest = p.ws.vertex_nearest,
+                         .vertex_distance = p.ws.vertex_distance,
+                         .control = p.ws.control,
+                         .triangle_lows = p.b.triangle_lows,
+                         .faces = p.ws.faces,
+                         .boxes = p.b.pyramid},
+                        push, Groups{groups});
+}
+
+void record_lower(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
+  rec.run<k::SeedLower>({.vertices = p.ws.vertices,
+                         .nodes = p.b.nodes,
+                         .triangles = p.b.triangles,
+                         .vertex_nearest = p.ws.vertex_nearest,
+                         .vertex_distance = p.ws.vertex_distance,
+                         .control = p.ws.control,
+                         .triangle_lows = p.b.triangle_lows,
+                         .faces = p.ws.faces},
+                        push, Items{p.vertex_count + push.warm});
 }
 
 }  // namespace
@@ -39,11 +55,19 @@ void record_seed(Recorder& rec, const Problem& p) {
   rec.fill(ws.vertex_distance, kNegative, Order::kIndependent);
   rec.run<k::SeedMark>({.faces = ws.faces, .vertex_distance = ws.vertex_distance}, faces,
                        Items{p.face_count});
-  record_walks<k::SeedQuery>(rec, p, seed);
-  record_walks<k::SeedLower>(rec, p, seed);
-  rec.run<k::SeedWitness>(
-      {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
-      Items{p.face_count});
+  record_query(rec, p, seed);
+  record_lower(rec, p, seed);
+  rec.run<k::SeedFaces>({.faces = ws.faces,
+                         .vertex_distance = ws.vertex_distance,
+                         .control = ws.control,
+                         .vertices = ws.vertices,
+                         .triangles = p.b.triangles,
+                         .triangle_lows = p.b.triangle_lows,
+                         .codes = p.b.codes,
+                         .box = p.b.box,
+                         .face_shared = ws.face_shared},
+                        {.face_count = p.face_count, .triangle_count = p.b.face_count},
+                        Items{p.face_count});
   rec.run<k::SeedAdopt>({.vertices = ws.vertices,
                          .faces = ws.faces,
                          .vertex_nearest = ws.vertex_nearest,

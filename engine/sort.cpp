@@ -12,7 +12,10 @@ void record_sort(Recorder& rec, const BuildScratch& s, uint32_t count) {
     const uint32_t to = 1 - from;
     const gpu::SortPush push{.count = count, .shift = 8 * pass, .blocks = blocks};
     rec.run<k::SortCount>({.keys = s.keys[from], .counts = s.counts}, push, Groups{blocks});
-    rec.run<k::SortScan>({.counts = s.counts, .totals = s.totals}, push, Groups{gpu::kSortDigits});
+    if (blocks > gpu::kSortFewBlocks) {
+      rec.run<k::SortScan>({.counts = s.counts, .totals = s.totals}, push,
+                           Groups{gpu::kSortDigits});
+    }
     rec.run<k::SortScatter>({.keys_in = s.keys[from],
                              .values_in = s.values[from],
                              .keys_out = s.keys[to],

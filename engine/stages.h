@@ -26,6 +26,8 @@ struct Problem {
   float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
   bool warm = false;  // the workspace holds an earlier run to start from
+  // The context's switches: waves have a filter; few queries are workgroups.
+  bool asks_centroids = true, walks_in_groups = true;
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =

@@ -96,15 +96,16 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
   VKH_SWITCH_COVERAGE = 128,     /* no stage of the method: VkhProblem::coverageBuffer is written */
   VKH_SWITCH_GROUP_WALK =
-      256, /* few queries: a workgroup walks for one; for GPUs, not CPU devices */
-  VKH_SWITCH_ROOT_CENTROID = 512, /* CENTROID for whole faces of A only: h(A, A) closes at once */
+      256, /* few queries or children: more invocations for each; for GPUs, not CPU devices */
+  VKH_SWITCH_SHARED_FACES =
+      512, /* faces of A that are faces of B are closed: h(A, A) is 0 at once */
   /* Without it bounds are plain floats and NOTHING IS CERTIFIED: to measure what that costs. */
   VKH_SWITCH_CERTIFICATE = 1024,
   VKH_SWITCH_ALL = 127 + 256 + 512 + 1024,
   /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
    * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
    * is a chain of short steps, more candidates at once are cheaper than another step. */
-  VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 1024,
+  VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 512 + 1024,
   VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024
 } VkhSwitchBits;
 

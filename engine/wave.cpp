@@ -72,7 +72,8 @@ void record_filter(Recorder& rec, const Problem& p) {
                                    .survivors = ws.survivors,
                                    .centroids = ws.centroids,
                                    .triangle_lows = p.b.triangle_lows,
-                                   .areas = areas_of(p)},
+                                   .areas = areas_of(p),
+                                   .face_shared = ws.face_shared},
                                   {}, ws.dispatch(gpu::kDispatchFilter));
   rec.run<k::WaveSurvivors>({.control = ws.control, .dispatches = ws.dispatches}, {}, Groups{1});
   rec.stage("filter");
@@ -91,24 +92,10 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .survivors = ws.survivors,
                                   .centroids = ws.centroids,
                                   .triangle_lows = p.b.triangle_lows,
-                                  .areas = areas_of(p)},
+                                  .areas = areas_of(p),
+                                  .face_shared = ws.face_shared},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
-}
-
-void record_witness(Recorder& rec, const Problem& p) {
-  const Workspace& ws = p.ws;
-  rec.run_indirect<k::WaveWitness>({.control = ws.control,
-                                    .frontier = ws.frontier,
-                                    .vertices = ws.vertices,
-                                    .faces = ws.faces,
-                                    .vertex_nearest = ws.vertex_nearest,
-                                    .splits = ws.splits,
-                                    .points = ws.points,
-                                    .survivors = ws.survivors,
-                                    .centroids = ws.centroids},
-                                   {}, ws.dispatch(gpu::kDispatchWitness));
-  rec.stage("witness");
 }
 
 }  // namespace
@@ -118,10 +105,11 @@ void record_wave(Recorder& rec, const Problem& p) {
   record_plan(rec, p);
   record_subdivide(rec, p);
   record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
-  record_filter(rec, p);
-  record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
+  if (p.asks_centroids) {
+    record_filter(rec, p);
+    record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
+  }
   record_bound(rec, p);
-  record_witness(rec, p);
 }
 
 }  // namespace vkh

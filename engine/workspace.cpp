@@ -32,6 +32,8 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
   take(h.pyramid, pyramid_size(face_count));
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
+  take(h.codes, face_count);
+  take(h.box, 1);
   take(h.vertices, vertex_count);
   take(h.faces, face_count);
   h.face_count = face_count;
@@ -39,7 +41,6 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
 
 void list(Suballocator& take, BuildScratch& s, uint32_t face_count) {
   const uint64_t blocks = (face_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
-  take(s.centroid_box, 1);
   for (int side = 0; side < 2; ++side) {
     take(s.keys[side], face_count);
     take(s.values[side], face_count);
@@ -58,6 +59,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.faces, face_count);
   take(w.vertex_nearest, vertex_count);
   take(w.vertex_distance, vertex_count);
+  take(w.face_shared, face_count);
   take(w.frontier, 2ull * capacity);
   take(w.splits, parents);
   take(w.points, 3 * parents);

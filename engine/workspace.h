@@ -13,6 +13,8 @@ struct Hierarchy {
   Slice<gpu::Box> pyramid;
   Slice<gpu::Triangle> triangles;
   Slice<gpu::TriangleLow> triangle_lows;
+  Slice<uint32_t> codes;  // Morton codes of the triangles, ascending, and the box that they lie in:
+  Slice<gpu::CentroidBox> box;  // faces are found by them
   Slice<gpu::Vertex> vertices;  // B as given: the report's lower bound rests on these two alone
   Slice<gpu::uvec3> faces;
   uint32_t face_count = 0;
@@ -20,7 +22,6 @@ struct Hierarchy {
 
 // What building it needs besides.
 struct BuildScratch {
-  Slice<gpu::CentroidBox> centroid_box;
   Slice<uint32_t> keys[2], values[2];  // the sort's two sides
   Slice<uint32_t> counts, totals;
 };
@@ -33,6 +34,7 @@ struct Workspace {
   Slice<gpu::uvec3> faces;      // of A
   Slice<uint32_t> vertex_nearest;
   Slice<float> vertex_distance;
+  Slice<uint32_t> face_shared;     // whether a face of A is one of B, too
   Slice<gpu::Candidate> frontier;  // two halves of `capacity`
   Slice<gpu::Split> splits;
   Slice<gpu::Point> points;

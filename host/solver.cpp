@@ -23,7 +23,7 @@ constexpr std::pair<const char*, uint32_t> kSwitches[] = {
     {"u4", VKH_SWITCH_U4},
     {"warm_start", VKH_SWITCH_WARM_START},
     {"group_walk", VKH_SWITCH_GROUP_WALK},
-    {"root_centroid", VKH_SWITCH_ROOT_CENTROID}};
+    {"shared_faces", VKH_SWITCH_SHARED_FACES}};
 
 // Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
 // up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that

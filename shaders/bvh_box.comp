@@ -1,4 +1,4 @@
-// What: the box of the centroids of B's faces. In: vertices, indices. Out: box, as ordered bits; it
+// What: the box of the middles of B's faces. In: vertices, indices. Out: box, as ordered bits; it
 // must start empty (lo all ones, hi zero). Max and min only, so the result does not depend on
 // scheduling.
 #version 460
@@ -7,7 +7,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shaders/lib/invocation.glsl"
-#include "shaders/lib/morton.h"
+#include "shaders/lib/face_code.glsl"
 
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
@@ -19,10 +19,9 @@ void main() {
   // Invocations past the end repeat the last face: every one takes part in the subgroup's
   // reductions.
   uvec3 f = faces[min(item_index(), push.count - 1u)];
-  vec3 centre = (vertices[f.x].hi + vertices[f.y].hi + vertices[f.z].hi) *
-                (1.0f / 3.0f);  // uncertified: order only
-  vec3 lo = subgroupMin(centre);
-  vec3 hi = subgroupMax(centre);
+  vec3 middle = face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi);
+  vec3 lo = subgroupMin(middle);
+  vec3 hi = subgroupMax(middle);
   if (!subgroupElect()) return;
   for (int axis = 0; axis < 3; ++axis) {
     atomicMin(box.lo[axis], ordered_bits(floatBitsToUint(lo[axis])));

@@ -1,5 +1,5 @@
-// What: B's triangles in Morton order. In: values (sorted face numbers), vertices, faces. Out:
-// triangles, triangle_lows.
+// What: B's triangles in Morton order. In: keys and values (sorted codes and face numbers),
+// vertices, faces. Out: triangles, triangle_lows, codes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,11 +12,14 @@ layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) readonly buffer Values { uint values[]; };
 layout(scalar, binding = 3) buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 4) writeonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 5) readonly buffer Keys { uint keys[]; };
+layout(scalar, binding = 6) writeonly buffer Codes { uint codes[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 void main() {
   uint i = item_index();
   if (i >= push.count) return;
+  codes[i] = keys[i];
   // Clamped: whatever the sort did, a triangle is one of B, and upper bounds from it are true.
   uint face = min(values[i], push.count - 1u);
   uvec3 f = faces[face];

@@ -59,8 +59,8 @@ VKH_CONST uint kUseThin = 8u;            // double longest-edge bisection where 
 VKH_CONST uint kUsePairs = 16u;          // u3 over every pair of candidate triangles
 VKH_CONST uint kUseU4 = 32u;             // u4, the point-point bisector
 VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's known triangles
-VKH_CONST uint kUseGroupWalk = 256u;     // few queries: a workgroup walks for one
-VKH_CONST uint kUseRootCentroid = 512u;  // query the centroid of a whole face of A, if of no other
+VKH_CONST uint kUseGroupWalk = 256u;     // few queries or children: more invocations for each
+VKH_CONST uint kUseSharedFaces = 512u;   // faces of A that are faces of B too are closed at once
 VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
 VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
@@ -103,8 +103,7 @@ VKH_CONST uint kDispatchQueryPoints = 1u;
 VKH_CONST uint kDispatchFilter = 2u;
 VKH_CONST uint kDispatchQueryCentroids = 3u;
 VKH_CONST uint kDispatchBound = 4u;
-VKH_CONST uint kDispatchWitness = 5u;
-VKH_CONST uint kDispatchCount = 6u;
+VKH_CONST uint kDispatchCount = 5u;
 
 // Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
 // at a time.
@@ -113,6 +112,8 @@ VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 VKH_CONST uint kSortPasses = 4u;
+// Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
+VKH_CONST uint kSortFewBlocks = 64u;
 
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
@@ -121,6 +122,19 @@ VKH_CONST uint kSortPasses = 4u;
 VKH_CONST uint kReserve = 64u;
 
 VKH_CONST uint kPlanGroup = 256u;  // invocations of wave_plan: one plans, all select
+
+// wave_subdivide: invocations of a candidate where kUseGroupWalk is on.
+VKH_CONST uint kSplitLanes = 4u;
+
+// wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
+// small, so that it fills the device. Measured on an H200 (docs/measurements.md).
+VKH_CONST uint kFewestChildren = 4u;
+VKH_CONST uint kBoundGroups = 2048u;  // workgroups that are worth having before they take more
+
+// A sample that may become the witness (lib/witness.glsl): a new point's index, or a survivor's
+// whose centroid it is, with this bit.
+VKH_CONST uint kCentroidSample = 0x80000000u;
+VKH_CONST uint kMaxOffers = 64u;  // of a wave; where there are more, all its samples are looked at
 
 VKH_CONST uint kMaxWaveRecords = 64u;
 
@@ -218,17 +232,18 @@ struct Control {
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
   uint wave;
-  uint status;       // kStatus*
-  uint root_cursor;  // faces of A before this one were admitted
-  uint roots;        // faces of A admitted in this wave
-  uint deferred;     // candidates that stay as they are in this wave
-  uint parents;      // candidates that it refines
-  uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
-  uint select_tie;   // lib/candidate.glsl
-  // Among a wave's new points, and among its centroids, those at the new lower: the smallest key
-  // (lib/witness.glsl), and the index of one that has it; kNone.
-  uint witness_point_key, witness_point;
-  uint witness_centroid_key, witness_centroid;
+  uint status;        // kStatus*
+  uint root_cursor;   // faces of A before this one were admitted
+  uint roots;         // faces of A admitted in this wave
+  uint deferred;      // candidates that stay as they are in this wave
+  uint parents;       // candidates that it refines
+  uint select_key;    // where some are deferred, those with a smaller or the same key are refined:
+  uint select_tie;    // lib/candidate.glsl
+  uint seed_witness;  // 3 * face + corner of A where the first witness is; kNone
+  // The wave's samples that were at the new lower bound when they were looked at: how many, and the
+  // first of them.
+  uint offer_count;
+  uint offers[64];  // kMaxOffers
   float cull_tolerance;
   float known_lower;  // candidates near it are closed as if it were a sample's distance
   float base;         // distances of the run are kept as what they are above it
@@ -332,6 +347,12 @@ struct SortPush {
   uint count;
   uint shift;   // of the digit in the key
   uint blocks;  // ceil(count / kSortBlock)
+};
+
+// seed_faces
+struct FacesPush {
+  uint face_count;      // of A
+  uint triangle_count;  // of B
 };
 
 // wave_query: which stream of points.

@@ -1,11 +1,11 @@
-// What: adopts the last wave's witness and clears the certified lower bound. One invocation.
+// What: adopts the last wave's witness and clears the certified lower bound. One workgroup.
 // In: the streams of the last wave. Out: control.witness; lower_bits as those of a huge float.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = kPlanGroup) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer LowerBits { uint lower_bits[]; };
 layout(scalar, binding = 2) readonly buffer Frontier { Candidate frontier[]; };
@@ -20,9 +20,12 @@ layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/witness.glsl"
+
+const uint kAdoptGroup = kPlanGroup;
+#include "shaders/lib/adopt.glsl"
 #include "shaders/lib/morton.h"
 
 void main() {
   adopt_witness();
-  lower_bits[0] = ordered_bits(floatBitsToUint(3.0e38));
+  if (gl_LocalInvocationID.x == 0u) lower_bits[0] = ordered_bits(floatBitsToUint(3.0e38));
 }

@@ -1,13 +1,14 @@
-// What: the report. One invocation. In: control, lower_bits from report_lower. Out: report.
-// lower: the witness's certified distance, less how far its 48-bit position can lie from the point
-// of A that it stands for. upper: the largest u of everything that was dropped, spilled or is still
-// open; without bound while faces of A wait. Both as float32, and to more bits above the base.
+// What: the report. One workgroup, of which an invocation writes all but the waves. In: control,
+// lower_bits from report_lower. Out: report. lower: the witness's certified distance, less how far
+// its 48-bit position can lie from the point of A that it stands for. upper: the largest u of
+// everything that was dropped, spilled or is still open; without bound while faces of A wait. Both
+// as float32, and to more bits above the base.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer LowerBits { uint lower_bits[]; };
 layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
@@ -39,7 +40,7 @@ float lower_bound(Witness w) {
   return max(lowered(above - 2.0 * witness_slack(w)), -control.base);
 }
 
-void main() {
+void write_report() {
   Witness w = control.witness;
   float lower = lower_bound(w);
   float upper = max(upper_bound(), lower);
@@ -62,5 +63,10 @@ void main() {
   report.query_total = control.query_total + queries;
   report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);
   for (int i = 0; i < 8; ++i) report.culled[i] = control.culled[i];
-  for (int i = 0; i < 64; ++i) report.waves[i] = control.waves[i];
+}
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  report.waves[lane] = control.waves[lane];
+  if (lane == 0u) write_report();
 }

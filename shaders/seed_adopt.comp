@@ -1,5 +1,5 @@
 // What: writes the seed's witness and base into the control block. One invocation. In:
-// control.witness_point from seed_witness; kNone where a warm run's old witness is farther than
+// control.seed_witness from seed_witness; kNone where a warm run's old witness is farther than
 // every vertex and stays.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -15,8 +15,8 @@ layout(scalar, binding = 3) buffer ControlBlock { Control control; };
 #include "shaders/lib/base.glsl"
 
 void adopt_corner() {
-  uint face = control.witness_point / 3u;  // uncertified: integers
-  uint corner = control.witness_point % 3u;
+  uint face = control.seed_witness / 3u;  // uncertified: integers
+  uint corner = control.seed_witness % 3u;
   uint vertex = faces[face][corner];
   control.witness =
       Witness(vertices[vertex].hi, uintBitsToFloat(control.maximum[kMaxLower]), face,
@@ -24,8 +24,8 @@ void adopt_corner() {
 }
 
 void main() {
-  if (control.witness_point != kNone) adopt_corner();
-  control.witness_point = kNone;
+  if (control.seed_witness != kNone) adopt_corner();
+  control.seed_witness = kNone;
   float base = base_of_run();
   control.base = base;
   control.tight = is_tight(base) ? 1u : 0u;

@@ -20,10 +20,8 @@ void main() {
   control.roots = 0u;
   control.parents = 0u;
   control.deferred = 0u;
-  control.witness_point_key = kNone;
-  control.witness_point = kNone;
-  control.witness_centroid_key = kNone;
-  control.witness_centroid = kNone;
+  control.seed_witness = kNone;
+  control.offer_count = 0u;
   control.cull_tolerance = push.cull_tolerance;
   control.known_lower = push.known_lower;
   control.base = 0.0;

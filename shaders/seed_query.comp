@@ -11,7 +11,8 @@
 #include "shaders/lib/invocation.glsl"
 #include "shaders/gpu_types.h"
 
-layout(local_size_x = kGroupSize) in;
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kQueryGroup) in;
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
 layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
@@ -20,9 +21,12 @@ layout(scalar, binding = 4) buffer VertexDistance { float vertex_distance[]; };
 layout(scalar, binding = 5) buffer ControlBlock { Control control; };
 layout(scalar, binding = 6) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 7) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 8) readonly buffer Boxes { Box boxes[]; };
 layout(scalar, push_constant) uniform PushBlock { SeedPush push; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/seed.glsl"
 #include "shaders/lib/stream.glsl"
 
@@ -40,23 +44,38 @@ void clamp_witness() {
   control.witness.k = min(control.witness.k, kBaryOne - control.witness.j);
 }
 
+// Adopts what was found for item i; returns its distance.
+float answer(uint i, vec3 p, Nearest found) {
+  float d = sqrt(found.distance2);  // uncertified: steers; seed_lower measures what matters
+  if (i < push.vertex_count) {
+    vertex_nearest[i] = found.triangle;
+    vertex_distance[i] = d;
+  } else {
+    control.witness.position = p;
+    control.witness.nearest = found.triangle;
+    control.witness.distance = d;
+  }
+  return d;
+}
+
 void main() {
-  uint i = item_index();
+  uint lane = gl_LocalInvocationID.x;
+  bool in_groups = (kSwitches & kUseGroupWalk) != 0u && walks_in_groups(push.vertex_count);
+  uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   bool is_vertex = i < push.vertex_count && vertex_distance[i] >= 0.0;
   float d = 0.0;
   if (i < push.vertex_count && !is_vertex) vertex_nearest[i] = kNone;
   if (is_old_witness(i)) clamp_witness();
   if (is_vertex || is_old_witness(i)) {
     Two3 p = seed_point(i);
-    Nearest found = nearest_triangle(Query(p, 0.0, false), start_of(i));
-    d = sqrt(found.distance2);  // uncertified: steers; seed_lower measures what matters
-    if (is_vertex) {
-      vertex_nearest[i] = found.triangle;
-      vertex_distance[i] = d;
+    uint start = start_of(i);
+    Query q = Query(p, 0.0, false);
+    if (in_groups) {
+      barrier();  // read before it is answered
+      Nearest found = nearest_triangle_by_group(q, start);
+      if (lane == 0u) d = answer(i, p.hi, found);
     } else {
-      control.witness.position = p.hi;
-      control.witness.nearest = found.triangle;
-      control.witness.distance = d;
+      d = answer(i, p.hi, nearest_triangle(q, start));
     }
   }
   raise(kMaxVertex, d);

@@ -1,5 +1,6 @@
 // What: moves each key and value to its place for one digit, keeping the order of equal digits.
-// In: keys_in, values_in; counts and totals from sort_scan. Out: keys_out, values_out.
+// In: keys_in, values_in; counts and totals from sort_scan, or, of few blocks, counts from
+// sort_count. Out: keys_out, values_out.
 // Each subgroup owns a contiguous run of the block, so that its own counters, taken round by round,
 // keep the order; lanes of equal digit find each other by ballots. 16-bit counters, two a word: a
 // block has 2048 keys.
@@ -26,6 +27,7 @@ const uint kMaxSubgroups =
 const uint kRow = kSortDigits / 2u;  // uncertified: integers
 shared uint counters[kMaxSubgroups * kRow];
 shared uint digit_base[kSortDigits];
+shared uint block_base[kSortDigits];  // of them in this block
 
 // Lanes of this subgroup whose digit equals ours.
 uvec4 peers_of(uint digit) {
@@ -38,9 +40,24 @@ uvec4 peers_of(uint digit) {
   return peers;
 }
 
+// How many keys have the digit `lane`. Out: block_base[lane], how many of them are in earlier
+// blocks.
+uint total_of(uint lane, uint block) {
+  if (push.blocks > kSortFewBlocks) {
+    block_base[lane] = counts[lane * push.blocks + block];
+    return totals[lane];
+  }
+  uint total = 0u;
+  for (uint b = 0u; b < push.blocks; ++b) {
+    if (b == block) block_base[lane] = total;
+    total += counts[lane * push.blocks + b];
+  }
+  return total;
+}
+
 // Exclusive sum of the totals over digits: where each digit starts in the output.
-void scan_totals(uint lane) {
-  uint own = totals[lane];
+void scan_totals(uint lane, uint block) {
+  uint own = total_of(lane, block);
   digit_base[lane] = own;
   barrier();
   for (uint reach = 1u; reach < kSortDigits; reach *= 2u) {
@@ -69,7 +86,7 @@ void main() {
   uint block = workgroup_index();
   if (block >= push.blocks) return;
   for (uint i = lane; i < kMaxSubgroups * kRow; i += kSortGroup) counters[i] = 0u;
-  scan_totals(lane);
+  scan_totals(lane, block);
   barrier();
   uint run = block * kSortBlock + gl_SubgroupID * (gl_SubgroupSize * kSortRounds) +
              gl_SubgroupInvocationID;
@@ -102,7 +119,7 @@ void main() {
     uint digit = (key >> push.shift) & 255u;
     uint earlier =
         (counters[gl_SubgroupID * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
-    uint place = digit_base[digit] + counts[digit * push.blocks + block] + earlier + rank[round];
+    uint place = digit_base[digit] + block_base[digit] + earlier + rank[round];
     keys_out[place] = key;
     values_out[place] = values_in[i];
   }

@@ -1,8 +1,8 @@
-// What: the cheap half of the cascade, over every child of the wave: exact case, u1, u2, ha with
-// the triangles already known. In: the refined candidates, their splits and queried points; the
-// admitted faces of A. Out: survivors (codes), and for each its centroid as a query that starts
-// from the best single triangle. Every closed child's u is kept (kMaxDropped). Also offers the new
-// points that may become the witness.
+// What: where centroids are queried, the cheap half of the cascade, over every child: exact case,
+// u1, u2, ha with the triangles already known. In: the refined candidates, their splits and queried
+// points; the admitted faces of A. Out: survivors (codes), and for each its centroid as a query
+// that starts from the best single triangle. Every closed child's u is kept (kMaxDropped). Also
+// offers the new points that may become the witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -23,6 +23,7 @@ layout(scalar, binding = 8) buffer Survivors { uint survivors[]; };
 layout(scalar, binding = 9) buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 11) buffer Areas { Area areas[]; };
+layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
 
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
@@ -82,18 +83,6 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
   return v;
 }
 
-void offer_witness(uint code) {
-  if (is_root(code) || (code & 3u) == 3u) return;
-  uint point = 3u * (code >> 2) + (code & 3u);
-  if (is_new_lower(points[point].distance))
-    atomicMin(control.witness_point_key, key_of_point(point));
-}
-
-bool asks_centroid(uint code) {
-  if ((kSwitches & kUseCentroid) != 0u) return true;
-  return (kSwitches & kUseRootCentroid) != 0u && is_root(code);
-}
-
 void main() {
   uint code = item_index();
   bool mine = code < 4u * control.parents + control.roots &&
@@ -102,10 +91,12 @@ void main() {
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));
   if (mine) {
-    offer_witness(code);
+    offer_point(code);
     Child c = load_child(code);
     Root root = load_root(c.root);
-    v = filter_child(code, c, root, threshold);
+    bool shared_face = is_root(code) && face_shared[c.root] != 0u;
+    v = Verdict(0.0, kCullExact, kNone);
+    if (!shared_face) v = filter_child(code, c, root, threshold);
     close_area(v.upper <= threshold, c.root, c.at);
     centre = place(root, centroid_of(c.at));
   }
@@ -116,7 +107,6 @@ void main() {
   uint slot = stream_append(kCountSurvivors, open);
   if (open) {
     survivors[slot] = code;
-    // A negative distance tells the query to skip it.
-    centroids[slot] = Point(centre.hi, v.best, centre.lo, asks_centroid(code) ? 0.0 : -1.0);
+    centroids[slot] = Point(centre.hi, v.best, centre.lo, 0.0);
   }
 }

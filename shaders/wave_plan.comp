@@ -31,6 +31,9 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/witness.glsl"
 
+const uint kAdoptGroup = kPlanGroup;
+#include "shaders/lib/adopt.glsl"
+
 // Adds what the wave before this one did to the totals.
 void close_wave() {
   if (control.wave == 0u) return;
@@ -209,10 +212,13 @@ void select_smallest(uint held) {
 void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
-  dispatches[kDispatchSubdivide] = groups_for(running ? parents + control.deferred : 0u);
-  dispatches[kDispatchQueryPoints] =
-      groups_for_queries(3u * parents, (kSwitches & kUseGroupWalk) != 0u);
-  dispatches[kDispatchFilter] = groups_for(running ? 4u * parents + control.roots : 0u);
+  bool spread = (kSwitches & kUseGroupWalk) != 0u;
+  uint held = running ? parents + control.deferred : 0u;
+  dispatches[kDispatchSubdivide] = groups_for(spread ? kSplitLanes * held : held);
+  dispatches[kDispatchQueryPoints] = groups_for_queries(3u * parents, spread);
+  uint children = running ? 4u * parents + control.roots : 0u;
+  dispatches[kDispatchFilter] = groups_for(children);
+  dispatches[kDispatchBound] = groups_for_children(children, spread);
   if (!running) return;
   control.count[kCountNext] = control.deferred;
   control.count[kCountRefined] = 0u;
@@ -224,7 +230,6 @@ shared uint held_in_short_room;  // candidates, where not all can be refined
 
 void plan() {
   if (control.status == kStatusRunning) {
-    adopt_witness();
     close_wave();
     flip();
     move_base();
@@ -237,6 +242,7 @@ void plan() {
 
 void main() {
   bool first = gl_LocalInvocationID.x == 0u;
+  adopt_witness();
   if (first) plan();
   memoryBarrierBuffer();
   barrier();

@@ -26,7 +26,12 @@ layout(scalar, binding = 9) buffer Areas { Area areas[]; };
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/coverage.glsl"
+#include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/stream.glsl"
+
+// Invocations of a candidate: each new point has one where a wave is a chain of steps.
+const uint kSubdivideLanes = (kSwitches & kUseGroupWalk) != 0u ? kSplitLanes : 1u;
+shared uint place_in_group[kGroupSize];
 
 // The code of the candidate's split; kSplitNone where the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
@@ -53,14 +58,12 @@ uint best_start(Candidate c, vec3 p) {
   return best.triangle;
 }
 
-void write_points(uint i, Candidate c, Bary3 at, Root root, uint split) {
+void write_point(uint i, uint k, Candidate c, Bary3 at, Root root, uint split) {
   Bary6 six = split_points(at, split == kSplitNone ? kSplitMidpoint : split);
-  for (uint k = 0u; k < 3u; ++k) {
-    Two3 p = place(root, corner_of(six.fresh, k));
-    // A negative distance tells the query to skip the point.
-    points[3u * i + k] = split == kSplitNone ? Point(p.hi, kNone, p.lo, -1.0)
-                                             : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
-  }
+  Two3 p = place(root, corner_of(six.fresh, k));
+  // A negative distance tells the query to skip the point.
+  points[3u * i + k] = split == kSplitNone ? Point(p.hi, kNone, p.lo, -1.0)
+                                           : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
 }
 
 // Where refined candidate `at`, a place in the half being read, stands among the wave's parents;
@@ -90,25 +93,38 @@ bool is_noise(Bary3 corners, Root root, float upper) {
          (control.base == 0.0 && left <= kUlp * root_radius);
 }
 
+// The same for all invocations of a candidate: the first one asks.
+uint shared_place_of(uint at, bool held, Candidate c, float upper) {
+  uint local = gl_LocalInvocationID.x / kSubdivideLanes;  // uncertified: integers
+  bool first = gl_LocalInvocationID.x % kSubdivideLanes == 0u;
+  uint i = place_of(at, held && first, c, upper);
+  if (kSubdivideLanes == 1u) return i;
+  if (first) place_in_group[local] = i;
+  barrier();
+  return place_in_group[local];
+}
+
 void main() {
-  uint at = item_index();
+  uint at = item_index() / kSubdivideLanes;  // uncertified: integers
+  uint lane = item_index() % kSubdivideLanes;
   bool held = at < control.count[kCountFrontier];
   Candidate c = frontier[reading(held ? at : 0u)];
   float upper = upper_of(c);
-  uint i = place_of(at, held, c, upper);
+  uint i = shared_place_of(at, held, c, upper);
   bool mine = i != kNone;
   bool closed = mine && upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   uint split = kSplitNone;
+  bool first = mine && lane == 0u;
   if (mine) {
     Bary3 corners = unpack_corners(c.corners);
     Root root = load_root(c.root);
     if (!closed && !is_noise(corners, root, upper)) split = choose_split(corners, root);
-    splits[i] = Split(split, at);
-    close_area(split == kSplitNone, c.root, corners);
-    write_points(i, c, corners, root, split);
+    if (first) splits[i] = Split(split, at);
+    close_area(first && split == kSplitNone, c.root, corners);
+    for (uint k = lane; k < 3u; k += kSubdivideLanes) write_point(i, k, c, corners, root, split);
   }
-  bool ended = mine && split == kSplitNone;
-  count_culled(kCullLowerRaised, closed);
+  bool ended = first && split == kSplitNone;
+  count_culled(kCullLowerRaised, ended && closed);
   count_culled(kCullPrecision, ended && !closed);
   raise(kMaxDropped, ended ? upper : 0.0);
 }

@@ -15,9 +15,7 @@ layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[];
 void main() {
   bool running = control.status == kStatusRunning;
   uint survivors = running ? control.count[kCountSurvivors] : 0u;
-  uint points = running ? 3u * control.parents : 0u;
   dispatches[kDispatchQueryCentroids] =
       groups_for_queries(survivors, (kSwitches & kUseGroupWalk) != 0u);
-  dispatches[kDispatchBound] = groups_for(survivors);
-  dispatches[kDispatchWitness] = groups_for(max(survivors, points));
+  dispatches[kDispatchBound] = groups_for_children(survivors, (kSwitches & kUseGroupWalk) != 0u);
 }

@@ -19,4 +19,18 @@ Dispatch groups_for_queries(uint queries, bool group_walk) {
   return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers
 }
 
+// Children that a workgroup of wave_bound takes: so many more as there are more of them.
+uint children_a_group(uint total, bool spread) {
+  if (!spread) return kGroupSize;
+  uint children = kFewestChildren;
+  while (children < kGroupSize && children * kBoundGroups < total) children *= 2u;
+  return children;
+}
+
+// Of wave_bound.
+Dispatch groups_for_children(uint total, bool spread) {
+  uint children = children_a_group(total, spread);
+  return groups_of((total + children - 1u) / children);  // uncertified: integers
+}
+
 #endif

@@ -1,69 +1,63 @@
 // Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an order
 // that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
-// that the report says of a witness, so that two samples with one key are one to the report. First
-// every sample at the new lower bound offers its key (wave_filter, wave_bound), then those with the
-// smallest key offer their index (wave_witness), then one invocation adopts it (wave_plan,
-// report_begin), before the wave's streams are overwritten. Include after `control`, `frontier`,
-// `splits`, `points`, `survivors` and `centroids` are declared and lib/child.glsl is included.
+// that the report says of a witness, so that two samples with one key are one to the report.
+// Samples at what was the lower bound when they were looked at are offered (wave_filter,
+// wave_bound); a workgroup then adopts one (wave_plan, report_begin), before the wave's streams are
+// overwritten. Include after `control`, `frontier`, `splits`, `points`, `survivors` and `centroids`
+// are declared and lib/child.glsl is included.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
 #include "shaders/lib/hash.h"
+
+float distance_of_sample(uint s) {
+  if ((s & kCentroidSample) != 0u) return centroids[s & ~kCentroidSample].distance;
+  return points[s].distance;
+}
 
 bool is_new_lower(float distance) {
   return distance == uintBitsToFloat(control.maximum[kMaxLower]) &&
          distance > control.witness.distance;
 }
 
-uint witness_key(uint root, uvec2 at, uint nearest) {
-  return mixed(mixed(mixed(mixed(0u, root), at.x), at.y), nearest);
+void offer_sample(uint s) {
+  if (!is_new_lower(distance_of_sample(s))) return;
+  uint slot = atomicAdd(control.offer_count, 1u);
+  if (slot < kMaxOffers) control.offers[slot] = s;
+}
+
+// A child's share in offering the new points: each is a child's first, second or third.
+void offer_point(uint code) {
+  if (!is_root(code) && (code & 3u) != 3u) offer_sample(3u * (code >> 2) + (code & 3u));
 }
 
 struct Sample {
   uint root;
   uvec2 at;
+  Point asked;
 };
 
-Sample sample_of_point(uint p) {
-  uint parent_index = p / 3u;  // uncertified: integers
-  Split split = splits[parent_index];
+Sample load_sample(uint s) {
+  if ((s & kCentroidSample) != 0u) {
+    uint c = s & ~kCentroidSample;
+    Child child = load_child(survivors[c]);
+    return Sample(child.root, centroid_of(child.at), centroids[c]);
+  }
+  Split split = splits[s / 3u];  // uncertified: integers
   Candidate parent = frontier[reading(split.parent)];
   Bary6 six = split_points(unpack_corners(parent.corners), split.code);
-  return Sample(parent.root, corner_of(six.fresh, p % 3u));
+  return Sample(parent.root, corner_of(six.fresh, s % 3u), points[s]);
 }
 
-Sample sample_of_centroid(uint c) {
-  Child child = load_child(survivors[c]);
-  return Sample(child.root, centroid_of(child.at));
+uint key_of_sample(uint s) {
+  Sample x = load_sample(s);
+  return mixed(mixed(mixed(mixed(0u, x.root), x.at.x), x.at.y), x.asked.nearest);
 }
 
-uint key_of_point(uint p) {
-  Sample at = sample_of_point(p);
-  return witness_key(at.root, at.at, points[p].nearest);
-}
-
-uint key_of_centroid(uint c) {
-  Sample at = sample_of_centroid(c);
-  return witness_key(at.root, at.at, centroids[c].nearest);
-}
-
-void adopt(Point asked, Sample at) {
+void adopt_sample(uint s) {
+  Sample x = load_sample(s);
   control.witness =
-      Witness(asked.position, asked.distance, at.root, at.at.x, at.at.y, asked.nearest);
-}
-
-void adopt_witness() {
-  uint c = control.witness_centroid;
-  uint p = control.witness_point;
-  if (c != kNone) {
-    adopt(centroids[c], sample_of_centroid(c));
-  } else if (p != kNone) {
-    adopt(points[p], sample_of_point(p));
-  }
-  control.witness_point_key = kNone;
-  control.witness_point = kNone;
-  control.witness_centroid_key = kNone;
-  control.witness_centroid = kNone;
+      Witness(x.asked.position, x.asked.distance, x.root, x.at.x, x.at.y, x.asked.nearest);
 }
 
 #endif
