@@ -155,7 +155,8 @@ void bound_pairs() {
 Verdict last_word(uint child, Child c, Verdict v, float threshold) {
   float u3 = uintBitsToFloat(upper_bits[child]);
   if (u3 < v.upper) v = Verdict(u3, kCullU3);
-  if (v.upper > threshold && (kSwitches & kUseU4) != 0u) {
+  if ((kSwitches & kUseU4) == 0u) return v;
+  if (v.upper > threshold) {
     float u4 = bound_u4(patch_of_child(child), c.nearest, view_of_child(child), held[child].slack);
     if (u4 < v.upper) v = Verdict(u4, kCullU4);
   }

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """SPIR-V in, C++ out: one header and one source per kernel, checked against shaders/gpu_types.h.
 
-  embed_shaders.py kernel SPV OUT_DIR [FLAT]  OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
-                                           with FLAT, that is embedded, and SPV tells of its buffers
+  embed_shaders.py kernel SPV OUT_DIR [FLAT CPU]
+                                           OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
+                                           SPV tells of the buffers, and FLAT is embedded where it
+                                           is given, and CPU too where there are switches
   embed_shaders.py index OUT_DIR NAME...   OUT_DIR/all_kernels.h and .cpp, and no other kernel's
 
 The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... without a gap, storage
@@ -265,6 +267,7 @@ struct {type} {{
   static constexpr const char* kName = "{name}";
   static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
   static std::span<const uint32_t> words();
+  static std::span<const uint32_t> words_for_cpu();  // the switches are VKH_SWITCH_DEFAULT_CPU
 
   struct Args {{
 {args}
@@ -297,10 +300,11 @@ namespace {{
 constexpr uint32_t kWords[] = {{
 {words}
 }};
-
+{cpu_words}
 }}  // namespace
 
 std::span<const uint32_t> {type}::words() {{ return kWords; }}
+std::span<const uint32_t> {type}::words_for_cpu() {{ return {cpu_name}; }}
 
 }}  // namespace vkh::k
 """
@@ -338,10 +342,20 @@ def header_text(kernel):
     )
 
 
-def source_text(kernel, words):
+def words_text(words):
     rows = (words[i : i + 8] for i in range(0, len(words), 8))
-    text = "\n".join("    " + " ".join(f"{w:#010x}," for w in row) for row in rows)
-    return SOURCE.format(name=kernel.name, type=kernel.type_name, words=text)
+    return "\n".join("    " + " ".join(f"{w:#010x}," for w in row) for row in rows)
+
+
+def source_text(kernel, words, cpu_words):
+    cpu = f"constexpr uint32_t kCpuWords[] = {{\n{words_text(cpu_words)}\n}};\n" if cpu_words else ""
+    return SOURCE.format(
+        name=kernel.name,
+        type=kernel.type_name,
+        words=words_text(words),
+        cpu_words=cpu,
+        cpu_name="kCpuWords" if cpu_words else "kWords",
+    )
 
 
 def index_text(names):
@@ -363,14 +377,17 @@ def read_words(spv):
     return struct.unpack(f"<{len(data) // 4}I", data)
 
 
-def embed_kernel(spv, out_dir, flat):
+def embed_kernel(spv, out_dir, flat=None, cpu=None):
+    words = read_words(spv)
     try:
-        kernel = reflect(spv.stem, read_words(spv))
+        kernel = reflect(spv.stem, words)
     except (ContractError, ValueError) as error:
         sys.exit(f"shaders/{spv.stem}.comp: {error}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
+    cpu_words = read_words(cpu) if cpu and spirv.has_switches(words) else None
     # Always: it is the output by which a Makefile knows that this ran.
-    (out_dir / f"{kernel.name}.cpp").write_text(source_text(kernel, read_words(flat)))
+    text = source_text(kernel, read_words(flat) if flat else words, cpu_words)
+    (out_dir / f"{kernel.name}.cpp").write_text(text)
 
 
 def embed_index(out_dir, names):
@@ -382,8 +399,8 @@ def embed_index(out_dir, names):
 
 
 def main(args):
-    if len(args) in (3, 4) and args[0] == "kernel":
-        embed_kernel(Path(args[1]), Path(args[2]), Path(args[-1 if len(args) == 4 else 1]))
+    if len(args) in (3, 5) and args[0] == "kernel":
+        embed_kernel(*map(Path, args[1:]))
     elif len(args) >= 2 and args[0] == "index":
         embed_index(Path(args[1]), sorted(args[2:]))
     else:
