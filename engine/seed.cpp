@@ -14,8 +14,8 @@ void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
   const uint32_t items = p.vertex_count + push.warm;
   const uint32_t groups = in_groups ? items : (items + gpu::kQueryGroup - 1) / gpu::kQueryGroup;
   rec.run<k::SeedQuery>({.vertices = p.ws.vertices,
-                         .nodes = p.b.nodes,
-                         .triangles = p.b.triangles,
+                         .nodes = as<gpu::uvec4>(p.b.nodes),
+                         .triangles = as<gpu::uvec4>(p.b.triangles),
                          .vertex_nearest = p.ws.vertex_nearest,
                          .vertex_distance = p.ws.vertex_distance,
                          .control = p.ws.control,
@@ -27,8 +27,8 @@ void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
 
 void record_lower(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
   rec.run<k::SeedLower>({.vertices = p.ws.vertices,
-                         .nodes = p.b.nodes,
-                         .triangles = p.b.triangles,
+                         .nodes = as<gpu::uvec4>(p.b.nodes),
+                         .triangles = as<gpu::uvec4>(p.b.triangles),
                          .vertex_nearest = p.ws.vertex_nearest,
                          .vertex_distance = p.ws.vertex_distance,
                          .control = p.ws.control,
@@ -61,7 +61,7 @@ void record_seed(Recorder& rec, const Problem& p) {
                          .vertex_distance = ws.vertex_distance,
                          .control = ws.control,
                          .vertices = ws.vertices,
-                         .triangles = p.b.triangles,
+                         .triangles = as<gpu::uvec4>(p.b.triangles),
                          .triangle_lows = p.b.triangle_lows,
                          .codes = p.b.codes,
                          .box = p.b.box,

@@ -27,6 +27,13 @@ struct Required : T {
   Required(const T& value) : T(value) {}
 };
 
+// The same range as elements of another type: kernels that only read a struct may take it in words
+// of 16 bytes.
+template <class U, class T>
+Slice<U> as(const Slice<T>& slice) {
+  return {slice.buffer, slice.offset, slice.size};
+}
+
 template <class T>
 VkDescriptorBufferInfo info(const Slice<T>& slice) {
   return {slice.buffer, slice.offset, slice.size};

@@ -10,8 +10,8 @@
 
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
-layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 3) buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 4) buffer VertexDistance { float vertex_distance[]; };
 layout(scalar, binding = 5) buffer ControlBlock { Control control; };

@@ -14,8 +14,8 @@
 layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kQueryGroup) in;
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
-layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 3) buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 4) buffer VertexDistance { float vertex_distance[]; };
 layout(scalar, binding = 5) buffer ControlBlock { Control control; };

@@ -11,7 +11,7 @@
 
 layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kPlanGroup) in;
-layout(scalar, binding = 0) coherent buffer ControlBlock { Control control; };
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
 layout(scalar, binding = 2) readonly buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 3) readonly buffer Splits { Split splits[]; };
@@ -21,8 +21,8 @@ layout(scalar, binding = 6) readonly buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 7) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 8) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 9) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 10) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 11) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 10) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 11) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
 #include "shaders/lib/bvh.glsl"
@@ -95,16 +95,19 @@ void move_base() {
 // full, so that it can be refined as a whole.
 void share_room() {
   uint held = control.count[kCountFrontier];
-  uint room = control.capacity - held;
-  control.parents =
+  uint capacity = control.capacity;
+  uint cursor = control.root_cursor;
+  uint room = capacity - held;
+  uint parents =
       min(held, room > kReserve + 3u ? (room - kReserve) / 3u : 1u);  // uncertified: integers
-  control.deferred = held - control.parents;
-  uint quarter = (control.capacity - kReserve) / 4u;  // uncertified: integers
-  uint waiting = control.face_count - control.root_cursor;
-  control.roots = held < quarter
-                      ? min(waiting, min(quarter - held, room - 3u * control.parents - kReserve))
-                      : 0u;
-  control.root_cursor += control.roots;
+  uint quarter = (capacity - kReserve) / 4u;                          // uncertified: integers
+  uint waiting = control.face_count - cursor;
+  uint roots =
+      held < quarter ? min(waiting, min(quarter - held, room - 3u * parents - kReserve)) : 0u;
+  control.parents = parents;
+  control.deferred = held - parents;
+  control.roots = roots;
+  control.root_cursor = cursor + roots;
 }
 
 // All that is left is within the tolerance: what culling would find out with one more wave.
@@ -136,6 +139,9 @@ shared Key prefix;    // of the keys that are still undecided
 shared uint decided;  // digits of it
 shared uint before;   // keys under it
 shared bool selecting;
+shared uint read_from;           // where the half of the frontier that the wave reads starts
+shared uint room_for;            // candidates that can be refined
+shared uint held_in_short_room;  // candidates, where not all can be refined
 
 uint digit_of(Key k, uint d) {
   return ((d < 4u ? k.first : k.second) >> (24u - 8u * (d & 3u))) & 255u;
@@ -162,7 +168,7 @@ void count_digits(uint held) {
   histogram[lane] = 0u;
   barrier();
   for (uint i = lane; i < held; i += kPlanGroup) {
-    Key k = key_of(frontier[reading(i)]);
+    Key k = key_of(frontier[read_from + i]);
     if (has_prefix(k)) atomicAdd(histogram[digit_of(k, decided)], 1u);
   }
   barrier();
@@ -190,7 +196,7 @@ void narrow(uint room) {
     if (prefix.second == 0u) control.select_key = prefix.first - 1u;
   }
   uint refined = max(before, 1u);
-  control.deferred += control.parents - refined;
+  control.deferred += room_for - refined;
   control.parents = refined;
 }
 
@@ -204,7 +210,7 @@ void select_smallest(uint held) {
   barrier();
   while (selecting) {
     count_digits(held);
-    if (gl_LocalInvocationID.x == 0u) narrow(control.parents);
+    if (gl_LocalInvocationID.x == 0u) narrow(room_for);
     barrier();
   }
 }
@@ -226,8 +232,6 @@ void write_sizes() {
   control.wave += 1u;
 }
 
-shared uint held_in_short_room;  // candidates, where not all can be refined
-
 void plan() {
   if (control.status == kStatusRunning) {
     close_wave();
@@ -238,13 +242,14 @@ void plan() {
   }
   bool short_room = control.status == kStatusRunning && control.deferred > 0u;
   held_in_short_room = short_room ? control.count[kCountFrontier] : 0u;
+  read_from = reading(0u);
+  room_for = control.parents;
 }
 
 void main() {
   bool first = gl_LocalInvocationID.x == 0u;
   adopt_witness();
   if (first) plan();
-  memoryBarrierBuffer();
   barrier();
   if (held_in_short_room > 0u) select_smallest(held_in_short_room);
   if (first) write_sizes();

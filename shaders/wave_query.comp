@@ -11,8 +11,8 @@
 layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kQueryGroup) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 3) buffer Points { Point points[]; };
 layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 5) readonly buffer Boxes { Box boxes[]; };

@@ -16,8 +16,8 @@ layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
-layout(scalar, binding = 4) readonly buffer Nodes { Node nodes[]; };
-layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 4) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 5) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 6) writeonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
 layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
@@ -35,13 +35,13 @@ shared uint place_in_group[kGroupSize];
 
 // The code of the candidate's split; kSplitNone where the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
-  Corners t = place_corners(root, at).at;
+  Corners t = plain_corners(root, at);
   if ((kSwitches & kUseThin) != 0u && quality(t) < kThinQuality) {
     uint x = opposite_longest(t);
     Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
     uvec3 all = uvec3(0u, 1u, 2u);
-    uint y = opposite_longest(place_corners(root, child_of(first, bisected(all, x, 3u, 0u))).at);
-    uint z = opposite_longest(place_corners(root, child_of(first, bisected(all, x, 3u, 1u))).at);
+    uint y = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 0u))));
+    uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
     uint code = bisection_code(x, y, z);
     if (can_split(at, code)) return code;
   }
@@ -86,11 +86,13 @@ uint place_of(uint at, bool held, Candidate c, float upper) {
 // on B, where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
 // A's.
 bool is_noise(Bary3 corners, Root root, float upper) {
-  float radius = enclosing_radius_up(place_corners(root, corners).at);
-  float root_radius = enclosing_radius_up(place_corners(root, whole_root()).at);
+  Corners t = plain_corners(root, corners);
+  float size2 = max(dot(t.b, t.b), dot(t.c, t.c));
+  float root_size2 = max(dot(root.ab.hi, root.ab.hi), dot(root.ac.hi, root.ac.hi));
   float left = upper - uintBitsToFloat(control.maximum[kMaxLower]);
-  return radius < 0.03125 * effective_tolerance() ||
-         (control.base == 0.0 && left <= kUlp * root_radius);
+  float tiny = 0.0625 * effective_tolerance();
+  return size2 < tiny * tiny ||
+         (control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2);
 }
 
 // The same for all invocations of a candidate: the first one asks.

@@ -78,6 +78,21 @@ VKH_FN Two3 step_between(uvec2 from, uvec2 to, Root r) {
   return two_combination(two(vec3(0.0f, 0.0f, 0.0f)), x, r.ab, y, r.ac);
 }
 
+// Corners around the first in plain floats, for what only steers.
+VKH_FN vec3 plain_step(uvec2 from, uvec2 to, Root r) {
+  float x = float(int(to.x) - int(from.x)) * kBaryUnit;
+  float y = float(int(to.y) - int(from.y)) * kBaryUnit;
+  return x * r.ab.hi + y * r.ac.hi;
+}
+
+VKH_FN Corners plain_corners(Root r, Bary3 t) {
+  Corners c;
+  c.a = vec3(0.0f, 0.0f, 0.0f);
+  c.b = plain_step(t.a, t.b, r);
+  c.c = plain_step(t.a, t.c, r);
+  return c;
+}
+
 // Corners are off by 8 kUlp2 reach (place), steps by as much, cuts by 6 kUlp2 of a step more.
 VKH_FN Placement place_corners(Root r, Bary3 t) {
   Placement p;

@@ -72,37 +72,54 @@ VKH_FN Two3 corner_at(Patch t, uint i) {
   return p;
 }
 
-// One edge of T, from a corner nearer to S to one nearer to R, cut where the distances even out if
-// both were linear. Any cut is right, as both pieces use it; at the cut, the larger of the two
-// distances counts. The cut is off by 6 kUlp2 of T's radius, which is under 2^-41 of the surfaces'
-// slack and of T: placement_slack takes it.
-VKH_FN float cut_distance(Two3 from, Two3 to, float excess_from, float excess_to, Surface s,
-                          Surface r) {
-  float gap = abs(excess_from) + abs(excess_to);
-  float cut =
-      gap > kTiny ? min(abs(excess_from) / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
-  Two3 none = two(vec3(0.0f, 0.0f, 0.0f));
-  Two3 p = two_combination(from, cut, two_difference(to, from), 0.0f, none);
-  return max(surface_distance_up(p, s), surface_distance_up(p, r));
-}
+// How T is cut between two surfaces (u3): one corner is nearer to one of them, the two others to
+// the other one; the edges from it to them are cut.
+struct PairCut {
+  bool none;  // all corners are nearer to one surface: no cut
+  uint alone;
+  uint ends[2];   // the other corners
+  float corners;  // what the corners say: each by the nearer surface
+};
 
-// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut in two where its distances
-// from them even out, one piece is measured against S and the other against R. `ds` and `dr` are
-// corner_distances of both.
-VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
+// `ds` and `dr` are corner_distances of both surfaces.
+VKH_FN PairCut pair_cut(vec3 ds, vec3 dr) {
   vec3 excess = ds - dr;  // < 0: nearer to S
   bool na = excess.x < 0.0f;
   bool nb = excess.y < 0.0f;
   bool nc = excess.z < 0.0f;
-  if (na == nb && nb == nc) return na ? max3(ds) : max3(dr);
-  uint alone = na == nb ? 2u : (na == nc ? 1u : 0u);
-  uint i = alone == 2u ? 0u : alone + 1u;
-  uint j = alone == 0u ? 2u : alone - 1u;
-  Two3 p = corner_at(t, alone);
-  float corners = max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
-  float ci = cut_distance(p, corner_at(t, i), pick3(excess, alone), pick3(excess, i), s, r);
-  float cj = cut_distance(p, corner_at(t, j), pick3(excess, alone), pick3(excess, j), s, r);
-  return max(corners, max(ci, cj));
+  PairCut cut;
+  cut.none = na == nb && nb == nc;
+  cut.alone = na == nb ? 2u : (na == nc ? 1u : 0u);
+  cut.ends[0] = cut.alone == 2u ? 0u : cut.alone + 1u;
+  cut.ends[1] = cut.alone == 0u ? 2u : cut.alone - 1u;
+  cut.corners = max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
+  return cut;
+}
+
+// Where the edge to ends[k] is cut: where its distances would even out if both were linear. Any cut
+// is right, as both pieces use it. It is off by 6 kUlp2 of T's radius, which is under 2^-41 of the
+// surfaces' slack and of T: placement_slack takes it.
+VKH_FN Two3 cut_point(Patch t, PairCut cut, uint k, vec3 ds, vec3 dr) {
+  vec3 excess = ds - dr;
+  Two3 from = corner_at(t, cut.alone);
+  Two3 to = corner_at(t, cut.ends[k]);
+  float near_from = abs(pick3(excess, cut.alone));
+  float gap = near_from + abs(pick3(excess, cut.ends[k]));
+  float at = gap > kTiny ? min(near_from / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
+  return two_combination(from, at, two_difference(to, from), 0.0f, two(vec3(0.0f, 0.0f, 0.0f)));
+}
+
+// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut in two, one piece is measured
+// against S and the other against R; at the cuts, which both pieces have, the larger of the two
+// distances counts.
+VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
+  PairCut cut = pair_cut(ds, dr);
+  if (cut.none) return min(max3(ds), max3(dr));
+  Two3 p = cut_point(t, cut, 0u, ds, dr);
+  Two3 q = cut_point(t, cut, 1u, ds, dr);
+  float at_p = max(surface_distance_up(p, s), surface_distance_up(p, r));
+  float at_q = max(surface_distance_up(q, s), surface_distance_up(q, r));
+  return max(cut.corners, max(at_p, at_q));
 }
 
 VKH_LIB_END

@@ -12,12 +12,13 @@
 // 1.2e-7 off costs under 1e-8, or under 1e-10 in a tight run.
 float next_to_surface(bool tight) { return tight ? 1.0e-4 : 1.0e-6; }
 
-Corners triangle_corners(uint i) {
-  Corners t;
-  t.a = triangles[i].a;
-  t.b = triangles[i].b;
-  t.c = triangles[i].c;
-  return t;
+Node load_node(uint i) {
+  uvec4 w0 = nodes[kNodeWords * i];
+  uvec4 w1 = nodes[kNodeWords * i + 1u];
+  uvec4 w2 = nodes[kNodeWords * i + 2u];
+  uvec4 w3 = nodes[kNodeWords * i + 3u];
+  return Node(uintBitsToFloat(w0.xyz), w0.w, uintBitsToFloat(w1.xyz), w1.w,
+              uintBitsToFloat(w2.xyz), w2.w, uintBitsToFloat(w3.xyz), w3.w);
 }
 
 // Corners of triangle i in the frame at `origin`; each is off by one rounding.
@@ -124,7 +125,7 @@ Nearest nearest_triangle(Query q, uint start) {
       for (uint i = first; i <= last; ++i) try_query(q, i, best);
       reach = reach_of(q, best);
     } else {
-      Node node = nodes[at];
+      Node node = load_node(at);
       float d0 = box_distance2(p, node.lo0, node.hi0);
       float d1 = box_distance2(p, node.lo1, node.hi1);
       bool swap = d1 < d0;

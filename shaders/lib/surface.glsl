@@ -3,7 +3,7 @@
 #ifndef VKH_SHADERS_LIB_SURFACE_GLSL
 #define VKH_SHADERS_LIB_SURFACE_GLSL
 
-#include "shaders/lib/triangle.h"
+#include "shaders/lib/fetch.glsl"
 
 Surface load_surface(uint i, View from) {
   TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
@@ -12,8 +12,8 @@ Surface load_surface(uint i, View from) {
     low.b = triangle_lows[i].b;
     low.c = triangle_lows[i].c;
   }
-  return make_surface(Two3(triangles[i].a, low.a), Two3(triangles[i].b, low.b),
-                      Two3(triangles[i].c, low.c), from);
+  Corners t = triangle_corners(i);
+  return make_surface(Two3(t.a, low.a), Two3(t.b, low.b), Two3(t.c, low.c), from);
 }
 
 bool is_corner(Two3 p, Two3 a, Two3 b, Two3 c) {
@@ -30,9 +30,10 @@ bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
     low.b = triangle_lows[i].b;
     low.c = triangle_lows[i].c;
   }
-  Two3 a = Two3(triangles[i].a, low.a);
-  Two3 b = Two3(triangles[i].b, low.b);
-  Two3 c = Two3(triangles[i].c, low.c);
+  Corners t = triangle_corners(i);
+  Two3 a = Two3(t.a, low.a);
+  Two3 b = Two3(t.b, low.b);
+  Two3 c = Two3(t.c, low.c);
   return is_corner(p, a, b, c) && is_corner(q, a, b, c) && is_corner(r, a, b, c);
 }
 

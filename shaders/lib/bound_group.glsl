@@ -1,0 +1,164 @@
+// The cascade for some children at once, by a whole workgroup: who holds what, and how the
+// distances are shared out. Include after lib/surface.glsl, lib/candidate.glsl and lib/child.glsl;
+// kSwitches is declared, the workgroup has kGroupSize invocations.
+#ifndef VKH_SHADERS_LIB_BOUND_GROUP_GLSL
+#define VKH_SHADERS_LIB_BOUND_GROUP_GLSL
+
+// Without the centroid's triangle and the parent's, only the three corners' are known.
+const uint kMostKnown = (kSwitches & (kUseCentroid | kUseParentSamples)) != 0u ? kMaxKnown : 3u;
+const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: integers
+
+// A child as all invocations need it.
+struct Held {
+  Two3 b, c;  // corners around the first
+  Two3 origin;
+  float reach, slack;
+  float upper;  // u so far
+  uint known, first_pair, pairs;
+};
+
+shared Held held[kGroupSize];
+shared uint known_triangle[kGroupSize * kMostKnown];
+shared float corner_distance[kGroupSize * kMostKnown * 3u];
+shared uint measures[kGroupSize * kMostKnown];  // kMostKnown * child + k: triangle k of a child
+shared uint measure_count;
+shared uint pairs[kGroupSize * kMostPairs];  // (child * kMaxKnown + i) * kMaxKnown + j
+shared uint pair_bits[kGroupSize * kMostPairs];
+shared uint pair_count;
+
+struct Verdict {
+  float upper;
+  uint by;  // kCull*
+};
+
+void begin_group() {
+  if (gl_LocalInvocationID.x == 0u) {
+    measure_count = 0u;
+    pair_count = 0u;
+  }
+  barrier();
+}
+
+View view_of_child(uint child) {
+  Placement p;
+  p.origin = held[child].origin;
+  p.reach = held[child].reach;
+  return view_of(p, (kSwitches & kUseCertificate) == 0u);
+}
+
+Patch patch_of_child(uint child) {
+  return make_patch(two(vec3(0.0)), held[child].b, held[child].c);
+}
+
+Surface surface_of(uint child, uint k) {
+  return load_surface(known_triangle[child * kMostKnown + k], view_of_child(child));
+}
+
+vec3 distances_of(uint child, uint k) {
+  uint at = 3u * (child * kMostKnown + k);
+  return vec3(corner_distance[at], corner_distance[at + 1u], corner_distance[at + 2u]);
+}
+
+void hold(uint child, Child c, Known known) {
+  Placement placed = place_corners(load_root(c.root), c.at);
+  held[child] = Held(placed.b, placed.c, placed.origin, placed.reach, placed.slack, c.upper,
+                     known.count, 0u, 0u);
+  uint first = atomicAdd(measure_count, known.count);
+  for (uint k = 0u; k < known.count; ++k) {
+    known_triangle[child * kMostKnown + k] = known.triangle[k];
+    measures[first + k] = child * kMostKnown + k;
+  }
+}
+
+// Every child's corners against the triangles known to it; where `fine`, an invocation a corner.
+void measure_corners(bool fine) {
+  uint step = fine ? 3u : 1u;
+  for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
+    uint at = measures[n / step];  // uncertified: integers
+    uint child = at / kMostKnown;  // uncertified: integers
+    Surface s = surface_of(child, at % kMostKnown);
+    for (uint corner = n % step; corner < 3u; corner += step) {
+      Two3 p = two(vec3(0.0));
+      if (corner == 1u) p = held[child].b;
+      if (corner == 2u) p = held[child].c;
+      corner_distance[3u * at + corner] = surface_distance_up(p, s);
+    }
+  }
+}
+
+// What single triangles give: u1, u2 and ha, and the exact case, ha of the only one.
+Verdict bound_singly(uint child, float threshold) {
+  Patch t = patch_of_child(child);
+  float shift = held[child].slack;
+  vec3 own = vec3(3.0e38);
+  float ha = 3.0e38;
+  for (uint k = 0u; k < held[child].known; ++k) {
+    vec3 d = distances_of(child, k);
+    own = min(own, d);
+    ha = min(ha, kept_bound(bound_single(d), shift));
+  }
+  float u1 = kept_bound(bound_u1(t, own), shift);
+  float u2 = kept_bound(bound_u2(t, own), shift);
+  uint by = held[child].known == 1u ? kCullExact
+            : u1 <= threshold       ? kCullU1
+            : u2 <= threshold       ? kCullU2
+            : ha <= threshold       ? kCullHa
+                                    : kCullLowerRaised;
+  held[child].upper = min(held[child].upper, min(ha, min(u1, u2)));
+  return Verdict(held[child].upper, by);
+}
+
+// Pairs of triangles that may bound a child better, for measure_cuts: a pair cannot beat the better
+// of its two distances at the worst corner. Which are tried does not depend on what others found,
+// or the bound would depend on their order.
+void list_pairs(uint child) {
+  uint listed[kMostPairs];
+  uint count = 0u;
+  for (uint i = 1u; i < held[child].known; ++i) {
+    for (uint j = 0u; j < i; ++j) {
+      PairCut cut = pair_cut(distances_of(child, i), distances_of(child, j));
+      if (cut.none || kept_bound(cut.corners, held[child].slack) >= held[child].upper) continue;
+      listed[count] = (child * kMaxKnown + i) * kMaxKnown + j;
+      ++count;
+    }
+  }
+  uint first = atomicAdd(pair_count, count);
+  held[child].first_pair = first;
+  held[child].pairs = count;
+  for (uint n = 0u; n < count; ++n) {
+    pairs[first + n] = listed[n];
+    pair_bits[first + n] = 0u;
+  }
+}
+
+// u3 of the listed pairs: two cuts, each against two surfaces; where `fine`, an invocation each.
+void measure_cuts(bool fine) {
+  uint step = fine ? 4u : 1u;
+  for (uint n = gl_LocalInvocationID.x; n < pair_count * step; n += kGroupSize) {
+    uint at = n / step;                                // uncertified: integers
+    uint child = pairs[at] / (kMaxKnown * kMaxKnown);  // uncertified: integers
+    uint i = (pairs[at] / kMaxKnown) % kMaxKnown;      // uncertified: integers
+    uint j = pairs[at] % kMaxKnown;
+    vec3 di = distances_of(child, i);
+    vec3 dj = distances_of(child, j);
+    PairCut cut = pair_cut(di, dj);
+    float u3 = cut.corners;
+    Two3 p = two(vec3(0.0));
+    for (uint part = n % step; part < 4u; part += step) {
+      if (step == 4u || (part & 1u) == 0u)
+        p = cut_point(patch_of_child(child), cut, part >> 1, di, dj);
+      u3 = max(u3, surface_distance_up(p, surface_of(child, (part & 1u) == 0u ? i : j)));
+    }
+    atomicMax(pair_bits[at], floatBitsToUint(kept_bound(u3, held[child].slack)));
+  }
+}
+
+Verdict bound_in_pairs(uint child, Verdict v) {
+  for (uint n = 0u; n < held[child].pairs; ++n) {
+    float u3 = uintBitsToFloat(pair_bits[held[child].first_pair + n]);
+    if (u3 < v.upper) v = Verdict(u3, kCullU3);
+  }
+  return v;
+}
+
+#endif
