@@ -110,11 +110,16 @@ Nearest measured(Query q, Nearest best) {
 // node is pushed at most once a level, so kStackDepth entries suffice.
 Nearest nearest_triangle(Query q, uint start) {
   Nearest best = nothing_near();
-  if (start != kNone) try_query(q, start, best);
   uint stack[kStackDepth];
   float stack_distance2[kStackDepth];
   uint top = 0u;
   uint at = 0u;
+  if (start != kNone) {  // as a leaf before the root, for each call of try_query is inlined
+    at = kLeafFlag | start;
+    stack[0] = 0u;
+    stack_distance2[0] = 0.0;
+    top = 1u;
+  }
   vec3 p = q.p.hi;
   float reach = reach_of(q, best);
   while (true) {
