@@ -32,8 +32,9 @@ void record_pyramid(Recorder& rec, const Hierarchy& h) {
 // All boxes of the nodes, from the triangles and the topology as they are.
 void record_boxes(Recorder& rec, const Hierarchy& h) {
   record_pyramid(rec, h);
-  rec.run<k::BvhRefit>({.triangles = h.triangles, .boxes = h.pyramid, .nodes = h.nodes},
-                       gpu::CountPush{h.face_count}, Items{h.face_count});
+  rec.run<k::BvhRefit>(
+      {.triangles = h.triangles, .boxes = h.pyramid, .branches = h.branches, .nodes = h.nodes},
+      gpu::CountPush{h.face_count}, Items{h.face_count});
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .keys = s.keys[0],
                          .codes = h.codes},
                         count, faces);
-  rec.run<k::BvhHierarchy>({.keys = s.keys[0], .nodes = h.nodes}, count, faces);
+  rec.run<k::BvhHierarchy>({.keys = s.keys[0], .branches = h.branches}, count, faces);
   record_boxes(rec, h);
   rec.stage("hierarchy");
 }

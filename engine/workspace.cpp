@@ -28,6 +28,7 @@ class Suballocator {
 };
 
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
+  take(h.branches, std::max(face_count, 2u) - 1);
   take(h.nodes, std::max(face_count, 2u) - 1);
   take(h.pyramid, pyramid_size(face_count));
   take(h.triangles, face_count);

@@ -9,6 +9,7 @@ namespace vkh {
 
 // B's hierarchy, kept between runs.
 struct Hierarchy {
+  Slice<gpu::Branch> branches;
   Slice<gpu::Node> nodes;
   Slice<gpu::Box> pyramid;
   Slice<gpu::Triangle> triangles;

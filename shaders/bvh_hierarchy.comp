@@ -1,8 +1,8 @@
 // What: the topology of B's hierarchy over the sorted Morton keys, every inner node at once (Karras
 // 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Ties are
 // broken by position, so that keys are distinct and a path from the root shares a prefix that grows
-// by a bit a level (kStackDepth). In: keys[count], sorted. Out: nodes[max(count - 1, 1)] but their
-// boxes. A child of at most kLeafTriangles triangles is referenced as a leaf; its own inner nodes
+// by a bit a level (kStackDepth). In: keys[count], sorted. Out: branches[max(count - 1, 1)].
+// A child of at most kLeafTriangles triangles is referenced as a leaf; its own inner nodes
 // stay behind, unreachable.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -12,7 +12,7 @@
 
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Keys { uint keys[]; };
-layout(scalar, binding = 1) buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 1) writeonly buffer Branches { Branch branches[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 // Length of the common prefix of keys i and j; -1 where j is out of range.
@@ -59,11 +59,8 @@ uint child_over(int first, int last, uint inner) {
 void main() {
   int i = int(item_index());
   if (i >= max(int(push.count) - 1, 1)) return;
-  if (push.count == 1u) {  // one leaf, and an empty box beside it (bvh_refit)
-    nodes[0].child0 = kLeafFlag;
-    nodes[0].child1 = kLeafFlag;
-    nodes[0].first = 0u;
-    nodes[0].last = 0u;
+  if (push.count == 1u) {  // one leaf, which both children refer to
+    branches[0] = Branch(kLeafFlag, kLeafFlag, 0u, 0u);
     return;
   }
   int direction = prefix(i, i + 1) > prefix(i, i - 1) ? 1 : -1;
@@ -71,8 +68,6 @@ void main() {
   int first = min(i, end);
   int last = max(i, end);
   int split = split_of(first, last);
-  nodes[i].child0 = child_over(first, split, uint(split));
-  nodes[i].child1 = child_over(split + 1, last, uint(split + 1));
-  nodes[i].first = uint(first);
-  nodes[i].last = uint(last);
+  branches[i] = Branch(child_over(first, split, uint(split)),
+                       child_over(split + 1, last, uint(split + 1)), uint(first), uint(last));
 }

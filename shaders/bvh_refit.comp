@@ -1,7 +1,8 @@
-// What: every node's two boxes, each from the few pyramid boxes and triangles that cover its range.
-// No node waits for another: a climb from the leaves would need its parents' two children in order,
-// and takes as many steps as the tree is deep. In: triangles, boxes (bvh_pyramid), nodes' topology.
-// Out: nodes' boxes.
+// What: every node, one a branch: a branch's grandchildren, or children that are leaves, each with
+// its box from the few pyramid boxes and triangles that cover its range. No node waits for another:
+// a climb from the leaves would need its parents' children in order, and takes as many steps as the
+// tree is deep. In: triangles, boxes (bvh_pyramid), branches. Out: nodes; those of branches at odd
+// depth are never read.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +12,8 @@
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 1) readonly buffer Boxes { Box boxes[]; };
-layout(scalar, binding = 2) buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 2) readonly buffer Branches { Branch branches[]; };
+layout(scalar, binding = 3) writeonly buffer Nodes { Node nodes[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/lib/box.glsl"
@@ -39,18 +41,40 @@ Box range_box(uint first, uint end) {
   return b;
 }
 
+struct Range {
+  uint first, last;
+};
+
+Range range_of(uint child) {
+  if ((child & kLeafFlag) == 0u) return Range(branches[child].first, branches[child].last);
+  uint first = child & (kMaxTriangles - 1u);
+  return Range(first, first + ((child >> 28) & 7u));
+}
+
+void write_child(uint node, uint place, uint child) {
+  Box b = empty_box();
+  if (child != kNone) {
+    Range r = range_of(child);
+    b = range_box(r.first, r.last + 1u);
+  }
+  nodes[node].child[place] = Child4(b.lo, child, b.hi, 0u);
+}
+
+// A child of the branch: itself, or its own two in its place.
+void write_pair(uint node, uint place, uint child) {
+  bool leaf = (child & kLeafFlag) != 0u;
+  uint second = kNone;
+  if (!leaf) {
+    second = branches[child].child1;
+    child = branches[child].child0;
+  }
+  write_child(node, place, child);
+  write_child(node, place + 1u, second);
+}
+
 void main() {
   uint i = item_index();
   if (i >= max(push.count, 2u) - 1u) return;
-  Node node = nodes[i];
-  bool leaf = (node.child0 & kLeafFlag) != 0u;
-  uint last_of_first_leaf = (node.child0 & (kMaxTriangles - 1u)) + ((node.child0 >> 28) & 7u);
-  uint split = leaf ? last_of_first_leaf
-                    : node.child0;  // an inner first child carries its last triangle's number
-  Box b0 = range_box(node.first, split + 1u);
-  Box b1 = range_box(split + 1u, node.last + 1u);
-  nodes[i].lo0 = b0.lo;
-  nodes[i].hi0 = b0.hi;
-  nodes[i].lo1 = b1.lo;
-  nodes[i].hi1 = b1.hi;
+  write_pair(i, 0u, branches[i].child0);
+  write_pair(i, 2u, push.count == 1u ? kNone : branches[i].child1);
 }

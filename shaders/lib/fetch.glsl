@@ -7,7 +7,7 @@
 #include "shaders/lib/triangle.h"
 
 const uint kTriangleWords = 3u;
-const uint kNodeWords = 4u;
+const uint kNodeWords = 8u;
 
 Corners triangle_corners(uint i) {
   Corners t;
