@@ -13,7 +13,7 @@ namespace vkh {
 namespace {
 
 struct KernelSource {
-  std::span<const uint32_t> words, words_for_cpu;
+  std::span<const uint32_t> words;
   std::span<const Binding> bindings;
   uint32_t push_bytes;
 };
@@ -27,9 +27,11 @@ constexpr uint32_t push_size<NoPush>() {
   return 0;
 }
 
-std::array<KernelSource, kKernelCount> kernel_sources() {
+std::array<KernelSource, kKernelCount> kernel_sources(uint32_t switches) {
+  const bool for_cpu = switches == VKH_SWITCH_DEFAULT_CPU;
   return {{
-#define VKH_SOURCE(K) {k::K::words(), k::K::words_for_cpu(), k::K::kBindings, push_size<k::K::Push>()},
+#define VKH_SOURCE(K) \
+  {for_cpu ? k::K::words_for_cpu() : k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
       VKH_KERNELS(VKH_SOURCE)
 #undef VKH_SOURCE
   }};
@@ -62,11 +64,10 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
 
 VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
                          uint32_t switches, KernelPipeline& out) {
-  const auto words = switches == VKH_SWITCH_DEFAULT_CPU ? source.words_for_cpu : source.words;
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  module_info.codeSize = words.size_bytes();
-  module_info.pCode = words.data();
+  module_info.codeSize = source.words.size_bytes();
+  module_info.pCode = source.words.data();
   VkShaderModule shader = VK_NULL_HANDLE;
   VkResult result = c.vk.CreateShaderModule(c.device, &module_info, nullptr, &shader);
   if (result != VK_SUCCESS) return result;
@@ -102,7 +103,7 @@ std::array<uint32_t, kKernelCount> costliest_first(
 }  // namespace
 
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches) {
-  const auto sources = kernel_sources();
+  const auto sources = kernel_sources(switches);
   const auto order = costliest_first(sources);
   std::atomic<uint32_t> next = 0;
   std::atomic<VkResult> outcome = VK_SUCCESS;

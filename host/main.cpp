@@ -1,6 +1,9 @@
 // The program: reads what people typed, runs the solver, prints one answer, and turns whatever went
 // wrong into one line on stderr and an exit code.
 #include <unistd.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -21,7 +25,7 @@
 #include "host/mesh_io.h"
 #include "host/options.h"
 #include "host/report_print.h"
-#include "host/solver.h"
+#include "host/session.h"
 #include "host/verify.h"
 
 namespace vkh {
@@ -154,29 +158,19 @@ void solve(Solver& solver, const MeshPair& pair, bool symmetric, SolveOptions op
 }
 
 Answer answer_for(const Arguments& arguments, const Request& request, const MeshPair& pair,
-                  double load_ms) {
-  const auto setup_start = Clock::now();
-  Device device({.selector = arguments.device});
-  Solver solver(device);
-  const double setup_ms = ms_since(setup_start);
-
+                  Session& session) {
   Answer answer{.file_a = pair.a.name,
                 .file_b = pair.b.name,
                 .tolerance = request.tolerance,
                 .notes = input_notes(pair),
                 .a_to_b = {},
                 .b_to_a = {}};
-  solve(solver, pair, arguments.symmetric, request.options, answer);
+  solve(*session.solver, pair, arguments.symmetric, request.options, answer);
   if (arguments.verify) {
     answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
     if (answer.b_to_a) {
       answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
     }
-  }
-  for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
-    if (report == nullptr) continue;
-    report->times.load_ms = load_ms;
-    report->times.setup_ms = setup_ms;
   }
   return answer;
 }
@@ -232,8 +226,19 @@ int run_pair(const Arguments& arguments, Load load) {
   const Request request = understand(arguments);
   check_writable(arguments.json_file);
   const auto start = Clock::now();
+  auto opening = begin_now([selector = arguments.device, options = request.options] {
+    return open_session(selector, options);
+  });
   const MeshPair pair = load();
-  const Answer answer = answer_for(arguments, request, pair, ms_since(start));
+  const double load_ms = ms_since(start);
+  // Not destroyed before the process ends: the answer comes first.
+  static Session session = opening.get();
+  Answer answer = answer_for(arguments, request, pair, session);
+  for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (report == nullptr) continue;
+    report->times.load_ms = load_ms;
+    report->times.setup_ms = session.setup_ms;
+  }
   print(arguments, answer);
   check_verified(answer);
   return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
@@ -241,9 +246,9 @@ int run_pair(const Arguments& arguments, Load load) {
 
 int run_distance(const Arguments& arguments) {
   return run_pair(arguments, [&] {
+    auto b = begin_now([path = arguments.file_b] { return read_mesh(path); });
     Mesh a = read_mesh(arguments.file_a);
-    Mesh b = read_mesh(arguments.file_b);
-    return MeshPair{std::move(a), std::move(b)};
+    return MeshPair{std::move(a), b.get()};
   });
 }
 
@@ -369,4 +374,14 @@ int run_and_catch(int argc, char** argv) {
 }  // namespace
 }  // namespace vkh
 
-int main(int argc, char** argv) { return vkh::run_and_catch(argc, argv); }
+// Without exit handlers: a thread may still be at work, on a mesh or in the driver, and nobody needs
+// to wait until a driver has taken itself apart.
+int main(int argc, char** argv) {
+  const int code = vkh::run_and_catch(argc, argv);
+  std::cout.flush();
+  std::fflush(nullptr);
+#ifdef __SANITIZE_ADDRESS__
+  __lsan_do_leak_check();
+#endif
+  std::_Exit(code);
+}

@@ -61,6 +61,7 @@ struct RunOutput {
 class Runner {
  public:
   explicit Runner(const Device& device);
+  void make_ready(uint32_t switches) { context_for(switches); }
   ResidentMesh build(const MeshData& b);
   RunOutput run(const RunInput& input);
 

@@ -264,6 +264,10 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   return out;
 }
 
+void Solver::make_ready(const SolveOptions& options) {
+  impl_->runner.make_ready(switches_of(options, impl_->device));
+}
+
 Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
   const auto start = Clock::now();
   check_options(options);

@@ -75,6 +75,10 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
+  /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
+  /// the slow part of a start, so that meshes may be read meanwhile.
+  void make_ready(const SolveOptions& options = {});
+
   /// Encloses h(a, b).
   Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
