@@ -24,6 +24,7 @@
 #include "host/error.h"
 #include "host/mesh_io.h"
 #include "host/options.h"
+#include "host/pipeline_cache.h"
 #include "host/report_print.h"
 #include "host/session.h"
 #include "host/verify.h"
@@ -45,7 +46,7 @@ struct Arguments {
   std::string file_a, file_b;
   std::string tolerance = "1e-6", device, memory, time, waves;
   std::vector<std::string> enabled, disabled;
-  bool json = false, verbose = false, symmetric = false, verify = false;
+  bool json = false, verbose = false, symmetric = false, verify = false, no_cache = false;
   std::string json_file;  ///< empty: JSON goes to stdout
 };
 
@@ -226,8 +227,9 @@ int run_pair(const Arguments& arguments, Load load) {
   const Request request = understand(arguments);
   check_writable(arguments.json_file);
   const auto start = Clock::now();
-  auto opening = begin_now([selector = arguments.device, options = request.options] {
-    return open_session(selector, options);
+  auto opening = begin_now([selector = arguments.device, options = request.options,
+                            cache = arguments.no_cache ? "" : user_cache_folder()] {
+    return open_session(selector, options, cache);
   });
   const MeshPair pair = load();
   const double load_ms = ms_since(start);
@@ -301,6 +303,8 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--verify", arguments.verify,
                    "Check the answer on the host: the witness against every face of B, by brute "
                    "force in 113-bit arithmetic; the parts of A as exact integers");
+  command.add_flag("--no-cache", arguments.no_cache,
+                   "Neither read nor write compiled pipelines in ~/.cache/vkhausdorff");
   command.add_flag("--symmetric", arguments.symmetric,
                    "Both directions: the interval of max(h(A,B), h(B,A))");
 }

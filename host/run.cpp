@@ -92,15 +92,19 @@ uint32_t default_switches(const Device& device) {
   return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
 }
 
-Runner::Runner(const Device& device)
-    : device_(device), submitter_(device), names_(Submitter::kTimestamps) {}
+Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
+    : device_(device),
+      cache_(device, cache_folder),
+      submitter_(device),
+      names_(Submitter::kTimestamps) {}
 
 VkhContext Runner::context_for(uint32_t switches) {
   const auto known = contexts_.find(switches);
   if (known != contexts_.end()) return known->second.get();
-  const VkhContextCreateInfo info{device_.engine_info(), VK_NULL_HANDLE, switches};
+  const VkhContextCreateInfo info{device_.engine_info(), cache_.handle(), switches};
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
+  cache_.save();
   contexts_.emplace(switches, ContextHandle(context, vkhDestroyContext));
   return context;
 }

@@ -32,7 +32,8 @@ struct Session {
   double setup_ms = 0;  ///< what making it took
 };
 
-/// Throws what Device and Solver throw.
-Session open_session(const std::string& selector, const SolveOptions& options);
+/// Throws what Device and Solver throw. `cache_folder`: see Solver.
+Session open_session(const std::string& selector, const SolveOptions& options,
+                     const std::filesystem::path& cache_folder);
 
 }  // namespace vkh

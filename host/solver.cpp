@@ -146,13 +146,14 @@ std::vector<std::string> switch_names() {
 }
 
 struct Solver::Impl {
-  explicit Impl(Device& d) : device(d), runner(d) {}
+  Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
   Report solve(const Pair& pair, const SolveOptions& options, Clock::time_point start);
   Device& device;
   Runner runner;
 };
 
-Solver::Solver(Device& device) : impl_(std::make_unique<Impl>(device)) {}
+Solver::Solver(Device& device, const std::filesystem::path& cache_folder)
+    : impl_(std::make_unique<Impl>(device, cache_folder)) {}
 Solver::~Solver() = default;
 
 struct PreparedMesh::Impl {

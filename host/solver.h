@@ -1,6 +1,7 @@
 // Two meshes in, a certified interval out; blocking.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -70,7 +71,9 @@ class PreparedMesh {
 /// tolerance that is not positive and finite.
 class Solver {
  public:
-  explicit Solver(Device& device);
+  /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
+  /// driver and build; empty: nowhere.
+  explicit Solver(Device& device, const std::filesystem::path& cache_folder = {});
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;

@@ -14,6 +14,7 @@ constants are one struct in a block of their own, 128 bytes at most. Everything 
 
 import struct
 import sys
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -268,6 +269,7 @@ struct {type} {{
   static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
   static std::span<const uint32_t> words();
   static std::span<const uint32_t> words_for_cpu();  // the switches are VKH_SWITCH_DEFAULT_CPU
+  static uint32_t fingerprint();                     // of the words
 
   struct Args {{
 {args}
@@ -305,6 +307,7 @@ constexpr uint32_t kWords[] = {{
 
 std::span<const uint32_t> {type}::words() {{ return kWords; }}
 std::span<const uint32_t> {type}::words_for_cpu() {{ return {cpu_name}; }}
+uint32_t {type}::fingerprint() {{ return {fingerprint:#010x}; }}
 
 }}  // namespace vkh::k
 """
@@ -355,6 +358,7 @@ def source_text(kernel, words, cpu_words):
         words=words_text(words),
         cpu_words=cpu,
         cpu_name="kCpuWords" if cpu_words else "kWords",
+        fingerprint=zlib.crc32(struct.pack(f"<{len(words)}I", *words)),
     )
 
 
