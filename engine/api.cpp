@@ -19,6 +19,10 @@ static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
 static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
 static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
 static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_SHARED_FACES == gpu::kUseSharedFaces);
+static_assert(VKH_SWITCH_SORT == gpu::kUseSort && VKH_SWITCH_PACKET == gpu::kUsePacket &&
+              VKH_SWITCH_DEFER == gpu::kUseDefer &&
+              VKH_SWITCH_LARGEST_FIRST == gpu::kUseLargestFirst &&
+              VKH_SWITCH_U3_PAPER == gpu::kUsePaperU3);
 static_assert(VKH_STATUS_MEMORY == gpu::kStatusMemory &&
               VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords);
 
@@ -47,19 +51,20 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
           .known_lower = p.knownLower,
+          .sort_from = p.sortFrom,
+          .switches = context.limits.switches,
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
-          .asks_centroids = (context.switches & gpu::kUseCentroid) != 0,
-          .walks_in_groups = (context.switches & gpu::kUseGroupWalk) != 0,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
 }
 
-bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize range) {
+bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize face_bytes,
+               VkDeviceSize range) {
   return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
          face_count <= gpu::kMaxTriangles && vertex_count * sizeof(gpu::Vertex) <= range &&
-         face_count * sizeof(gpu::Node) <= range;
+         face_count * face_bytes <= range;
 }
 
 }  // namespace
@@ -71,7 +76,6 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
   auto* created = new (std::nothrow) VkhContext_T;
   if (created == nullptr) return VKH_ERROR_PIPELINE;
   created->device = info->device.device;
-  created->switches = info->switches;
   if (!vkh::load_functions(info->device, created->vk)) {
     delete created;
     return VKH_ERROR_UNSUPPORTED;
@@ -79,6 +83,7 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
   VkResult result = VK_ERROR_OUT_OF_HOST_MEMORY;
   try {
     created->limits = vkh::device_limits(info->device);
+    created->limits.switches = info->switches;
     result = vkh::create_kernels(*created, info->pipelineCache, info->switches);
   } catch (...) {  // no exception may cross a C interface
   }
@@ -98,7 +103,8 @@ void vkhDestroyContext(VkhContext context) {
 
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhHierarchyRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
+  if (!vkh::mesh_fits(vertexCount, faceCount, sizeof(vkh::gpu::Node),
+                      context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
   *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount)};
   return VKH_SUCCESS;
@@ -106,15 +112,18 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
 
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, context->limits.storage_range))
+  if (!vkh::mesh_fits(vertexCount, faceCount, sizeof(vkh::gpu::uvec3),
+                      context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
   // A frontier is refined whole while four times its length fits; few pairs hold more than 2^18
   // candidates at once.
   const uint32_t recommended = std::min(largest, std::max(5 * faceCount, 1u << 20));
-  *requirements = {vkh::workspace_size(vertexCount, faceCount, vkh::kSmallestCapacity),
-                   vkh::workspace_size(vertexCount, faceCount, recommended),
-                   vkh::workspace_size(vertexCount, faceCount, largest)};
+  const auto workspace_size = [&](uint32_t capacity) {
+    return vkh::workspace_size(vertexCount, faceCount, capacity, context->limits.switches);
+  };
+  *requirements = {workspace_size(vkh::kSmallestCapacity), workspace_size(recommended),
+                   workspace_size(largest)};
   return VKH_SUCCESS;
 }
 

@@ -71,6 +71,8 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   const gpu::CountPush count{b.faceCount};
   const Items faces{b.faceCount};
   record_load(rec, b, h.vertices, h.faces);
+  const uint32_t first_bit = b.faceCount <= gpu::kFewFaces ? gpu::kFewFacesFirstBit : 0;
+  const uint32_t side = sort_side(first_bit);
   const VkDeviceSize half_box = h.box.size / 2;
   rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset, half_box}, 0xffffffffu, Order::kIndependent);
   rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset + half_box, half_box}, 0,
@@ -79,21 +81,22 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
                          .box = h.box,
-                         .keys = s.keys[0],
-                         .values = s.values[0]},
+                         .keys = s.sort.keys[side],
+                         .values = s.sort.values[side]},
                         count, faces);
   rec.stage("morton");
-  record_sort(rec, s, b.faceCount);
+  record_sort(rec, s.sort, b.faceCount, first_bit);
   rec.stage("sort");
   rec.run<k::BvhLeaves>({.vertices = h.vertices,
                          .faces = h.faces,
-                         .values = s.values[0],
+                         .values = s.sort.values[0],
                          .triangles = h.triangles,
                          .triangle_lows = h.triangle_lows,
-                         .keys = s.keys[0],
+                         .keys = s.sort.keys[0],
                          .codes = h.codes},
                         count, faces);
-  rec.run<k::BvhHierarchy>({.keys = s.keys[0], .branches = h.branches}, count, faces);
+  rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .branches = h.branches}, count, faces,
+                           Order::kIndependent);
   record_boxes(rec, h);
   rec.stage("hierarchy");
 }

@@ -51,6 +51,7 @@ constexpr uint32_t kMaxKernels = 64;
 
 struct Limits {
   VkDeviceSize storage_range = 0;  // bytes of one binding
+  uint32_t switches = 0;           // of the context: some have streams of their own
 };
 
 }  // namespace vkh
@@ -59,6 +60,5 @@ struct VkhContext_T {
   VkDevice device = VK_NULL_HANDLE;
   vkh::DeviceFunctions vk;
   vkh::Limits limits;
-  uint32_t switches = 0;
   std::array<vkh::KernelPipeline, vkh::kMaxKernels> kernels{};
 };

@@ -100,6 +100,15 @@ std::array<uint32_t, kKernelCount> costliest_first(
   return order;
 }
 
+// Kernels that only a switch brings in: without it they are not created, for a driver takes tens of
+// milliseconds for some.
+bool is_needed(uint32_t kernel, uint32_t switches) {
+  if (kernel == kIndexOfWavePacket) return (switches & gpu::kUsePacket) != 0;
+  if (kernel == kIndexOfWaveSort) return (switches & gpu::kUseSort) != 0;
+  if (kernel == kIndexOfWaveBisect) return (switches & gpu::kUsePaperU3) != 0;
+  return true;
+}
+
 }  // namespace
 
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches) {
@@ -109,6 +118,7 @@ VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t s
   std::atomic<VkResult> outcome = VK_SUCCESS;
   const auto work = [&] {
     for (uint32_t i = next++; i < kKernelCount && outcome == VK_SUCCESS; i = next++) {
+      if (!is_needed(order[i], switches)) continue;
       KernelPipeline& kernel = context.kernels[order[i]];
       const KernelSource& source = sources[order[i]];
       VkResult result = create_layouts(context, source, kernel);

@@ -5,19 +5,18 @@ namespace vkh {
 
 namespace {
 
-constexpr uint32_t kNegative = 0xbf800000u;  // -1.0f
-
 // One item a vertex of A, and one for the last run's witness where `push.warm`.
 void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
-  // As lib/dispatch.glsl has it: a workgroup an item where they are few.
-  const bool in_groups = p.walks_in_groups && p.vertex_count <= gpu::kGroupWalkQueries;
+  // As seed_query has it: a workgroup an item where they are few.
+  const bool in_groups =
+      (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
   const uint32_t items = p.vertex_count + push.warm;
   const uint32_t groups = in_groups ? items : (items + gpu::kQueryGroup - 1) / gpu::kQueryGroup;
   rec.run<k::SeedQuery>({.vertices = p.ws.vertices,
                          .nodes = as<gpu::uvec4>(p.b.nodes),
                          .triangles = as<gpu::uvec4>(p.b.triangles),
                          .vertex_nearest = p.ws.vertex_nearest,
-                         .vertex_distance = p.ws.vertex_distance,
+                         .vertex_distance = as<uint32_t>(p.ws.vertex_distance),
                          .control = p.ws.control,
                          .triangle_lows = p.b.triangle_lows,
                          .faces = p.ws.faces,
@@ -48,17 +47,14 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .cull_tolerance = p.cull_tolerance,
                              .known_lower = p.known_lower,
                              .two_float = p.two_float ? 1u : 0u,
-                             .warm = p.warm ? 1u : 0u};
+                             .warm = p.warm ? 1u : 0u,
+                             .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom};
   const gpu::SeedPush seed{
       .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
   rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1});
-  rec.fill(ws.vertex_distance, kNegative, Order::kIndependent);
-  rec.run<k::SeedMark>({.faces = ws.faces, .vertex_distance = ws.vertex_distance}, faces,
-                       Items{p.face_count});
-  record_query(rec, p, seed);
-  record_lower(rec, p, seed);
+  rec.fill(ws.vertex_distance, 0, Order::kIndependent);
   rec.run<k::SeedFaces>({.faces = ws.faces,
-                         .vertex_distance = ws.vertex_distance,
+                         .vertex_state = as<uint32_t>(ws.vertex_distance),
                          .control = ws.control,
                          .vertices = ws.vertices,
                          .triangles = as<gpu::uvec4>(p.b.triangles),
@@ -68,6 +64,11 @@ void record_seed(Recorder& rec, const Problem& p) {
                          .face_shared = ws.face_shared},
                         {.face_count = p.face_count, .triangle_count = p.b.face_count},
                         Items{p.face_count});
+  record_query(rec, p, seed);
+  record_lower(rec, p, seed);
+  rec.run<k::SeedWitness>(
+      {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
+      Items{p.face_count});
   rec.run<k::SeedAdopt>({.vertices = ws.vertices,
                          .faces = ws.faces,
                          .vertex_nearest = ws.vertex_nearest,

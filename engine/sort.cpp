@@ -1,29 +1,79 @@
 // Radix sort of 32-bit keys with 32-bit values: 8-bit digits, count / scan / scatter a pass
 // (Harris, Satish and Garland's scheme, without look-back between workgroups, which Vulkan does not
 // promise to make progress).
+#include <cstddef>
+
 #include "engine/stages.h"
 
 namespace vkh {
+namespace {
 
-void record_sort(Recorder& rec, const BuildScratch& s, uint32_t count) {
-  const uint32_t blocks = (count + gpu::kSortBlock - 1) / gpu::kSortBlock;
-  for (uint32_t pass = 0; pass < gpu::kSortPasses; ++pass) {
-    const uint32_t from = pass % 2;
+template <class K>
+void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Push& push,
+              Groups groups) {
+  if (groups.count > 0) rec.run<K>(args, push, groups);
+}
+template <class K>
+void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Push& push,
+              const Slice<gpu::Dispatch>& size) {
+  rec.run_indirect<K>(args, push, size);
+}
+
+// `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
+// blocks are few.
+template <class Size>
+void record_passes(Recorder& rec, const SortStreams& s, uint32_t first_bit, const Size& blocks,
+                   const Size& digits) {
+  const uint32_t passes = (32 - first_bit) / 8;
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    const uint32_t from = (passes - pass) % 2;
     const uint32_t to = 1 - from;
-    const gpu::SortPush push{.count = count, .shift = 8 * pass, .blocks = blocks};
-    rec.run<k::SortCount>({.keys = s.keys[from], .counts = s.counts}, push, Groups{blocks});
-    if (blocks > gpu::kSortFewBlocks) {
-      rec.run<k::SortScan>({.counts = s.counts, .totals = s.totals}, push,
-                           Groups{gpu::kSortDigits});
-    }
-    rec.run<k::SortScatter>({.keys_in = s.keys[from],
-                             .values_in = s.values[from],
-                             .keys_out = s.keys[to],
-                             .values_out = s.values[to],
-                             .counts = s.counts,
-                             .totals = s.totals},
-                            push, Groups{blocks});
+    const gpu::SortPush push{.shift = first_bit + 8 * pass};
+    dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
+                           push, blocks);
+    dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, {},
+                          digits);
+    dispatch<k::SortScatter>(rec,
+                             {.keys_in = s.keys[from],
+                              .values_in = s.values[from],
+                              .keys_out = s.keys[to],
+                              .values_out = s.values[to],
+                              .counts = s.counts,
+                              .totals = s.totals,
+                              .key_count = s.count},
+                             push, blocks);
   }
+}
+
+}  // namespace
+
+uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
+
+void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit) {
+  // Whoever writes keys does not write the count, and the first pass waits for both.
+  rec.fill(s.count, count, Order::kIndependent);
+  const uint32_t blocks = (count + gpu::kSortBlock - 1) / gpu::kSortBlock;
+  const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
+  record_passes(rec, s, first_bit, Groups{blocks}, Groups{digits});
+}
+
+void record_wave_sort(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  // The frontier's length, as one word.
+  static_assert(offsetof(gpu::Control, count) == 0 && gpu::kCountFrontier == 0);
+  SortStreams streams = ws.sort;
+  streams.count = {ws.control.buffer, ws.control.offset, sizeof(uint32_t)};
+  rec.run_indirect<k::WaveSort>({.control = ws.control,
+                                 .frontier = ws.frontier,
+                                 .vertices = ws.vertices,
+                                 .faces = ws.faces,
+                                 .nodes = as<gpu::uvec4>(p.b.nodes),
+                                 .keys = streams.keys[0],
+                                 .values = streams.values[0]},
+                                {}, ws.dispatch(gpu::kDispatchSortKeys));
+  record_passes(rec, streams, 0, ws.dispatch(gpu::kDispatchSortBlocks),
+                ws.dispatch(gpu::kDispatchSortDigits));
+  rec.stage("order");
 }
 
 }  // namespace vkh

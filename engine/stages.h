@@ -11,8 +11,10 @@ namespace vkh {
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
-// Sorts scratch.keys[0] with scratch.values[0], stable, ascending; the result is on side 0 again.
-void record_sort(Recorder& rec, const BuildScratch& scratch, uint32_t count);
+// Sorts keys with values by bits first_bit and up, 8 a pass, stable, ascending: from the side that
+// sort_side names to side 0.
+uint32_t sort_side(uint32_t first_bit);
+void record_sort(Recorder& rec, const SortStreams& streams, uint32_t count, uint32_t first_bit = 0);
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
                   const Hierarchy& hierarchy);
@@ -24,10 +26,10 @@ void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& hierarchy);
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
   float cull_tolerance = 0, known_lower = 0;
+  uint32_t sort_from = 0;            // kSortFrom if 0
+  uint32_t switches = gpu::kUseAll;  // of the context
   bool two_float = false;
   bool warm = false;  // the workspace holds an earlier run to start from
-  // The context's switches: waves have a filter; few queries are workgroups.
-  bool asks_centroids = true, walks_in_groups = true;
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =
@@ -36,6 +38,9 @@ struct Problem {
 
 void record_seed(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
+// The places of the frontier's candidates in the order in which they are refined; where the plan
+// finds it worth it.
+void record_wave_sort(Recorder& rec, const Problem& p);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

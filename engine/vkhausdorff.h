@@ -101,12 +101,19 @@ typedef enum VkhSwitchBits {
       512, /* faces of A that are faces of B are closed: h(A, A) is 0 at once */
   /* Without it bounds are plain floats and NOTHING IS CERTIFIED: to measure what that costs. */
   VKH_SWITCH_CERTIFICATE = 1024,
-  VKH_SWITCH_ALL = 127 + 256 + 512 + 1024,
+  /* What the method of the paper has and this one does without, or in another form. */
+  VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
+  VKH_SWITCH_PACKET = 4096, /* one walk for a candidate's three new points; few: GROUP_WALK */
+  VKH_SWITCH_DEFER = 8192,  /* candidates wait where there is no room; off: what does not fit is
+                               lost, the run ends as VKH_STATUS_MEMORY */
+  VKH_SWITCH_LARGEST_FIRST = 16384, /* those with the largest u are refined first */
+  VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
+  VKH_SWITCH_ALL = 127 + 256 + 512 + 1024 + 8192, /* all of this method */
   /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
    * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
    * is a chain of short steps, more candidates at once are cheaper than another step. */
-  VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 512 + 1024,
-  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024
+  VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 512 + 1024 + 8192,
+  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024 + 8192
 } VkhSwitchBits;
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader
@@ -269,6 +276,8 @@ typedef struct VkhProblem {
    * two are 2^40 together, or both 0 for a face that waits for its first bound. */
   VkBuffer coverageBuffer;
   VkDeviceSize coverageOffset; /* bytes */
+  /* With VKH_SWITCH_SORT: frontiers of fewer candidates are not sorted. 0: as measured to pay. */
+  uint32_t sortFrom;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.

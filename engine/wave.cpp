@@ -11,6 +11,17 @@ Slice<gpu::Area> areas_of(const Problem& p) {
   return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
 }
 
+// Likewise, without kUseSort.
+Slice<uint32_t> order_of(const Problem& p) {
+  return (p.switches & gpu::kUseSort) != 0 ? p.ws.sort.values[0] : p.ws.lower_bits;
+}
+
+// Likewise, without kUsePaperU3.
+Slice<float> u3_bounds_of(const Problem& p) {
+  if ((p.switches & gpu::kUsePaperU3) != 0) return p.ws.u3_bounds;
+  return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
+}
+
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -41,7 +52,8 @@ void record_subdivide(Recorder& rec, const Problem& p) {
                                       .splits = ws.splits,
                                       .points = ws.points,
                                       .triangle_lows = p.b.triangle_lows,
-                                      .areas = areas_of(p)},
+                                      .areas = areas_of(p),
+                                      .order = order_of(p)},
                                      {}, ws.dispatch(gpu::kDispatchSubdivide));
   rec.stage("subdivide");
 }
@@ -57,6 +69,22 @@ void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& poin
                                   .boxes = p.b.pyramid},
                                  push, p.ws.dispatch(dispatch));
   rec.stage("query");
+}
+
+// The new points: packets, unless the wave has few and a workgroup walks for each; the plan knows.
+void record_query_points(Recorder& rec, const Problem& p) {
+  const bool packets = (p.switches & gpu::kUsePacket) != 0;
+  if (packets) {
+    rec.run_indirect<k::WavePacket>({.control = p.ws.control,
+                                     .nodes = as<gpu::uvec4>(p.b.nodes),
+                                     .triangles = as<gpu::uvec4>(p.b.triangles),
+                                     .points = p.ws.points,
+                                     .triangle_lows = p.b.triangle_lows},
+                                    {}, p.ws.dispatch(gpu::kDispatchPacket));
+    rec.stage("query");
+  }
+  if (!packets || (p.switches & gpu::kUseGroupWalk) != 0)
+    record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
 }
 
 void record_filter(Recorder& rec, const Problem& p) {
@@ -79,8 +107,25 @@ void record_filter(Recorder& rec, const Problem& p) {
   rec.stage("filter");
 }
 
+void record_bisect(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run_indirect<k::WaveBisect>({.control = ws.control,
+                                   .frontier = ws.frontier,
+                                   .vertices = ws.vertices,
+                                   .faces = ws.faces,
+                                   .triangles = as<gpu::uvec4>(p.b.triangles),
+                                   .vertex_nearest = ws.vertex_nearest,
+                                   .splits = ws.splits,
+                                   .points = ws.points,
+                                   .survivors = ws.survivors,
+                                   .triangle_lows = p.b.triangle_lows,
+                                   .u3_bounds = ws.u3_bounds},
+                                  {}, ws.dispatch(gpu::kDispatchBisect));
+}
+
 void record_bound(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
+  if ((p.switches & gpu::kUsePaperU3) != 0) record_bisect(rec, p);
   rec.run_indirect<k::WaveBound>({.control = ws.control,
                                   .frontier = ws.frontier,
                                   .vertices = ws.vertices,
@@ -93,7 +138,8 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .centroids = ws.centroids,
                                   .triangle_lows = p.b.triangle_lows,
                                   .areas = areas_of(p),
-                                  .face_shared = ws.face_shared},
+                                  .face_shared = ws.face_shared,
+                                  .u3_bounds = u3_bounds_of(p)},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
 }
@@ -103,12 +149,13 @@ void record_bound(Recorder& rec, const Problem& p) {
 void record_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");
   record_plan(rec, p);
+  if ((p.switches & gpu::kUseSort) != 0) record_wave_sort(rec, p);
   record_subdivide(rec, p);
-  record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
-  if (p.asks_centroids) {
-    record_filter(rec, p);
+  record_query_points(rec, p);
+  // Without a filter, wave_bound has the whole cascade.
+  if ((p.switches & (gpu::kUseCentroid | gpu::kUsePaperU3)) != 0) record_filter(rec, p);
+  if ((p.switches & gpu::kUseCentroid) != 0)
     record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
-  }
   record_bound(rec, p);
 }
 

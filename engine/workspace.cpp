@@ -40,18 +40,28 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
   h.face_count = face_count;
 }
 
-void list(Suballocator& take, BuildScratch& s, uint32_t face_count) {
-  const uint64_t blocks = (face_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
+void list(Suballocator& take, SortStreams& s, uint32_t key_count) {
+  const uint64_t blocks = (key_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
   for (int side = 0; side < 2; ++side) {
-    take(s.keys[side], face_count);
-    take(s.values[side], face_count);
+    take(s.keys[side], key_count);
+    take(s.values[side], key_count);
   }
   take(s.counts, blocks * gpu::kSortDigits);
   take(s.totals, gpu::kSortDigits);
+  take(s.count, 1);
 }
 
-void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face_count,
-          uint32_t capacity) {
+void list(Suballocator& take, BuildScratch& s, uint32_t face_count) {
+  list(take, s.sort, face_count);
+}
+
+// What a workspace is laid out by, besides its meshes.
+struct Room {
+  uint32_t capacity, switches;
+};
+
+void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face_count, Room room) {
+  const uint32_t capacity = room.capacity;
   // Refined candidates of a wave: wave_plan keeps deferred + 4 parents <= capacity.
   const uint64_t parents = capacity / 4 + 1;
   take(w.control, 1);
@@ -67,6 +77,8 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.survivors, capacity);
   take(w.centroids, capacity);
   take(w.lower_bits, 1);
+  if ((room.switches & gpu::kUseSort) != 0) list(take, w.sort, capacity);
+  if ((room.switches & gpu::kUsePaperU3) != 0) take(w.u3_bounds, capacity);
   w.capacity = capacity;
 }
 
@@ -95,10 +107,11 @@ VkDeviceSize scratch_size(uint32_t face_count) {
   return count.used();
 }
 
-VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity) {
+VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
+                            uint32_t switches) {
   Suballocator count({});
   Workspace w;
-  list(count, w, vertex_count, face_count, capacity);
+  list(count, w, vertex_count, face_count, {capacity, switches});
   return count.used();
 }
 
@@ -113,7 +126,8 @@ uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face
   uint32_t too_many = largest_capacity(limits) + 1;
   while (too_many - fits > 1) {
     const uint32_t middle = fits + (too_many - fits) / 2;
-    (workspace_size(vertex_count, face_count, middle) <= bytes ? fits : too_many) = middle;
+    const VkDeviceSize needed = workspace_size(vertex_count, face_count, middle, limits.switches);
+    (needed <= bytes ? fits : too_many) = middle;
   }
   return fits;
 }
@@ -137,7 +151,7 @@ Workspace view_workspace(const VkhMemory& memory, const Limits& limits, uint32_t
   Suballocator take(memory);
   Workspace w;
   list(take, w, vertex_count, face_count,
-       capacity_for(limits, vertex_count, face_count, memory.size));
+       {capacity_for(limits, vertex_count, face_count, memory.size), limits.switches});
   return w;
 }
 

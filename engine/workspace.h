@@ -21,10 +21,16 @@ struct Hierarchy {
   uint32_t face_count = 0;
 };
 
+// What a sort works on: keys with values, on two sides that it goes between.
+struct SortStreams {
+  Slice<uint32_t> keys[2], values[2];
+  Slice<uint32_t> counts, totals;
+  Slice<uint32_t> count;  // how many keys there are: one word
+};
+
 // What building it needs besides.
 struct BuildScratch {
-  Slice<uint32_t> keys[2], values[2];  // the sort's two sides
-  Slice<uint32_t> counts, totals;
+  SortStreams sort;
 };
 
 // One run.
@@ -42,6 +48,8 @@ struct Workspace {
   Slice<uint32_t> survivors;
   Slice<gpu::Point> centroids;
   Slice<uint32_t> lower_bits;
+  SortStreams sort;        // none but with kUseSort
+  Slice<float> u3_bounds;  // none but with kUsePaperU3
   uint32_t capacity = 0;
 
   Slice<gpu::Dispatch> dispatch(uint32_t which) const {
@@ -54,7 +62,9 @@ struct Workspace {
 uint32_t pyramid_size(uint32_t face_count);
 VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count);
 VkDeviceSize scratch_size(uint32_t face_count);
-VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity);
+// `switches`: of the context, for some have streams of their own.
+VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
+                            uint32_t switches = 0);
 
 // Candidates in each half of the frontier that fit `bytes`, at most what the device's bindings
 // reach; 0 if not even the fixed streams fit.

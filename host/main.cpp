@@ -46,6 +46,7 @@ struct Arguments {
   std::string file_a, file_b;
   std::string tolerance = "1e-6", device, memory, time, waves;
   std::vector<std::string> enabled, disabled;
+  std::string preset;
   bool json = false, verbose = false, symmetric = false, verify = false, no_cache = false;
   std::string json_file;  ///< empty: JSON goes to stdout
 };
@@ -100,8 +101,8 @@ class ProgressLine {
   Clock::time_point last_;
 };
 
-void check_switches(const char* option, const std::vector<std::string>& names) {
-  const std::vector<std::string> known = switch_names();
+void check_names(const char* option, const std::vector<std::string>& names,
+                 const std::vector<std::string>& known) {
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string list;
@@ -119,8 +120,10 @@ Request understand(const Arguments& arguments) {
   if (!arguments.memory.empty()) options.memory_bytes = parse_memory(arguments.memory);
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
-  check_switches("--enable", arguments.enabled);
-  check_switches("--disable", arguments.disabled);
+  check_names("--enable", arguments.enabled, switch_names());
+  check_names("--disable", arguments.disabled, switch_names());
+  if (!arguments.preset.empty()) check_names("--preset", {arguments.preset}, preset_names());
+  options.preset = arguments.preset;
   options.enabled = arguments.enabled;
   options.coverage = arguments.verify;
   options.disabled = arguments.disabled;
@@ -233,8 +236,7 @@ int run_pair(const Arguments& arguments, Load load) {
   });
   const MeshPair pair = load();
   const double load_ms = ms_since(start);
-  // Not destroyed before the process ends: the answer comes first.
-  static Session session = opening.get();
+  Session session = opening.get();  // taken apart after the answer is out
   Answer answer = answer_for(arguments, request, pair, session);
   for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (report == nullptr) continue;
@@ -291,7 +293,12 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
           "Print one JSON object instead of the table, or beside it into FILE")
       ->type_name("[FILE]")
       ->expected(0, 1);
-  command.add_option("--enable", arguments.enabled, "Switch on parts that are off by default: u4")
+  command.add_option("--preset", arguments.preset,
+                     "Which parts of the method are on: default, what pays on the device; paper, "
+                     "what the paper has; baseline-gpu, the paper's baseline [default]");
+  command
+      .add_option("--enable", arguments.enabled,
+                  "Switch on parts that the preset has not, by name: u4,sort")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
@@ -378,8 +385,8 @@ int run_and_catch(int argc, char** argv) {
 }  // namespace
 }  // namespace vkh
 
-// Without exit handlers: a thread may still be at work, on a mesh or in the driver, and nobody needs
-// to wait until a driver has taken itself apart.
+// Without exit handlers: after a bad file, a thread may still be at work on the other one or in the
+// driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
 int main(int argc, char** argv) {
   const int code = vkh::run_and_catch(argc, argv);
   std::cout.flush();

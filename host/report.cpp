@@ -173,6 +173,8 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   json.add("queries", r.queries);
   json.add("peak_frontier", r.peak_frontier);
   json.add("workspace_bytes", r.workspace_bytes);
+  json.add("preset", r.preset);
+  json.add("switched_on", r.switched_on);
   json.add("switched_off", r.switched_off);
   json.add("notes", answer.notes);
   return json.text();

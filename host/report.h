@@ -106,7 +106,8 @@ struct Report {
   std::vector<StageStats> stages;
   std::vector<WaveStats> wave_stats;
   Times times;
-  std::vector<std::string> switched_off;  ///< names given to --disable
+  std::string preset = "default";
+  std::vector<std::string> switched_on, switched_off;  ///< all switches, as they were
   std::optional<WitnessCheck> witness_check;
   std::optional<CoverageCheck> coverage_check;
 

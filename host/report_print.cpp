@@ -180,6 +180,7 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   print_mesh(out, "B", answer.file_b, r.mesh_b);
   for (const std::string& note : answer.notes) row(out, "note", note);
   row(out, "device", device_text(r.device));
+  if (r.preset != "default") row(out, "preset", r.preset);
   print_switched_off(out, r.switched_off);
   if (answer.b_to_a) row(out, "h(A,B)", bounds(r.lower, r.upper) + "  " + verdict(r.status));
   print_direction(out, r, "A", "B");

@@ -1,6 +1,7 @@
 #include "host/run.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <string>
@@ -19,9 +20,9 @@ constexpr VkBufferUsageFlags kWorking =
 constexpr uint32_t kFirstWaves = 8;
 constexpr uint32_t kFirstWavesOnCpu = 2;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard; an empty wave costs
-// little.
+// little, but a few of them as much as another report.
 constexpr double kSubmissionMs = 100;
-constexpr uint32_t kMostWaves = 8;
+constexpr uint32_t kMostWaves = 4;
 
 uint32_t next_waves(uint32_t last, double last_ms) {
   const double per_wave = std::max(last_ms / last, 1e-3);
@@ -32,6 +33,12 @@ uint32_t next_waves(uint32_t last, double last_ms) {
 double now_ms() {
   using namespace std::chrono;
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+// Room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
+VkDeviceSize roomy(VkDeviceSize bytes) {
+  constexpr VkDeviceSize kLargest = VkDeviceSize{64} << 20;
+  return bytes > kLargest ? bytes : std::bit_ceil(bytes);
 }
 
 VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
@@ -122,8 +129,8 @@ void Runner::upload(const MeshData& a, const MeshData& b) {
   const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
   const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
-  grow(staging_, device_, uploaded_bytes_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
-  grow(meshes_, device_, uploaded_bytes_, kWorking, Placement::kDevice);
+  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
   if (bytes_a > 0) write(staging_.mapped(), a);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
   if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
@@ -138,7 +145,7 @@ VkDeviceSize Runner::place_b(const RunInput& in) {
     return 0;
   }
   const VkhHierarchyRequirements needed = hierarchy_requirements();
-  grow(hierarchy_, device_, needed.hierarchySize, kWorking, Placement::kDevice);
+  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
   problem_.b = {
       {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
   return needed.scratchSize;
@@ -160,6 +167,7 @@ void Runner::place(const RunInput& in, RunOutput& out) {
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
   problem_.knownLower = in.known_lower;
+  problem_.sortFrom = in.sort_from;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
   place_areas(in, out);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
@@ -235,6 +243,7 @@ RunOutput Runner::run(const RunInput& in) {
   uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
   uint32_t waves_left = std::max(in.wave_limit, 1u);
   do {
+    if (!in.multiwave) waves = 1;
     waves = std::min(waves, waves_left);  // exactly the budget: how they are grouped depends on the
                                           // clock, the result must not
     const double submitted = now_ms();

@@ -34,6 +34,8 @@ struct RunInput {
   uint32_t switches = VKH_SWITCH_DEFAULT;
   uint64_t memory_bytes = 0;  ///< 0: recommended
   uint32_t wave_limit = UINT32_MAX;
+  bool multiwave = true;   ///< false: the host looks at the report after every wave
+  uint32_t sort_from = 0;  ///< VkhProblem::sortFrom
   float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
   bool coverage = false;  ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too

@@ -9,21 +9,11 @@
 #include "host/error.h"
 #include "host/frame.h"
 #include "host/run.h"
+#include "host/switches.h"
 #include "host/verify.h"
 
 namespace vkh {
 namespace {
-
-constexpr std::pair<const char*, uint32_t> kSwitches[] = {
-    {"centroid", VKH_SWITCH_CENTROID},
-    {"parent_samples", VKH_SWITCH_PARENT_SAMPLES},
-    {"tolerance_cull", VKH_SWITCH_TOLERANCE_CULL},
-    {"thin", VKH_SWITCH_THIN},
-    {"u3", VKH_SWITCH_PAIRS},
-    {"u4", VKH_SWITCH_U4},
-    {"warm_start", VKH_SWITCH_WARM_START},
-    {"group_walk", VKH_SWITCH_GROUP_WALK},
-    {"shared_faces", VKH_SWITCH_SHARED_FACES}};
 
 // Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
 // up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that
@@ -43,21 +33,6 @@ constexpr double kToleranceFloor = 6e-11;
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-uint32_t switch_bit(const std::string& name) {
-  for (const auto& [known, bit] : kSwitches) {
-    if (name == known) return bit;
-  }
-  throw UsageError("no switch is called '" + name + "'");
-}
-
-uint32_t switches_of(const SolveOptions& options, const Device& device) {
-  uint32_t on = default_switches(device);
-  for (const std::string& name : options.enabled) on |= switch_bit(name);
-  for (const std::string& name : options.disabled) on &= ~switch_bit(name);
-  if (options.coverage) on |= VKH_SWITCH_COVERAGE;
-  return options.certified ? on : on & ~uint32_t{VKH_SWITCH_CERTIFICATE};
 }
 
 // A run's meshes as they are stored in one frame. Proof that any frame will do: the device encloses
@@ -139,12 +114,6 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
 
 }  // namespace
 
-std::vector<std::string> switch_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, bit] : kSwitches) names.emplace_back(name);
-  return names;
-}
-
 struct Solver::Impl {
   Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
   Report solve(const Pair& pair, const SolveOptions& options, Clock::time_point start);
@@ -214,9 +183,11 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switc
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
           .resident = pair.resident,
-          .switches = switches,
+          .switches = switches & ~kSwitchMultiwave,
           .memory_bytes = options.memory_bytes,
           .wave_limit = options.wave_limit,
+          .multiwave = (switches & kSwitchMultiwave) != 0,
+          .sort_from = options.sort_from,
           .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
           .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
           .two_float = two_float,
@@ -238,7 +209,8 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   out.tolerance =
       options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
   out.known_lower = options.known_lower;
-  RunInput in = input_for(pair, options, switches_of(options, device), out.tolerance);
+  const uint32_t switches = switches_of(options, device);
+  RunInput in = input_for(pair, options, switches, out.tolerance);
   Watch watch{options, pair, out.diagonal_a, start};
   in.advanced = [&](const VkhReport& r) { return watch(r); };
   const double framed_ms = ms_since(start);
@@ -252,9 +224,10 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   out.mesh_a = pair.a.counts;
   out.mesh_b = pair.b.counts;
   out.workspace_bytes = run.workspace_bytes;
-  for (const auto& [name, bit] : kSwitches) {
-    if ((in.switches & bit) == 0) out.switched_off.emplace_back(name);
-  }
+  out.preset = options.preset.empty() ? "default" : options.preset;
+  SwitchStates states = switch_states(switches);
+  out.switched_on = std::move(states.on);
+  out.switched_off = std::move(states.off);
   fill_counts(run.report, pair.frame, out);
   fill_stages(run, out);
   fill_witness(run.report, pair.a, pair.b, out);
@@ -266,7 +239,7 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
 }
 
 void Solver::make_ready(const SolveOptions& options) {
-  impl_->runner.make_ready(switches_of(options, impl_->device));
+  impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
 Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {

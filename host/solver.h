@@ -30,8 +30,11 @@ struct SolveOptions {
   double time_limit_s = std::numeric_limits<double>::infinity();
   uint32_t wave_limit = std::numeric_limits<uint32_t>::max();
   uint64_t memory_bytes = 0;          ///< workspace; 0: chosen from the meshes and the device
-  std::vector<std::string> enabled;   ///< switch names; u4 is off otherwise
-  std::vector<std::string> disabled;  ///< switch names, see switch_names()
+  std::string preset;                 ///< see preset_names(); empty: default
+  std::vector<std::string> enabled;   ///< switch names, see switch_names(), besides the preset's
+  std::vector<std::string> disabled;  ///< likewise, of those
+  uint32_t sort_from =
+      0;  ///< with `sort`: smaller frontiers are not sorted; 0: as was measured to pay
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   /// false: bounds in plain floats, a report that nothing vouches for; for vkh_bench alone, which
   /// measures what the certificate costs.
@@ -44,8 +47,11 @@ struct SolveOptions {
   double known_lower = 0;
 };
 
-/// Names that `disabled` takes.
+/// Names that `enabled` and `disabled` take.
 std::vector<std::string> switch_names();
+/// "default": what pays on the device. "paper": what the paper's method has and no more.
+/// "baseline-gpu": the paper's baseline, its cascade of bounds with none of its optimisations.
+std::vector<std::string> preset_names();
 
 /// Mesh B on the device with its hierarchy, for many A's. Made by a Solver, used by any Solver of
 /// the same device, outlives neither the device nor its owner's handles.

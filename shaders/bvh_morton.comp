@@ -18,6 +18,7 @@ void main() {
   uint i = item_index();
   if (i >= push.count) return;
   uvec3 f = faces[i];
-  keys[i] = face_code(face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi), box);
+  keys[i] =
+      face_code(face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi), box, push.count);
   values[i] = i;
 }

@@ -75,6 +75,8 @@ void write_pair(uint node, uint place, uint child) {
 void main() {
   uint i = item_index();
   if (i >= max(push.count, 2u) - 1u) return;
+  // What is within a leaf is never read.
+  if (i > 0u && branches[i].last - branches[i].first < kLeafTriangles) return;
   write_pair(i, 0u, branches[i].child0);
   write_pair(i, 2u, push.count == 1u ? kNone : branches[i].child1);
 }

@@ -38,8 +38,10 @@ VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
 // Invocations of wave_query: one query each, or one for all where a wave has few queries.
 VKH_CONST uint kQueryGroup = 32u;
-VKH_CONST uint kGroupWalkQueries = 1u << 14;  // up to so many are few: measured on an H200,
+VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: measured on an H200,
                                               // where 12,000 a dispatch take equally long
+// Vertices of A, whose walks start from nowhere: the group's is long, too.
+VKH_CONST uint kGroupWalkVertices = 1u << 11;
 VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds; more: walk alone
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
@@ -62,7 +64,13 @@ VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's know
 VKH_CONST uint kUseGroupWalk = 256u;     // few queries or children: more invocations for each
 VKH_CONST uint kUseSharedFaces = 512u;   // faces of A that are faces of B too are closed at once
 VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
-VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u;
+VKH_CONST uint kUseSort = 2048u;         // sort the frontier before it is refined
+VKH_CONST uint kUsePacket = 4096u;       // an invocation walks for a candidate's three new points
+VKH_CONST uint kUseDefer = 8192u;        // candidates that there is no room to refine wait
+VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refined first
+VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
+// The method of ours: without what the paper has in another place.
+VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
@@ -103,17 +111,32 @@ VKH_CONST uint kDispatchQueryPoints = 1u;
 VKH_CONST uint kDispatchFilter = 2u;
 VKH_CONST uint kDispatchQueryCentroids = 3u;
 VKH_CONST uint kDispatchBound = 4u;
-VKH_CONST uint kDispatchCount = 5u;
+VKH_CONST uint kDispatchPacket = 5u;      // in place of kDispatchQueryPoints
+VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
+VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
+VKH_CONST uint kDispatchSortDigits = 8u;  // digits
+VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
+VKH_CONST uint kDispatchCount = 10u;
 
-// Radix sort: 8-bit digits, 4 passes; a block is what one workgroup of kSortGroup invocations sorts
+// Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts
 // at a time.
 VKH_CONST uint kSortGroup = 256u;
 VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
-VKH_CONST uint kSortPasses = 4u;
+// Up to so many faces are told apart well enough by 24 bits of their codes: the lowest 6 are 0, and
+// are not sorted by.
+VKH_CONST uint kFewFaces = 1u << 16;
+VKH_CONST uint kFewFacesFirstBit = 6u;
 // Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
 VKH_CONST uint kSortFewBlocks = 64u;
+
+// The frontier's sort key: defer | mode | morton30 (paper.md eq. 4).
+VKH_CONST uint kKeyDeferred = 0x80000000u;
+VKH_CONST uint kKeyThin = 0x40000000u;
+// Frontiers of fewer candidates are not sorted unless a run says otherwise: thirteen dispatches
+// more a wave, 45 us on an H200 by its price of one, against walks that take 16 us for so few.
+VKH_CONST uint kSortFrom = 1u << 14;
 
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
@@ -137,6 +160,10 @@ VKH_CONST uint kCentroidSample = 0x80000000u;
 VKH_CONST uint kMaxOffers = 64u;  // of a wave; where there are more, all its samples are looked at
 
 VKH_CONST uint kMaxWaveRecords = 64u;
+
+// What seed_faces says of a vertex of A: 0 where no face uses it.
+VKH_CONST uint kVertexUsed = 1u;
+VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
 
 // Status codes of the report.
 VKH_CONST uint kStatusRunning =
@@ -241,14 +268,18 @@ struct Control {
   uint culled[8];   // kCull*
   uint parity;      // which half of the frontier is being read
   uint wave;
-  uint status;        // kStatus*
-  uint root_cursor;   // faces of A before this one were admitted
-  uint roots;         // faces of A admitted in this wave
-  uint deferred;      // candidates that stay as they are in this wave
-  uint parents;       // candidates that it refines
-  uint select_key;    // where some are deferred, those with a smaller or the same key are refined:
-  uint select_tie;    // lib/candidate.glsl
-  uint seed_witness;  // 3 * face + corner of A where the first witness is; kNone
+  uint status;       // kStatus*
+  uint root_cursor;  // faces of A before this one were admitted
+  uint roots;        // faces of A admitted in this wave
+  uint deferred;     // candidates that stay as they are in this wave
+  uint parents;      // candidates that it refines
+  uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
+  uint select_tie;   // lib/candidate.glsl
+  uint select_largest;  // in this wave the largest u come first
+  uint sort_from;       // frontiers of fewer candidates are not sorted
+  uint sorted;          // this wave's is
+  uint lost;            // candidates that could neither be refined nor wait
+  uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
   // The wave's samples that were at the new lower bound when they were looked at: how many, and the
   // first of them.
   uint offer_count;
@@ -353,9 +384,7 @@ struct PyramidPush {
 };
 
 struct SortPush {
-  uint count;
-  uint shift;   // of the digit in the key
-  uint blocks;  // ceil(count / kSortBlock)
+  uint shift;  // of the digit in the key
 };
 
 // seed_faces
@@ -377,6 +406,7 @@ struct BeginPush {
   float known_lower;
   uint two_float;
   uint warm;  // the last run's witness is kept
+  uint sort_from;
 };
 
 // seed_query: A's vertices and, where `warm`, the last run's witness behind them.

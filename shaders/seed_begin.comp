@@ -20,6 +20,10 @@ void main() {
   control.roots = 0u;
   control.parents = 0u;
   control.deferred = 0u;
+  control.select_largest = 0u;
+  control.sort_from = push.sort_from;
+  control.sorted = 0u;
+  control.lost = 0u;
   control.seed_witness = kNone;
   control.offer_count = 0u;
   control.cull_tolerance = push.cull_tolerance;

@@ -2,9 +2,9 @@
 // from the triangle that the last run found, and queries the last run's witness as one more item.
 // What the last run left may be anything: starts are checked, and the witness is moved into A, so
 // that it costs time at worst.
-// In: vertices, faces; vertex_distance from seed_mark; where push.warm, vertex_nearest and
-// control.witness. Out: vertex_nearest (kNone where no face uses the vertex), vertex_distance;
-// control.maximum[kMaxVertex]; where push.warm, control.witness.
+// In: vertices, faces; vertex_distance holds the states from seed_faces; where push.warm,
+// vertex_nearest and control.witness. Out: vertex_nearest (kNone where no face uses the vertex),
+// vertex_distance; control.maximum[kMaxVertex]; where push.warm, control.witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
 layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 3) buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 4) buffer VertexDistance { float vertex_distance[]; };
+layout(scalar, binding = 4) buffer VertexDistance { uint vertex_distance[]; };
 layout(scalar, binding = 5) buffer ControlBlock { Control control; };
 layout(scalar, binding = 6) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 7) readonly buffer Faces { uvec3 faces[]; };
@@ -49,7 +49,7 @@ float answer(uint i, vec3 p, Nearest found) {
   float d = sqrt(found.distance2);  // uncertified: steers; seed_lower measures what matters
   if (i < push.vertex_count) {
     vertex_nearest[i] = found.triangle;
-    vertex_distance[i] = d;
+    vertex_distance[i] = floatBitsToUint(d);
   } else {
     control.witness.position = p;
     control.witness.nearest = found.triangle;
@@ -58,15 +58,22 @@ float answer(uint i, vec3 p, Nearest found) {
   return d;
 }
 
+// A vertex that needs no query: on B, or of no face.
+void settle(uint i, uint state) {
+  vertex_nearest[i] = state >= kVertexOnB ? state - kVertexOnB : kNone;
+  vertex_distance[i] = 0u;
+}
+
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  bool in_groups = (kSwitches & kUseGroupWalk) != 0u && walks_in_groups(push.vertex_count);
+  bool in_groups = (kSwitches & kUseGroupWalk) != 0u && push.vertex_count <= kGroupWalkVertices;
   uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
-  bool is_vertex = i < push.vertex_count && vertex_distance[i] >= 0.0;
+  uint state = i < push.vertex_count ? vertex_distance[i] : 0u;
+  bool is_asked = state == kVertexUsed || is_old_witness(i);
   float d = 0.0;
-  if (i < push.vertex_count && !is_vertex) vertex_nearest[i] = kNone;
+  if (i < push.vertex_count && !is_asked) settle(i, state);
   if (is_old_witness(i)) clamp_witness();
-  if (is_vertex || is_old_witness(i)) {
+  if (is_asked) {
     Two3 p = seed_point(i);
     uint start = start_of(i);
     Query q = Query(p, 0.0, false);

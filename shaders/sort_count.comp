@@ -1,14 +1,17 @@
-// What: how often each digit occurs in each block of keys. Out: counts[digit * blocks + block].
-// Radix sort, first of three kernels a pass: count, scan, scatter.
+// What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer, for
+// only the device knows the frontier's length. Out: counts[digit * blocks + block]. Radix sort,
+// first of three kernels a pass: count, scan, scatter.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 #include "shaders/lib/invocation.glsl"
+#include "shaders/lib/sort.glsl"
 
 layout(local_size_x = kSortGroup) in;
 layout(scalar, binding = 0) readonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 1) writeonly buffer Counts { uint counts[]; };
+layout(scalar, binding = 2) readonly buffer KeyCount { uint key_count; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
 shared uint histogram[kSortDigits];
@@ -16,13 +19,14 @@ shared uint histogram[kSortDigits];
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint block = workgroup_index();
-  if (block >= push.blocks) return;
+  uint blocks = sort_blocks(key_count);
+  if (block >= blocks) return;
   histogram[lane] = 0u;
   barrier();
   for (uint round = 0u; round < kSortRounds; ++round) {
     uint i = block * kSortBlock + round * kSortGroup + lane;
-    if (i < push.count) atomicAdd(histogram[(keys[i] >> push.shift) & 255u], 1u);
+    if (i < key_count) atomicAdd(histogram[(keys[i] >> push.shift) & 255u], 1u);
   }
   barrier();
-  counts[lane * push.blocks + block] = histogram[lane];
+  counts[lane * blocks + block] = histogram[lane];
 }

@@ -5,20 +5,22 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
+#include "shaders/lib/sort.glsl"
 
 layout(local_size_x = kSortGroup) in;
 layout(scalar, binding = 0) buffer Counts { uint counts[]; };
 layout(scalar, binding = 1) writeonly buffer Totals { uint totals[]; };
-layout(scalar, push_constant) uniform PushBlock { SortPush push; };
+layout(scalar, binding = 2) readonly buffer KeyCount { uint key_count; };
 
 shared uint sums[kSortGroup];
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  uint row = gl_WorkGroupID.x * push.blocks;
-  uint per_lane = (push.blocks + kSortGroup - 1u) / kSortGroup;  // uncertified: integers
-  uint begin = min(lane * per_lane, push.blocks);
-  uint end = min(begin + per_lane, push.blocks);
+  uint blocks = sort_blocks(key_count);
+  uint row = gl_WorkGroupID.x * blocks;
+  uint per_lane = (blocks + kSortGroup - 1u) / kSortGroup;  // uncertified: integers
+  uint begin = min(lane * per_lane, blocks);
+  uint end = min(begin + per_lane, blocks);
   uint sum = 0u;
   for (uint i = begin; i < end; ++i) sum += counts[row + i];
   sums[lane] = sum;

@@ -12,6 +12,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "shaders/gpu_types.h"
 #include "shaders/lib/invocation.glsl"
+#include "shaders/lib/sort.glsl"
 
 layout(local_size_x = kSortGroup) in;
 layout(scalar, binding = 0) readonly buffer KeysIn { uint keys_in[]; };
@@ -20,6 +21,7 @@ layout(scalar, binding = 2) writeonly buffer KeysOut { uint keys_out[]; };
 layout(scalar, binding = 3) writeonly buffer ValuesOut { uint values_out[]; };
 layout(scalar, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(scalar, binding = 5) readonly buffer Totals { uint totals[]; };
+layout(scalar, binding = 6) readonly buffer KeyCount { uint key_count; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
 const uint kMaxSubgroups =
@@ -43,14 +45,15 @@ uvec4 peers_of(uint digit) {
 // How many keys have the digit `lane`. Out: block_base[lane], how many of them are in earlier
 // blocks.
 uint total_of(uint lane, uint block) {
-  if (push.blocks > kSortFewBlocks) {
-    block_base[lane] = counts[lane * push.blocks + block];
+  uint blocks = sort_blocks(key_count);
+  if (blocks > kSortFewBlocks) {
+    block_base[lane] = counts[lane * blocks + block];
     return totals[lane];
   }
   uint total = 0u;
-  for (uint b = 0u; b < push.blocks; ++b) {
+  for (uint b = 0u; b < blocks; ++b) {
     if (b == block) block_base[lane] = total;
-    total += counts[lane * push.blocks + b];
+    total += counts[lane * blocks + b];
   }
   return total;
 }
@@ -84,7 +87,8 @@ void scan_subgroups(uint word) {
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint block = workgroup_index();
-  if (block >= push.blocks) return;
+  uint blocks = sort_blocks(key_count);
+  if (block >= blocks) return;
   for (uint i = lane; i < kMaxSubgroups * kRow; i += kSortGroup) counters[i] = 0u;
   scan_totals(lane, block);
   barrier();
@@ -95,7 +99,7 @@ void main() {
     uint i = run + round * gl_SubgroupSize;
     // Past the end every key counts as the last digit: such lanes stand after all others and push
     // none of them away.
-    uint digit = i < push.count ? (keys_in[i] >> push.shift) & 255u : 255u;
+    uint digit = i < key_count ? (keys_in[i] >> push.shift) & 255u : 255u;
     uvec4 peers = peers_of(digit);
     uint leader = subgroupBallotFindLSB(peers);
     uint shift = 16u * (digit & 1u);
@@ -114,7 +118,7 @@ void main() {
   barrier();
   for (uint round = 0u; round < kSortRounds; ++round) {
     uint i = run + round * gl_SubgroupSize;
-    if (i >= push.count) break;
+    if (i >= key_count) break;
     uint key = keys_in[i];
     uint digit = (key >> push.shift) & 255u;
     uint earlier =

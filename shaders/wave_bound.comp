@@ -1,5 +1,5 @@
-// What: the cascade over every child of the wave, or, where centroids are queried, its hard half
-// over those past wave_filter: exact case, u1, u2, ha, u3 over every pair of known triangles, u4.
+// What: the cascade over every child of the wave, or, where there is a filter, its hard half
+// over those past it: exact case, u1, u2, ha, u3 over every pair of known triangles, u4.
 // What is still open enters the next frontier. In: the refined candidates, their splits and queried
 // points; the admitted faces of A; survivors and centroids. Out: frontier's writing half; every
 // closed child's u is kept (kMaxDropped), every open one's too (kMaxNext); samples are offered as
@@ -29,6 +29,7 @@ layout(scalar, binding = 9) readonly buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
+layout(scalar, binding = 13) readonly buffer U3Bounds { float u3_bounds[]; };
 
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
@@ -40,7 +41,8 @@ layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
 #include "shaders/lib/bound_group.glsl"
 #include "shaders/lib/bound_u4.glsl"
 
-const bool kAsksCentroids = (kSwitches & kUseCentroid) != 0u;
+// Whether wave_filter has gone over the children.
+const bool kFiltered = (kSwitches & (kUseCentroid | kUsePaperU3)) != 0u;
 
 Known known_to(Child c, uint code, uint centre) {
   Known known;
@@ -53,7 +55,9 @@ Known known_to(Child c, uint code, uint centre) {
   return known;
 }
 
-Verdict bound_by_points(uint child, Child c, Verdict v, float threshold) {
+// By what kernels of their own found, and by points.
+Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
+  if ((kSwitches & kUsePaperU3) != 0u && u3_bounds[i] < v.upper) v = Verdict(u3_bounds[i], kCullU3);
   if ((kSwitches & kUseU4) == 0u) return v;  // alone: optimisers then leave all of it out
   if (v.upper <= threshold) return v;
   float u4 = bound_u4(patch_of_child(child), c.nearest, view_of_child(child), held[child].slack);
@@ -62,22 +66,22 @@ Verdict bound_by_points(uint child, Child c, Verdict v, float threshold) {
 }
 
 uint child_total() {
-  return kAsksCentroids ? control.count[kCountSurvivors] : 4u * control.parents + control.roots;
+  return kFiltered ? control.count[kCountSurvivors] : 4u * control.parents + control.roots;
 }
 
 // The child's code; kNone where its parent was not split.
 uint code_of(uint i) {
-  if (kAsksCentroids) return survivors[i];
+  if (kFiltered) return survivors[i];
   return is_root(i) || splits[i >> 2].code != kSplitNone ? i : kNone;
 }
 
 uint centre_of(uint i) {
-  if (!kAsksCentroids || centroids[i].distance < 0.0) return kNone;
+  if (!kFiltered || centroids[i].distance < 0.0) return kNone;
   return centroids[i].nearest;
 }
 
 void offer(uint i, uint code) {
-  if (kAsksCentroids) {
+  if (kFiltered) {
     offer_sample(i | kCentroidSample);
   } else {
     offer_point(code);
@@ -112,10 +116,14 @@ void main() {
   uint centre = kNone;
   if (mine) {
     offer(i, code);
+    c.root = root_of(code);
+    c.at = whole_root();
+    bounded = !(is_root(code) && face_shared[c.root] != 0u);
+  }
+  if (bounded) {
     c = load_child(code);
     centre = centre_of(i);
-    bounded = !(is_root(code) && face_shared[c.root] != 0u);
-    if (bounded) hold(lane, c, known_to(c, code, centre));
+    hold(lane, c, known_to(c, code, centre));
   }
   barrier();
   measure_corners(fine);
@@ -128,6 +136,6 @@ void main() {
   barrier();
   measure_cuts(fine);
   barrier();
-  if (bounded) v = bound_by_points(lane, c, bound_in_pairs(lane, v), threshold);
+  if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
   write(mine, c, centre, v, threshold);
 }

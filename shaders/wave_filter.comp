@@ -1,8 +1,8 @@
-// What: where centroids are queried, the cheap half of the cascade, over every child: exact case,
-// u1, u2, ha with the triangles already known. In: the refined candidates, their splits and queried
-// points; the admitted faces of A. Out: survivors (codes), and for each its centroid as a query
-// that starts from the best single triangle. Every closed child's u is kept (kMaxDropped). Also
-// offers the new points that may become the witness.
+// What: where centroids are queried, or the paper's u3 is on, the cheap half of the cascade, over
+// every child: exact case, u1, u2, ha with the triangles already known. In: the refined candidates,
+// their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
+// its centroid as a query that starts from the best single triangle. Every closed child's u is kept
+// (kMaxDropped). Also offers the new points that may become the witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -107,6 +107,8 @@ void main() {
   uint slot = stream_append(kCountSurvivors, open);
   if (open) {
     survivors[slot] = code;
-    centroids[slot] = Point(centre.hi, v.best, centre.lo, 0.0);
+    // A negative distance tells the query to skip it.
+    float asked = (kSwitches & kUseCentroid) != 0u ? 0.0 : -1.0;
+    centroids[slot] = Point(centre.hi, v.best, centre.lo, asked);
   }
 }

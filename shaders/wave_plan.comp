@@ -29,6 +29,7 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/schedule.glsl"
 #include "shaders/lib/witness.glsl"
 
 const uint kAdoptGroup = kPlanGroup;
@@ -100,12 +101,15 @@ void share_room() {
   uint room = capacity - held;
   uint parents =
       min(held, room > kReserve + 3u ? (room - kReserve) / 3u : 1u);  // uncertified: integers
-  uint quarter = (capacity - kReserve) / 4u;                          // uncertified: integers
+  control.parents = parents;
+  control.deferred = held - parents;
+  held = schedule(held, room);
+  parents = control.parents;
+  room = capacity - held;
+  uint quarter = (capacity - kReserve) / 4u;  // uncertified: integers
   uint waiting = control.face_count - cursor;
   uint roots =
       held < quarter ? min(waiting, min(quarter - held, room - 3u * parents - kReserve)) : 0u;
-  control.parents = parents;
-  control.deferred = held - parents;
   control.roots = roots;
   control.root_cursor = cursor + roots;
 }
@@ -119,7 +123,7 @@ bool within_tolerance() {
 void end_if_done() {
   if (within_tolerance() && control.roots == 0u) {
     control.maximum[kMaxDropped] = max(control.maximum[kMaxDropped], control.maximum[kMaxFrontier]);
-    control.status = control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+    control.status = status_decided();
     return;
   }
   if (control.parents + control.roots > 0u) return;
@@ -127,7 +131,7 @@ void end_if_done() {
     control.maximum[kMaxSpilled] = max(control.maximum[kMaxSpilled], control.maximum[kMaxFrontier]);
     control.status = kStatusMemory;
   } else {
-    control.status = control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+    control.status = status_decided();
   }
 }
 
@@ -221,12 +225,13 @@ void write_sizes() {
   bool spread = (kSwitches & kUseGroupWalk) != 0u;
   uint held = running ? parents + control.deferred : 0u;
   dispatches[kDispatchSubdivide] = groups_for(spread ? kSplitLanes * held : held);
-  dispatches[kDispatchQueryPoints] = groups_for_queries(3u * parents, spread);
+  write_query_sizes(parents);
+  write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
   uint children = running ? 4u * parents + control.roots : 0u;
   dispatches[kDispatchFilter] = groups_for(children);
   dispatches[kDispatchBound] = groups_for_children(children, spread);
   if (!running) return;
-  control.count[kCountNext] = control.deferred;
+  control.count[kCountNext] = may_wait() ? control.deferred : 0u;
   control.count[kCountRefined] = 0u;
   control.count[kCountDeferred] = 0u;
   control.wave += 1u;
@@ -240,7 +245,7 @@ void plan() {
     share_room();
     end_if_done();
   }
-  bool short_room = control.status == kStatusRunning && control.deferred > 0u;
+  bool short_room = control.status == kStatusRunning && control.deferred > 0u && may_wait();
   held_in_short_room = short_room ? control.count[kCountFrontier] : 0u;
   read_from = reading(0u);
   room_for = control.parents;

@@ -21,18 +21,8 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/query.glsl"
 #include "shaders/lib/stream.glsl"
-
-Query query_at(uint i) {
-  return Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u);
-}
-
-float answer(uint i, Nearest found) {
-  float d = max(measured(query_at(i), found).above, 0.0);
-  points[i].nearest = found.triangle;
-  points[i].distance = d;
-  return d;
-}
 
 void main() {
   uint count = push.centroids != 0u ? control.count[kCountSurvivors] : 3u * control.parents;

@@ -22,6 +22,7 @@ layout(scalar, binding = 6) writeonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
 layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 9) buffer Areas { Area areas[]; };
+layout(scalar, binding = 10) readonly buffer Order { uint order[]; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
@@ -66,11 +67,33 @@ void write_point(uint i, uint k, Candidate c, Bary3 at, Root root, uint split) {
                                            : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
 }
 
-// Where refined candidate `at`, a place in the half being read, stands among the wave's parents;
-// kNone if there is no room for it in this wave: then it is copied to the next frontier. Where none
-// is deferred, places are parents.
-uint place_of(uint at, bool held, Candidate c, float upper) {
-  if (control.deferred == 0u) return held ? at : kNone;
+// Whether items are taken in the order of the sort. Then the wave's parents come first, and one
+// kernel serves both ways to split: at most one subgroup has candidates of both. A second dispatch
+// for the thin ones would cost 3.5 us a wave on an H200, and a count of them.
+bool is_sorted() { return (kSwitches & kUseSort) != 0u && control.sorted != 0u; }
+
+// Nothing may wait, and there is no room: the candidate is lost, but for its u.
+void lose(bool held, Candidate c, float upper) {
+  raise(kMaxSpilled, held ? upper : 0.0);
+  close_area(held, c.root, unpack_corners(c.corners));
+}
+
+// Where the candidate of an item, `c`, stands among the wave's parents; kNone if there is no room
+// for it in this wave: then it is copied to the next frontier. Where none is deferred, items are
+// parents.
+uint place_of(uint item, bool held, Candidate c, float upper) {
+  if (control.deferred == 0u) return held ? item : kNone;
+  if ((kSwitches & kUseDefer) == 0u) {
+    lose(held, c, upper);
+    return kNone;
+  }
+  if (is_sorted()) {
+    bool waits = held && item >= control.parents;
+    raise(kMaxNext, waits ? upper : 0.0);
+    c.upper = upper;
+    if (waits) frontier[writing(item - control.parents)] = c;
+    return held && !waits ? item : kNone;
+  }
   bool refined = held && not_after(key_of(c), Key(control.select_key, control.select_tie));
   uint place = stream_append(kCountRefined, refined);
   refined = refined && place < control.parents;
@@ -107,12 +130,14 @@ uint shared_place_of(uint at, bool held, Candidate c, float upper) {
 }
 
 void main() {
-  uint at = item_index() / kSubdivideLanes;  // uncertified: integers
+  uint item = item_index() / kSubdivideLanes;  // uncertified: integers
   uint lane = item_index() % kSubdivideLanes;
-  bool held = at < control.count[kCountFrontier];
-  Candidate c = frontier[reading(held ? at : 0u)];
+  bool held = item < control.count[kCountFrontier];
+  uint at = held ? item : 0u;
+  if (held && is_sorted()) at = order[item];
+  Candidate c = frontier[reading(at)];
   float upper = upper_of(c);
-  uint i = shared_place_of(at, held, c, upper);
+  uint i = shared_place_of(item, held, c, upper);
   bool mine = i != kNone;
   bool closed = mine && upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   uint split = kSplitNone;

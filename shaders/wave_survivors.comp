@@ -18,4 +18,5 @@ void main() {
   dispatches[kDispatchQueryCentroids] =
       groups_for_queries(survivors, (kSwitches & kUseGroupWalk) != 0u);
   dispatches[kDispatchBound] = groups_for_children(survivors, (kSwitches & kUseGroupWalk) != 0u);
+  dispatches[kDispatchBisect] = groups_for(survivors);
 }

@@ -75,9 +75,15 @@ bool bounds(const gpu::vec3& lo, const gpu::vec3& hi, const std::vector<gpu::Tri
   return same(lo, low) && same(hi, high);
 }
 
-uint32_t split_of(const gpu::Node& node) {
-  if ((node.child0 & gpu::kLeafFlag) == 0) return node.child0;
-  return (node.child0 & (gpu::kMaxTriangles - 1)) + ((node.child0 >> 28) & 7u);
+/// Whether a child's box is that of its triangles; no child has an empty box.
+bool fits(const gpu::Child4& child, const std::vector<gpu::Branch>& branches,
+          const std::vector<gpu::Triangle>& triangles) {
+  if (child.child == gpu::kNone) return child.lo.x > child.hi.x;
+  const bool leaf = (child.child & gpu::kLeafFlag) != 0;
+  const uint32_t first =
+      leaf ? child.child & (gpu::kMaxTriangles - 1) : branches[child.child].first;
+  const uint32_t last = leaf ? first + ((child.child >> 28) & 7u) : branches[child.child].last;
+  return bounds(child.lo, child.hi, triangles, first, last);
 }
 
 /// Builds for `before`, refits to `after`.
@@ -96,13 +102,11 @@ void check_refit(const Mesh& before, const Mesh& after) {
     const glm::dvec3& a = after.vertices[after.faces[order[i].face].x];
     wrong += static_cast<float>(a.x) != triangles[i].a.x;
   }
-  if (triangles.size() == 1) {
-    wrong += !bounds(nodes[0].lo0, nodes[0].hi0, triangles, 0, 0);
-  } else {
-    for (const gpu::Node& n : nodes) {
-      wrong += !bounds(n.lo0, n.hi0, triangles, n.first, split_of(n));
-      wrong += !bounds(n.lo1, n.hi1, triangles, split_of(n) + 1, n.last);
-    }
+  const auto branches = bench.get(h.branches);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    // Within a leaf nodes are not written.
+    if (i > 0 && branches[i].last - branches[i].first < gpu::kLeafTriangles) continue;
+    for (const gpu::Child4& child : nodes[i].child) wrong += !fits(child, branches, triangles);
   }
   CHECK(wrong == 0);
 }

@@ -155,11 +155,15 @@ TEST_CASE("help and version are answers, not errors") {
 }
 
 const Words kDistanceKeys = sorted(
-    {"schema",     "version",    "status",  "stop_reason",   "lower",           "lower_hex",
-     "upper",      "upper_hex",  "gap",     "tolerance",     "witness",         "mesh_a",
-     "mesh_b",     "device",     "times",   "stages",        "culled",          "waves",
-     "wave_stats", "candidates", "queries", "peak_frontier", "workspace_bytes", "switched_off",
-     "notes",      "known_lower"});
+    {"schema",      "version",      "status",  "stop_reason",   "lower",           "lower_hex",
+     "upper",       "upper_hex",    "gap",     "tolerance",     "witness",         "mesh_a",
+     "mesh_b",      "device",       "times",   "stages",        "culled",          "waves",
+     "wave_stats",  "candidates",   "queries", "peak_frontier", "workspace_bytes", "preset",
+     "switched_on", "switched_off", "notes",   "known_lower"});
+
+// On a CPU device.
+const Words kOffUnlessAsked = {"u4",     "group_walk",    "shared_faces", "sort",
+                               "packet", "largest_first", "u3_paper"};
 
 TEST_CASE("distance --json: one object of the schema and nothing else on stdout") {
   const std::string a = square_a(), b = square_b();
@@ -187,8 +191,9 @@ TEST_CASE("distance --json: one object of the schema and nothing else on stdout"
     CHECK(r["times"]["setup_ms"].get<double>() > 0);
     CHECK(keys(r["culled"]) ==
           sorted({"exact", "u1", "u2", "ha", "u3", "u4", "lower_raised", "precision"}));
-    CHECK(r["switched_off"] ==
-          Words{"u4", "group_walk", "root_centroid"});  // off unless --enable u4
+    CHECK(r["preset"] == "default");
+    CHECK(r["switched_off"] == kOffUnlessAsked);
+    CHECK(r["switched_on"].size() + kOffUnlessAsked.size() == vkh::switch_names().size());
   }
 }
 
@@ -332,9 +337,19 @@ TEST_CASE("switches are echoed, one option or several, before or after the files
         Words{"distance", "--disable", both, a, b, "--json"},
         Words{"distance", a, b, "--json", "--disable", names[0], "--disable", names[1]}}) {
     const json r = parse_only_line(run(words).out);
-    CHECK(r["switched_off"] == Words{names[0], names[1], "u4", "group_walk", "root_centroid"});
+    Words off = {names[0], names[1]};
+    off.insert(off.end(), kOffUnlessAsked.begin(), kOffUnlessAsked.end());
+    CHECK(r["switched_off"] == off);
     check_interval(r, 0.25);
   }
+  const Words paper = {"distance", a, b, "--json", "--preset", "paper", "--disable", "sort"};
+  const json r = parse_only_line(run(paper).out);
+  CHECK(r["preset"] == "paper");
+  CHECK(r["switched_on"] == Words{"thin", "u4", "warm_start", "packet", "defer", "u3_paper"});
+  check_interval(r, 0.25);
+  const Outcome wrong = run({"distance", a, b, "--preset", "pape"});
+  CHECK(wrong.exit_code == 2);
+  CHECK(wrong.err.find("default, paper, baseline-gpu") != std::string::npos);
 }
 
 TEST_CASE("a budget that is too small: exit code 3 and a true interval") {

@@ -65,10 +65,11 @@ gpu::vec3 vertex(const Mesh& mesh, uint32_t v) {
 
 // --- Codes ---
 
-/// As bvh_box.comp computes it: two sums and a product, each correctly rounded everywhere.
+/// As lib/face_code.glsl computes it: a sum and a product, each correctly rounded everywhere.
 float centre(const Mesh& mesh, const glm::uvec3& f, int axis) {
   const auto at = [&](uint32_t v) { return component(vertex(mesh, v), axis); };
-  return (at(f.x) + at(f.y) + at(f.z)) * (1.0f / 3.0f);
+  const auto [lo, hi] = std::minmax({at(f.x), at(f.y), at(f.z)});
+  return 0.5f * (lo + hi);
 }
 
 struct CentreBox {
@@ -115,12 +116,15 @@ bool check_code(const Mesh& mesh, const CentreBox& box, uint32_t face, uint32_t 
   CHECK(code < (1u << 30));
   bool sharp = true;
   for (int axis = 0; axis < 3; ++axis) {
-    const double place = place_in_cube(mesh, box, mesh.faces[face], axis);
-    const double found = cell(code, axis);
-    const bool border = place > 0 && place < 1023.5 && std::abs(place - std::round(place)) < 1e-3;
+    const double fine = place_in_cube(mesh, box, mesh.faces[face], axis);
+    const double place = mesh.faces.size() <= gpu::kFewFaces ? fine / 4 : fine;
+    // Of few faces, codes have 8 bits an axis in place of 10.
+    const double coarse = mesh.faces.size() <= gpu::kFewFaces ? 4 : 1;
+    const double found = cell(code, axis) / coarse;
+    const bool border = place > 0 && fine < 1023.5 && std::abs(place - std::round(place)) < 1e-3;
     sharp = sharp && !border;
     const bool right = border ? std::abs(found + 0.5 - place) < 0.502
-                              : found == std::min(std::floor(place), 1023.0);
+                              : found == std::min(std::floor(place), std::floor(1023.0 / coarse));
     CHECK_MESSAGE(right,
                   "face " << face << " axis " << axis << ": cell " << found << " for " << place);
   }
@@ -131,13 +135,13 @@ void check_codes(const Mesh& mesh) {
   KernelBench bench;
   const BuiltHierarchy built = build_hierarchy(bench, mesh);
   const CentreBox box = centre_box(mesh);
-  const gpu::CentroidBox found = bench.get(built.scratch.centroid_box)[0];
+  const gpu::CentroidBox found = bench.get(built.hierarchy.box)[0];
   for (int axis = 0; axis < 3; ++axis) {
     CHECK(from_ordered(found.lo[axis]) == box.lo[axis]);
     CHECK(from_ordered(found.hi[axis]) == box.hi[axis]);
   }
-  const Words codes = bench.get(built.scratch.keys[0]);
-  const Words order = bench.get(built.scratch.values[0]);
+  const Words codes = bench.get(built.hierarchy.codes);
+  const Words order = bench.get(built.scratch.sort.values[0]);
   CHECK(std::is_sorted(codes.begin(), codes.end()));
   size_t sharp = 0;
   for (size_t i = 0; i < codes.size(); ++i) sharp += check_code(mesh, box, order[i], codes[i]);
@@ -152,10 +156,11 @@ struct Ref {
 
 bool is_leaf(uint32_t child) { return (child & gpu::kLeafFlag) != 0; }
 
-/// Walks from node 0 and counts how often each triangle is reached; `enter` is called with each
-/// node and the last triangle of its first child.
+/// Walks from branch 0 and counts how often each triangle is reached; `enter` is called with each
+/// branch, its number, and the last triangle of its first child.
 template <class Enter>
-uint32_t walk(const std::vector<gpu::Node>& nodes, uint32_t count, Words& reached, Enter&& enter) {
+uint32_t walk(const std::vector<gpu::Branch>& branches, uint32_t count, Words& reached,
+              Enter&& enter) {
   reached.assign(count, 0);
   std::vector<Ref> open = {{0, 0, count - 1, 1}};
   uint32_t depth = 0;
@@ -174,56 +179,57 @@ uint32_t walk(const std::vector<gpu::Node>& nodes, uint32_t count, Words& reache
       for (uint32_t i = first; i <= last; ++i) ++reached[i];
       continue;
     }
-    REQUIRE(ref.at < nodes.size());
-    const gpu::Node& node = nodes[ref.at];
-    REQUIRE(node.first == ref.first);
-    REQUIRE(node.last == ref.last);
+    REQUIRE(ref.at < branches.size());
+    const gpu::Branch& branch = branches[ref.at];
+    REQUIRE(branch.first == ref.first);
+    REQUIRE(branch.last == ref.last);
+    const uint32_t child = branch.child0;
     const uint32_t split =
-        is_leaf(node.child0) ? (node.child0 & (gpu::kMaxTriangles - 1)) + ((node.child0 >> 28) & 7)
-                             : node.child0;
+        is_leaf(child) ? (child & (gpu::kMaxTriangles - 1)) + ((child >> 28) & 7) : child;
     REQUIRE(split >= ref.first);
     REQUIRE(split < ref.last);
-    enter(node, split);
-    open.push_back({node.child0, ref.first, split, ref.depth + 1});
-    open.push_back({node.child1, split + 1, ref.last, ref.depth + 1});
+    enter(branch, ref.at, split);
+    open.push_back({branch.child0, ref.first, split, ref.depth + 1});
+    open.push_back({branch.child1, split + 1, ref.last, ref.depth + 1});
   }
   return depth;
 }
 
-std::vector<gpu::Node> topology_of(const Words& keys) {
+std::vector<gpu::Branch> topology_of(const Words& keys) {
   KernelBench bench;
   const auto count = static_cast<uint32_t>(keys.size());
   const auto keys_in = bench.put(keys);
-  const auto nodes = bench.garbage<gpu::Node>(std::max(count, 2u) - 1);
+  const auto branches = bench.garbage<gpu::Branch>(std::max(count, 2u) - 1);
   bench.run([&](Recorder& rec) {
-    rec.run<k::BvhHierarchy>({.keys = keys_in, .nodes = nodes}, gpu::CountPush{count},
+    rec.run<k::BvhHierarchy>({.keys = keys_in, .branches = branches}, gpu::CountPush{count},
                              Items{count});
   });
-  return bench.get(nodes);
+  return bench.get(branches);
 }
 
-/// Returns the depth. One triangle has no inner node: node 0 refers to it twice (see bvh_refit).
+/// Returns the depth. One triangle has no branch: number 0 refers to it twice.
 uint32_t check_topology(const Words& keys) {
   const auto count = static_cast<uint32_t>(keys.size());
   CAPTURE(count);
-  const auto nodes = topology_of(keys);
+  const auto branches = topology_of(keys);
   if (count == 1) {
-    CHECK(nodes[0].child0 == gpu::kLeafFlag);
-    CHECK(nodes[0].child1 == gpu::kLeafFlag);
+    CHECK(branches[0].child0 == gpu::kLeafFlag);
+    CHECK(branches[0].child1 == gpu::kLeafFlag);
     return 1;
   }
   Words reached;
-  const uint32_t depth = walk(nodes, count, reached, [&](const gpu::Node& node, uint32_t split) {
-    // A split separates keys that differ earlier than either half's own do.
-    const auto shared = [&](uint32_t i, uint32_t j) {
-      return keys[i] != keys[j] ? std::countl_zero(keys[i] ^ keys[j])
-                                : 32 + std::countl_zero(i ^ j);
-    };
-    const int whole = shared(node.first, node.last);
-    if (split > node.first) CHECK(shared(node.first, split) > whole);
-    if (split + 1 < node.last) CHECK(shared(split + 1, node.last) > whole);
-    CHECK(shared(split, split + 1) == whole);
-  });
+  const uint32_t depth =
+      walk(branches, count, reached, [&](const gpu::Branch& b, uint32_t, uint32_t split) {
+        // A split separates keys that differ earlier than either half's own do.
+        const auto shared = [&](uint32_t i, uint32_t j) {
+          return keys[i] != keys[j] ? std::countl_zero(keys[i] ^ keys[j])
+                                    : 32 + std::countl_zero(i ^ j);
+        };
+        const int whole = shared(b.first, b.last);
+        if (split > b.first) CHECK(shared(b.first, split) > whole);
+        if (split + 1 < b.last) CHECK(shared(split + 1, b.last) > whole);
+        CHECK(shared(split, split + 1) == whole);
+      });
   CHECK(std::all_of(reached.begin(), reached.end(), [](uint32_t n) { return n == 1; }));
   CHECK(depth <= gpu::kStackDepth);
   return depth;
@@ -284,6 +290,29 @@ void check_triangles(const Mesh& mesh, const std::vector<gpu::Triangle>& triangl
   CHECK(wrong == 0);
 }
 
+uint32_t first_of(uint32_t child, const std::vector<gpu::Branch>& branches) {
+  return is_leaf(child) ? child & (gpu::kMaxTriangles - 1) : branches[child].first;
+}
+
+uint32_t last_of(uint32_t child, const std::vector<gpu::Branch>& branches) {
+  return is_leaf(child) ? first_of(child, branches) + ((child >> 28) & 7) : branches[child].last;
+}
+
+/// What a node must refer to: its branch's grandchildren, or children that are leaves.
+std::vector<uint32_t> grandchildren(const gpu::Branch& branch,
+                                    const std::vector<gpu::Branch>& branches) {
+  std::vector<uint32_t> all;
+  for (const uint32_t child : {branch.child0, branch.child1}) {
+    all.push_back(is_leaf(child) ? child : branches[child].child0);
+    all.push_back(is_leaf(child) ? gpu::kNone : branches[child].child1);
+  }
+  return all;
+}
+
+bool holds(const gpu::Child4& child, uint32_t expected, const Box& box) {
+  return child.child == expected && same(child.lo, box.lo) && same(child.hi, box.hi);
+}
+
 void check_hierarchy(const Mesh& mesh) {
   KernelBench bench;
   const BuiltHierarchy built = build_hierarchy(bench, mesh);
@@ -291,20 +320,25 @@ void check_hierarchy(const Mesh& mesh) {
   const auto nodes = bench.get(built.hierarchy.nodes);
   const auto triangles = bench.get(built.hierarchy.triangles);
   check_triangles(mesh, triangles, bench.get(built.hierarchy.triangle_lows));
-  const auto holds = [&](const gpu::vec3& lo, const gpu::vec3& hi, const Box& box) {
-    return same(lo, box.lo) && same(hi, box.hi);
-  };
+  const auto branches = bench.get(built.hierarchy.branches);
   if (count == 1) {
-    CHECK(holds(nodes[0].lo0, nodes[0].hi0, box_of(triangles, 0, 0)));
-    CHECK(holds(nodes[0].lo1, nodes[0].hi1, Box{}));
+    CHECK(holds(nodes[0].child[0], gpu::kLeafFlag, box_of(triangles, 0, 0)));
+    for (int k = 1; k < 4; ++k) CHECK(holds(nodes[0].child[k], gpu::kNone, Box{}));
     return;
   }
   size_t wrong = 0;
   Words reached;
-  const uint32_t depth = walk(nodes, count, reached, [&](const gpu::Node& n, uint32_t split) {
-    wrong += !holds(n.lo0, n.hi0, box_of(triangles, n.first, split));
-    wrong += !holds(n.lo1, n.hi1, box_of(triangles, split + 1, n.last));
-  });
+  const uint32_t depth =
+      walk(branches, count, reached, [&](const gpu::Branch& b, uint32_t at, uint32_t) {
+        const std::vector<uint32_t> expected = grandchildren(b, branches);
+        for (size_t k = 0; k < 4; ++k) {
+          const uint32_t child = expected[k];
+          const Box box = child == gpu::kNone ? Box{}
+                                              : box_of(triangles, first_of(child, branches),
+                                                       last_of(child, branches));
+          wrong += !holds(nodes[at].child[k], child, box);
+        }
+      });
   CHECK(wrong == 0);
   CHECK(depth <= gpu::kStackDepth);
   CHECK(std::all_of(reached.begin(), reached.end(), [](uint32_t n) { return n == 1; }));
@@ -365,7 +399,8 @@ TEST_CASE("the same mesh gives the same hierarchy, bit by bit") {
   const auto first = build_hierarchy(bench, mesh).hierarchy;
   const auto again = build_hierarchy(bench, mesh).hierarchy;
   const auto bytes = [&](const Hierarchy& h) {
-    Words words = bench.get(Slice<uint32_t>{h.nodes.buffer, h.nodes.offset, h.nodes.size});
+    // Nodes within a leaf are not written.
+    Words words = bench.get(as<uint32_t>(h.branches));
     for (const gpu::Triangle& t : bench.get(h.triangles)) words.push_back(t.face);
     return words;
   };

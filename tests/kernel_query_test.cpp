@@ -128,6 +128,7 @@ gpu::Control blank_control() {
 
 struct Mode {
   bool centroids = false, two_float = false;
+  bool packet = false;  ///< by wave_packet
 };
 
 Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32_t count,
@@ -150,9 +151,18 @@ Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, u
   const auto points = bench.put(q.before);
   const auto control = bench.put(std::vector<gpu::Control>{q.control});
   bench.run([&](Recorder& rec) {
+    if (mode.packet) {
+      rec.run<k::WavePacket>({.control = control,
+                              .nodes = as<gpu::uvec4>(h.nodes),
+                              .triangles = as<gpu::uvec4>(h.triangles),
+                              .points = points,
+                              .triangle_lows = h.triangle_lows},
+                             {}, Groups{count / 3 + 1});
+      return;
+    }
     rec.run<k::WaveQuery>({.control = control,
-                           .nodes = h.nodes,
-                           .triangles = h.triangles,
+                           .nodes = as<gpu::uvec4>(h.nodes),
+                           .triangles = as<gpu::uvec4>(h.triangles),
                            .points = points,
                            .triangle_lows = h.triangle_lows,
                            .boxes = h.pyramid},
@@ -276,6 +286,21 @@ TEST_CASE("wave_query finds the nearest triangle, new points and centroids alike
       check_wave_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
     }
   }
+}
+
+TEST_CASE("wave_packet finds what wave_query finds, three points at a time") {
+  for (const bool two_float : {false, true}) {
+    for (const auto& [name, mesh] : targets(two_float)) {
+      CAPTURE(name);
+      CAPTURE(mesh.faces.size());
+      KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
+      check_wave_query(bench, mesh, 600, {.two_float = two_float, .packet = true});
+    }
+  }
+  const Mesh mesh = stored(soup(50, 100), false);
+  KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
+  for (const uint32_t parents : {0u, 1u, 2u, 63u, 64u, 65u, 683u})
+    check_wave_query(bench, mesh, 3 * parents, {.packet = true});
 }
 
 TEST_CASE("wave_query at awkward sizes") {

@@ -67,13 +67,14 @@ uint32_t blocks_of(uint32_t count) { return (count + gpu::kSortBlock - 1) / gpu:
 
 Sorted sort_on_device(KernelBench& bench, const Words& keys, const Words& values) {
   const auto count = static_cast<uint32_t>(keys.size());
-  BuildScratch scratch;
+  SortStreams scratch;
   scratch.keys[0] = bench.put(keys);
   scratch.values[0] = bench.put(values);
   scratch.keys[1] = bench.garbage<uint32_t>(count);
   scratch.values[1] = bench.garbage<uint32_t>(count);
   scratch.counts = bench.garbage<uint32_t>(blocks_of(count) * gpu::kSortDigits);
   scratch.totals = bench.garbage<uint32_t>(gpu::kSortDigits);
+  scratch.count = bench.garbage<uint32_t>(1);
   bench.run([&](Recorder& rec) { record_sort(rec, scratch, count); });
   return {bench.get(scratch.keys[0]), bench.get(scratch.values[0])};
 }
@@ -116,9 +117,10 @@ TEST_CASE("the sort is std::stable_sort on many keys") {
 TEST_CASE("sorting nothing touches nothing") {
   KernelBench bench;
   const Words one(1, 0xdeadbeefu);
-  BuildScratch s;
+  SortStreams s;
   for (int side = 0; side < 2; ++side) s.keys[side] = s.values[side] = bench.put(one);
   s.counts = s.totals = bench.garbage<uint32_t>(gpu::kSortDigits);
+  s.count = bench.garbage<uint32_t>(1);
   bench.run([&](Recorder& rec) { record_sort(rec, s, 0); });
   CHECK(bench.get(s.keys[0]) == one);
   CHECK(bench.get(s.values[1]) == one);
@@ -136,9 +138,11 @@ TEST_CASE("sort_count counts each digit of each block") {
       }
       const auto counts = bench.garbage<uint32_t>(expected.size());
       const auto keys_in = bench.put(keys);
-      const gpu::SortPush push{.count = count, .shift = shift, .blocks = blocks};
+      const gpu::SortPush push{.shift = shift};
+      const auto key_count = bench.put(Words{count});
       bench.run([&](Recorder& rec) {
-        rec.run<k::SortCount>({.keys = keys_in, .counts = counts}, push, Groups{blocks});
+        rec.run<k::SortCount>({.keys = keys_in, .counts = counts, .key_count = key_count}, push,
+                              Groups{blocks});
       });
       CAPTURE(count);
       CAPTURE(shift);
@@ -161,9 +165,9 @@ TEST_CASE("sort_scan sums each digit's row exclusively") {
     }
     const auto in_out = bench.put(counts);
     const auto totals_out = bench.garbage<uint32_t>(gpu::kSortDigits);
-    const gpu::SortPush push{.count = blocks * gpu::kSortBlock, .shift = 0, .blocks = blocks};
+    const auto key_count = bench.put(Words{blocks * gpu::kSortBlock});
     bench.run([&](Recorder& rec) {
-      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out}, push,
+      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, {},
                            Groups{gpu::kSortDigits});
     });
     CAPTURE(blocks);

@@ -99,8 +99,24 @@ PatchCase hard_patch(Random& random) {
 
 struct Bounds {
   std::array<double, 2> single;
-  double u1, u2, pair, radius;
+  double u1, u2, pair, bisector, thirds, radius;
 };
+
+/// u3's case 1, sharing a corner or not: a plane through any point will do.
+auto bisector_of(const math::Patch& t, const math::Surface& s, const math::vec3& ds,
+                 const math::Surface& r, const math::vec3& dr) {
+  math::vec3 at;
+  math::share_corner(s.at, r.at, at);
+  return math::bound_bisector(t, s, ds, r, dr, at);
+}
+
+/// Its case 2, corner 1 nearest to R.
+auto thirds_of(const math::Patch& t, const math::Surface& s, const math::Surface& r) {
+  const auto third = [&](uint32_t i, const math::Surface& x) {
+    return math::bound_third(t, i, x, math::surface_distance_up(math::corner_at(t, i), x));
+  };
+  return math::max(third(0, s), math::max(third(1, r), third(2, s)));
+}
 
 /// `nearest`: the corners' distances from the nearer surface above the base, not below the exact.
 Bounds bounds_of(const PatchCase& c, const glm::vec3& nearest, const Device& device) {
@@ -114,6 +130,8 @@ Bounds bounds_of(const PatchCase& c, const glm::vec3& nearest, const Device& dev
                           math::wide(math::bound_u1(t, math::given(nearest))),
                           math::wide(math::bound_u2(t, math::given(nearest))),
                           0.0,
+                          math::wide(bisector_of(t, s, ds, r, dr)),
+                          math::wide(thirds_of(t, s, r)),
                           math::wide(math::radius_up(t.at))};
     // Any upper bounds will do; they move the cut.
     const auto more = static_cast<float>(c.inflation);
@@ -239,6 +257,8 @@ void check_sample(const Sampler& sampler, Weights w, const Bounds& bound, Tally&
   // 6 kUlp2 of T's radius: what the cut may be off by, left to placement_slack.
   const double cut = 6.0 * math::wide(math::kUlp2) * bound.radius;
   tally.require(at_most(bound.pair + cut), "d(x, S + R) <= bound_pair", describe);
+  tally.require(at_most(bound.bisector + cut), "d(x, S + R) <= bound_bisector", describe);
+  tally.require(at_most(bound.thirds + cut), "d(x, S + R) <= bound_third", describe);
 }
 
 }  // namespace
@@ -258,7 +278,7 @@ TEST_CASE("bounds.h: no sample is beyond bound_single, bound_u1, bound_u2, bound
              (c.sharp ? " sharp" : "") + " base " + hex(static_cast<double>(c.base)) +
              " inflated " + hex(c.inflation) + " bounds " + hex(bound.single[0]) + " " +
              hex(bound.single[1]) + " " + hex(bound.u1) + " " + hex(bound.u2) + " " +
-             hex(bound.pair);
+             hex(bound.pair) + " " + hex(bound.bisector) + " " + hex(bound.thirds);
     };
     double farthest = 0.0;
     // 45 points and the crossings; 561 for one case in sixteen.
@@ -269,13 +289,57 @@ TEST_CASE("bounds.h: no sample is beyond bound_single, bound_u1, bound_u2, bound
     const double single = std::min(bound.single[0], bound.single[1]);
     const double base = static_cast<double>(c.base);
     tally.count("pairs below both singles", bound.pair < single);
+    tally.count("bisectors below both singles", bound.bisector < single);
+    tally.count("thirds below both singles", bound.thirds < single);
     tally.count("pairs that the samples come within 1e-3 of",
                 farthest > 0.999 * (base + bound.pair));
     if (farthest < 0x1p-30) continue;
     tally.measure("samples over bound_u1", farthest / (base + bound.u1), describe);
     tally.measure("samples over bound_u2", farthest / (base + bound.u2), describe);
     tally.measure("samples over bound_pair", farthest / (base + bound.pair), describe);
+    tally.measure("samples over bound_bisector", farthest / (base + bound.bisector), describe);
+    tally.measure("samples over bound_third", farthest / (base + bound.thirds), describe);
   }
   tally.conclude(100 * count);
   CHECK(tally.counted("pairs below both singles") > count / 50);
+  CHECK(tally.counted("bisectors below both singles") > count / 100);
+  CHECK(tally.counted("thirds below both singles") > count / 100);
+}
+
+// With two surfaces the centroid's distance never decides: the middles' say as much.
+TEST_CASE("bounds_paper.h: three triangles, a third of T against each") {
+  const uint64_t count = case_count() / 10;
+  Random random(7);
+  Tally tally("bound_third");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    const std::array<glm::dvec3, 3> t = {glm::dvec3(0.0), random.in_cube(1.0), random.in_cube(1.0)};
+    const auto given = [](const glm::dvec3& p) { return math::given(stored(p)); };
+    const math::Patch patch = math::make_patch(given(t[0]), given(t[1]), given(t[2]));
+    std::vector<PreparedTriangle> near;
+    double bound = 0.0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      // Around its corner of T, so that the centre is what is far from all three.
+      const auto corner = [&] { return t[k] + random.range(0.0, 0.3) * random.direction(); };
+      const StoredTriangle s{{stored(corner()), stored(corner()), stored(corner())}};
+      near.emplace_back(s.at(0), s.at(1), s.at(2));
+      const math::Surface surface = math::surface_around(s, stored(t[0]), 2.0f, true);
+      const auto own = math::surface_distance_up(math::corner_at(patch, k), surface);
+      bound = std::max(bound, math::wide(math::bound_third(patch, k, surface, own)));
+    }
+    const auto distance = [&](const glm::dvec3& p) {
+      return std::min({near[0].distance(p), near[1].distance(p), near[2].distance(p)});
+    };
+    double farthest = 0.0;
+    for (uint32_t b = 0; b <= 12; ++b) {
+      for (uint32_t c = 0; b + c <= 12; ++c)
+        farthest = std::max(
+            farthest,
+            distance((static_cast<double>(b) * t[1] + static_cast<double>(c) * t[2]) / 12.0));
+    }
+    const auto describe = [&] { return hex(t[1]) + " " + hex(t[2]) + " bound " + hex(bound); };
+    tally.require(farthest <= bound + 1e-12, "d(x, S1 + S2 + S3) <= bound_third", describe);
+    tally.count("tight within a tenth", farthest > 0.9 * bound);
+  }
+  tally.conclude(count);
+  CHECK(tally.counted("tight within a tenth") > count / 100);
 }

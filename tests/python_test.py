@@ -121,6 +121,10 @@ class Answers(unittest.TestCase):
         self.assertEqual(stats["mesh_a"]["faces"], 128)
         self.assertEqual(stats["mesh_a"]["unreferenced"], 1)
         self.assertIn("thin", stats["switched_off"])
+        self.assertEqual(stats["preset"], "default")
+        stats = vkh.distance(va, fa, *grid(3), preset="baseline-gpu", enable=["thin"]).stats
+        self.assertEqual(stats["preset"], "baseline-gpu")
+        self.assertEqual(stats["switched_on"], ["thin", "u4", "u3_paper"])
         self.assertTrue(stats["device"]["name"])
         self.assertGreater(stats["waves"], 0)
         self.assertGreater(stats["hierarchy_ms"], 0)
@@ -207,6 +211,8 @@ class Refusals(unittest.TestCase):
         self.refused("time", time=-1.0)
         self.refused("--memory", memory="lots")
         self.refused("'u9'", disable=["u9"])
+        self.refused("'u9'", enable=["u9"])
+        self.refused("no preset is called 'pape'", preset="pape")
         with self.assertRaises(TypeError):
             vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, 1e-6, False, "cpu")  # by keyword alone
         with self.assertRaisesRegex(vkh.DeviceError, "no usable Vulkan device matches 'nonesuch'"):

@@ -20,7 +20,8 @@ using py::literals::operator""_a;
 
 /// What a run may cost and how narrow it has to be; the keywords of both functions.
 struct Limits {
-  py::object tol, time, waves, memory, disable, progress;
+  py::object tol, time, waves, memory, disable, progress, enable;
+  std::string preset;
 };
 
 // A string says more than a number can: "0.1%", "0.01abs"; the program's rules hold.
@@ -43,6 +44,8 @@ SolveOptions options_of(const Limits& limits) {
   } else if (!limits.memory.is_none()) {
     options.memory_bytes = py::cast<uint64_t>(limits.memory);
   }
+  options.preset = limits.preset;
+  options.enabled = py::cast<std::vector<std::string>>(limits.enable);
   options.disabled = py::cast<std::vector<std::string>>(limits.disable);
   listen_to(limits.progress, options);
   return options;
@@ -167,19 +170,22 @@ void define_distance(py::module_& m) {
       [](const py::object& va, const py::object& fa, const py::object& vb, const py::object& fb,
          const py::object& tol, bool symmetric, const std::string& device, const py::object& time,
          const py::object& waves, const py::object& memory, const py::object& disable,
-         const py::object& progress) {
+         const py::object& progress, const py::object& enable, const std::string& preset) {
         return distance(va, fa, vb, fb, symmetric, device,
-                        {tol, time, waves, memory, disable, progress});
+                        {tol, time, waves, memory, disable, progress, enable, preset});
       },
       "va"_a, "fa"_a, "vb"_a, "fb"_a, "tol"_a = 1e-6, "symmetric"_a = false, py::kw_only(),
       "device"_a = "", "time"_a = py::none(), "waves"_a = py::none(), "memory"_a = py::none(),
-      "disable"_a = py::make_tuple(), "progress"_a = py::none(),
+      "disable"_a = py::make_tuple(), "progress"_a = py::none(), "enable"_a = py::make_tuple(),
+      "preset"_a = "",
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval.\n\n"
       "va, vb: (n, 3) float32 or float64; fa, fb: (m, 3) integers. tol: a fraction of the\n"
       "diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'. time: seconds;\n"
       "memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index or part of a name;\n"
-      "progress(wave, lower, upper): return False to cancel. The interval is true whatever ended\n"
+      "progress(wave, lower, upper): return False to cancel. preset: 'default', 'paper' or\n"
+      "'baseline-gpu'; enable, disable: switches by name, besides. The interval is true whatever "
+      "ended\n"
       "the run. ValueError for bad input, DeviceError for the device. Ctrl-C ends a run.");
 }
 
@@ -193,12 +199,15 @@ void define_solver(py::module_& m) {
           "distance",
           [](PythonSolver& self, const py::object& va, const py::object& fa, const py::object& tol,
              const py::object& time, const py::object& waves, const py::object& memory,
-             const py::object& disable, const py::object& progress) {
-            return self.distance(va, fa, {tol, time, waves, memory, disable, progress});
+             const py::object& disable, const py::object& progress, const py::object& enable,
+             const std::string& preset) {
+            return self.distance(va, fa,
+                                 {tol, time, waves, memory, disable, progress, enable, preset});
           },
           "va"_a, "fa"_a, "tol"_a = 1e-6, py::kw_only(), "time"_a = py::none(),
           "waves"_a = py::none(), "memory"_a = py::none(), "disable"_a = py::make_tuple(),
-          "progress"_a = py::none(), "As vkhausdorff.distance, from A to the Solver's B.")
+          "progress"_a = py::none(), "enable"_a = py::make_tuple(), "preset"_a = "",
+          "As vkhausdorff.distance, from A to the Solver's B.")
       .def("close", &PythonSolver::close, "Frees the device; what is called later is a ValueError.")
       .def("__enter__", [](py::object self) { return self; })
       .def("__exit__", [](PythonSolver& self, const py::args&) { self.close(); });

@@ -116,8 +116,10 @@ void list_pairs(uint child) {
   uint count = 0u;
   for (uint i = 1u; i < held[child].known; ++i) {
     for (uint j = 0u; j < i; ++j) {
-      PairCut cut = pair_cut(distances_of(child, i), distances_of(child, j));
-      if (cut.none || kept_bound(cut.corners, held[child].slack) >= held[child].upper) continue;
+      vec3 di = distances_of(child, i);
+      vec3 dj = distances_of(child, j);
+      float at_best = kept_bound(bound_nearer(di, dj), held[child].slack);
+      if (cut_by(di - dj).none || at_best >= held[child].upper) continue;
       listed[count] = (child * kMaxKnown + i) * kMaxKnown + j;
       ++count;
     }
@@ -141,12 +143,12 @@ void measure_cuts(bool fine) {
     uint j = pairs[at] % kMaxKnown;
     vec3 di = distances_of(child, i);
     vec3 dj = distances_of(child, j);
-    PairCut cut = pair_cut(di, dj);
-    float u3 = cut.corners;
+    Cut cut = cut_by(di - dj);
+    float u3 = bound_nearer(di, dj);
     Two3 p = two(vec3(0.0));
     for (uint part = n % step; part < 4u; part += step) {
       if (step == 4u || (part & 1u) == 0u)
-        p = cut_point(patch_of_child(child), cut, part >> 1, di, dj);
+        p = cut_point(patch_of_child(child), cut, part >> 1, di - dj);
       u3 = max(u3, surface_distance_up(p, surface_of(child, (part & 1u) == 0u ? i : j)));
     }
     atomicMax(pair_bits[at], floatBitsToUint(kept_bound(u3, held[child].slack)));

@@ -72,54 +72,60 @@ VKH_FN Two3 corner_at(Patch t, uint i) {
   return p;
 }
 
-// How T is cut between two surfaces (u3): one corner is nearer to one of them, the two others to
-// the other one; the edges from it to them are cut.
-struct PairCut {
-  bool none;  // all corners are nearer to one surface: no cut
+// How T is cut between two surfaces (u3), by a number for each corner that says on which side it
+// is, < 0 or not, and how far: one corner is alone on its side; the edges from it to the others are
+// cut.
+struct Cut {
+  bool none;  // all corners are on one side
   uint alone;
-  uint ends[2];   // the other corners
-  float corners;  // what the corners say: each by the nearer surface
+  uint ends[2];  // the other corners
 };
 
-// `ds` and `dr` are corner_distances of both surfaces.
-VKH_FN PairCut pair_cut(vec3 ds, vec3 dr) {
-  vec3 excess = ds - dr;  // < 0: nearer to S
-  bool na = excess.x < 0.0f;
-  bool nb = excess.y < 0.0f;
-  bool nc = excess.z < 0.0f;
-  PairCut cut;
+VKH_FN Cut cut_by(vec3 side) {
+  bool na = side.x < 0.0f;
+  bool nb = side.y < 0.0f;
+  bool nc = side.z < 0.0f;
+  Cut cut;
   cut.none = na == nb && nb == nc;
   cut.alone = na == nb ? 2u : (na == nc ? 1u : 0u);
   cut.ends[0] = cut.alone == 2u ? 0u : cut.alone + 1u;
   cut.ends[1] = cut.alone == 0u ? 2u : cut.alone - 1u;
-  cut.corners = max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
   return cut;
 }
 
-// Where the edge to ends[k] is cut: where its distances would even out if both were linear. Any cut
-// is right, as both pieces use it. It is off by 6 kUlp2 of T's radius, which is under 2^-41 of the
-// surfaces' slack and of T: placement_slack takes it.
-VKH_FN Two3 cut_point(Patch t, PairCut cut, uint k, vec3 ds, vec3 dr) {
-  vec3 excess = ds - dr;
+// Where the edge to ends[k] is cut: where `side` would be 0 if it were linear. Any cut is right, as
+// both pieces use it. It is off by 6 kUlp2 of T's radius, which is under 2^-41 of the surfaces'
+// slack and of T: placement_slack takes it.
+VKH_FN Two3 cut_point(Patch t, Cut cut, uint k, vec3 side) {
   Two3 from = corner_at(t, cut.alone);
   Two3 to = corner_at(t, cut.ends[k]);
-  float near_from = abs(pick3(excess, cut.alone));
-  float gap = near_from + abs(pick3(excess, cut.ends[k]));
+  float near_from = abs(pick3(side, cut.alone));
+  float gap = near_from + abs(pick3(side, cut.ends[k]));
   float at = gap > kTiny ? min(near_from / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
   return two_combination(from, at, two_difference(to, from), 0.0f, two(vec3(0.0f, 0.0f, 0.0f)));
 }
 
-// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut in two, one piece is measured
-// against S and the other against R; at the cuts, which both pieces have, the larger of the two
-// distances counts.
-VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
-  PairCut cut = pair_cut(ds, dr);
-  if (cut.none) return min(max3(ds), max3(dr));
-  Two3 p = cut_point(t, cut, 0u, ds, dr);
-  Two3 q = cut_point(t, cut, 1u, ds, dr);
+// At a cut, which both pieces have, the larger of its distances counts.
+VKH_FN float bound_cut(Patch t, Cut cut, vec3 side, Surface s, Surface r) {
+  Two3 p = cut_point(t, cut, 0u, side);
+  Two3 q = cut_point(t, cut, 1u, side);
   float at_p = max(surface_distance_up(p, s), surface_distance_up(p, r));
   float at_q = max(surface_distance_up(q, s), surface_distance_up(q, r));
-  return max(cut.corners, max(at_p, at_q));
+  return max(at_p, at_q);
+}
+
+// What corners say where each counts with the nearer of two surfaces.
+VKH_FN float bound_nearer(vec3 ds, vec3 dr) {
+  return max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
+}
+
+// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut where its distances from them
+// even out, one piece is measured against S and the other against R. `ds` and `dr` are
+// corner_distances of both.
+VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
+  Cut cut = cut_by(ds - dr);
+  if (cut.none) return min(max3(ds), max3(dr));
+  return max(bound_nearer(ds, dr), bound_cut(t, cut, ds - dr, s, r));
 }
 
 VKH_LIB_END

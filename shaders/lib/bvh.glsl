@@ -101,8 +101,8 @@ Nearest measured(Query q, Nearest best) {
 // at most three behind, and the tree of nodes is half as deep as that of branches.
 const uint kWalkStack = 3u * kStackDepth / 2u;  // uncertified: integers
 
-// Of the invocation's own; not a struct that functions pass on, which drivers copy (lavapipe: 8 times
-// slower).
+// Of the invocation's own; not a struct that functions pass on, which drivers copy (lavapipe: 8
+// times slower).
 uint left_child[kWalkStack];
 float left_distance2[kWalkStack];
 uint left_count;

@@ -69,7 +69,8 @@ Key key_of(Candidate c) {
   uint exponent = (floatBitsToUint(max(abs(ab.x * ac.y - ab.y * ac.x), 1.0)) >> 23) - 127u;
   uint hash = mixed(mixed(mixed(mixed(mixed(0u, c.root), c.corners.x), c.corners.y), c.corners.z),
                     c.corners.w);
-  return Key(floatBitsToUint(c.upper), (exponent << 26) | (hash >> 6));
+  uint u = floatBitsToUint(c.upper);
+  return Key(control.select_largest != 0u ? ~u : u, (exponent << 26) | (hash >> 6));
 }
 
 bool not_after(Key k, Key than) {

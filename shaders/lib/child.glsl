@@ -30,9 +30,14 @@ void know(inout Known known, uint triangle) {
 
 bool is_root(uint code) { return code >= 4u * control.parents; }
 
+// The face of A that a code of an admitted one names; anything for others.
+uint root_of(uint code) {
+  return control.root_cursor - control.roots + (code - 4u * control.parents);
+}
+
 Child root_child(uint code) {
   Child c;
-  c.root = control.root_cursor - control.roots + (code - 4u * control.parents);
+  c.root = root_of(code);
   c.at = whole_root();
   uvec3 f = faces[c.root];
   c.nearest = uvec3(vertex_nearest[f.x], vertex_nearest[f.y], vertex_nearest[f.z]);

@@ -13,12 +13,14 @@ vec3 box_corner(uint key[3]) {
               uintBitsToFloat(from_ordered_bits(key[2])));
 }
 
-uint face_code(vec3 middle, CentroidBox box) {
+// `count`: of B's faces.
+uint face_code(vec3 middle, CentroidBox box, uint count) {
   vec3 lo = box_corner(box.lo);
   vec3 extent = box_corner(box.hi) - lo;
   float side = max(extent.x, max(extent.y, extent.z));
   float scale = side > 0.0 ? 1.0 / side : 0.0;  // uncertified: order only
-  return morton30((middle - lo) * scale);
+  uint code = morton30((middle - lo) * scale);
+  return count <= kFewFaces ? code & (0xffffffffu << kFewFacesFirstBit) : code;
 }
 
 #endif

@@ -18,6 +18,7 @@ VKH_LIB_END
 
 #include "shaders/lib/bary.h"
 #include "shaders/lib/bounds.h"
+#include "shaders/lib/bounds_paper.h"
 #include "shaders/lib/lower.h"
 
 #undef float

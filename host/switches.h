@@ -1,0 +1,26 @@
+// The parts of the method that can be switched, by name; presets of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vkh {
+
+class Device;
+struct SolveOptions;
+
+/// Several waves a submission. No stage of the engine: host/run.cpp's, so its bit is not
+/// VkhSwitchBits'.
+constexpr uint32_t kSwitchMultiwave = 1u << 31;
+
+/// VkhSwitchBits that are on, and kSwitchMultiwave. Throws UsageError for a name that is none.
+uint32_t switches_of(const SolveOptions& options, const Device& device);
+
+struct SwitchStates {
+  std::vector<std::string> on, off;
+};
+SwitchStates switch_states(uint32_t switches);
+
+}  // namespace vkh

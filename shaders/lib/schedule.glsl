@@ -1,0 +1,53 @@
+// What a wave does under the paper's switches: sorting, the packet walk, which u comes first, and
+// what becomes of a frontier that does not fit where nothing may wait. Include after `control`,
+// `dispatches` and kSwitches are declared and lib/dispatch.glsl is included.
+#ifndef VKH_SHADERS_LIB_SCHEDULE_GLSL
+#define VKH_SHADERS_LIB_SCHEDULE_GLSL
+
+bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
+
+// Decides the wave's order, and returns how many of the `held` candidates stay in the frontier.
+//
+// Largest u first goes through a frontier breadth first: children have smaller u than their parent,
+// so one that the reserve is spent on need not be followed by its own children, which alone are
+// sure to fit it. So while only the reserve is free, the smallest come first all the same. Whenever
+// that begins the whole reserve is free, a candidate is gone through with all its descendants, and
+// its place is won; every wave refines at least one, and there are finitely many.
+//
+// Where nothing may wait, a frontier that does not fit is lost as a whole: wave_subdivide keeps the
+// u of each, and so it goes with what A's other faces leave, so that at the end every face has a
+// bound.
+uint schedule(uint held, uint room) {
+  bool largest = (kSwitches & kUseLargestFirst) != 0u && room > kReserve + 3u;
+  control.select_largest = largest ? 1u : 0u;
+  control.sorted = (kSwitches & kUseSort) != 0u && held >= control.sort_from ? 1u : 0u;
+  if (may_wait() || (control.deferred == 0u && control.lost == 0u)) return held;
+  control.lost += held;
+  control.parents = 0u;
+  control.deferred = held;
+  return 0u;
+}
+
+// What a run ends with that decided all it held.
+uint status_decided() {
+  if (control.lost > 0u) return kStatusMemory;
+  return control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+}
+
+void write_query_sizes(uint parents) {
+  bool in_groups = (kSwitches & kUseGroupWalk) != 0u;
+  bool packets = (kSwitches & kUsePacket) != 0u && !(in_groups && walks_in_groups(3u * parents));
+  dispatches[kDispatchQueryPoints] = groups_for_queries(packets ? 0u : 3u * parents, in_groups);
+  dispatches[kDispatchPacket] = groups_for(packets ? parents : 0u);
+}
+
+void write_sort_sizes(uint held) {
+  if ((kSwitches & kUseSort) == 0u) return;
+  uint keys = control.sorted != 0u ? held : 0u;
+  uint blocks = (keys + kSortBlock - 1u) / kSortBlock;  // uncertified: integers
+  dispatches[kDispatchSortKeys] = groups_for(keys);
+  dispatches[kDispatchSortBlocks] = groups_of(blocks);
+  dispatches[kDispatchSortDigits] = groups_of(blocks > kSortFewBlocks ? kSortDigits : 0u);
+}
+
+#endif
