@@ -85,7 +85,7 @@ function(vkh_add_kernel name shader out)
     OUTPUT ${out}/${name}.cpp
     BYPRODUCTS ${out}/${name}.h
     COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
-    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py
+    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED_DIR}/kernel_templates.py
     COMMENT "Embedding ${name}"
     VERBATIM)
 endfunction()

@@ -93,9 +93,10 @@ bool surely_not_collinear(const Point2& a, const Point2& b, const Point2& c) {
 // in a plane of the axes has two that are, which would cost exact sums.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   if (a == b || b == c || c == a) return true;
-  const std::array<std::array<Point2, 3>, 3> projections = {{{{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}},
-                                                             {{{a.y, a.z}, {b.y, b.z}, {c.y, c.z}}},
-                                                             {{{a.z, a.x}, {b.z, b.x}, {c.z, c.x}}}}};
+  const std::array<std::array<Point2, 3>, 3> projections = {
+      {{{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}},
+       {{{a.y, a.z}, {b.y, b.z}, {c.y, c.z}}},
+       {{{a.z, a.x}, {b.z, b.x}, {c.z, c.x}}}}};
   const auto surely_not = [](const auto& p) { return surely_not_collinear(p[0], p[1], p[2]); };
   const auto exactly = [](const auto& p) { return is_collinear_exactly(p[0], p[1], p[2]); };
   return std::none_of(projections.begin(), projections.end(), surely_not) &&

@@ -129,7 +129,8 @@ void Runner::upload(const MeshData& a, const MeshData& b) {
   const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
   const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
-  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+       Placement::kUpload);
   grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
   if (bytes_a > 0) write(staging_.mapped(), a);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);

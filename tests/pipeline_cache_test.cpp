@@ -45,7 +45,8 @@ TEST_CASE("pipelines that were written come back, and replace older ones") {
   write_checked(file, {'o', 'l', 'd'});
   write_checked(file, some_data());
   CHECK(read_checked(file) == some_data());
-  CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);  // nothing is left over
+  CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) ==
+        1);  // nothing is left over
 }
 
 TEST_CASE("a file that is cut short, longer, changed or foreign is no file") {

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import spirv_module as spirv
+from kernel_templates import HEADER, SOURCE
 
 MAX_PUSH_BYTES = 128  # what every Vulkan device has
 
@@ -247,70 +248,6 @@ def reflect(name, words):
     buffers.sort(key=lambda b: b.binding)
     check_buffers(buffers)
     return Kernel(name, module.local_size, buffers, push, layouts.structs, layouts.vectors)
-
-
-HEADER = """\
-// Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.
-#pragma once
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <type_traits>
-
-#include "engine/slice.h"
-#include "shaders/gpu_types.h"
-
-namespace vkh::k {{
-
-struct {type} {{
-  static constexpr const char* kName = "{name}";
-  static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
-  static std::span<const uint32_t> words();
-  static std::span<const uint32_t> words_for_cpu();  // the switches are VKH_SWITCH_DEFAULT_CPU
-  static uint32_t fingerprint();                     // of the words
-
-  struct Args {{
-{args}
-  }};
-  static constexpr Binding kBindings[] = {{
-{bindings}
-  }};
-  using Push = {push};
-
-  // The buffers in binding order, as a descriptor write takes them.
-  static std::array<VkDescriptorBufferInfo, {count}> descriptors(const Args& args) {{
-    return {{
-{descriptors}
-    }};
-  }}
-}};
-
-{asserts}
-
-}}  // namespace vkh::k
-"""
-
-SOURCE = """\
-// Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.
-#include "kernels/{name}.h"
-
-namespace vkh::k {{
-namespace {{
-
-constexpr uint32_t kWords[] = {{
-{words}
-}};
-{cpu_words}
-}}  // namespace
-
-std::span<const uint32_t> {type}::words() {{ return kWords; }}
-std::span<const uint32_t> {type}::words_for_cpu() {{ return {cpu_name}; }}
-uint32_t {type}::fingerprint() {{ return {fingerprint:#010x}; }}
-
-}}  // namespace vkh::k
-"""
 
 
 def layout_asserts(kernel):

@@ -169,7 +169,8 @@ VKH_FN bool has_middle_opposite(Bary3 t, uint i) {
   return has_middle(next_of(t, i), last_of(t, i));
 }
 
-// A bisection's halves, as bisected() has them by number: m is the middle opposite corner `opposite`.
+// A bisection's halves, as bisected() has them by number: m is the middle opposite corner
+// `opposite`.
 struct Halves {
   Bary3 first, second;
 };
