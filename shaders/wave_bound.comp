@@ -58,7 +58,8 @@ Known known_to(Child c, uint code, uint centre) {
 // By what kernels of their own found, and by points.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
   if ((kSwitches & kUsePaperU3) != 0u && u3_bounds[i] < v.upper) v = Verdict(u3_bounds[i], kCullU3);
-  if (v.upper <= threshold || (kSwitches & kUseU4) == 0u) return v;
+  if ((kSwitches & kUseU4) == 0u) return v;  // alone: optimisers then leave all of it out
+  if (v.upper <= threshold) return v;
   float u4 = bound_u4(patch_of_child(child), c.nearest, view_of_child(child), held[child].slack);
   if (u4 < v.upper) v = Verdict(u4, kCullU4);
   return v;
