@@ -3,6 +3,8 @@
 # A kernel is compiled again when a file that it includes changes.
 find_program(VKH_GLSLANG glslangValidator REQUIRED)
 find_program(VKH_SPIRV_VAL spirv-val REQUIRED)
+find_program(VKH_SPIRV_OPT spirv-opt REQUIRED)
+option(VKH_FLATTEN_SHADERS "Embed kernels inlined, for drivers that do so slowly" ON)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools VKH_EMBED_DIR)
 set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
@@ -34,15 +36,46 @@ function(vkh_add_shaders target)
   endif()
 endfunction()
 
-# No -g0: reflection reads the debug names. No spirv-opt: the drivers (NVIDIA's, lavapipe's LLVM)
-# optimise, and what the validation layer and a profiler show stays what was written.
+# lavapipe inlines and brings to SSA form at every start of a program, and slower than it takes what is so already
+# (docs/startup.md). Nothing here may touch floating point: no -O, no --simplify-instructions, which reassociate whatever is
+# not `precise`. That is left to the drivers, whose rounding is specified.
+set(VKH_FLATTEN
+  --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+  --private-to-local --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive
+  --scalar-replacement=0 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
+  --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive --ccp --eliminate-dead-branches
+  --redundancy-elimination --eliminate-dead-branches --vector-dce --eliminate-dead-inserts
+  --eliminate-dead-code-aggressive --merge-blocks --compact-ids)
+# It also keeps what the switches leave out until it has been through most of that. So every kernel that reads them is built a
+# second time, for what is on by default on a CPU device.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/engine/vkhausdorff.h)
+file(STRINGS ${PROJECT_SOURCE_DIR}/engine/vkhausdorff.h VKH_CPU_SWITCHES REGEX "^ *VKH_SWITCH_DEFAULT_CPU = [-+ 0-9]+")
+string(REGEX REPLACE "^[^=]*= ([-+ 0-9]+).*" "\\1" VKH_CPU_SWITCHES "${VKH_CPU_SWITCHES}")
+math(EXPR VKH_CPU_SWITCHES "${VKH_CPU_SWITCHES}")
+set(VKH_FREEZE --set-spec-const-default-value=0:${VKH_CPU_SWITCHES} --freeze-spec-const --fold-spec-const-op-composite
+  --ccp --eliminate-dead-branches --eliminate-dead-functions)
+
+# No -g0: reflection reads the debug names, of what the compiler wrote, for the optimiser drops buffers that are not used.
 function(vkh_add_kernel name shader out)
   set(spv ${out}/${name}.spv)
+  set(flat)
+  set(flatten)
+  if(VKH_FLATTEN_SHADERS)
+    set(flat ${out}/${name}.flat.spv ${out}/${name}.cpu.spv)
+    set(optimise COMMAND ${VKH_SPIRV_OPT} --target-env=vulkan1.2 --scalar-block-layout)
+    set(flatten ${optimise} ${VKH_FLATTEN} -o ${out}/${name}.flat.spv ${spv}
+                ${optimise} ${VKH_FREEZE} ${VKH_FLATTEN} -o ${out}/${name}.cpu.spv ${spv})
+    foreach(file IN LISTS flat)
+      list(APPEND flatten COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${file})
+    endforeach()
+    list(APPEND flatten BYPRODUCTS ${flat})
+  endif()
   add_custom_command(
     OUTPUT ${spv}
     COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR} --depfile ${spv}.d
             -o ${spv} ${shader}
     COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
+    ${flatten}
     DEPENDS ${shader}
     DEPFILE ${spv}.d
     COMMENT "Compiling ${name}.comp"
@@ -51,8 +84,8 @@ function(vkh_add_kernel name shader out)
   add_custom_command(
     OUTPUT ${out}/${name}.cpp
     BYPRODUCTS ${out}/${name}.h
-    COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out}
-    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py
+    COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
+    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED_DIR}/kernel_templates.py
     COMMENT "Embedding ${name}"
     VERBATIM)
 endfunction()

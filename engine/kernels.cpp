@@ -27,9 +27,11 @@ constexpr uint32_t push_size<NoPush>() {
   return 0;
 }
 
-std::array<KernelSource, kKernelCount> kernel_sources() {
+std::array<KernelSource, kKernelCount> kernel_sources(uint32_t switches) {
+  const bool for_cpu = switches == VKH_SWITCH_DEFAULT_CPU;
   return {{
-#define VKH_SOURCE(K) {k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
+#define VKH_SOURCE(K) \
+  {for_cpu ? k::K::words_for_cpu() : k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
       VKH_KERNELS(VKH_SOURCE)
 #undef VKH_SOURCE
   }};
@@ -104,13 +106,15 @@ bool is_needed(uint32_t kernel, uint32_t switches) {
   if (kernel == kIndexOfWavePacket) return (switches & gpu::kUsePacket) != 0;
   if (kernel == kIndexOfWaveSort) return (switches & gpu::kUseSort) != 0;
   if (kernel == kIndexOfWaveBisect) return (switches & gpu::kUsePaperU3) != 0;
+  if (kernel == kIndexOfWaveFilter) return (switches & (gpu::kUseCentroid | gpu::kUsePaperU3)) != 0;
+  if (kernel == kIndexOfReportOpen) return (switches & gpu::kUseCoverage) != 0;
   return true;
 }
 
 }  // namespace
 
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches) {
-  const auto sources = kernel_sources();
+  const auto sources = kernel_sources(switches);
   const auto order = costliest_first(sources);
   std::atomic<uint32_t> next = 0;
   std::atomic<VkResult> outcome = VK_SUCCESS;

@@ -108,12 +108,13 @@ typedef enum VkhSwitchBits {
                                lost, the run ends as VKH_STATUS_MEMORY */
   VKH_SWITCH_LARGEST_FIRST = 16384, /* those with the largest u are refined first */
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
-  VKH_SWITCH_ALL = 127 + 256 + 512 + 1024 + 8192, /* all of this method */
+  VKH_SWITCH_TWO_LEVELS = 65536,    /* few candidates are split twice in a wave; for GPUs */
+  VKH_SWITCH_ALL = 127 + 256 + 512 + 1024 + 8192 + 65536, /* all of this method */
   /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
    * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
    * is a chain of short steps, more candidates at once are cheaper than another step. */
   VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 512 + 1024 + 8192,
-  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024 + 8192
+  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024 + 8192 + 65536
 } VkhSwitchBits;
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader

@@ -1,6 +1,9 @@
 // The program: reads what people typed, runs the solver, prints one answer, and turns whatever went
 // wrong into one line on stderr and an exit code.
 #include <unistd.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -20,8 +24,9 @@
 #include "host/error.h"
 #include "host/mesh_io.h"
 #include "host/options.h"
+#include "host/pipeline_cache.h"
 #include "host/report_print.h"
-#include "host/solver.h"
+#include "host/session.h"
 #include "host/verify.h"
 
 namespace vkh {
@@ -42,7 +47,7 @@ struct Arguments {
   std::string tolerance = "1e-6", device, memory, time, waves;
   std::vector<std::string> enabled, disabled;
   std::string preset;
-  bool json = false, verbose = false, symmetric = false, verify = false;
+  bool json = false, verbose = false, symmetric = false, verify = false, no_cache = false;
   std::string json_file;  ///< empty: JSON goes to stdout
 };
 
@@ -157,29 +162,19 @@ void solve(Solver& solver, const MeshPair& pair, bool symmetric, SolveOptions op
 }
 
 Answer answer_for(const Arguments& arguments, const Request& request, const MeshPair& pair,
-                  double load_ms) {
-  const auto setup_start = Clock::now();
-  Device device({.selector = arguments.device});
-  Solver solver(device);
-  const double setup_ms = ms_since(setup_start);
-
+                  Session& session) {
   Answer answer{.file_a = pair.a.name,
                 .file_b = pair.b.name,
                 .tolerance = request.tolerance,
                 .notes = input_notes(pair),
                 .a_to_b = {},
                 .b_to_a = {}};
-  solve(solver, pair, arguments.symmetric, request.options, answer);
+  solve(*session.solver, pair, arguments.symmetric, request.options, answer);
   if (arguments.verify) {
     answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
     if (answer.b_to_a) {
       answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
     }
-  }
-  for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
-    if (report == nullptr) continue;
-    report->times.load_ms = load_ms;
-    report->times.setup_ms = setup_ms;
   }
   return answer;
 }
@@ -235,8 +230,19 @@ int run_pair(const Arguments& arguments, Load load) {
   const Request request = understand(arguments);
   check_writable(arguments.json_file);
   const auto start = Clock::now();
+  auto opening = begin_now([selector = arguments.device, options = request.options,
+                            cache = arguments.no_cache ? "" : user_cache_folder()] {
+    return open_session(selector, options, cache);
+  });
   const MeshPair pair = load();
-  const Answer answer = answer_for(arguments, request, pair, ms_since(start));
+  const double load_ms = ms_since(start);
+  Session session = opening.get();  // taken apart after the answer is out
+  Answer answer = answer_for(arguments, request, pair, session);
+  for (Report* report : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (report == nullptr) continue;
+    report->times.load_ms = load_ms;
+    report->times.setup_ms = session.setup_ms;
+  }
   print(arguments, answer);
   check_verified(answer);
   return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
@@ -244,9 +250,9 @@ int run_pair(const Arguments& arguments, Load load) {
 
 int run_distance(const Arguments& arguments) {
   return run_pair(arguments, [&] {
+    auto b = begin_now([path = arguments.file_b] { return read_mesh(path); });
     Mesh a = read_mesh(arguments.file_a);
-    Mesh b = read_mesh(arguments.file_b);
-    return MeshPair{std::move(a), std::move(b)};
+    return MeshPair{std::move(a), b.get()};
   });
 }
 
@@ -304,6 +310,8 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--verify", arguments.verify,
                    "Check the answer on the host: the witness against every face of B, by brute "
                    "force in 113-bit arithmetic; the parts of A as exact integers");
+  command.add_flag("--no-cache", arguments.no_cache,
+                   "Neither read nor write compiled pipelines in ~/.cache/vkhausdorff");
   command.add_flag("--symmetric", arguments.symmetric,
                    "Both directions: the interval of max(h(A,B), h(B,A))");
 }
@@ -377,4 +385,14 @@ int run_and_catch(int argc, char** argv) {
 }  // namespace
 }  // namespace vkh
 
-int main(int argc, char** argv) { return vkh::run_and_catch(argc, argv); }
+// Without exit handlers: after a bad file, a thread may still be at work on the other one or in the
+// driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
+int main(int argc, char** argv) {
+  const int code = vkh::run_and_catch(argc, argv);
+  std::cout.flush();
+  std::fflush(nullptr);
+#ifdef __SANITIZE_ADDRESS__
+  __lsan_do_leak_check();
+#endif
+  std::_Exit(code);
+}

@@ -5,6 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <future>
+#include <system_error>
 
 #include "host/hash_index.h"
 #include "host/text_scanner.h"
@@ -74,24 +77,30 @@ bool is_collinear_exactly(const Point2& a, const Point2& b, const Point2& c) {
   return sum.is_zero();
 }
 
-bool is_collinear(const Point2& a, const Point2& b, const Point2& c) {
+// Without exact arithmetic: false where rounding leaves it open.
+bool surely_not_collinear(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (a[0] - c[0]) * (b[1] - c[1]);
   const double right = (a[1] - c[1]) * (b[0] - c[0]);
   const double size = std::abs(left) + std::abs(right);
   // Seven roundings of 2^-53 at most lie between left - right and the true value, relative to size;
   // 1e-15 is nine. Above 1e-280 what underflow adds (2^-1074 a product) is far below that.
   // Overflow gives inf or nan and fails the comparison.
-  if (size > 1e-280 && std::abs(left - right) > 1e-15 * size) return false;
-  return is_collinear_exactly(a, b, c);
+  return size > 1e-280 && std::abs(left - right) > 1e-15 * size;
 }
 
 // Exact for all finite coordinates: the cross product of two edges is zero if and only if the
-// triangle's three projections along the axes are collinear.
+// triangle's three projections along the axes are collinear. One that is surely not decides: a face
+// in a plane of the axes has two that are, which would cost exact sums.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   if (a == b || b == c || c == a) return true;
-  return is_collinear({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) &&
-         is_collinear({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) &&
-         is_collinear({a.z, a.x}, {b.z, b.x}, {c.z, c.x});
+  const std::array<std::array<Point2, 3>, 3> projections = {
+      {{{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}},
+       {{{a.y, a.z}, {b.y, b.z}, {c.y, c.z}}},
+       {{{a.z, a.x}, {b.z, b.x}, {c.z, c.x}}}}};
+  const auto surely_not = [](const auto& p) { return surely_not_collinear(p[0], p[1], p[2]); };
+  const auto exactly = [](const auto& p) { return is_collinear_exactly(p[0], p[1], p[2]); };
+  return std::none_of(projections.begin(), projections.end(), surely_not) &&
+         std::all_of(projections.begin(), projections.end(), exactly);
 }
 
 void check_indices(const Mesh& mesh) {
@@ -186,8 +195,17 @@ Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<g
   drop_unreferenced(mesh);
   mesh.counts.vertices = mesh.vertices.size();
   mesh.counts.faces = mesh.faces.size();
-  mesh.counts.degenerate = count_degenerate(mesh);
+  constexpr size_t kFacesOfThread = 1 << 14;  // 1 ms
+  const auto policy =
+      mesh.faces.size() < kFacesOfThread ? std::launch::deferred : std::launch::async;
+  std::future<uint64_t> degenerate;
+  try {
+    degenerate = std::async(policy, count_degenerate, std::cref(mesh));
+  } catch (const std::system_error&) {  // no thread to be had
+    degenerate = std::async(std::launch::deferred, count_degenerate, std::cref(mesh));
+  }
   mesh.counts.duplicate = count_duplicates(mesh);
+  mesh.counts.degenerate = degenerate.get();
   return mesh;
 }
 

@@ -1,6 +1,7 @@
 #include "host/run.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <string>
@@ -32,6 +33,12 @@ uint32_t next_waves(uint32_t last, double last_ms) {
 double now_ms() {
   using namespace std::chrono;
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+// Room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
+VkDeviceSize roomy(VkDeviceSize bytes) {
+  constexpr VkDeviceSize kLargest = VkDeviceSize{64} << 20;
+  return bytes > kLargest ? bytes : std::bit_ceil(bytes);
 }
 
 VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
@@ -92,15 +99,19 @@ uint32_t default_switches(const Device& device) {
   return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
 }
 
-Runner::Runner(const Device& device)
-    : device_(device), submitter_(device), names_(Submitter::kTimestamps) {}
+Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
+    : device_(device),
+      cache_(device, cache_folder),
+      submitter_(device),
+      names_(Submitter::kTimestamps) {}
 
 VkhContext Runner::context_for(uint32_t switches) {
   const auto known = contexts_.find(switches);
   if (known != contexts_.end()) return known->second.get();
-  const VkhContextCreateInfo info{device_.engine_info(), VK_NULL_HANDLE, switches};
+  const VkhContextCreateInfo info{device_.engine_info(), cache_.handle(), switches};
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
+  cache_.save();
   contexts_.emplace(switches, ContextHandle(context, vkhDestroyContext));
   return context;
 }
@@ -118,8 +129,9 @@ void Runner::upload(const MeshData& a, const MeshData& b) {
   const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
   const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
-  grow(staging_, device_, uploaded_bytes_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
-  grow(meshes_, device_, uploaded_bytes_, kWorking, Placement::kDevice);
+  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+       Placement::kUpload);
+  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
   if (bytes_a > 0) write(staging_.mapped(), a);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
   if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
@@ -134,7 +146,7 @@ VkDeviceSize Runner::place_b(const RunInput& in) {
     return 0;
   }
   const VkhHierarchyRequirements needed = hierarchy_requirements();
-  grow(hierarchy_, device_, needed.hierarchySize, kWorking, Placement::kDevice);
+  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
   problem_.b = {
       {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
   return needed.scratchSize;

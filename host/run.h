@@ -9,6 +9,7 @@
 #include "engine/vkhausdorff.h"
 #include "host/frame.h"
 #include "host/memory.h"
+#include "host/pipeline_cache.h"
 
 namespace vkh {
 
@@ -62,7 +63,8 @@ struct RunOutput {
 /// Keeps contexts and buffers between runs.
 class Runner {
  public:
-  explicit Runner(const Device& device);
+  Runner(const Device& device, const std::filesystem::path& cache_folder);
+  void make_ready(uint32_t switches) { context_for(switches); }
   ResidentMesh build(const MeshData& b);
   RunOutput run(const RunInput& input);
 
@@ -80,6 +82,7 @@ class Runner {
   void submit(RunOutput& output);
 
   const Device& device_;
+  PipelineCache cache_;
   std::map<uint32_t, ContextHandle> contexts_;
   Submitter submitter_;
   Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_, areas_, areas_readback_;

@@ -115,13 +115,14 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
 }  // namespace
 
 struct Solver::Impl {
-  explicit Impl(Device& d) : device(d), runner(d) {}
+  Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
   Report solve(const Pair& pair, const SolveOptions& options, Clock::time_point start);
   Device& device;
   Runner runner;
 };
 
-Solver::Solver(Device& device) : impl_(std::make_unique<Impl>(device)) {}
+Solver::Solver(Device& device, const std::filesystem::path& cache_folder)
+    : impl_(std::make_unique<Impl>(device, cache_folder)) {}
 Solver::~Solver() = default;
 
 struct PreparedMesh::Impl {
@@ -235,6 +236,10 @@ Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock:
   out.times.upload_ms = framed_ms + run.upload_ms;
   out.times.wall_ms = ms_since(start);
   return out;
+}
+
+void Solver::make_ready(const SolveOptions& options) {
+  impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
 Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {

@@ -1,6 +1,7 @@
 // Two meshes in, a certified interval out; blocking.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -76,10 +77,16 @@ class PreparedMesh {
 /// tolerance that is not positive and finite.
 class Solver {
  public:
-  explicit Solver(Device& device);
+  /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
+  /// driver and build; empty: nowhere.
+  explicit Solver(Device& device, const std::filesystem::path& cache_folder = {});
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
+
+  /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
+  /// the slow part of a start, so that meshes may be read meanwhile.
+  void make_ready(const SolveOptions& options = {});
 
   /// Encloses h(a, b).
   Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {});

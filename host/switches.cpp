@@ -29,6 +29,7 @@ constexpr NamedSwitch kSwitches[] = {{"centroid", VKH_SWITCH_CENTROID},
                                      {"defer", VKH_SWITCH_DEFER},
                                      {"largest_first", VKH_SWITCH_LARGEST_FIRST},
                                      {"u3_paper", VKH_SWITCH_U3_PAPER},
+                                     {"two_levels", VKH_SWITCH_TWO_LEVELS},
                                      {"multiwave", kSwitchMultiwave}};
 
 // The paper's baseline (6.1): its cascade, and none of what it adds. The bounds are certified all

@@ -51,6 +51,9 @@ namespace vkh {
   X(CreatePipelineLayout)        \
   X(DestroyPipelineLayout)       \
   X(CreateComputePipelines)      \
+  X(CreatePipelineCache)         \
+  X(DestroyPipelineCache)        \
+  X(GetPipelineCacheData)        \
   X(DestroyPipeline)             \
   X(QueueSubmit)                 \
   X(CreateFence)                 \

@@ -69,8 +69,9 @@ VKH_CONST uint kUsePacket = 4096u;       // an invocation walks for a candidate'
 VKH_CONST uint kUseDefer = 8192u;        // candidates that there is no room to refine wait
 VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refined first
 VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
+VKH_CONST uint kUseTwoLevels = 65536u;     // few candidates are split twice in a wave
 // The method of ours: without what the paper has in another place.
-VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u;
+VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u + 65536u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
@@ -146,8 +147,13 @@ VKH_CONST uint kReserve = 64u;
 
 VKH_CONST uint kPlanGroup = 256u;  // invocations of wave_plan: one plans, all select
 
-// wave_subdivide: invocations of a candidate where kUseGroupWalk is on.
+// wave_subdivide: invocations of a candidate where kUseGroupWalk is on, and where it is split
+// twice.
 VKH_CONST uint kSplitLanes = 4u;
+VKH_CONST uint kSplitTwiceLanes = 16u;
+// Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
+// half as many waves are worth twice the work. Measured on an H200 (docs/measurements.md).
+VKH_CONST uint kTwiceParents = 8192u;
 
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
 // small, so that it fills the device. Measured on an H200 (docs/measurements.md).
@@ -232,6 +238,7 @@ struct Candidate {
 // A refined candidate in its wave.
 struct Split {
   uint code;    // lib/bary.h; kSplitNone where it ends here
+  uint inner;   // where it is split twice: the codes of its four children, 5 bits each; kInnerNone
   uint parent;  // its place in the half of the frontier being read
 };
 
@@ -278,6 +285,7 @@ struct Control {
   uint select_largest;  // in this wave the largest u come first
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is
+  uint twice;           // this wave splits its candidates twice
   uint lost;            // candidates that could neither be refined nor wait
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
   // The wave's samples that were at the new lower bound when they were looked at: how many, and the

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
+layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kPlanGroup) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer LowerBits { uint lower_bits[]; };

@@ -18,6 +18,7 @@ layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
 
 #include "shaders/lib/root.glsl"
+#include "shaders/lib/generations.glsl"
 #include "shaders/lib/morton.h"
 
 float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
@@ -57,9 +58,9 @@ void write_report() {
   report.witness_face = triangles[w.nearest].face;
   report.remaining = remaining();
   // The last recorded wave is only closed by the plan after it: its work is added here.
-  uint candidates = control.status == kStatusRunning ? 4u * control.parents + control.roots : 0u;
+  uint candidates = control.status == kStatusRunning ? child_count() : 0u;
   uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
-  uint queries = control.status == kStatusRunning ? 3u * control.parents + asked : 0u;
+  uint queries = control.status == kStatusRunning ? point_count() + asked : 0u;
   report.candidate_total = control.candidate_total + candidates;
   report.query_total = control.query_total + queries;
   report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);

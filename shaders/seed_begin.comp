@@ -24,6 +24,7 @@ void main() {
   control.sort_from = push.sort_from;
   control.sorted = 0u;
   control.lost = 0u;
+  control.twice = 0u;
   control.seed_witness = kNone;
   control.offer_count = 0u;
   control.cull_tolerance = push.cull_tolerance;

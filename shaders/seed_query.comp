@@ -71,7 +71,9 @@ void main() {
   uint state = i < push.vertex_count ? vertex_distance[i] : 0u;
   bool is_asked = state == kVertexUsed || is_old_witness(i);
   float d = 0.0;
-  if (i < push.vertex_count && !is_asked) settle(i, state);
+  // One alone: others of the group may read the state later than it is written.
+  bool first = !in_groups || lane == 0u;
+  if (first && i < push.vertex_count && !is_asked) settle(i, state);
   if (is_old_witness(i)) clamp_witness();
   if (is_asked) {
     Two3 p = seed_point(i);

@@ -58,20 +58,19 @@ Known known_to(Child c, uint code, uint centre) {
 // By what kernels of their own found, and by points.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
   if ((kSwitches & kUsePaperU3) != 0u && u3_bounds[i] < v.upper) v = Verdict(u3_bounds[i], kCullU3);
-  if (v.upper <= threshold || (kSwitches & kUseU4) == 0u) return v;
+  if ((kSwitches & kUseU4) == 0u) return v;  // alone: optimisers then leave all of it out
+  if (v.upper <= threshold) return v;
   float u4 = bound_u4(patch_of_child(child), c.nearest, view_of_child(child), held[child].slack);
   if (u4 < v.upper) v = Verdict(u4, kCullU4);
   return v;
 }
 
-uint child_total() {
-  return kFiltered ? control.count[kCountSurvivors] : 4u * control.parents + control.roots;
-}
+uint child_total() { return kFiltered ? control.count[kCountSurvivors] : child_count(); }
 
 // The child's code; kNone where its parent was not split.
 uint code_of(uint i) {
   if (kFiltered) return survivors[i];
-  return is_root(i) || splits[i >> 2].code != kSplitNone ? i : kNone;
+  return is_child(i) ? i : kNone;
 }
 
 uint centre_of(uint i) {
@@ -79,11 +78,11 @@ uint centre_of(uint i) {
   return centroids[i].nearest;
 }
 
-void offer(uint i, uint code) {
+void offer(uint i) {
   if (kFiltered) {
     offer_sample(i | kCentroidSample);
   } else {
-    offer_point(code);
+    offer_point(i);
   }
 }
 
@@ -108,13 +107,16 @@ void main() {
   uint i = workgroup_index() * children + lane;
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   begin_group();
-  uint code = lane < children && i < total ? code_of(i) : kNone;
+  uint code = kNone;
+  if (lane < children && i < total) {
+    offer(i);
+    code = code_of(i);
+  }
   bool mine = code != kNone;
   bool bounded = false;
   Child c;
   uint centre = kNone;
   if (mine) {
-    offer(i, code);
     c.root = root_of(code);
     c.at = whole_root();
     bounded = !(is_root(code) && face_shared[c.root] != 0u);

@@ -40,9 +40,9 @@ const uint kAdoptGroup = kPlanGroup;
 void close_wave() {
   if (control.wave == 0u) return;
   uint w = (control.wave - 1u) % kMaxWaveRecords;
-  uint candidates = 4u * control.parents + control.roots;
+  uint candidates = child_count();
   uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
-  uint queries = 3u * control.parents + asked;
+  uint queries = point_count() + asked;
   float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
                                     max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(
@@ -108,10 +108,12 @@ void share_room() {
   held = schedule(held, room);
   parents = control.parents;
   room = capacity - held;
-  uint quarter = (capacity - kReserve) / 4u;  // uncertified: integers
+  bool twice = control.deferred == 0u && may_split_twice(parents, room);
+  control.twice = twice ? 1u : 0u;
+  uint needed = (twice ? 15u : 3u) * parents;  // places besides the candidates' own
+  uint quarter = (capacity - kReserve) / 4u;   // uncertified: integers
   uint waiting = control.face_count - cursor;
-  uint roots =
-      held < quarter ? min(waiting, min(quarter - held, room - 3u * parents - kReserve)) : 0u;
+  uint roots = held < quarter ? min(waiting, min(quarter - held, room - needed - kReserve)) : 0u;
   control.roots = roots;
   control.root_cursor = cursor + roots;
 }
@@ -142,10 +144,10 @@ void write_sizes() {
   uint parents = running ? control.parents : 0u;
   bool spread = (kSwitches & kUseGroupWalk) != 0u;
   uint held = running ? parents + control.deferred : 0u;
-  dispatches[kDispatchSubdivide] = groups_for(spread ? kSplitLanes * held : held);
+  dispatches[kDispatchSubdivide] = groups_for(held * split_lanes());
   write_query_sizes(parents);
   write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
-  uint children = running ? 4u * parents + control.roots : 0u;
+  uint children = running ? child_count() : 0u;
   dispatches[kDispatchFilter] = groups_for(children);
   dispatches[kDispatchBound] = groups_for_children(children, spread);
   if (!running) return;

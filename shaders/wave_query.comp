@@ -19,13 +19,14 @@ layout(scalar, binding = 5) readonly buffer Boxes { Box boxes[]; };
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/generations.glsl"
 #include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/query.glsl"
 #include "shaders/lib/stream.glsl"
 
 void main() {
-  uint count = push.centroids != 0u ? control.count[kCountSurvivors] : 3u * control.parents;
+  uint count = push.centroids != 0u ? control.count[kCountSurvivors] : point_count();
   float d = 0.0;
   if ((kSwitches & kUseGroupWalk) != 0u && walks_in_groups(count)) {
     uint i = workgroup_index();

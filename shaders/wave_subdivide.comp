@@ -30,9 +30,8 @@ layout(scalar, binding = 10) readonly buffer Order { uint order[]; };
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/stream.glsl"
 
-// Invocations of a candidate: each new point has one where a wave is a chain of steps.
-const uint kSubdivideLanes = (kSwitches & kUseGroupWalk) != 0u ? kSplitLanes : 1u;
 shared uint place_in_group[kGroupSize];
+shared uint inner_in_group[kGroupSize];
 
 // The code of the candidate's split; kSplitNone where the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
@@ -59,12 +58,36 @@ uint best_start(Candidate c, vec3 p) {
   return best.triangle;
 }
 
-void write_point(uint i, uint k, Candidate c, Bary3 at, Root root, uint split) {
-  Bary6 six = split_points(at, split == kSplitNone ? kSplitMidpoint : split);
-  Two3 p = place(root, corner_of(six.fresh, k));
-  // A negative distance tells the query to skip the point.
-  points[3u * i + k] = split == kSplitNone ? Point(p.hi, kNone, p.lo, -1.0)
-                                           : Point(p.hi, best_start(c, p.hi), p.lo, 0.0);
+// A negative distance tells the query to skip the point.
+void write_point(uint at, Candidate c, Root root, uvec2 point, bool asked) {
+  Two3 p = place(root, point);
+  points[at] = asked ? Point(p.hi, best_start(c, p.hi), p.lo, 0.0) : Point(p.hi, kNone, p.lo, -1.0);
+}
+
+// Point k of a child of the candidate: the child is split, too.
+void write_inner_point(uint i, uint k, Candidate c, Bary6 six, Root root, uint split, uint group) {
+  uint which = k / 3u;  // uncertified: integers
+  Bary3 child = child_of(six, child_points(split, which));
+  uint inner = choose_split(child, root);
+  if (k % 3u == 0u) atomicOr(inner_in_group[group], (inner & kInnerNone) << (5u * which));
+  bool asked = inner != kSplitNone;
+  Bary6 points_of_child = split_points(child, asked ? inner : kSplitMidpoint);
+  write_point(15u * i + 3u + k, c, root, corner_of(points_of_child.fresh, k % 3u), asked);
+}
+
+void write_points(uint i, uint lane, Candidate c, Bary3 at, Root root, uint split, uint group) {
+  bool asked = split != kSplitNone;
+  uint code = asked ? split : kSplitMidpoint;
+  Bary6 six = split_points(at, code);
+  for (uint k = lane; k < points_each(); k += split_lanes()) {
+    if (k < 3u) {
+      write_point(points_each() * i + k, c, root, corner_of(six.fresh, k), asked);
+    } else if (asked) {
+      write_inner_point(i, k - 3u, c, six, root, code, group);
+    } else {
+      points[15u * i + k].distance = -1.0;
+    }
+  }
 }
 
 // Whether items are taken in the order of the sort. Then the wave's parents come first, and one
@@ -118,26 +141,29 @@ bool is_noise(Bary3 corners, Root root, float upper) {
          (control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2);
 }
 
-// The same for all invocations of a candidate: the first one asks.
-uint shared_place_of(uint at, bool held, Candidate c, float upper) {
-  uint local = gl_LocalInvocationID.x / kSubdivideLanes;  // uncertified: integers
-  bool first = gl_LocalInvocationID.x % kSubdivideLanes == 0u;
-  uint i = place_of(at, held && first, c, upper);
-  if (kSubdivideLanes == 1u) return i;
-  if (first) place_in_group[local] = i;
+// The same for all invocations of a candidate, which are `group` of the workgroup: the first asks.
+uint shared_place_of(uint item, bool held, Candidate c, float upper, uint group) {
+  bool first = item_index() % split_lanes() == 0u;
+  uint i = place_of(item, held && first, c, upper);
+  if ((kSwitches & kUseGroupWalk) == 0u && !kMaySplitTwice) return i;
+  if (first) {
+    place_in_group[group] = i;
+    inner_in_group[group] = 0u;
+  }
   barrier();
-  return place_in_group[local];
+  return place_in_group[group];
 }
 
 void main() {
-  uint item = item_index() / kSubdivideLanes;  // uncertified: integers
-  uint lane = item_index() % kSubdivideLanes;
+  uint item = item_index() / split_lanes();  // uncertified: integers
+  uint lane = item_index() % split_lanes();
+  uint group = gl_LocalInvocationID.x / split_lanes();  // uncertified: integers
   bool held = item < control.count[kCountFrontier];
   uint at = held ? item : 0u;
   if (held && is_sorted()) at = order[item];
   Candidate c = frontier[reading(at)];
   float upper = upper_of(c);
-  uint i = shared_place_of(item, held, c, upper);
+  uint i = shared_place_of(item, held, c, upper, group);
   bool mine = i != kNone;
   bool closed = mine && upper <= cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   uint split = kSplitNone;
@@ -146,10 +172,11 @@ void main() {
     Bary3 corners = unpack_corners(c.corners);
     Root root = load_root(c.root);
     if (!closed && !is_noise(corners, root, upper)) split = choose_split(corners, root);
-    if (first) splits[i] = Split(split, at);
     close_area(first && split == kSplitNone, c.root, corners);
-    for (uint k = lane; k < 3u; k += kSubdivideLanes) write_point(i, k, c, corners, root, split);
+    write_points(i, lane, c, corners, root, split, group);
   }
+  if (kMaySplitTwice) barrier();
+  if (first) splits[i] = Split(split, kMaySplitTwice ? inner_in_group[group] : 0u, at);
   bool ended = first && split == kSplitNone;
   count_culled(kCullLowerRaised, ended && closed);
   count_culled(kCullPrecision, ended && !closed);

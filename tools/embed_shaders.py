@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """SPIR-V in, C++ out: one header and one source per kernel, checked against shaders/gpu_types.h.
 
-  embed_shaders.py kernel SPV OUT_DIR      OUT_DIR/NAME.h (only when it changes) and NAME.cpp
+  embed_shaders.py kernel SPV OUT_DIR [FLAT CPU]
+                                           OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
+                                           SPV tells of the buffers, and FLAT is embedded where it
+                                           is given, and CPU too where there are switches
   embed_shaders.py index OUT_DIR NAME...   OUT_DIR/all_kernels.h and .cpp, and no other kernel's
 
 The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... without a gap, storage
@@ -11,10 +14,12 @@ constants are one struct in a block of their own, 128 bytes at most. Everything 
 
 import struct
 import sys
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
 import spirv_module as spirv
+from kernel_templates import HEADER, SOURCE
 
 MAX_PUSH_BYTES = 128  # what every Vulkan device has
 
@@ -245,66 +250,6 @@ def reflect(name, words):
     return Kernel(name, module.local_size, buffers, push, layouts.structs, layouts.vectors)
 
 
-HEADER = """\
-// Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.
-#pragma once
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <type_traits>
-
-#include "engine/slice.h"
-#include "shaders/gpu_types.h"
-
-namespace vkh::k {{
-
-struct {type} {{
-  static constexpr const char* kName = "{name}";
-  static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
-  static std::span<const uint32_t> words();
-
-  struct Args {{
-{args}
-  }};
-  static constexpr Binding kBindings[] = {{
-{bindings}
-  }};
-  using Push = {push};
-
-  // The buffers in binding order, as a descriptor write takes them.
-  static std::array<VkDescriptorBufferInfo, {count}> descriptors(const Args& args) {{
-    return {{
-{descriptors}
-    }};
-  }}
-}};
-
-{asserts}
-
-}}  // namespace vkh::k
-"""
-
-SOURCE = """\
-// Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.
-#include "kernels/{name}.h"
-
-namespace vkh::k {{
-namespace {{
-
-constexpr uint32_t kWords[] = {{
-{words}
-}};
-
-}}  // namespace
-
-std::span<const uint32_t> {type}::words() {{ return kWords; }}
-
-}}  // namespace vkh::k
-"""
-
-
 def layout_asserts(kernel):
     """What C++ must say of every shared struct for the two languages to mean the same bytes."""
     where = f"differs between C++ and {kernel.name}.comp"
@@ -337,10 +282,21 @@ def header_text(kernel):
     )
 
 
-def source_text(kernel, words):
+def words_text(words):
     rows = (words[i : i + 8] for i in range(0, len(words), 8))
-    text = "\n".join("    " + " ".join(f"{w:#010x}," for w in row) for row in rows)
-    return SOURCE.format(name=kernel.name, type=kernel.type_name, words=text)
+    return "\n".join("    " + " ".join(f"{w:#010x}," for w in row) for row in rows)
+
+
+def source_text(kernel, words, cpu_words):
+    cpu = f"constexpr uint32_t kCpuWords[] = {{\n{words_text(cpu_words)}\n}};\n" if cpu_words else ""
+    return SOURCE.format(
+        name=kernel.name,
+        type=kernel.type_name,
+        words=words_text(words),
+        cpu_words=cpu,
+        cpu_name="kCpuWords" if cpu_words else "kWords",
+        fingerprint=zlib.crc32(struct.pack(f"<{len(words)}I", *words)),
+    )
 
 
 def index_text(names):
@@ -357,16 +313,22 @@ def write_if_changed(path, text):
         path.write_text(text)
 
 
-def embed_kernel(spv, out_dir):
+def read_words(spv):
     data = spv.read_bytes()
-    words = struct.unpack(f"<{len(data) // 4}I", data)
+    return struct.unpack(f"<{len(data) // 4}I", data)
+
+
+def embed_kernel(spv, out_dir, flat=None, cpu=None):
+    words = read_words(spv)
     try:
         kernel = reflect(spv.stem, words)
     except (ContractError, ValueError) as error:
         sys.exit(f"shaders/{spv.stem}.comp: {error}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
+    cpu_words = read_words(cpu) if cpu and spirv.has_switches(words) else None
     # Always: it is the output by which a Makefile knows that this ran.
-    (out_dir / f"{kernel.name}.cpp").write_text(source_text(kernel, words))
+    text = source_text(kernel, read_words(flat) if flat else words, cpu_words)
+    (out_dir / f"{kernel.name}.cpp").write_text(text)
 
 
 def embed_index(out_dir, names):
@@ -378,8 +340,8 @@ def embed_index(out_dir, names):
 
 
 def main(args):
-    if len(args) == 3 and args[0] == "kernel":
-        embed_kernel(Path(args[1]), Path(args[2]))
+    if len(args) in (3, 5) and args[0] == "kernel":
+        embed_kernel(*map(Path, args[1:]))
     elif len(args) >= 2 and args[0] == "index":
         embed_index(Path(args[1]), sorted(args[2:]))
     else:

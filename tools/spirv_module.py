@@ -11,7 +11,7 @@ OP_CONSTANT, OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT, OP_SPEC_CONSTANT_COMPOSITE
 OP_VARIABLE, OP_DECORATE, OP_MEMBER_DECORATE = 59, 71, 72
 TYPES = range(19, 40)
 MODE_LOCAL_SIZE, MODE_LOCAL_SIZE_ID = 17, 38
-ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 6, 11, 24, 33, 34, 35
+SPEC_ID, ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 1, 6, 11, 24, 33, 34, 35
 BUILT_IN_WORKGROUP_SIZE = 25
 UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER = 0, 2, 9, 12
 INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # what the host binds
@@ -19,6 +19,11 @@ INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # what t
 
 def literal_string(words):
     return struct.pack(f"<{len(words)}I", *words).split(b"\0", 1)[0].decode()
+
+
+def has_switches(words):
+    """Whether there is a specialisation constant: the kernels' only one is their switches."""
+    return any(SPEC_ID in d for d in Module(words).decorations.values())
 
 
 class Module:

@@ -9,12 +9,12 @@ shared uint chosen_sample;
 // Where the list of offers did not hold them all, every sample of the wave is looked at.
 uint samples_at_hand() {
   if (control.offer_count <= kMaxOffers) return control.offer_count;
-  return 3u * control.parents + control.count[kCountSurvivors];
+  return point_count() + control.count[kCountSurvivors];
 }
 
 uint sample_at_hand(uint i) {
   if (control.offer_count <= kMaxOffers) return control.offers[i];
-  uint points_asked = 3u * control.parents;
+  uint points_asked = point_count();
   return i < points_asked ? i : (i - points_asked) | kCentroidSample;
 }
 

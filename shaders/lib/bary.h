@@ -115,6 +115,7 @@ VKH_FN Placement place_corners(Root r, Bary3 t) {
 // 0..2 are the corners.
 
 VKH_CONST uint kSplitMidpoint = 0u;
+VKH_CONST uint kInnerNone = 31u;          // as kSplitNone, in 5 bits
 VKH_CONST uint kSplitNone = 0xffffffffu;  // not split: closed before its subdivision
 
 VKH_FN uint pick(uvec3 t, uint i) { return i == 0u ? t.x : (i == 1u ? t.y : t.z); }
@@ -159,9 +160,31 @@ VKH_FN uvec2 point_of(Bary6 p, uint i) {
   return i < 3u ? corner_of(p.corner, i) : corner_of(p.fresh, i - 3u);
 }
 
-VKH_FN uvec2 middle_of(Bary6 p, uvec3 t, uint opposite) {
-  return middle(point_of(p, pick(t, opposite == 2u ? 0u : opposite + 1u)),
-                point_of(p, pick(t, opposite == 0u ? 2u : opposite - 1u)));
+// The corners after and before corner i, whose edge lies opposite.
+VKH_FN uvec2 next_of(Bary3 t, uint i) { return corner_of(t, i == 2u ? 0u : i + 1u); }
+VKH_FN uvec2 last_of(Bary3 t, uint i) { return corner_of(t, i == 0u ? 2u : i - 1u); }
+
+VKH_FN uvec2 middle_opposite(Bary3 t, uint i) { return middle(next_of(t, i), last_of(t, i)); }
+
+VKH_FN bool has_middle_opposite(Bary3 t, uint i) {
+  return has_middle(next_of(t, i), last_of(t, i));
+}
+
+// A bisection's halves, as bisected() has them by number: m is the middle opposite corner
+// `opposite`.
+struct Halves {
+  Bary3 first, second;
+};
+
+VKH_FN Halves halves_of(Bary3 t, uint opposite, uvec2 m) {
+  Halves h;
+  h.first.a = corner_of(t, opposite);
+  h.first.b = next_of(t, opposite);
+  h.first.c = m;
+  h.second.a = h.first.a;
+  h.second.b = m;
+  h.second.c = last_of(t, opposite);
+  return h;
 }
 
 // The six points of a split, all of them exact if can_split.
@@ -175,20 +198,12 @@ VKH_FN Bary6 split_points(Bary3 t, uint split) {
     return p;
   }
   uint code = split - 1u;
-  p.fresh = t;
-  p.fresh.a = middle_of(p, uvec3(0u, 1u, 2u), code % 3u);
-  uvec3 half0 = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, 0u);
-  uvec3 half1 = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, 1u);
-  uvec2 m0 = middle_of(p, half0, (code / 3u) % 3u);  // uncertified: integers
-  uvec2 m1 = middle_of(p, half1, code / 9u);         // uncertified: integers
-  p.fresh.b = m0;
-  p.fresh.c = m1;
+  uvec2 m = middle_opposite(t, code % 3u);
+  Halves h = halves_of(t, code % 3u, m);
+  p.fresh.a = m;
+  p.fresh.b = middle_opposite(h.first, (code / 3u) % 3u);  // uncertified: integers
+  p.fresh.c = middle_opposite(h.second, code / 9u);        // uncertified: integers
   return p;
-}
-
-VKH_FN bool edge_has_middle(Bary6 p, uvec3 t, uint opposite) {
-  return has_middle(point_of(p, pick(t, opposite == 2u ? 0u : opposite + 1u)),
-                    point_of(p, pick(t, opposite == 0u ? 2u : opposite - 1u)));
 }
 
 // Whether every new point of the split is an integer; where it is not, the bits have run out.
@@ -196,12 +211,10 @@ VKH_FN bool can_split(Bary3 t, uint split) {
   if (split == kSplitMidpoint)
     return has_middle(t.b, t.c) && has_middle(t.c, t.a) && has_middle(t.a, t.b);
   uint code = split - 1u;
-  Bary6 p = split_points(t, split);
-  uvec3 all = uvec3(0u, 1u, 2u);
-  if (!edge_has_middle(p, all, code % 3u)) return false;
-  return edge_has_middle(p, bisected(all, code % 3u, 3u, 0u),
-                         (code / 3u) % 3u) &&                              // uncertified: integers
-         edge_has_middle(p, bisected(all, code % 3u, 3u, 1u), code / 9u);  // uncertified: integers
+  Halves h = halves_of(t, code % 3u, middle_opposite(t, code % 3u));
+  return has_middle_opposite(t, code % 3u) &&
+         has_middle_opposite(h.first, (code / 3u) % 3u) &&  // uncertified: integers
+         has_middle_opposite(h.second, code / 9u);          // uncertified: integers
 }
 
 VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {

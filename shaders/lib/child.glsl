@@ -8,6 +8,8 @@
 // centroid.
 const uint kMaxKnown = 8u;
 
+#include "shaders/lib/generations.glsl"
+
 struct Child {
   uint root;
   Bary3 at;
@@ -28,11 +30,14 @@ void know(inout Known known, uint triangle) {
   ++known.count;
 }
 
-bool is_root(uint code) { return code >= 4u * control.parents; }
+bool is_root(uint code) { return code >= children_each() * control.parents; }
+
+// The refined candidate that a child, or a new point, comes from.
+uint parent_of(uint code) { return splits_twice() ? code >> 4 : code >> 2; }
 
 // The face of A that a code of an admitted one names; anything for others.
 uint root_of(uint code) {
-  return control.root_cursor - control.roots + (code - 4u * control.parents);
+  return control.root_cursor - control.roots + (code - children_each() * control.parents);
 }
 
 Child root_child(uint code) {
@@ -45,16 +50,14 @@ Child root_child(uint code) {
   return c;
 }
 
+// Of the six points of a candidate's split.
 uint nearest_of(Candidate parent, uint parent_index, uint point) {
   if (point < 3u) return parent.nearest[point];
-  return points[3u * parent_index + point - 3u].nearest;
+  return points[points_each() * parent_index + point - 3u].nearest;
 }
 
-Child split_child(uint code) {
-  uint index = code >> 2;
-  uint split = splits[index].code;
-  Candidate parent = frontier[reading(splits[index].parent)];
-  uvec3 corner = child_points(split, code & 3u);
+Child child_of_candidate(Candidate parent, uint index, uint split, uint which) {
+  uvec3 corner = child_points(split, which);
   Child c;
   c.root = parent.root;
   c.at = child_of(split_points(unpack_corners(parent.corners), split), corner);
@@ -62,6 +65,40 @@ Child split_child(uint code) {
                     nearest_of(parent, index, corner.z));
   c.upper = upper_of(parent);
   return c;
+}
+
+// A child's child, number `which` of four; `first_point`: of the child's own new points.
+Child child_of_child(Child c, uint split, uint which, uint first_point) {
+  uvec3 corner = child_points(split, which);
+  Child inner = c;
+  inner.at = child_of(split_points(c.at, split), corner);
+  for (uint i = 0u; i < 3u; ++i) {
+    inner.nearest[i] =
+        corner[i] < 3u ? c.nearest[corner[i]] : points[first_point + corner[i] - 3u].nearest;
+  }
+  return inner;
+}
+
+Child split_child(uint code) {
+  uint index = parent_of(code);
+  Split split = splits[index];
+  Candidate parent = frontier[reading(split.parent)];
+  if (!splits_twice()) return child_of_candidate(parent, index, split.code, code & 3u);
+  uint which = (code >> 2) & 3u;
+  Child c = child_of_candidate(parent, index, split.code, which);
+  uint inner = inner_split(split, which);
+  if (inner == kSplitNone) return c;
+  return child_of_child(c, inner, code & 3u, 15u * index + 3u + 3u * which);
+}
+
+// Whether a code names a child: its candidate was split, and so was the child where that is split
+// again; else the first of its four codes names the child itself.
+bool is_child(uint code) {
+  if (is_root(code)) return true;
+  Split split = splits[parent_of(code)];
+  if (split.code == kSplitNone) return false;
+  if (!splits_twice() || (code & 3u) == 0u) return true;
+  return inner_split(split, (code >> 2) & 3u) != kSplitNone;
 }
 
 Child load_child(uint code) {
@@ -72,8 +109,8 @@ Child load_child(uint code) {
 // The parent's samples are free: its other corners, its other new points, its centroid.
 void know_parent_samples(uint code, inout Known known) {
   if (is_root(code)) return;
-  Candidate parent = frontier[reading(splits[code >> 2].parent)];
-  for (uint i = 0u; i < 6u; ++i) know(known, nearest_of(parent, code >> 2, i));
+  Candidate parent = frontier[reading(splits[parent_of(code)].parent)];
+  for (uint i = 0u; i < 6u; ++i) know(known, nearest_of(parent, parent_of(code), i));
   know(known, parent.nearest_centroid);
 }
 

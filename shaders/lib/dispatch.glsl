@@ -2,6 +2,8 @@
 #ifndef VKH_SHADERS_LIB_DISPATCH_GLSL
 #define VKH_SHADERS_LIB_DISPATCH_GLSL
 
+#include "shaders/lib/generations.glsl"
+
 Dispatch groups_of(uint groups) {
   uint x = min(groups, kMaxGroupsX);
   return Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);  // uncertified: integers
@@ -17,6 +19,13 @@ bool walks_in_groups(uint queries) { return queries <= kGroupWalkQueries; }
 Dispatch groups_for_queries(uint queries, bool group_walk) {
   if (group_walk && walks_in_groups(queries)) return groups_of(queries);
   return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers
+}
+
+// Of wave_subdivide: invocations of a candidate. Each new point has one where a wave is a chain of
+// steps.
+uint split_lanes() {
+  if ((kSwitches & kUseGroupWalk) == 0u) return 1u;
+  return splits_twice() ? kSplitTwiceLanes : kSplitLanes;
 }
 
 // Children that a workgroup of wave_bound takes: so many more as there are more of them.

@@ -80,11 +80,20 @@ VKH_FN float fine_distance_down(Surface s, Closest c) {
   Two3 ab = two_difference(s.b, s.a);
   Two3 ac = two_difference(s.c, s.a);
   Two3 bc = two_difference(s.c, s.b);
-  float best = fine_separation_down(s, two(offset));
-  best = max(best, fine_separation_down(s, orthogonal(offset, ab, ac, true)));
-  best = max(best, fine_separation_down(s, orthogonal(offset, ab, ac, false)));
-  best = max(best, fine_separation_down(s, orthogonal(offset, ac, ab, false)));
-  return max(best, fine_separation_down(s, orthogonal(offset, bc, ac, false)));
+  // A loop, not five calls: drivers inline each call, and this is most of their work on the kernels
+  // that ask for lower bounds.
+  float best = lowered(-s.base);
+  for (uint k = 0u; k < 5u; ++k) {
+    Two3 direction = two(offset);
+    if (k > 0u) {
+      Two3 u = ab;  // k = 1: the inside
+      if (k == 3u) u = ac;
+      if (k == 4u) u = bc;
+      direction = orthogonal(offset, u, ac, k == 1u);
+    }
+    best = max(best, fine_separation_down(s, direction));
+  }
+  return best;
 }
 
 // <= d(origin, S) - base. Precise only where it has to be: a triangle that is farther than base +

@@ -28,6 +28,13 @@ uint schedule(uint held, uint room) {
   return 0u;
 }
 
+// Whether the wave splits its `held` candidates twice: there are few, and there is room for their
+// children and, in a stream for three of each of a quarter of the capacity, for their new points.
+bool may_split_twice(uint held, uint room) {
+  bool fits = 15u * held + kReserve < room && 20u * held <= control.capacity;
+  return kMaySplitTwice && held > 0u && held <= kTwiceParents && fits;
+}
+
 // What a run ends with that decided all it held.
 uint status_decided() {
   if (control.lost > 0u) return kStatusMemory;
@@ -37,7 +44,8 @@ uint status_decided() {
 void write_query_sizes(uint parents) {
   bool in_groups = (kSwitches & kUseGroupWalk) != 0u;
   bool packets = (kSwitches & kUsePacket) != 0u && !(in_groups && walks_in_groups(3u * parents));
-  dispatches[kDispatchQueryPoints] = groups_for_queries(packets ? 0u : 3u * parents, in_groups);
+  uint queries = packets ? 0u : points_each() * parents;
+  dispatches[kDispatchQueryPoints] = groups_for_queries(queries, in_groups);
   dispatches[kDispatchPacket] = groups_for(packets ? parents : 0u);
 }
 

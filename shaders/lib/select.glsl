@@ -1,11 +1,9 @@
-// Which candidates are refined where there is no room for all: those with the smallest keys, found
-// by a workgroup of kPlanGroup invocations. Include after `control` and `frontier` are declared and
-// lib/candidate.glsl is included.
+// The selection of the candidates that a wave refines where there is no room for all: those with
+// the smallest keys (lib/candidate.glsl), by digits of 8 bits from the top. A boundary that leaves
+// at least half of the room used will do. Include after `control` and `frontier` are declared and
+// lib/candidate.glsl is included; the workgroup has kPlanGroup invocations.
 #ifndef VKH_SHADERS_LIB_SELECT_GLSL
 #define VKH_SHADERS_LIB_SELECT_GLSL
-
-// The `parents` smallest keys, by digits of 8 bits from the top. A boundary that
-// leaves at least half of the room used will do.
 
 shared uint histogram[256];
 shared Key prefix;    // of the keys that are still undecided

@@ -26,9 +26,11 @@ void offer_sample(uint s) {
   if (slot < kMaxOffers) control.offers[slot] = s;
 }
 
-// A child's share in offering the new points: each is a child's first, second or third.
+// A child's share in offering the new points: of a candidate's children all but the last have one.
 void offer_point(uint code) {
-  if (!is_root(code) && (code & 3u) != 3u) offer_sample(3u * (code >> 2) + (code & 3u));
+  uint which = code % children_each();
+  if (!is_root(code) && which < points_each())
+    offer_sample(points_each() * parent_of(code) + which);
 }
 
 struct Sample {
@@ -43,10 +45,15 @@ Sample load_sample(uint s) {
     Child child = load_child(survivors[c]);
     return Sample(child.root, centroid_of(child.at), centroids[c]);
   }
-  Split split = splits[s / 3u];  // uncertified: integers
+  Split split = splits[s / points_each()];  // uncertified: integers
   Candidate parent = frontier[reading(split.parent)];
   Bary6 six = split_points(unpack_corners(parent.corners), split.code);
-  return Sample(parent.root, corner_of(six.fresh, s % 3u), points[s]);
+  uint which = s % points_each();
+  if (which >= 3u) {                 // a child's
+    uint child = (which - 3u) / 3u;  // uncertified: integers
+    six = split_points(child_of(six, child_points(split.code, child)), inner_split(split, child));
+  }
+  return Sample(parent.root, corner_of(six.fresh, which % 3u), points[s]);
 }
 
 uint key_of_sample(uint s) {

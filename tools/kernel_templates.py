@@ -1,0 +1,64 @@
+"""What embed_shaders.py writes of a kernel, for str.format."""
+
+HEADER = """\
+// Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "engine/slice.h"
+#include "shaders/gpu_types.h"
+
+namespace vkh::k {{
+
+struct {type} {{
+  static constexpr const char* kName = "{name}";
+  static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
+  static std::span<const uint32_t> words();
+  static std::span<const uint32_t> words_for_cpu();  // the switches are VKH_SWITCH_DEFAULT_CPU
+  static uint32_t fingerprint();                     // of the words
+
+  struct Args {{
+{args}
+  }};
+  static constexpr Binding kBindings[] = {{
+{bindings}
+  }};
+  using Push = {push};
+
+  // The buffers in binding order, as a descriptor write takes them.
+  static std::array<VkDescriptorBufferInfo, {count}> descriptors(const Args& args) {{
+    return {{
+{descriptors}
+    }};
+  }}
+}};
+
+{asserts}
+
+}}  // namespace vkh::k
+"""
+
+SOURCE = """\
+// Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.
+#include "kernels/{name}.h"
+
+namespace vkh::k {{
+namespace {{
+
+constexpr uint32_t kWords[] = {{
+{words}
+}};
+{cpu_words}
+}}  // namespace
+
+std::span<const uint32_t> {type}::words() {{ return kWords; }}
+std::span<const uint32_t> {type}::words_for_cpu() {{ return {cpu_name}; }}
+uint32_t {type}::fingerprint() {{ return {fingerprint:#010x}; }}
+
+}}  // namespace vkh::k
+"""
