@@ -41,7 +41,7 @@ void close_wave() {
   if (control.wave == 0u) return;
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = child_count();
-  uint queries = point_count() + control.count[kCountSurvivors];
+  uint queries = query_count();
   float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
                                     max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(

@@ -8,6 +8,7 @@ TWO = "shaders/lib/two_float.h"
 CERTIFIED = "shaders/lib/certified.h"
 TRIANGLE = "shaders/lib/triangle.h"
 BOUNDS = "shaders/lib/bounds.h"
+PAPER = "shaders/lib/bounds_paper.h"
 BARY = "shaders/lib/bary.h"
 LOWER = "shaders/lib/lower.h"
 FRAME = "host/frame.cpp"
@@ -129,11 +130,18 @@ ROWS = [
     counts("bound_u2", BOUNDS, "max3(d), 0.0f), {2.0f})", ON_BOUNDS),
     row("bound_u2's worst corner", BOUNDS, "enclosing_radius_up(t.at) + max3(d)",
         ["enclosing_radius_up(t.at) + min(d.x, min(d.y, d.z))"], ON_BOUNDS),
-    row("cut_distance's larger", BOUNDS, "max(surface_distance_up(p, s), surface_distance_up(p, r))",
+    row("bound_cut's larger", BOUNDS, "max(surface_distance_up(p, s), surface_distance_up(p, r))",
         ["min(surface_distance_up(p, s), surface_distance_up(p, r))"], ON_BOUNDS),
-    row("bound_pair's corners", BOUNDS, "max(corners, max(ci, cj))", ["max(ci, cj)"], ON_BOUNDS),
-    row("bound_pair's second cut", BOUNDS, "max(corners, max(ci, cj))", ["max(corners, ci)"], ON_BOUNDS),
-    row("bound_pair's one side", BOUNDS, "return na ? max3(ds)", ["return na ? min(ds.x, min(ds.y, ds.z))"], ON_BOUNDS),
+    row("bound_cut's second cut", BOUNDS, "max(at_p, at_q)", ["max(at_p, min(at_p, at_q))"], ON_BOUNDS),
+    row("bound_pair's corners", BOUNDS, "max(bound_nearer(ds, dr), bound_cut(t, cut, ds - dr, s, r))",
+        ["bound_cut(t, cut, ds - dr, s, r)"], ON_BOUNDS),
+
+    # bounds_paper.h
+    row("bound_split's side", PAPER, "side.y < 0.0f ? ds.y : dr.y", ["min(ds.y, dr.y)"], ON_BOUNDS),
+    row("bound_split's cuts", PAPER, "max(corners, bound_cut(t, cut, side, s, r))", ["corners"], ON_BOUNDS),
+    row("bound_third's corner", PAPER, "max(d, max(middles", ["max(min(d, middles), max(middles"], ON_BOUNDS),
+    row("bound_third's centroid", PAPER, "max(middles, surface_distance_up(centre, s))",
+        ["max(middles, min(middles, surface_distance_up(centre, s)))"], ON_BOUNDS),
 
     # bary.h
     counts("Placement::slack", BARY, "{24.0f} * kUlp2", ON_BARY, steps=[23.0, 12.0, 6.0, 1.5, 0.5]),

@@ -1,0 +1,180 @@
+// Times the solver over a manifest of pairs in one live context: presets and changes of them, a
+// warm-up each, then repeats in turn (A B C A B C); one CSV row a pair and preset with medians.
+// Correctness first: where the intervals of all do not meet, or repeats differ by a bit, the exit
+// code is 1. A run that does not close within its limits is not repeated, and counted; then the
+// exit code is 3.
+//
+//   vkh_bench MANIFEST.csv [--presets
+//   default,paper,baseline-gpu,-sort,+packet,paper-thin,-u3@64MiB]
+//             [--filter TEXT] [--max-faces N] [--repeat N] [--tol T] [--device D] [--time SECONDS]
+//             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <map>
+
+#include "host/mesh_io.h"
+#include "host/options.h"
+#include "host/solver.h"
+#include "tools/bench/manifest.h"
+#include "tools/bench/table.h"
+#include "tools/bench/variant.h"
+
+namespace vkh::bench {
+namespace {
+
+enum ExitCode { kExitClosed = 0, kExitWrong = 1, kExitUsage = 2, kExitNotClosed = 3 };
+
+struct Arguments {
+  std::string manifest, device, memory;
+  std::vector<std::string> presets = {"default"};
+  Choice choice;
+  bool plain = false;
+  int repeat = 5;
+  SolveOptions common;
+};
+
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct Tally {
+  int closed = 0, timed_out = 0, out_of_memory = 0, otherwise_open = 0;
+  double gpu_ms = 0;
+
+  void add(const Outcome& o) {
+    const Status status = o.last().status;
+    ++(status == Status::kClosed   ? closed
+       : status == Status::kTime   ? timed_out
+       : status == Status::kMemory ? out_of_memory
+                                   : otherwise_open);
+    gpu_ms += o.last().times.hierarchy_ms + o.last().times.solve_ms;
+  }
+};
+
+class Race {
+ public:
+  explicit Race(const Arguments& args)
+      : args_(args),
+        made_at_(Clock::now()),
+        device_({.selector = args.device, .validation = false}),
+        solver_(device_),
+        device_ms_(ms_since(made_at_)) {
+    for (const std::string& name : args.presets) variants_.push_back(variant_of(name, args.common));
+  }
+
+  ExitCode run() {
+    print_head();
+    warm_up();
+    for (const Row& row : read_manifest(args_.manifest, args_.choice)) run_pair(row);
+    return print_tail();
+  }
+
+ private:
+  // Pipelines are made by the first run with a set of switches; this one has nothing else to do.
+  void warm_up() {
+    const Mesh point = make_mesh("point", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    for (const Variant& v : variants_) {
+      const auto start = Clock::now();
+      solver_.distance(point, point, v.options);
+      setup_ms_[v.name] = device_ms_ + ms_since(start);
+    }
+  }
+
+  void run_pair(const Row& row) {
+    const auto start = Clock::now();
+    const Mesh a = read_mesh(row.file_a);
+    const Mesh b = read_mesh(row.file_b);
+    const double load_ms = ms_since(start);
+    std::vector<Outcome> outcomes;
+    for (const Variant& v : variants_)
+      outcomes.push_back({v.name, {solver_.distance(a, b, v.options)}, load_ms, setup_ms_[v.name]});
+    std::vector<bool> again;
+    for (Outcome& o : outcomes) {
+      again.push_back(o.closed());
+      if (o.closed()) o.reports.clear();
+    }
+    for (int i = 0; i < args_.repeat; ++i) {
+      for (size_t v = 0; v < variants_.size(); ++v) {
+        if (again[v]) outcomes[v].reports.push_back(solver_.distance(a, b, variants_[v].options));
+      }
+    }
+    const bool meets = intervals_meet(outcomes);
+    for (const Outcome& o : outcomes) {
+      print_row(row, o, meets);
+      tallies_[o.variant].add(o);
+      wrong_ += meets && o.repeats() ? 0 : 1;
+    }
+  }
+
+  void print_head() const {
+    std::printf("# device %s, driver %s, tolerance %g, repeat %d, time limit %g s%s\n",
+                device_.description().name.c_str(), device_.description().driver.c_str(),
+                args_.common.tolerance, args_.repeat, args_.common.time_limit_s,
+                args_.plain ? "; NOT CERTIFIED" : "");
+    print_header();
+  }
+
+  ExitCode print_tail() const {
+    int open = 0;
+    for (const Variant& v : variants_) {
+      const auto found = tallies_.find(v.name);
+      const Tally t = found == tallies_.end() ? Tally{} : found->second;
+      std::printf("# %s: %d closed, %d timed out, %d out of memory, %d open otherwise; %.1f ms\n",
+                  v.name.c_str(), t.closed, t.timed_out, t.out_of_memory, t.otherwise_open,
+                  t.gpu_ms);
+      open += t.timed_out + t.out_of_memory + t.otherwise_open;
+    }
+    std::printf("# %d rows wrong\n", wrong_);
+    return wrong_ > 0 ? kExitWrong : open > 0 ? kExitNotClosed : kExitClosed;
+  }
+
+  const Arguments& args_;
+  Clock::time_point made_at_;
+  Device device_;
+  Solver solver_;
+  double device_ms_;
+  std::vector<Variant> variants_;
+  std::map<std::string, double> setup_ms_;
+  std::map<std::string, Tally> tallies_;
+  int wrong_ = 0;
+};
+
+ExitCode run(Arguments& args) {
+  args.common.certified = !args.plain;
+  if (!args.memory.empty()) args.common.memory_bytes = parse_memory(args.memory);
+  return Race(args).run();
+}
+
+}  // namespace
+}  // namespace vkh::bench
+
+int main(int argc, char** argv) {
+  using namespace vkh::bench;
+  CLI::App app("vkh_bench: the solver's times over a manifest of pairs");
+  Arguments args;
+  args.common.time_limit_s = 60;
+  app.add_option("manifest", args.manifest)->required();
+  app.add_option("--presets", args.presets,
+                 "default, paper, baseline-gpu; +x, -x, paper-x, x@64MiB")
+      ->delimiter(',');
+  app.add_option("--filter", args.choice.filter);
+  app.add_option("--max-faces", args.choice.max_faces);
+  app.add_option("--repeat", args.repeat)->check(CLI::PositiveNumber);
+  app.add_option("--tol", args.common.tolerance);
+  app.add_option("--device", args.device);
+  app.add_option("--disable", args.common.disabled, "in every preset")->delimiter(',');
+  app.add_option("--enable", args.common.enabled, "in every preset")->delimiter(',');
+  app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
+  app.add_option("--memory", args.memory);
+  app.add_option("--time", args.common.time_limit_s);
+  app.add_option("--sort-from", args.common.sort_from, "smaller frontiers are not sorted");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(args);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "vkh_bench: %s\n", e.what());
+    return kExitUsage;
+  }
+}

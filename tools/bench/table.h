@@ -1,0 +1,32 @@
+// The rows of vkh_bench's CSV: one a pair and variant.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/report.h"
+#include "tools/bench/manifest.h"
+
+namespace vkh::bench {
+
+/// What a variant did with a pair.
+struct Outcome {
+  std::string variant;
+  std::vector<Report> reports;  ///< of its repeats; of a run that did not close, that one alone
+  double load_ms = 0;           ///< both files
+  double setup_ms = 0;          ///< device and this variant's pipelines, once a process
+
+  const Report& last() const { return reports.back(); }
+  bool closed() const { return last().status == Status::kClosed; }
+  /// Every run gave the same interval to the last bit.
+  bool repeats() const;
+};
+
+/// Whether there can be one distance in all the intervals.
+bool intervals_meet(const std::vector<Outcome>& outcomes);
+
+void print_header();
+/// `meets`: of all variants of the pair.
+void print_row(const Row& row, const Outcome& outcome, bool meets);
+
+}  // namespace vkh::bench

@@ -1,0 +1,19 @@
+// What is raced: a preset, switches changed in it, and the memory that it gets, by one name.
+#pragma once
+
+#include <string>
+
+#include "host/solver.h"
+
+namespace vkh::bench {
+
+struct Variant {
+  std::string name;
+  SolveOptions options;
+};
+
+/// "paper", "paper-sort", "+packet" (of default), "default-thin-u3+u4", "-defer@64MiB". `common` is
+/// what all variants have. Throws std::runtime_error.
+Variant variant_of(const std::string& name, const SolveOptions& common);
+
+}  // namespace vkh::bench
