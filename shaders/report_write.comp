@@ -58,9 +58,9 @@ void write_report() {
   report.witness_face = triangles[w.nearest].face;
   report.remaining = remaining();
   // The last recorded wave is only closed by the plan after it: its work is added here.
-  uint candidates = control.status == kStatusRunning ? child_count() : 0u;
-  uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
-  uint queries = control.status == kStatusRunning ? point_count() + asked : 0u;
+  bool running = control.status == kStatusRunning;
+  uint candidates = running ? child_count() : 0u;
+  uint queries = running ? query_count() : 0u;
   report.candidate_total = control.candidate_total + candidates;
   report.query_total = control.query_total + queries;
   report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);

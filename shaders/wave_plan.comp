@@ -41,8 +41,7 @@ void close_wave() {
   if (control.wave == 0u) return;
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = child_count();
-  uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
-  uint queries = point_count() + asked;
+  uint queries = query_count();
   float upper = uintBitsToFloat(max(control.maximum[kMaxNext],
                                     max(control.maximum[kMaxDropped], control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(

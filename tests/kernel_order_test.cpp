@@ -90,10 +90,9 @@ Problem put_problem(KernelBench& bench, const Wave& wave, const Mesh& a, const H
   halves.insert(halves.end(), wave.frontier.begin(), wave.frontier.end());
   std::vector<gpu::Dispatch> sizes(gpu::kDispatchCount);
   sizes[gpu::kDispatchSortKeys] = groups((count + gpu::kGroupSize - 1) / gpu::kGroupSize);
-  sizes[gpu::kDispatchSortBlocks] = groups((count + gpu::kSortBlock - 1) / gpu::kSortBlock);
-  // Of few blocks, sort_scatter sums the counts itself.
-  const bool few = count <= gpu::kSortFewBlocks * gpu::kSortBlock;
-  sizes[gpu::kDispatchSortDigits] = groups(few ? 0 : gpu::kSortDigits);
+  const uint32_t blocks = (count + gpu::kSortBlock - 1) / gpu::kSortBlock;
+  sizes[gpu::kDispatchSortBlocks] = groups(blocks);
+  sizes[gpu::kDispatchSortDigits] = groups(blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0);
   Problem p;
   p.switches = kSwitches;
   p.b = b;

@@ -25,4 +25,10 @@ uint inner_split(Split split, uint child) {
 uint child_count() { return children_each() * control.parents + control.roots; }
 uint point_count() { return points_each() * control.parents; }
 
+// New points, and survivors' centroids where they are asked for.
+uint query_count() {
+  uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
+  return point_count() + asked;
+}
+
 #endif
