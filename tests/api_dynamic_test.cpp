@@ -10,6 +10,7 @@
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/shapes.h"
+#include "tests/support/vec3.h"
 
 namespace {
 
@@ -55,21 +56,13 @@ void check_closed(const VkhReport& report) {
 
 // --- Boxes ---
 
-gpu::vec3 lowest(const gpu::vec3& x, const gpu::vec3& y) {
-  return {std::min(x.x, y.x), std::min(x.y, y.y), std::min(x.z, y.z)};
-}
-gpu::vec3 highest(const gpu::vec3& x, const gpu::vec3& y) {
-  return {std::max(x.x, y.x), std::max(x.y, y.y), std::max(x.z, y.z)};
-}
-bool same(const gpu::vec3& x, const gpu::vec3& y) { return x.x == y.x && x.y == y.y && x.z == y.z; }
-
 bool bounds(const gpu::vec3& lo, const gpu::vec3& hi, const std::vector<gpu::Triangle>& triangles,
             uint32_t first, uint32_t last) {
   gpu::vec3 low = triangles[first].a, high = low;
   for (uint32_t i = first; i <= last; ++i) {
     for (const gpu::vec3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) {
-      low = lowest(low, p);
-      high = highest(high, p);
+      low = test::min(low, p);
+      high = test::max(high, p);
     }
   }
   return same(lo, low) && same(hi, high);

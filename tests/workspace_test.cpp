@@ -199,6 +199,24 @@ TEST_CASE("in any memory, a run again is the same run, bit by bit") {
   }
 }
 
+TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same run") {
+  for (const Pair& pair : pairs()) {
+    for (const uint64_t bytes : {0ull, 1ull, 64ull << 10, 256ull << 10}) {
+      CAPTURE(bytes);
+      SolveOptions options = with_memory(bytes);
+      options.enabled = {"group_walk", "two_levels"};
+      options.disabled = {"centroid", "parent_samples"};
+      const Report first = check_true(pair, options);
+      const Report again = check_true(pair, options);
+      CHECK(first.status == Status::kClosed);
+      CHECK(again.lower == first.lower);
+      CHECK(again.upper == first.upper);
+      CHECK(again.waves == first.waves);
+      CHECK(again.candidates == first.candidates);
+    }
+  }
+}
+
 TEST_CASE("progress tells of intervals that are true and shrink") {
   // Little memory: many waves, so that there are many submissions.
   for (const Pair& pair : pairs()) {
