@@ -17,17 +17,19 @@ constexpr VkBufferUsageFlags kWorking =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 // Waves of the first submission: enough for most pairs on a GPU; on a CPU one wave can take
 // seconds.
-constexpr uint32_t kFirstWaves = 8;
+constexpr uint32_t kFirstWaves = 6;
 constexpr uint32_t kFirstWavesOnCpu = 2;
-// Later submissions aim at this long, so that budgets and Ctrl-C are heard; an empty wave costs
-// little, but a few of them as much as another report.
+// Later submissions aim at this long, so that budgets and Ctrl-C are heard. Two empty waves cost an
+// H200 as much as another report: so the second submission is short, and long runs get longer ones.
 constexpr double kSubmissionMs = 100;
-constexpr uint32_t kMostWaves = 4;
+constexpr uint32_t kSecondWaves = 2;
+constexpr uint32_t kMostWaves = 8;
 
-uint32_t next_waves(uint32_t last, double last_ms) {
+uint32_t next_waves(uint32_t submissions, uint32_t last, double last_ms) {
   const double per_wave = std::max(last_ms / last, 1e-3);
+  const uint32_t most = std::min(kSecondWaves << std::min(submissions - 1, 2u), kMostWaves);
   return static_cast<uint32_t>(
-      std::clamp(kSubmissionMs / per_wave, 1.0, static_cast<double>(kMostWaves)));
+      std::clamp(kSubmissionMs / per_wave, 1.0, static_cast<double>(most)));
 }
 
 double now_ms() {
@@ -242,6 +244,7 @@ RunOutput Runner::run(const RunInput& in) {
   bool first = true;
   bool wanted = true;
   uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
+  uint32_t submissions = 0;
   uint32_t waves_left = std::max(in.wave_limit, 1u);
   do {
     if (!in.multiwave) waves = 1;
@@ -263,7 +266,7 @@ RunOutput Runner::run(const RunInput& in) {
     submit(out);
     first = false;
     waves_left -= waves;
-    waves = next_waves(waves, now_ms() - submitted);
+    waves = next_waves(++submissions, waves, now_ms() - submitted);
     wanted = in.advanced(out.report);
   } while (wanted && waves_left > 0 && out.report.status == VKH_STATUS_RUNNING);
   return out;

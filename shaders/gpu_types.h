@@ -37,7 +37,7 @@ VKH_CONST uint kGroupSize =
 VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
 // Invocations of wave_query: one query each, or one for all where a wave has few queries.
-VKH_CONST uint kQueryGroup = 32u;
+VKH_CONST uint kQueryGroup = 64u;
 VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: measured on an H200,
                                               // where 12,000 a dispatch take equally long
 // Vertices of A, whose walks start from nowhere: the group's is long, too.
@@ -158,7 +158,7 @@ VKH_CONST uint kTwiceParents = 8192u;
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
 // small, so that it fills the device. Measured on an H200 (docs/measurements.md).
 VKH_CONST uint kFewestChildren = 8u;
-VKH_CONST uint kBoundGroups = 1024u;  // workgroups that are worth having before they take more
+VKH_CONST uint kBoundGroups = 512u;  // workgroups that are worth having before they take more
 
 // A sample that may become the witness (lib/witness.glsl): a new point's index, or a survivor's
 // whose centroid it is, with this bit.

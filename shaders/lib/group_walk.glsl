@@ -80,16 +80,19 @@ Nearest try_runs(Query q, uint side) {
   return best;
 }
 
-Nearest nearest_of_group(Query q) {
-  Nearest best = nearest_of_lane[0];
-  for (uint i = 1u; i < kQueryGroup; ++i) {
-    Nearest other = nearest_of_lane[i];
+// Halves of the lanes at a time; the result is in lane 0.
+void join_lanes(Query q) {
+  uint lane = gl_LocalInvocationID.x;
+  for (uint reach = kQueryGroup / 2u; reach > 0u; reach /= 2u) {  // uncertified: integers
+    barrier();
+    if (lane >= reach) continue;
+    Nearest best = nearest_of_lane[lane];
+    Nearest other = nearest_of_lane[lane + reach];
     float d = q.tight ? other.above - best.above : other.distance2 - best.distance2;
     if (other.triangle != kNone &&
         (best.triangle == kNone || d < 0.0 || (d == 0.0 && other.triangle < best.triangle)))
-      best = other;
+      nearest_of_lane[lane] = other;
   }
-  return best;
 }
 
 // Called by every invocation of the workgroup with the same arguments; the result is invocation
@@ -111,9 +114,8 @@ Nearest nearest_triangle_by_group(Query q, uint start) {
     if (level_count[side] > kGroupWalkBoxes) return nearest_triangle(q, start);
   }
   nearest_of_lane[lane] = try_runs(q, side);
-  barrier();
-  if (lane > 0u) return nearest_of_lane[lane];
-  return nearest_of_group(q);
+  join_lanes(q);
+  return nearest_of_lane[lane];
 }
 
 #endif
