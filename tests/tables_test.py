@@ -75,7 +75,7 @@ class Tables(unittest.TestCase):
     def test_ablations(self):
         self.run_tables(bench_rows())
         rows = {(r[1], r[2]): r for r in self.table("ablations")}
-        self.assertEqual(rows["-thin", "all"], ["default", "-thin", "all", "3", "1.43x", "1.00x", "2.96x", "0", "0", "0", ""])
+        self.assertEqual(rows["-thin", "all"], ["default", "-thin", "all", "3", "1.43x", "1.00x", "2.96x", "0", "0", "0", "thin pays"])
         self.assertEqual(rows["-thin", "decimation"][-1], "thin does not pay")
         self.assertEqual(rows["+sort", "all"][4:], ["1.43x", "1.50x", "1.99x", "0", "0", "0", "sort does not pay"])
         self.assertEqual(rows["paper-packet", "all"],

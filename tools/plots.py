@@ -15,6 +15,10 @@ def save(figure, folder, name):
     plt.close(figure)
 
 
+def few(labels):
+    return len(labels) <= 4
+
+
 def bars(axis, title, labels, groups):
     """`groups`: name -> one value a label, None where there is none."""
     width = 0.8 / len(groups)
@@ -22,7 +26,7 @@ def bars(axis, title, labels, groups):
         places = [i + at * width for i in range(len(labels))]
         heights = [v if v is not None else 0 for v in values]
         for place, height in zip(places, heights):
-            axis.text(place, height, f"{height:.2f}", ha="center", va="bottom", fontsize=6)
+            axis.text(place, height, f" {height:.2f}", ha="center", va="bottom", fontsize=6, rotation=0 if few(labels) else 90)
         axis.bar(places, heights, width, label=name)
     axis.axhline(1, color="black", linewidth=0.8)
     axis.set_xticks([i + 0.4 - width / 2 for i in range(len(labels))], labels, rotation=45, ha="right", fontsize=7)
@@ -33,8 +37,10 @@ def bars(axis, title, labels, groups):
 
 
 def slowdowns(folder, name, bench, compared, Comparison):
-    """By sums on the left, p99 on the right, a group of bars a family. `compared`: (label, base, variant)."""
-    figure, axes = plt.subplots(1, 2, figsize=(max(8, 1.2 * len(compared) + 4), 4))
+    """By sums and p99, side by side or, of many variants, one above the other; a bar a family in each group. `compared`:
+    (label, base, variant)."""
+    shape = (1, 2) if few(compared) else (2, 1)
+    figure, axes = plt.subplots(*shape, figsize=(8, 4) if few(compared) else (0.45 * len(compared) + 2, 9))
     for axis, title, value in ((axes[0], "by sums", Comparison.by_sums), (axes[1], "p99", Comparison.p99)):
         groups = {}
         for family in bench.families():
