@@ -112,7 +112,7 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
 
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, sizeof(vkh::gpu::uvec3),
+  if (!vkh::mesh_fits(vertexCount, faceCount, 2 * sizeof(vkh::gpu::Area),
                       context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);

@@ -108,7 +108,9 @@ typedef enum VkhSwitchBits {
                                lost, the run ends as VKH_STATUS_MEMORY */
   VKH_SWITCH_LARGEST_FIRST = 16384, /* those with the largest u are refined first */
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
-  VKH_SWITCH_TWO_LEVELS = 65536,    /* few candidates are split twice in a wave; for GPUs */
+  /* Few candidates are split twice in a wave; for GPUs. Without effect where CENTROID, PACKET or
+   * U3_PAPER is on. */
+  VKH_SWITCH_TWO_LEVELS = 65536,
   VKH_SWITCH_ALL = 127 + 256 + 512 + 1024 + 8192 + 65536, /* all of this method */
   /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
    * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
@@ -239,9 +241,10 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
  * of triangles; a few dispatches, no sort. The mesh has the faceCount and vertexCount of the build;
  * its indices are read again and should be the same faces in the same order. Reads the mesh's
  * buffers in compute shaders; reads and writes the hierarchy. A report after a refit is as true as
- * after a build: the certificate rests on the copy of B that the refit replaces. Boxes overlap more
- * the further B is from the shape that it was built for, so that walks take longer: build again
- * when the time a frame takes says so. */
+ * after a build: the certificate rests on the copy of B that the refit replaces. Faces that A
+ * shares with B are looked for where they were when B was built, and those that have moved are
+ * treated as any other. Boxes overlap more the further B is from the shape that it was built for,
+ * so that walks take longer: build again when the time a frame takes says so. */
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile);
 

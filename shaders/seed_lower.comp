@@ -29,7 +29,7 @@ Nearest look_again(uint i, uint nearest, float distance, float base, bool tight)
   Nearest known = Nearest(nearest, 0.0, max(distance - base, 0.0));
   if (!tight || known.above == 0.0) return known;
   Query q = Query(seed_point(i), base, true);
-  known = measured(q, nearest_triangle(q, nearest));
+  known = measured(q, nearest_triangle(q, nearest), -1.0);
   known.above = max(known.above, 0.0);
   return known;
 }

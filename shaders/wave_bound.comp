@@ -103,7 +103,7 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   uint total = child_total();
   uint children = children_a_group(total, (kSwitches & kUseGroupWalk) != 0u);
-  bool fine = children < kGroupSize;
+  bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
   begin_group();

@@ -2,8 +2,9 @@
 // frontier's halves, moves the base of distances, tests for the end, shares the room out between
 // refined, deferred and newly admitted candidates, selects which ones are refined, writes the sizes
 // of the wave's first half. One workgroup, of which one invocation plans. After the end it writes
-// zeros, so that recorded waves cost empty dispatches only. Invariant: deferred + 4 parents + roots
-// <= capacity, so no stream of the wave can overflow.
+// zeros, so that recorded waves cost empty dispatches only. Invariant:
+// deferred + 4 parents + roots <= capacity, or 16 parents where they are split twice, and their new
+// points fit the stream of points; so no stream of the wave can overflow.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -85,7 +86,7 @@ void move_base() {
   Witness w = control.witness;
   Two3 p = place(load_root(w.root), uvec2(w.j, w.k));
   Query q = Query(p, control.base, true);
-  Nearest found = measured(q, nearest_triangle(q, w.nearest));
+  Nearest found = measured(q, nearest_triangle(q, w.nearest), -1.0);
   control.witness.nearest = found.triangle;
   control.witness.distance = max(found.above, 0.0);
   control.maximum[kMaxLower] = floatBitsToUint(control.witness.distance);
@@ -168,6 +169,7 @@ void plan() {
   held_in_short_room = short_room ? control.count[kCountFrontier] : 0u;
   read_from = reading(0u);
   room_for = control.parents;
+  largest_first = control.select_largest != 0u;
 }
 
 void main() {

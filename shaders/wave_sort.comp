@@ -44,8 +44,8 @@ void main() {
   uint key = morton_of(place(root, centroid_of(corners)).hi);
   if ((kSwitches & kUseThin) != 0u && quality(plain_corners(root, corners)) < kThinQuality)
     key |= kKeyThin;
-  bool waits =
-      control.deferred > 0u && !not_after(key_of(c), Key(control.select_key, control.select_tie));
+  bool waits = control.deferred > 0u && !not_after(key_of(c, control.select_largest != 0u),
+                                                   Key(control.select_key, control.select_tie));
   if (waits) key |= kKeyDeferred;
   keys[i] = key;
   values[i] = i;

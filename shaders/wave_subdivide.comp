@@ -1,9 +1,10 @@
-// What: chooses each refined candidate's split and writes its three new points as queries.
+// What: chooses each refined candidate's split and writes its new points as queries: three, or,
+// where the wave splits twice, three of its own and three of each child (lib/generations.glsl).
 // Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1
 // -> 4. Candidates that there is no room to refine (wave_plan's selection) are copied to the next
-// frontier. In: the frontier's reading half. Out: splits; points[3 i + k], started from the best
-// triangle known to the candidate; deferred candidates and kMaxNext. A candidate that the risen
-// lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
+// frontier. In: the frontier's reading half. Out: splits; points[points_each() i + k], started from
+// the best triangle known to the candidate; deferred candidates and kMaxNext. A candidate that the
+// risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -117,14 +118,18 @@ uint place_of(uint item, bool held, Candidate c, float upper) {
     if (waits) frontier[writing(item - control.parents)] = c;
     return held && !waits ? item : kNone;
   }
-  bool refined = held && not_after(key_of(c), Key(control.select_key, control.select_tie));
+  Key key = key_of(c, control.select_largest != 0u);
+  bool refined = held && not_after(key, Key(control.select_key, control.select_tie));
   uint place = stream_append(kCountRefined, refined);
   refined = refined && place < control.parents;
   bool deferred = held && !refined;
   uint slot = stream_append(kCountDeferred, deferred);
-  raise(kMaxNext, deferred ? upper : 0.0);
+  // There are as many places as the plan left: no bound rests on its selection.
+  bool fits = slot < control.deferred;
+  lose(deferred && !fits, c, upper);
+  raise(kMaxNext, deferred && fits ? upper : 0.0);
   c.upper = upper;
-  if (deferred) frontier[writing(slot)] = c;
+  if (deferred && fits) frontier[writing(slot)] = c;
   return refined ? place : kNone;
 }
 

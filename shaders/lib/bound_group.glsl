@@ -5,10 +5,11 @@
 #define VKH_SHADERS_LIB_BOUND_GROUP_GLSL
 
 // Without the centroid's triangle and the parent's, only the three corners' are known.
-const uint kMostKnown = (kSwitches & (kUseCentroid | kUseParentSamples)) != 0u ? kMaxKnown : 3u;
+const uint kMostKnown = kKnowsMore ? kMaxKnown : 3u;
 const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: integers
 
-// A child as all invocations need it.
+// A child as all invocations need it. With it, 17 KiB of shared memory at most, even where a
+// compiler pads vec3 to 16 bytes (engine/support.cpp asks for 18).
 struct Held {
   Two3 b, c;  // corners around the first
   Two3 origin;
@@ -17,13 +18,13 @@ struct Held {
   uint known, first_pair, pairs;
 };
 
-shared Held held[kGroupSize];
-shared uint known_triangle[kGroupSize * kMostKnown];
-shared float corner_distance[kGroupSize * kMostKnown * 3u];
-shared uint measures[kGroupSize * kMostKnown];  // kMostKnown * child + k: triangle k of a child
+shared Held held[kMostChildren];
+shared uint known_triangle[kMostChildren * kMostKnown];
+shared float corner_distance[kMostChildren * kMostKnown * 3u];
+shared uint measures[kMostChildren * kMostKnown];  // kMostKnown * child + k: triangle k of a child
 shared uint measure_count;
-shared uint pairs[kGroupSize * kMostPairs];  // (child * kMaxKnown + i) * kMaxKnown + j
-shared uint pair_bits[kGroupSize * kMostPairs];
+shared uint pairs[kMostChildren * kMostPairs];  // (child * kMaxKnown + i) * kMaxKnown + j
+shared uint pair_bits[kMostChildren * kMostPairs];
 shared uint pair_count;
 
 struct Verdict {

@@ -79,20 +79,19 @@ float reach_of(Query q, Nearest best) { return q.tight ? reach_of(best) : best.d
 
 // A walk's result as a sample: its distance to 48 bits, where a plain walk left that out. Next to B
 // what counts is that it is not too large: a foot that 24-bit weights place is 2^-24 of its
-// triangle off, so there the distance is bounded from below.
-Nearest measured(Query q, Nearest best) {
+// triangle off, so there the distance is bounded from below. Not above `than`, it is no matter.
+Nearest measured(Query q, Nearest best, float than) {
   if (best.triangle == kNone) return best;
   if (!q.tight) {
-    // As plain floats have it, where that is surely under the last witness's: most samples are.
+    // As plain floats have it, where that is surely under it: most samples are.
     best.above = sqrt(best.distance2) - q.base;  // uncertified: steers
-    if (best.above < control.witness.distance - kPlainDoubt) return best;
+    if (best.above < than - kPlainDoubt) return best;
   }
   float next = next_to_surface(q.tight) - q.base;
   if (q.tight && best.above > next) return best;
   Surface s = load_surface(best.triangle, view_from(q.p, q.base));
   if (!q.tight) best.above = surface_distance_up(two(vec3(0.0)), s);
-  // Not above the last witness, it is no matter. Not kMaxLower: others raise it at the same time.
-  bool matters = best.above > control.witness.distance;
+  bool matters = best.above > than;
   if (matters && best.above <= next) best.above = triangle_distance_down(s, 3.0e38);
   return best;
 }

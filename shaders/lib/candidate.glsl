@@ -61,7 +61,8 @@ struct Key {
   uint first, second;
 };
 
-Key key_of(Candidate c) {
+// `largest`: the wave's order, control.select_largest.
+Key key_of(Candidate c, bool largest) {
   Bary3 t = unpack_corners(c.corners);
   vec2 ab = vec2(ivec2(t.b) - ivec2(t.a));
   vec2 ac = vec2(ivec2(t.c) - ivec2(t.a));
@@ -70,7 +71,7 @@ Key key_of(Candidate c) {
   uint hash = mixed(mixed(mixed(mixed(mixed(0u, c.root), c.corners.x), c.corners.y), c.corners.z),
                     c.corners.w);
   uint u = floatBitsToUint(c.upper);
-  return Key(control.select_largest != 0u ? ~u : u, (exponent << 26) | (hash >> 6));
+  return Key(largest ? ~u : u, (exponent << 26) | (hash >> 6));
 }
 
 bool not_after(Key k, Key than) {

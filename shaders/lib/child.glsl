@@ -1,6 +1,7 @@
-// A child in a wave: one of the four of a refined candidate, or a face of A admitted whole.
-// Children are not stored: a code names them, and this page derives their corners and the triangles
-// of B that are known to be near. Include after lib/candidate.glsl and the wave's buffers.
+// A child in a wave: one of the four of a refined candidate, or of its sixteen where the wave
+// splits twice, or a face of A admitted whole. Children are not stored: a code names them, and this
+// page derives their corners and the triangles of B that are known to be near. Include after
+// lib/candidate.glsl and the wave's buffers.
 #ifndef VKH_SHADERS_LIB_CHILD_GLSL
 #define VKH_SHADERS_LIB_CHILD_GLSL
 

@@ -28,11 +28,16 @@ uint split_lanes() {
   return splits_twice() ? kSplitTwiceLanes : kSplitLanes;
 }
 
+// Whether a child may know more triangles than its corners' three.
+const bool kKnowsMore = (kSwitches & (kUseCentroid | kUseParentSamples)) != 0u;
+// Children of a workgroup of wave_bound at most, so that its shared memory is small enough.
+const uint kMostChildren = kKnowsMore ? kGroupSize / 2u : kGroupSize;  // uncertified: integers
+
 // Children that a workgroup of wave_bound takes: so many more as there are more of them.
 uint children_a_group(uint total, bool spread) {
-  if (!spread) return kGroupSize;
+  if (!spread) return kMostChildren;
   uint children = kFewestChildren;
-  while (children < kGroupSize && children * kBoundGroups < total) children *= 2u;
+  while (children < kMostChildren && children * kBoundGroups < total) children *= 2u;
   return children;
 }
 

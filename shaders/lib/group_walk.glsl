@@ -110,6 +110,12 @@ Nearest nearest_triangle_by_group(Query q, uint start) {
   uint side = 0u;
   for (uint level = level_total() - 1u; level > 0u; --level) {
     descend(q, level_at(level - 1u), side);
+    // How many boxes passed depends on how fast others brought them nearer: where they are too
+    // many, they are gone over again, now that no box comes nearer.
+    if (level_count[1u - side] > kGroupWalkBoxes) {
+      barrier();  // all have read it
+      descend(q, level_at(level - 1u), side);
+    }
     side = 1u - side;
     if (level_count[side] > kGroupWalkBoxes) return nearest_triangle(q, start);
   }

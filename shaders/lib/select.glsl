@@ -11,6 +11,7 @@ shared uint decided;  // digits of it
 shared uint before;   // keys under it
 shared bool selecting;
 shared uint read_from;           // where the half of the frontier that the wave reads starts
+shared bool largest_first;       // control.select_largest
 shared uint room_for;            // candidates that can be refined
 shared uint held_in_short_room;  // candidates, where not all can be refined
 
@@ -39,7 +40,7 @@ void count_digits(uint held) {
   histogram[lane] = 0u;
   barrier();
   for (uint i = lane; i < held; i += kPlanGroup) {
-    Key k = key_of(frontier[read_from + i]);
+    Key k = key_of(frontier[read_from + i], largest_first);
     if (has_prefix(k)) atomicAdd(histogram[digit_of(k, decided)], 1u);
   }
   barrier();

@@ -16,9 +16,19 @@ Surface load_surface(uint i, View from) {
   return make_surface(Two3(t.a, low.a), Two3(t.b, low.b), Two3(t.c, low.c), from);
 }
 
+// Bit by bit, 0 and -0 alike: devices may flush what floats are compared as.
+bool is_same(vec3 p, vec3 q) {
+  uvec3 u = floatBitsToUint(p);
+  uvec3 v = floatBitsToUint(q);
+  bvec3 zero = equal((u | v) << 1, uvec3(0u));
+  bvec3 same = equal(u, v);
+  return (same.x || zero.x) && (same.y || zero.y) && (same.z || zero.z);
+}
+
+bool is_same(Two3 p, Two3 q) { return is_same(p.hi, q.hi) && is_same(p.lo, q.lo); }
+
 bool is_corner(Two3 p, Two3 a, Two3 b, Two3 c) {
-  return (p.hi == a.hi && p.lo == a.lo) || (p.hi == b.hi && p.lo == b.lo) ||
-         (p.hi == c.hi && p.lo == c.lo);
+  return is_same(p, a) || is_same(p, b) || is_same(p, c);
 }
 
 // Whether each corner of a triangle is one of triangle i: then it lies in that, and its distance
