@@ -36,11 +36,10 @@ bool load_functions(const VkhDeviceInfo& info, DeviceFunctions& vk) {
   complete = complete && vk.name != nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
-#define VKH_LOAD(name)                                                    \
-  if (complete)                                                           \
-    vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, \
-                                                             "v"          \
-                                                             "k" #name));
+  // By the instance: a layer may give the device's functions out though the extension is not
+  // enabled.
+#define VKH_LOAD(name) \
+  vk.name = reinterpret_cast<PFN_vk##name>(info.getInstanceProcAddr(info.instance, "vk" #name));
   VKH_OPTIONAL_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
   return complete;
