@@ -1,5 +1,5 @@
-// One wave: every refined candidate becomes four, every new point is queried, every child bounded,
-// most of them closed.
+// One wave: every refined candidate becomes four, or sixteen, every new point is queried, every
+// child bounded, most of them closed.
 #include "engine/stages.h"
 
 namespace vkh {
@@ -153,7 +153,7 @@ void record_wave(Recorder& rec, const Problem& p) {
   record_subdivide(rec, p);
   record_query_points(rec, p);
   // Without a filter, wave_bound has the whole cascade.
-  if ((p.switches & (gpu::kUseCentroid | gpu::kUsePaperU3)) != 0) record_filter(rec, p);
+  if ((p.switches & gpu::kUseFilter) != 0) record_filter(rec, p);
   if ((p.switches & gpu::kUseCentroid) != 0)
     record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);

@@ -38,8 +38,8 @@ VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
 // Invocations of wave_query: one query each, or one for all where a wave has few queries.
 VKH_CONST uint kQueryGroup = 64u;
-VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: measured on an H200,
-                                              // where 12,000 a dispatch take equally long
+VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
+                                              // alike on an H200, 2^11 and 2^14 slower
 // Vertices of A, whose walks start from nowhere: the group's is long, too.
 VKH_CONST uint kGroupWalkVertices = 1u << 11;
 VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds; more: walk alone
@@ -70,6 +70,7 @@ VKH_CONST uint kUseDefer = 8192u;        // candidates that there is no room to 
 VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refined first
 VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
 VKH_CONST uint kUseTwoLevels = 65536u;     // few candidates are split twice in a wave
+VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
 // The method of ours: without what the paper has in another place.
 VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u + 65536u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
@@ -315,7 +316,7 @@ struct Box {
   vec3 hi;
 };
 
-// The box of B's centroids while the hierarchy is built: floats as ordered bits (lib/morton.h).
+// The box that the middles of B's faces' boxes lie in: floats as ordered bits (lib/morton.h).
 struct CentroidBox {
   uint lo[3];
   uint hi[3];

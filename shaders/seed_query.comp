@@ -66,7 +66,7 @@ void settle(uint i, uint state) {
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  bool in_groups = (kSwitches & kUseGroupWalk) != 0u && push.vertex_count <= kGroupWalkVertices;
+  bool in_groups = kSpread && push.vertex_count <= kGroupWalkVertices;
   uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   uint state = i < push.vertex_count ? vertex_distance[i] : 0u;
   bool is_asked = state == kVertexUsed || is_old_witness(i);

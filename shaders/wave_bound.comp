@@ -42,7 +42,7 @@ layout(scalar, binding = 13) readonly buffer U3Bounds { float u3_bounds[]; };
 #include "shaders/lib/bound_u4.glsl"
 
 // Whether wave_filter has gone over the children.
-const bool kFiltered = (kSwitches & (kUseCentroid | kUsePaperU3)) != 0u;
+const bool kFiltered = (kSwitches & kUseFilter) != 0u;
 
 Known known_to(Child c, uint code, uint centre) {
   Known known;
@@ -102,7 +102,7 @@ void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint total = child_total();
-  uint children = children_a_group(total, (kSwitches & kUseGroupWalk) != 0u);
+  uint children = children_a_group(total);
   bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);

@@ -142,14 +142,13 @@ void end_if_done() {
 void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
-  bool spread = (kSwitches & kUseGroupWalk) != 0u;
   uint held = running ? parents + control.deferred : 0u;
   dispatches[kDispatchSubdivide] = groups_for(held * split_lanes());
   write_query_sizes(parents);
   write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
   uint children = running ? child_count() : 0u;
   dispatches[kDispatchFilter] = groups_for(children);
-  dispatches[kDispatchBound] = groups_for_children(children, spread);
+  dispatches[kDispatchBound] = groups_for_children(children);
   if (!running) return;
   control.count[kCountNext] = may_wait() ? control.deferred : 0u;
   control.count[kCountRefined] = 0u;

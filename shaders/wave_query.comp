@@ -28,7 +28,7 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 void main() {
   uint count = push.centroids != 0u ? control.count[kCountSurvivors] : point_count();
   float d = 0.0;
-  if ((kSwitches & kUseGroupWalk) != 0u && walks_in_groups(count)) {
+  if (walks_in_groups(count)) {
     uint i = workgroup_index();
     if (i >= count || points[i].distance < 0.0) return;
     uint start = points[i].nearest;

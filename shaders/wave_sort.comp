@@ -19,9 +19,9 @@ layout(scalar, binding = 5) writeonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 6) writeonly buffer Values { uint values[]; };
 
 #include "shaders/lib/candidate.glsl"
-#include "shaders/lib/morton.h"
+#include "shaders/lib/face_code.glsl"
 
-// In the box of B, since walks end there: what is outside counts as if it were on its side.
+// In the box of B, since walks end there.
 uint morton_of(vec3 p) {
   vec3 lo = vec3(3.0e38);
   vec3 hi = vec3(-3.0e38);
@@ -29,10 +29,7 @@ uint morton_of(vec3 p) {
     lo = min(lo, uintBitsToFloat(nodes[2u * k].xyz));
     hi = max(hi, uintBitsToFloat(nodes[2u * k + 1u].xyz));
   }
-  vec3 extent = hi - lo;
-  float side = max(extent.x, max(extent.y, extent.z));
-  float scale = side > 0.0 ? 1.0 / side : 0.0;  // uncertified: order only
-  return morton30((p - lo) * scale);
+  return code_in_box(p, lo, hi);
 }
 
 void main() {

@@ -150,7 +150,7 @@ bool is_noise(Bary3 corners, Root root, float upper) {
 uint shared_place_of(uint item, bool held, Candidate c, float upper, uint group) {
   bool first = item_index() % split_lanes() == 0u;
   uint i = place_of(item, held && first, c, upper);
-  if ((kSwitches & kUseGroupWalk) == 0u && !kMaySplitTwice) return i;
+  if (!kSpread && !kMaySplitTwice) return i;
   if (first) {
     place_in_group[group] = i;
     inner_in_group[group] = 0u;

@@ -15,8 +15,7 @@ layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[];
 void main() {
   bool running = control.status == kStatusRunning;
   uint survivors = running ? control.count[kCountSurvivors] : 0u;
-  dispatches[kDispatchQueryCentroids] =
-      groups_for_queries(survivors, (kSwitches & kUseGroupWalk) != 0u);
-  dispatches[kDispatchBound] = groups_for_children(survivors, (kSwitches & kUseGroupWalk) != 0u);
+  dispatches[kDispatchQueryCentroids] = groups_for_queries(survivors);
+  dispatches[kDispatchBound] = groups_for_children(survivors);
   dispatches[kDispatchBisect] = groups_for(survivors);
 }

@@ -15,20 +15,9 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-struct Pair {
-  std::string name;
-  Mesh a, b;
-  Interval exact;  ///< to 1e-9
-};
-
-Pair with_reference(std::string name, Mesh a, Mesh b) {
-  const Interval exact = reference_hausdorff(a, b, 1e-9);
-  return {std::move(name), std::move(a), std::move(b), exact};
-}
-
 /// That close at 1e-6 whatever is off.
-const std::vector<Pair>& pairs() {
-  static const std::vector<Pair> all = {
+const std::vector<ReferencePair>& pairs() {
+  static const std::vector<ReferencePair> all = {
       with_reference("V", v_lid(), v_sheet()),
       with_reference("twin", height_field(24, 1), height_field(24, 3)),
       with_reference("thin", needles(1, 12), soup(2, 40)),
@@ -49,7 +38,7 @@ SolveOptions with(std::string preset, std::vector<std::string> enabled = {},
   return options;
 }
 
-Report solve(const Pair& pair, const SolveOptions& options) {
+Report solve(const ReferencePair& pair, const SolveOptions& options) {
   const Report r = solver().distance(pair.a, pair.b, options);
   CAPTURE(pair.name);
   CAPTURE(status_name(r.status));
@@ -59,7 +48,7 @@ Report solve(const Pair& pair, const SolveOptions& options) {
 }
 
 void check_closes(const SolveOptions& options) {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     const Report r = solve(pair, options);
     CAPTURE(pair.name);
     CHECK(r.status == Status::kClosed);
@@ -101,7 +90,7 @@ TEST_CASE("every preset closes") {
 
 // Each switch off: workspace_test. Pipelines for a set of switches take lavapipe a second and more.
 TEST_CASE("what is off is closed without, and named") {
-  const Pair& pair = pairs()[0];
+  const ReferencePair& pair = pairs()[0];
   const std::vector<std::string> on = {"thin",   "u4",    "warm_start", "sort",
                                        "packet", "defer", "u3_paper"};
   CHECK(solve(pair, with("paper")).switched_on == on);
@@ -114,7 +103,7 @@ TEST_CASE("what is off is closed without, and named") {
 }
 
 TEST_CASE("sorting and packets change no count of the work, but its order") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     const Report plain = solve(pair, with("default"));
     const Report sorted = solve(pair, with("default", {"sort"}));
     CHECK(sorted.candidates == plain.candidates);
@@ -129,7 +118,7 @@ TEST_CASE("sorting and packets change no count of the work, but its order") {
 
 TEST_CASE("a sorted frontier that has to wait is gone through all the same") {
   bool waited = false;
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     const SolveOptions options = in_least_memory({"sort"});
     const Report r = solve(pair, options);
     CHECK(r.status == Status::kClosed);
@@ -141,7 +130,7 @@ TEST_CASE("a sorted frontier that has to wait is gone through all the same") {
 
 TEST_CASE("largest u first ends, repeats, and goes another way") {
   bool another_way = false;
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     const SolveOptions options = in_least_memory({"largest_first"});
     const Report r = solve(pair, options);
     CHECK(r.status == Status::kClosed);
@@ -154,7 +143,7 @@ TEST_CASE("largest u first ends, repeats, and goes another way") {
 
 TEST_CASE("where nothing may wait, what does not fit is lost, but not its bound") {
   bool lost = false;
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     SolveOptions options = in_least_memory({}, {"defer"});
     options.coverage = true;
     const Report r = solve(pair, options);
@@ -171,7 +160,7 @@ TEST_CASE("where nothing may wait, what does not fit is lost, but not its bound"
 }
 
 TEST_CASE("a wave a submission: the same run, and the host hears of every wave") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     SolveOptions options = with("default", {}, {"multiwave"});
     std::vector<uint32_t> heard;
     options.progress = [&](const Progress& p) {

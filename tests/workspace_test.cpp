@@ -16,20 +16,9 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-struct Pair {
-  std::string name;
-  Mesh a, b;
-  Interval exact;  ///< to 1e-9
-};
-
-Pair with_reference(std::string name, Mesh a, Mesh b) {
-  const Interval exact = reference_hausdorff(a, b, 1e-9);
-  return {std::move(name), std::move(a), std::move(b), exact};
-}
-
 /// Pairs that need several waves.
-const std::vector<Pair>& pairs() {
-  static const std::vector<Pair> all = {
+const std::vector<ReferencePair>& pairs() {
+  static const std::vector<ReferencePair> all = {
       with_reference("spheres", icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})),
       with_reference("V", v_lid(), v_sheet()),
       with_reference("twin", height_field(24, 1), height_field(24, 3)),
@@ -57,7 +46,7 @@ SolveOptions without(std::vector<std::string> switches) {
   return options;
 }
 
-Report check_true(const Pair& pair, const SolveOptions& options) {
+Report check_true(const ReferencePair& pair, const SolveOptions& options) {
   const Report r = solver().distance(pair.a, pair.b, options);
   CAPTURE(pair.name);
   CAPTURE(status_name(r.status));
@@ -75,7 +64,7 @@ Report check_true(const Pair& pair, const SolveOptions& options) {
 // --- Memory ---
 
 TEST_CASE("the interval is true in the smallest workspace") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     for (const uint64_t bytes : {uint64_t{1}, uint64_t{64} << 10, uint64_t{256} << 10,
                                  uint64_t{1} << 20, uint64_t{16} << 20}) {
       CAPTURE(bytes);
@@ -88,7 +77,7 @@ TEST_CASE("the interval is true in the smallest workspace") {
 }
 
 TEST_CASE("a small workspace after a large one, and the other way round") {
-  const Pair& pair = pairs()[2];
+  const ReferencePair& pair = pairs()[2];
   const Report large = check_true(pair, {});
   check_true(pair, with_memory(1));
   const Report again = check_true(pair, {});
@@ -141,7 +130,7 @@ TEST_CASE("the pyramid has room for every level") {
 // --- Waves and time ---
 
 TEST_CASE("after every wave the interval holds the distance, and never widens") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     Interval last{0, INFINITY};
     uint32_t waves = 0;
     for (uint32_t limit = 1; limit <= 40; ++limit) {
@@ -162,7 +151,7 @@ TEST_CASE("after every wave the interval holds the distance, and never widens") 
 }
 
 TEST_CASE("no time at all still gives a true interval") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     SolveOptions options;
     options.time_limit_s = 0;
     const Report r = check_true(pair, options);
@@ -171,7 +160,7 @@ TEST_CASE("no time at all still gives a true interval") {
 }
 
 TEST_CASE("a caller who cancels gets the interval so far") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     int calls = 0;
     SolveOptions options;
     options.progress = [&](const Progress&) { return ++calls < 1; };
@@ -183,7 +172,7 @@ TEST_CASE("a caller who cancels gets the interval so far") {
 }
 
 TEST_CASE("in any memory, a run again is the same run, bit by bit") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     for (const uint64_t bytes : {1ull, 64ull << 10, 256ull << 10}) {
       CAPTURE(bytes);
       const Report first = check_true(pair, with_memory(bytes));
@@ -200,7 +189,7 @@ TEST_CASE("in any memory, a run again is the same run, bit by bit") {
 }
 
 TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same run") {
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     for (const uint64_t bytes : {0ull, 1ull, 64ull << 10, 256ull << 10}) {
       CAPTURE(bytes);
       SolveOptions options = with_memory(bytes);
@@ -219,7 +208,7 @@ TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same ru
 
 TEST_CASE("progress tells of intervals that are true and shrink") {
   // Little memory: many waves, so that there are many submissions.
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     Interval last{0, INFINITY};
     uint32_t waves = 0;
     SolveOptions options = with_memory(64 << 10);
@@ -243,7 +232,7 @@ TEST_CASE("progress tells of intervals that are true and shrink") {
 TEST_CASE("each switch off, or all, gives a true interval") {
   const std::vector<std::string> names = switch_names();
   CHECK(names.size() == 16);
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     for (const std::string& name : names) {
       CAPTURE(name);
       const Report r = check_true(pair, without({name}));
@@ -257,7 +246,7 @@ TEST_CASE("each switch off, or all, gives a true interval") {
 TEST_CASE("what does not pay on a CPU device is off unless asked for") {
   const std::vector<std::string> off = {"u4",       "group_walk", "sort", "packet", "largest_first",
                                         "u3_paper", "two_levels"};
-  for (const Pair& pair : pairs()) {
+  for (const ReferencePair& pair : pairs()) {
     CHECK(check_true(pair, {}).switched_off == off);
     SolveOptions options;
     options.enabled = off;
@@ -266,7 +255,7 @@ TEST_CASE("what does not pay on a CPU device is off unless asked for") {
 }
 
 TEST_CASE("an unknown switch is refused by its name") {
-  const Pair& pair = pairs()[1];
+  const ReferencePair& pair = pairs()[1];
   try {
     solver().distance(pair.a, pair.b, without({"u3", "u9"}));
     FAIL("accepted");

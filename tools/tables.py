@@ -12,26 +12,15 @@ matplotlib (Debian: python3-matplotlib); without it the tables are written and t
 """
 import argparse
 import csv
-import math
 import pathlib
 import statistics
 import sys
 
+from benchmark_report import percentile
+
 PRESETS = ("default", "paper", "baseline-gpu")
 FAMILIES = ("tetwild", "decimation")
 TOP = 5
-
-
-def percentile(values, p):
-    ordered = sorted(values)
-    at = (len(ordered) - 1) * p / 100
-    low = math.floor(at)
-    high = min(low + 1, len(ordered) - 1)
-    return ordered[low] + (ordered[high] - ordered[low]) * (at - low)
-
-
-def geometric_mean(values):
-    return math.exp(sum(math.log(v) for v in values) / len(values))
 
 
 def read_rows(paths):
@@ -123,7 +112,7 @@ def speedup_rows(bench, peer, family, presets):
         theirs = [float(peer[p]["solve_ms"]) for p in sorted(common)]
         ratios = [t / o for t, o in zip(theirs, own)]
         rows.append([preset, len(common), ms(statistics.median(theirs)), ms(statistics.median(own)),
-                     times(sum(theirs) / sum(own)), times(geometric_mean(ratios)), times(percentile(ratios, 90)),
+                     times(sum(theirs) / sum(own)), times(statistics.geometric_mean(ratios)), times(percentile(ratios, 90)),
                      times(percentile(ratios, 99))])
     return rows
 

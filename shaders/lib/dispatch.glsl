@@ -13,18 +13,21 @@ Dispatch groups_for(uint items) {
   return groups_of((items + kGroupSize - 1u) / kGroupSize);  // uncertified: integers
 }
 
-bool walks_in_groups(uint queries) { return queries <= kGroupWalkQueries; }
+// Whether a small wave gets more invocations for each query and child.
+const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
+
+bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQueries; }
 
 // Of wave_query.
-Dispatch groups_for_queries(uint queries, bool group_walk) {
-  if (group_walk && walks_in_groups(queries)) return groups_of(queries);
+Dispatch groups_for_queries(uint queries) {
+  if (walks_in_groups(queries)) return groups_of(queries);
   return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers
 }
 
 // Of wave_subdivide: invocations of a candidate. Each new point has one where a wave is a chain of
 // steps.
 uint split_lanes() {
-  if ((kSwitches & kUseGroupWalk) == 0u) return 1u;
+  if (!kSpread) return 1u;
   return splits_twice() ? kSplitTwiceLanes : kSplitLanes;
 }
 
@@ -34,16 +37,16 @@ const bool kKnowsMore = (kSwitches & (kUseCentroid | kUseParentSamples)) != 0u;
 const uint kMostChildren = kKnowsMore ? kGroupSize / 2u : kGroupSize;  // uncertified: integers
 
 // Children that a workgroup of wave_bound takes: so many more as there are more of them.
-uint children_a_group(uint total, bool spread) {
-  if (!spread) return kMostChildren;
+uint children_a_group(uint total) {
+  if (!kSpread) return kMostChildren;
   uint children = kFewestChildren;
   while (children < kMostChildren && children * kBoundGroups < total) children *= 2u;
   return children;
 }
 
 // Of wave_bound.
-Dispatch groups_for_children(uint total, bool spread) {
-  uint children = children_a_group(total, spread);
+Dispatch groups_for_children(uint total) {
+  uint children = children_a_group(total);
   return groups_of((total + children - 1u) / children);  // uncertified: integers
 }
 

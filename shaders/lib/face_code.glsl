@@ -13,13 +13,17 @@ vec3 box_corner(uint key[3]) {
               uintBitsToFloat(from_ordered_bits(key[2])));
 }
 
-// `count`: of B's faces.
-uint face_code(vec3 middle, CentroidBox box, uint count) {
-  vec3 lo = box_corner(box.lo);
-  vec3 extent = box_corner(box.hi) - lo;
+// The code of a point in the cube over a box; what is outside counts as if it were on its side.
+uint code_in_box(vec3 p, vec3 lo, vec3 hi) {
+  vec3 extent = hi - lo;
   float side = max(extent.x, max(extent.y, extent.z));
   float scale = side > 0.0 ? 1.0 / side : 0.0;  // uncertified: order only
-  uint code = morton30((middle - lo) * scale);
+  return morton30((p - lo) * scale);
+}
+
+// `count`: of B's faces.
+uint face_code(vec3 middle, CentroidBox box, uint count) {
+  uint code = code_in_box(middle, box_corner(box.lo), box_corner(box.hi));
   return count <= kFewFaces ? code & (0xffffffffu << kFewFacesFirstBit) : code;
 }
 

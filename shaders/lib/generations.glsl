@@ -8,7 +8,7 @@
 
 // What goes over children one by one, or over a candidate's three points, takes one generation.
 const bool kMaySplitTwice =
-    (kSwitches & (kUseTwoLevels | kUseCentroid | kUsePaperU3 | kUsePacket)) == kUseTwoLevels;
+    (kSwitches & (kUseTwoLevels | kUseFilter | kUsePacket)) == kUseTwoLevels;
 
 bool splits_twice() { return kMaySplitTwice && control.twice != 0u; }
 

@@ -4,6 +4,8 @@
 #ifndef VKH_SHADERS_LIB_SCHEDULE_GLSL
 #define VKH_SHADERS_LIB_SCHEDULE_GLSL
 
+#include "shaders/lib/sort.glsl"
+
 bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
 
 // Decides the wave's order, and returns how many of the `held` candidates stay in the frontier.
@@ -42,17 +44,16 @@ uint status_decided() {
 }
 
 void write_query_sizes(uint parents) {
-  bool in_groups = (kSwitches & kUseGroupWalk) != 0u;
-  bool packets = (kSwitches & kUsePacket) != 0u && !(in_groups && walks_in_groups(3u * parents));
+  bool packets = (kSwitches & kUsePacket) != 0u && !walks_in_groups(3u * parents);
   uint queries = packets ? 0u : points_each() * parents;
-  dispatches[kDispatchQueryPoints] = groups_for_queries(queries, in_groups);
+  dispatches[kDispatchQueryPoints] = groups_for_queries(queries);
   dispatches[kDispatchPacket] = groups_for(packets ? parents : 0u);
 }
 
 void write_sort_sizes(uint held) {
   if ((kSwitches & kUseSort) == 0u) return;
   uint keys = control.sorted != 0u ? held : 0u;
-  uint blocks = (keys + kSortBlock - 1u) / kSortBlock;  // uncertified: integers
+  uint blocks = sort_blocks(keys);
   dispatches[kDispatchSortKeys] = groups_for(keys);
   dispatches[kDispatchSortBlocks] = groups_of(blocks);
   dispatches[kDispatchSortDigits] = groups_of(blocks > kSortFewBlocks ? kSortDigits : 0u);

@@ -5,7 +5,12 @@
 
 #include "shaders/lib/fetch.glsl"
 
-Surface load_surface(uint i, View from) {
+// Triangle i as the run measures it.
+struct Exact {
+  Two3 a, b, c;
+};
+
+Exact load_exact(uint i) {
   TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
   if (control.two_float != 0u) {
     low.a = triangle_lows[i].a;
@@ -13,7 +18,12 @@ Surface load_surface(uint i, View from) {
     low.c = triangle_lows[i].c;
   }
   Corners t = triangle_corners(i);
-  return make_surface(Two3(t.a, low.a), Two3(t.b, low.b), Two3(t.c, low.c), from);
+  return Exact(Two3(t.a, low.a), Two3(t.b, low.b), Two3(t.c, low.c));
+}
+
+Surface load_surface(uint i, View from) {
+  Exact t = load_exact(i);
+  return make_surface(t.a, t.b, t.c, from);
 }
 
 // Bit by bit, 0 and -0 alike: devices may flush what floats are compared as.
@@ -27,24 +37,13 @@ bool is_same(vec3 p, vec3 q) {
 
 bool is_same(Two3 p, Two3 q) { return is_same(p.hi, q.hi) && is_same(p.lo, q.lo); }
 
-bool is_corner(Two3 p, Two3 a, Two3 b, Two3 c) {
-  return is_same(p, a) || is_same(p, b) || is_same(p, c);
-}
+bool is_corner(Two3 p, Exact t) { return is_same(p, t.a) || is_same(p, t.b) || is_same(p, t.c); }
 
 // Whether each corner of a triangle is one of triangle i: then it lies in that, and its distance
 // from B is 0 whatever the rounding.
 bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
-  TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
-  if (control.two_float != 0u) {
-    low.a = triangle_lows[i].a;
-    low.b = triangle_lows[i].b;
-    low.c = triangle_lows[i].c;
-  }
-  Corners t = triangle_corners(i);
-  Two3 a = Two3(t.a, low.a);
-  Two3 b = Two3(t.b, low.b);
-  Two3 c = Two3(t.c, low.c);
-  return is_corner(p, a, b, c) && is_corner(q, a, b, c) && is_corner(r, a, b, c);
+  Exact t = load_exact(i);
+  return is_corner(p, t) && is_corner(q, t) && is_corner(r, t);
 }
 
 // To measure one point from, as precisely as it goes.
