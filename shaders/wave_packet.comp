@@ -29,7 +29,7 @@ float ask(uint parent) {
     p.best[k] = nothing_near();
     if (points[i].distance < 0.0) continue;
     mask |= 1u << k;
-    if (points[i].nearest != kNone) try_query(p.query[k], points[i].nearest, p.best[k]);
+    if (points[i].nearest != kNone) try_at_once(p.query[k], points[i].nearest, p.best[k]);
   }
   if (mask == 0u) return 0.0;
   walk_packet(mask, p);

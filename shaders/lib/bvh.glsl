@@ -44,18 +44,15 @@ void try_triangle(vec3 p, uint i, inout Nearest best) {
 // Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
 // of A is equally far from several: a tight walk compares those next to the best to 48 bits.
 float reach_of(Nearest best) {
-  float d = 1.000001 * sqrt(best.distance2) + 3.0e-7;  // uncertified: steers
+  float d = 1.000001 * sqrt(best.distance2) + 5.0e-7;  // uncertified: steers
   return d * d;
 }
 
 void try_tight(Two3 p, uint i, float base, inout Nearest best) {
   Surface s = load_surface(i, view_from(p, base));
-  Closest c = closest_point(vec3(0.0), s.at);
-  if (c.distance2 > reach_of(best)) return;
-  float above = distance_to_up(two(vec3(0.0)), s, c);
+  float above = surface_distance_up(two(vec3(0.0)), s);
   bool closer = above < best.above || (above == best.above && i < best.triangle);
-  best = Nearest(closer ? i : best.triangle, min(c.distance2, best.distance2),
-                 closer ? above : best.above);
+  if (closer) best = Nearest(i, best.distance2, above);
 }
 
 // How far a distance in plain floats can be off, in a frame of order 1: 1.04e-6 seen.
@@ -67,15 +64,41 @@ struct Query {
   bool tight;
 };
 
+// What a tight walk cannot tell from the nearest so far waits here, to be measured when there is
+// much of it and at the end, where others of the subgroup do so too: in between, they would wait.
+const uint kTied = 16u;  // a leaf more than is let stand
+uint tied[kTied];
+float tied_distance2[kTied];
+uint tied_count;
+
 void try_query(Query q, uint i, inout Nearest best) {
-  if (q.tight) {
-    try_tight(q.p, i, q.base, best);
-  } else {
+  if (!q.tight) {
     try_triangle(q.p.hi, i, best);
+    return;
   }
+  float d2 = closest_point(vec3(0.0), local_triangle(i, q.p.hi)).distance2;
+  if (d2 > reach_of(best)) return;
+  best.distance2 = min(best.distance2, d2);
+  tied[tied_count] = i;
+  tied_distance2[tied_count] = d2;
+  ++tied_count;
+}
+
+void measure_tied(Query q, inout Nearest best) {
+  for (uint k = 0u; k < tied_count; ++k) {
+    if (tied_distance2[k] <= reach_of(best)) try_tight(q.p, tied[k], q.base, best);
+  }
+  tied_count = 0u;
 }
 
 float reach_of(Query q, Nearest best) { return q.tight ? reach_of(best) : best.distance2; }
+
+// Of two results of parts of a walk; of equally near triangles the first.
+bool is_nearer(Query q, Nearest x, Nearest than) {
+  if (x.triangle == kNone) return false;
+  float d = q.tight ? x.above - than.above : x.distance2 - than.distance2;
+  return than.triangle == kNone || d < 0.0 || (d == 0.0 && x.triangle < than.triangle);
+}
 
 // A walk's result as a sample: its distance to 48 bits, where a plain walk left that out. Next to B
 // what counts is that it is not too large: a foot that 24-bit weights place is 2^-24 of its
@@ -157,18 +180,23 @@ uint step_down(uint at, vec3 p, float reach) {
 // "Understanding the Efficiency of Ray Traversal on GPUs").
 Nearest nearest_triangle(Query q, uint start) {
   Nearest best = nothing_near();
+  tied_count = 0u;
   if (start != kNone) try_query(q, start, best);
   left_count = 0u;
   uint at = 0u;
   float reach = reach_of(q, best);
   while (true) {
-    while ((at & kLeafFlag) == 0u) at = step_down(at, q.p.hi, reach);
+    while (at != kNone && tied_count + kLeafTriangles <= kTied) {
+      while ((at & kLeafFlag) == 0u) at = step_down(at, q.p.hi, reach);
+      if (at == kNone) break;
+      uint first = at & (kMaxTriangles - 1u);
+      uint last = first + ((at >> 28) & 7u);
+      for (uint i = first; i <= last; ++i) try_query(q, i, best);
+      reach = reach_of(q, best);
+      at = pop(reach);
+    }
+    measure_tied(q, best);
     if (at == kNone) return best;
-    uint first = at & (kMaxTriangles - 1u);
-    uint last = first + ((at >> 28) & 7u);
-    for (uint i = first; i <= last; ++i) try_query(q, i, best);
-    reach = reach_of(q, best);
-    at = pop(reach);
   }
   return best;
 }

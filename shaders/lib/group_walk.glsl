@@ -73,9 +73,17 @@ void descend(Query q, Level below, uint side) {
 
 Nearest try_runs(Query q, uint side) {
   Nearest best = Nearest(kNone, uintBitsToFloat(nearest_bits), 3.0e38);
+  tied_count = 0u;
   for (uint k = gl_LocalInvocationID.x; k < level_count[side] * kPyramidFan; k += kQueryGroup) {
     uint i = entry_of(side, k);
     if (i < push.triangle_count) try_query(q, i, best);
+    if (tied_count == kTied) measure_tied(q, best);
+  }
+  if (q.tight) {
+    atomicMin(nearest_bits, floatBitsToUint(best.distance2));
+    barrier();
+    best.distance2 = uintBitsToFloat(nearest_bits);
+    measure_tied(q, best);
   }
   return best;
 }
@@ -86,12 +94,8 @@ void join_lanes(Query q) {
   for (uint reach = kQueryGroup / 2u; reach > 0u; reach /= 2u) {  // uncertified: integers
     barrier();
     if (lane >= reach) continue;
-    Nearest best = nearest_of_lane[lane];
-    Nearest other = nearest_of_lane[lane + reach];
-    float d = q.tight ? other.above - best.above : other.distance2 - best.distance2;
-    if (other.triangle != kNone &&
-        (best.triangle == kNone || d < 0.0 || (d == 0.0 && other.triangle < best.triangle)))
-      nearest_of_lane[lane] = other;
+    if (is_nearer(q, nearest_of_lane[lane + reach], nearest_of_lane[lane]))
+      nearest_of_lane[lane] = nearest_of_lane[lane + reach];
   }
 }
 
@@ -101,6 +105,7 @@ Nearest nearest_triangle_by_group(Query q, uint start) {
   uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) {
     Nearest first = nothing_near();
+    tied_count = 0u;
     if (start != kNone) try_query(q, start, first);
     nearest_bits = floatBitsToUint(first.distance2);
     level_count[0] = 1u;

@@ -31,12 +31,19 @@ float least_of(vec3 distance2, uint mask) {
   return min(x, min(y, z));
 }
 
+// The points of a packet do not wait for each other's ties.
+void try_at_once(Query q, uint i, inout Nearest best) {
+  tied_count = 0u;
+  try_query(q, i, best);
+  measure_tied(q, best);
+}
+
 void try_leaf(uint leaf, uint mask, inout Packet p) {
   uint first = leaf & (kMaxTriangles - 1u);
   uint last = first + ((leaf >> 28) & 7u);
   for (uint i = first; i <= last; ++i) {
     for (uint k = 0u; k < kPacket; ++k) {
-      if ((mask & (1u << k)) != 0u) try_query(p.query[k], i, p.best[k]);
+      if ((mask & (1u << k)) != 0u) try_at_once(p.query[k], i, p.best[k]);
     }
   }
   for (uint k = 0u; k < kPacket; ++k) {
