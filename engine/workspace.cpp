@@ -30,7 +30,7 @@ class Suballocator {
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
   take(h.branches, std::max(face_count, 2u) - 1);
   take(h.nodes, std::max(face_count, 2u) - 1);
-  take(h.pyramid, pyramid_size(face_count));
+  take(h.pyramid, pyramid_size(face_count) + quads_size(face_count));
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
   take(h.codes, face_count);
@@ -90,6 +90,15 @@ uint32_t pyramid_size(uint32_t face_count) {
   for (uint32_t level = face_count; level > 1;) {
     level = (level + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
     boxes += level;
+  }
+  return boxes;
+}
+
+uint32_t quads_size(uint32_t face_count) {
+  uint32_t boxes = 0;
+  for (uint32_t level = face_count; level > 1;) {
+    boxes += (level + 3) / 4;
+    level = (level + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
   }
   return boxes;
 }

@@ -60,6 +60,8 @@ struct Workspace {
 
 // Boxes of all levels of the pyramid over `face_count` triangles.
 uint32_t pyramid_size(uint32_t face_count);
+// And of those between them, over four boxes of a level each.
+uint32_t quads_size(uint32_t face_count);
 VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count);
 VkDeviceSize scratch_size(uint32_t face_count);
 // `switches`: of the context, for some have streams of their own.

@@ -8,6 +8,9 @@
 #include <cstdint>
 namespace vkh::gpu {
 using uint = uint32_t;
+struct vec2 {
+  float x, y;
+};
 struct vec3 {
   float x, y, z;
 };
@@ -48,6 +51,9 @@ VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold 
                                          // 1, bits 0..27 the first
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
 VKH_CONST uint kPyramidFan = 16u;
+// Items of a level whose boxes a workgroup joins: two levels of the pyramid, and between them those
+// over four boxes each, which bvh_refit alone reads.
+VKH_CONST uint kRun = 256u;
 VKH_CONST uint kMaxTriangles = 1u << 28;
 // Hierarchy depth: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at
 // least one bit a level.
@@ -385,12 +391,18 @@ struct CountPush {
   uint count;
 };
 
-// bvh_pyramid: one level, from the one below it.
+// The levels above one of the pyramid: bvh_pyramid, and over the triangles bvh_leaves and bvh_move.
 struct PyramidPush {
-  uint from_triangles;  // the level below is the triangles
-  uint from;            // where the level below starts in `boxes`
-  uint from_count;
-  uint to;  // where this one starts
+  uint from;      // where that level starts in `boxes`; nothing where it is the triangles
+  uint count;     // of its boxes, or of triangles
+  uint quads;     // where the boxes over four of it each start
+  uint sixteens;  // and those over sixteen
+};
+
+// bvh_refit
+struct RefitPush {
+  uint count;  // of triangles
+  uint quads;  // where the boxes over four of them start in `boxes`; those over sixteen start at 0
 };
 
 struct SortPush {
