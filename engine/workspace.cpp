@@ -41,12 +41,11 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
 }
 
 void list(Suballocator& take, SortStreams& s, uint32_t key_count) {
-  const uint64_t blocks = (key_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
   for (int side = 0; side < 2; ++side) {
     take(s.keys[side], key_count);
     take(s.values[side], key_count);
   }
-  take(s.counts, blocks * gpu::kSortDigits);
+  take(s.counts, 1ull * most_sort_blocks(key_count) * gpu::kSortDigits);
   take(s.totals, gpu::kSortDigits);
   take(s.count, 1);
 }
@@ -84,6 +83,11 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 }
 
 }  // namespace
+
+uint32_t most_sort_blocks(uint32_t count) {
+  const uint32_t small = sort_blocks(count, gpu::kFewestSortRounds);
+  return std::max(std::min(small, gpu::kSortFewBlocks), sort_blocks(count, gpu::kSortRounds));
+}
 
 uint32_t pyramid_size(uint32_t face_count) {
   uint32_t boxes = 0;

@@ -28,6 +28,13 @@ struct SortStreams {
   Slice<uint32_t> count;  // how many keys there are: one word
 };
 
+// Workgroups that sort `count` keys, `rounds` of them an invocation.
+constexpr uint32_t sort_blocks(uint32_t count, uint32_t rounds) {
+  return (count + gpu::kSortGroup * rounds - 1) / (gpu::kSortGroup * rounds);
+}
+// The most of them for any number of rounds that may be chosen (engine/sort.cpp).
+uint32_t most_sort_blocks(uint32_t count);
+
 // What building it needs besides.
 struct BuildScratch {
   SortStreams sort;

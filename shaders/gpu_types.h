@@ -126,10 +126,11 @@ VKH_CONST uint kDispatchSortDigits = 8u;  // digits
 VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
 VKH_CONST uint kDispatchCount = 10u;
 
-// Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts
-// at a time.
+// Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
+// time, kSortRounds keys each, or down to kFewestSortRounds (SortPush).
 VKH_CONST uint kSortGroup = 256u;
 VKH_CONST uint kSortRounds = 8u;
+VKH_CONST uint kFewestSortRounds = 2u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 // Up to so many faces are told apart well enough by 24 bits of their codes: the lowest 6 are 0, and
@@ -406,7 +407,8 @@ struct RefitPush {
 };
 
 struct SortPush {
-  uint shift;  // of the digit in the key
+  uint shift;   // of the digit in the key
+  uint rounds;  // keys of an invocation; fewer than kSortRounds where that still leaves few blocks
 };
 
 // seed_faces

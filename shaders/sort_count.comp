@@ -1,6 +1,6 @@
 // What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer, for
-// only the device knows the frontier's length. Out: counts[digit * blocks + block]. Radix sort,
-// first of three kernels a pass: count, scan, scatter.
+// only the device knows the frontier's length. Out: counts[block * kSortDigits + digit]. Radix
+// sort, first of three kernels a pass: count, scan, scatter.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -19,14 +19,20 @@ shared uint histogram[kSortDigits];
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint block = workgroup_index();
-  uint blocks = sort_blocks(key_count);
-  if (block >= blocks) return;
+  if (block >= sort_blocks(key_count, push.rounds)) return;
+  uint first = block * push.rounds * kSortGroup + lane;
+  // All keys before any is counted: no load waits for a counter.
+  uint key[kSortRounds];
+  for (uint round = 0u; round < kSortRounds; ++round) {
+    if (round >= push.rounds) continue;
+    key[round] = keys[min(first + round * kSortGroup, key_count - 1u)];
+  }
   histogram[lane] = 0u;
   barrier();
   for (uint round = 0u; round < kSortRounds; ++round) {
-    uint i = block * kSortBlock + round * kSortGroup + lane;
-    if (i < key_count) atomicAdd(histogram[(keys[i] >> push.shift) & 255u], 1u);
+    if (round >= push.rounds || first + round * kSortGroup >= key_count) continue;
+    atomicAdd(histogram[(key[round] >> push.shift) & 255u], 1u);
   }
   barrier();
-  counts[lane * blocks + block] = histogram[lane];
+  counts[block * kSortDigits + lane] = histogram[lane];
 }
