@@ -88,11 +88,9 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   record_load(rec, b, h.vertices, h.faces);
   const uint32_t first_bit = b.faceCount <= gpu::kFewFaces ? gpu::kFewFacesFirstBit : 0;
   const uint32_t side = sort_side(first_bit);
-  const VkDeviceSize half_box = h.box.size / 2;
-  rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset, half_box}, 0xffffffffu, Order::kIndependent);
-  rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset + half_box, half_box}, 0,
-           Order::kIndependent);
-  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count, faces);
+  rec.fill(h.box, 0xffffffffu, Order::kIndependent);
+  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count,
+                     Items{over(b.faceCount, gpu::kBoxFaces)});
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
                          .box = h.box,

@@ -49,6 +49,9 @@ VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group hold
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
+// bvh_box: faces of an invocation.
+VKH_CONST uint kBoxGroup = 256u;
+VKH_CONST uint kBoxFaces = 4u;
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
 VKH_CONST uint kPyramidFan = 16u;
 // Items of a level whose boxes a workgroup joins: two levels of the pyramid, and between them those
@@ -323,10 +326,11 @@ struct Box {
   vec3 hi;
 };
 
-// The box that the middles of B's faces' boxes lie in: floats as ordered bits (lib/morton.h).
+// The box that the middles of B's faces' boxes lie in: floats as ordered bits (lib/morton.h). Six
+// minima, so that one fill makes it empty.
 struct CentroidBox {
   uint lo[3];
-  uint hi[3];
+  uint minus_hi[3];
 };
 
 struct Report {
