@@ -20,9 +20,9 @@ void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Pus
   rec.run_indirect<K>(args, push, size);
 }
 
-// By which bits, and how many keys an invocation takes.
+// By which bits, how many keys an invocation takes, and how many there are.
 struct Keys {
-  uint32_t first_bit, rounds;
+  uint32_t first_bit, rounds, count;
 };
 
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
@@ -34,10 +34,11 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, const Size&
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const uint32_t from = (passes - pass) % 2;
     const uint32_t to = 1 - from;
-    const gpu::SortPush push{.shift = sorted.first_bit + 8 * pass, .rounds = sorted.rounds};
+    const gpu::SortPush push{
+        .shift = sorted.first_bit + 8 * pass, .rounds = sorted.rounds, .count = sorted.count};
     dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
                            push, blocks);
-    dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, {},
+    dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, push,
                           digits);
     dispatch<k::SortScatter>(rec,
                              {.keys_in = s.keys[from],
@@ -65,12 +66,10 @@ uint32_t rounds_for(const Recorder& rec, uint32_t count) {
 uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
 
 void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit) {
-  // Whoever writes keys does not write the count, and the first pass waits for both.
-  rec.fill(s.count, count, Order::kIndependent);
   const uint32_t rounds = rounds_for(rec, count);
   const uint32_t blocks = sort_blocks(count, rounds);
   const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
-  record_passes(rec, s, {first_bit, rounds}, Groups{blocks}, Groups{digits});
+  record_passes(rec, s, {first_bit, rounds, count}, Groups{blocks}, Groups{digits});
 }
 
 void record_wave_sort(Recorder& rec, const Problem& p) {
@@ -87,8 +86,8 @@ void record_wave_sort(Recorder& rec, const Problem& p) {
                                  .keys = streams.keys[0],
                                  .values = streams.values[0]},
                                 {}, ws.dispatch(gpu::kDispatchSortKeys));
-  record_passes(rec, streams, {0, gpu::kSortRounds}, ws.dispatch(gpu::kDispatchSortBlocks),
-                ws.dispatch(gpu::kDispatchSortDigits));
+  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone},
+                ws.dispatch(gpu::kDispatchSortBlocks), ws.dispatch(gpu::kDispatchSortDigits));
   rec.stage("order");
 }
 

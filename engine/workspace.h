@@ -25,7 +25,7 @@ struct Hierarchy {
 struct SortStreams {
   Slice<uint32_t> keys[2], values[2];
   Slice<uint32_t> counts, totals;
-  Slice<uint32_t> count;  // how many keys there are: one word
+  Slice<uint32_t> count;  // how many keys there are, where the host does not know: one word
 };
 
 // Workgroups that sort `count` keys, `rounds` of them an invocation.

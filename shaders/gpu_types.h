@@ -413,6 +413,7 @@ struct RefitPush {
 struct SortPush {
   uint shift;   // of the digit in the key
   uint rounds;  // keys of an invocation; fewer than kSortRounds where that still leaves few blocks
+  uint count;   // of keys; kNone where a buffer has it
 };
 
 // seed_faces

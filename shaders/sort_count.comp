@@ -1,5 +1,5 @@
-// What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer, for
-// only the device knows the frontier's length. Out: counts[block * kSortDigits + digit]. Radix
+// What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer where
+// only the device knows, as with the frontier. Out: counts[block * kSortDigits + digit]. Radix
 // sort, first of three kernels a pass: count, scan, scatter.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -14,23 +14,26 @@ layout(scalar, binding = 1) writeonly buffer Counts { uint counts[]; };
 layout(scalar, binding = 2) readonly buffer KeyCount { uint key_count; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
+#include "shaders/lib/key_total.glsl"
+
 shared uint histogram[kSortDigits];
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint block = workgroup_index();
-  if (block >= sort_blocks(key_count, push.rounds)) return;
+  uint total = key_total();
+  if (block >= sort_blocks(total, push.rounds)) return;
   uint first = block * push.rounds * kSortGroup + lane;
   // All keys before any is counted: no load waits for a counter.
   uint key[kSortRounds];
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds) continue;
-    key[round] = keys[min(first + round * kSortGroup, key_count - 1u)];
+    key[round] = keys[min(first + round * kSortGroup, total - 1u)];
   }
   histogram[lane] = 0u;
   barrier();
   for (uint round = 0u; round < kSortRounds; ++round) {
-    if (round >= push.rounds || first + round * kSortGroup >= key_count) continue;
+    if (round >= push.rounds || first + round * kSortGroup >= total) continue;
     atomicAdd(histogram[(key[round] >> push.shift) & 255u], 1u);
   }
   barrier();

@@ -11,12 +11,15 @@ layout(local_size_x = kSortGroup) in;
 layout(scalar, binding = 0) buffer Counts { uint counts[]; };
 layout(scalar, binding = 1) writeonly buffer Totals { uint totals[]; };
 layout(scalar, binding = 2) readonly buffer KeyCount { uint key_count; };
+layout(scalar, push_constant) uniform PushBlock { SortPush push; };
+
+#include "shaders/lib/key_total.glsl"
 
 shared uint sums[kSortGroup];
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  uint blocks = sort_blocks(key_count);
+  uint blocks = sort_blocks(key_total());
   uint digit = gl_WorkGroupID.x;
   uint per_lane = (blocks + kSortGroup - 1u) / kSortGroup;  // uncertified: integers
   uint begin = min(lane * per_lane, blocks);

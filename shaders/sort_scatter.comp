@@ -25,6 +25,8 @@ layout(scalar, binding = 5) readonly buffer Totals { uint totals[]; };
 layout(scalar, binding = 6) readonly buffer KeyCount { uint key_count; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
+#include "shaders/lib/key_total.glsl"
+
 const uint kMaxSubgroups =
     kSortGroup / 8u;                 // uncertified: integers. Subgroups are 8 wide or wider.
 const uint kRow = kSortDigits / 2u;  // uncertified: integers
@@ -33,6 +35,7 @@ shared uint counters[kMaxSubgroups * kRow];
 shared uint digit_base[kSortDigits];  // where the block's keys of a digit go
 shared uint subgroup_sum[kMaxSubgroups];
 
+uint total;  // keys
 // Loops over these go to kSortRounds, which compilers know: they unroll them and keep the arrays in
 // registers.
 uint key[kSortRounds];
@@ -56,7 +59,7 @@ struct DigitCount {
 };
 
 DigitCount count_of(uint digit, uint block) {
-  uint blocks = sort_blocks(key_count, push.rounds);
+  uint blocks = sort_blocks(total, push.rounds);
   if (blocks > kSortFewBlocks)
     return DigitCount(totals[digit], counts[block * kSortDigits + digit]);
   DigitCount sum = DigitCount(0u, 0u);
@@ -98,7 +101,7 @@ void scan_subgroups(uint word) {
 void load_run(uint run) {
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds) continue;
-    uint i = min(run + round * gl_SubgroupSize, key_count - 1u);
+    uint i = min(run + round * gl_SubgroupSize, total - 1u);
     key[round] = keys_in[i];
     value[round] = values_in[i];
   }
@@ -110,7 +113,7 @@ void rank_run(uint run) {
     if (round >= push.rounds) continue;
     // Past the end every key counts as the last digit: such lanes stand after all others and push
     // none of them away.
-    bool there = run + round * gl_SubgroupSize < key_count;
+    bool there = run + round * gl_SubgroupSize < total;
     uint digit = there ? (key[round] >> push.shift) & 255u : 255u;
     uvec4 peers = peers_of(digit);
     uint leader = subgroupBallotFindLSB(peers);
@@ -129,7 +132,7 @@ void rank_run(uint run) {
 
 void write_run(uint run) {
   for (uint round = 0u; round < kSortRounds; ++round) {
-    if (round >= push.rounds || run + round * gl_SubgroupSize >= key_count) continue;
+    if (round >= push.rounds || run + round * gl_SubgroupSize >= total) continue;
     uint digit = (key[round] >> push.shift) & 255u;
     uint earlier =
         (counters[gl_SubgroupID * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
@@ -142,7 +145,8 @@ void write_run(uint run) {
 void main() {
   uint lane = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
   uint block = workgroup_index();
-  if (block >= sort_blocks(key_count, push.rounds)) return;
+  total = key_total();
+  if (block >= sort_blocks(total, push.rounds)) return;
   uint run = block * push.rounds * kSortGroup + gl_SubgroupID * (gl_SubgroupSize * push.rounds) +
              gl_SubgroupInvocationID;
   load_run(run);

@@ -153,7 +153,7 @@ TEST_CASE("sort_count counts each digit of each block") {
           ++expected[block * gpu::kSortDigits + ((keys[i] >> shift) & 255)];
         }
         const auto counts = bench.garbage<uint32_t>(expected.size());
-        const gpu::SortPush push{.shift = shift, .rounds = rounds};
+        const gpu::SortPush push{.shift = shift, .rounds = rounds, .count = gpu::kNone};
         bench.run([&](Recorder& rec) {
           rec.run<k::SortCount>({.keys = keys_in, .counts = counts, .key_count = key_count}, push,
                                 Groups{blocks});
@@ -181,8 +181,9 @@ TEST_CASE("sort_scan sums each digit's counts exclusively") {
     const auto in_out = bench.put(counts);
     const auto totals_out = bench.garbage<uint32_t>(gpu::kSortDigits);
     const auto key_count = bench.put(Words{blocks * gpu::kSortBlock});
+    const gpu::SortPush push{.shift = 0, .rounds = gpu::kSortRounds, .count = gpu::kNone};
     bench.run([&](Recorder& rec) {
-      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, {},
+      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, push,
                            Groups{gpu::kSortDigits});
     });
     CAPTURE(blocks);
