@@ -20,9 +20,11 @@ void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Pus
   rec.run_indirect<K>(args, push, size);
 }
 
-// By which bits, how many keys an invocation takes, and how many there are.
+// By which bits, how many keys an invocation takes, how many there are, and whether each pass
+// counts for the next.
 struct Keys {
   uint32_t first_bit, rounds, count;
+  bool counted_ahead;
 };
 
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
@@ -34,10 +36,14 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, const Size&
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const uint32_t from = (passes - pass) % 2;
     const uint32_t to = 1 - from;
-    const gpu::SortPush push{
-        .shift = sorted.first_bit + 8 * pass, .rounds = sorted.rounds, .count = sorted.count};
-    dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
-                           push, blocks);
+    const gpu::SortPush push{.shift = sorted.first_bit + 8 * pass,
+                             .rounds = sorted.rounds,
+                             .count = sorted.count,
+                             .pass = sorted.counted_ahead ? pass : 0,
+                             .passes = sorted.counted_ahead ? passes : 1};
+    if (push.pass == 0)
+      dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
+                             push, blocks);
     dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, push,
                           digits);
     dispatch<k::SortScatter>(rec,
@@ -52,13 +58,15 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, const Size&
   }
 }
 
-// A sort of few keys is a chain of rounds on a few of the device's processors: up to
-// kSortFewBlocks workgroups take fewer. A CPU does not wait, and has more to do for each workgroup.
-uint32_t rounds_for(const Recorder& rec, uint32_t count) {
-  if ((rec.switches() & gpu::kUseGroupWalk) == 0) return gpu::kSortRounds;
+// A sort of few keys is a chain of rounds and dispatches on a few of the device's processors: up to
+// kSortFewBlocks workgroups take fewer rounds, and each pass counts for the next, by atomics. A CPU
+// does not wait, and has more to do for each workgroup.
+Keys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
+  if ((rec.switches() & gpu::kUseGroupWalk) == 0)
+    return {first_bit, gpu::kSortRounds, count, false};
   uint32_t rounds = gpu::kFewestSortRounds;
   while (rounds < gpu::kSortRounds && sort_blocks(count, rounds) > gpu::kSortFewBlocks) rounds *= 2;
-  return rounds;
+  return {first_bit, rounds, count, sort_blocks(count, rounds) <= gpu::kSortFewBlocks};
 }
 
 }  // namespace
@@ -66,10 +74,10 @@ uint32_t rounds_for(const Recorder& rec, uint32_t count) {
 uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
 
 void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit) {
-  const uint32_t rounds = rounds_for(rec, count);
-  const uint32_t blocks = sort_blocks(count, rounds);
+  const Keys keys = keys_for(rec, first_bit, count);
+  const uint32_t blocks = sort_blocks(count, keys.rounds);
   const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
-  record_passes(rec, s, {first_bit, rounds, count}, Groups{blocks}, Groups{digits});
+  record_passes(rec, s, keys, Groups{blocks}, Groups{digits});
 }
 
 void record_wave_sort(Recorder& rec, const Problem& p) {
@@ -86,7 +94,7 @@ void record_wave_sort(Recorder& rec, const Problem& p) {
                                  .keys = streams.keys[0],
                                  .values = streams.values[0]},
                                 {}, ws.dispatch(gpu::kDispatchSortKeys));
-  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone},
+  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone, false},
                 ws.dispatch(gpu::kDispatchSortBlocks), ws.dispatch(gpu::kDispatchSortDigits));
   rec.stage("order");
 }

@@ -45,7 +45,7 @@ void list(Suballocator& take, SortStreams& s, uint32_t key_count) {
     take(s.keys[side], key_count);
     take(s.values[side], key_count);
   }
-  take(s.counts, 1ull * most_sort_blocks(key_count) * gpu::kSortDigits);
+  take(s.counts, 1ull * sort_rows(key_count) * gpu::kSortDigits);
   take(s.totals, gpu::kSortDigits);
   take(s.count, 1);
 }
@@ -84,9 +84,10 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 
 }  // namespace
 
-uint32_t most_sort_blocks(uint32_t count) {
-  const uint32_t small = sort_blocks(count, gpu::kFewestSortRounds);
-  return std::max(std::min(small, gpu::kSortFewBlocks), sort_blocks(count, gpu::kSortRounds));
+uint32_t sort_rows(uint32_t count) {
+  constexpr uint32_t most_passes = 4;  // of few blocks, each has counts of its own
+  const uint32_t few = std::min(sort_blocks(count, gpu::kFewestSortRounds), gpu::kSortFewBlocks);
+  return std::max(most_passes * few, sort_blocks(count, gpu::kSortRounds));
 }
 
 uint32_t pyramid_size(uint32_t face_count) {

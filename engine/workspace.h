@@ -32,8 +32,8 @@ struct SortStreams {
 constexpr uint32_t sort_blocks(uint32_t count, uint32_t rounds) {
   return (count + gpu::kSortGroup * rounds - 1) / (gpu::kSortGroup * rounds);
 }
-// The most of them for any number of rounds that may be chosen (engine/sort.cpp).
-uint32_t most_sort_blocks(uint32_t count);
+// Rows of counts, one a block, that any way of sorting `count` keys may take (engine/sort.cpp).
+uint32_t sort_rows(uint32_t count);
 
 // What building it needs besides.
 struct BuildScratch {

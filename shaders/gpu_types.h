@@ -414,6 +414,10 @@ struct SortPush {
   uint shift;   // of the digit in the key
   uint rounds;  // keys of an invocation; fewer than kSortRounds where that still leaves few blocks
   uint count;   // of keys; kNone where a buffer has it
+  // Where passes count for each other, sort_scatter for the one after it: which this is, and how
+  // many have counts of their own in `counts`. Else 0 of 1.
+  uint pass;
+  uint passes;
 };
 
 // seed_faces

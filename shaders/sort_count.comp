@@ -1,6 +1,7 @@
 // What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer where
 // only the device knows, as with the frontier. Out: counts[block * kSortDigits + digit]. Radix
-// sort, first of three kernels a pass: count, scan, scatter.
+// sort, first of three kernels a pass: count, scan, scatter. Where passes count for each other, it
+// runs in the first alone, and empties the counts of the others.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -22,7 +23,8 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   uint block = workgroup_index();
   uint total = key_total();
-  if (block >= sort_blocks(total, push.rounds)) return;
+  uint blocks = sort_blocks(total, push.rounds);
+  if (block >= blocks) return;
   uint first = block * push.rounds * kSortGroup + lane;
   // All keys before any is counted: no load waits for a counter.
   uint key[kSortRounds];
@@ -38,4 +40,6 @@ void main() {
   }
   barrier();
   counts[block * kSortDigits + lane] = histogram[lane];
+  for (uint pass = 1u; pass < push.passes; ++pass)
+    counts[(pass * blocks + block) * kSortDigits + lane] = 0u;
 }

@@ -1,6 +1,7 @@
 // What: moves each key and value to its place for one digit, keeping the order of equal digits.
 // In: keys_in, values_in; counts and totals from sort_scan, or, of few blocks, counts from
-// sort_count. Out: keys_out, values_out.
+// sort_count or the pass before. Out: keys_out, values_out, and the next pass's counts where this
+// one counts for it.
 // Each subgroup owns a contiguous run of the block, so that its own counters, taken round by round,
 // keep the order; lanes of equal digit find each other by ballots. 16-bit counters, two a word: a
 // block has 2048 keys at most.
@@ -20,7 +21,7 @@ layout(scalar, binding = 0) readonly buffer KeysIn { uint keys_in[]; };
 layout(scalar, binding = 1) readonly buffer ValuesIn { uint values_in[]; };
 layout(scalar, binding = 2) writeonly buffer KeysOut { uint keys_out[]; };
 layout(scalar, binding = 3) writeonly buffer ValuesOut { uint values_out[]; };
-layout(scalar, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(scalar, binding = 4) buffer Counts { uint counts[]; };
 layout(scalar, binding = 5) readonly buffer Totals { uint totals[]; };
 layout(scalar, binding = 6) readonly buffer KeyCount { uint key_count; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
@@ -35,7 +36,8 @@ shared uint counters[kMaxSubgroups * kRow];
 shared uint digit_base[kSortDigits];  // where the block's keys of a digit go
 shared uint subgroup_sum[kMaxSubgroups];
 
-uint total;  // keys
+uint total;   // keys
+uint blocks;  // of them
 // Loops over these go to kSortRounds, which compilers know: they unroll them and keep the arrays in
 // registers.
 uint key[kSortRounds];
@@ -59,14 +61,14 @@ struct DigitCount {
 };
 
 DigitCount count_of(uint digit, uint block) {
-  uint blocks = sort_blocks(total, push.rounds);
   if (blocks > kSortFewBlocks)
     return DigitCount(totals[digit], counts[block * kSortDigits + digit]);
+  uint start = push.pass * blocks;
   DigitCount sum = DigitCount(0u, 0u);
   for (uint first = 0u; first < blocks; first += kBatch) {
     uint here[kBatch];
     for (uint k = 0u; k < kBatch; ++k)
-      here[k] = counts[min(first + k, blocks - 1u) * kSortDigits + digit];
+      here[k] = counts[(start + min(first + k, blocks - 1u)) * kSortDigits + digit];
     for (uint k = 0u; k < kBatch; ++k) {
       if (first + k < blocks) sum.total += here[k];
       if (first + k < block) sum.earlier += here[k];
@@ -130,6 +132,12 @@ void rank_run(uint run) {
   }
 }
 
+void count_for_next(uint moved, uint place) {
+  uint block = place / (push.rounds * kSortGroup);  // uncertified: integers
+  uint digit = (moved >> (push.shift + 8u)) & 255u;
+  atomicAdd(counts[((push.pass + 1u) * blocks + block) * kSortDigits + digit], 1u);
+}
+
 void write_run(uint run) {
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds || run + round * gl_SubgroupSize >= total) continue;
@@ -139,6 +147,7 @@ void write_run(uint run) {
     uint place = digit_base[digit] + earlier + rank[round];
     keys_out[place] = key[round];
     values_out[place] = value[round];
+    if (push.pass + 1u < push.passes) count_for_next(key[round], place);
   }
 }
 
@@ -146,7 +155,8 @@ void main() {
   uint lane = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
   uint block = workgroup_index();
   total = key_total();
-  if (block >= sort_blocks(total, push.rounds)) return;
+  blocks = sort_blocks(total, push.rounds);
+  if (block >= blocks) return;
   uint run = block * push.rounds * kSortGroup + gl_SubgroupID * (gl_SubgroupSize * push.rounds) +
              gl_SubgroupInvocationID;
   load_run(run);

@@ -70,7 +70,7 @@ Sorted sort_on_device(KernelBench& bench, const Words& keys, const Words& values
   scratch.values[0] = bench.put(values);
   scratch.keys[1] = bench.garbage<uint32_t>(count);
   scratch.values[1] = bench.garbage<uint32_t>(count);
-  scratch.counts = bench.garbage<uint32_t>(most_sort_blocks(count) * gpu::kSortDigits);
+  scratch.counts = bench.garbage<uint32_t>(sort_rows(count) * gpu::kSortDigits);
   scratch.totals = bench.garbage<uint32_t>(gpu::kSortDigits);
   scratch.count = bench.garbage<uint32_t>(1);
   bench.run([&](Recorder& rec) { record_sort(rec, scratch, count); });
@@ -153,7 +153,8 @@ TEST_CASE("sort_count counts each digit of each block") {
           ++expected[block * gpu::kSortDigits + ((keys[i] >> shift) & 255)];
         }
         const auto counts = bench.garbage<uint32_t>(expected.size());
-        const gpu::SortPush push{.shift = shift, .rounds = rounds, .count = gpu::kNone};
+        const gpu::SortPush push{
+            .shift = shift, .rounds = rounds, .count = gpu::kNone, .pass = 0, .passes = 1};
         bench.run([&](Recorder& rec) {
           rec.run<k::SortCount>({.keys = keys_in, .counts = counts, .key_count = key_count}, push,
                                 Groups{blocks});
@@ -181,7 +182,8 @@ TEST_CASE("sort_scan sums each digit's counts exclusively") {
     const auto in_out = bench.put(counts);
     const auto totals_out = bench.garbage<uint32_t>(gpu::kSortDigits);
     const auto key_count = bench.put(Words{blocks * gpu::kSortBlock});
-    const gpu::SortPush push{.shift = 0, .rounds = gpu::kSortRounds, .count = gpu::kNone};
+    const gpu::SortPush push{
+        .shift = 0, .rounds = gpu::kSortRounds, .count = gpu::kNone, .pass = 0, .passes = 1};
     bench.run([&](Recorder& rec) {
       rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, push,
                            Groups{gpu::kSortDigits});
