@@ -19,22 +19,37 @@ AlignedRange align(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
   return {{buffer, start, end - start}, static_cast<uint32_t>(offset - start)};
 }
 
-// Boxes over runs of 16, 256, 4096, ... triangles, until one box is left.
+uint32_t over(uint32_t count, uint32_t fan) { return (count + fan - 1) / fan; }
+
+// The levels over the triangles: those over 4, 64, .. of them stand behind those over 16, 256, ..
+gpu::PyramidPush first_levels(const Hierarchy& h) {
+  return {.from = 0, .count = h.face_count, .quads = pyramid_size(h.face_count), .sixteens = 0};
+}
+
+// Above those that the triangles' kernel wrote: 256 triangles a box, 65,536, .. until one box is
+// left.
 void record_pyramid(Recorder& rec, const Hierarchy& h) {
-  gpu::PyramidPush push{.from_triangles = 1, .from = 0, .from_count = h.face_count, .to = 0};
-  while (push.from_count > 1) {
-    const uint32_t level = (push.from_count + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
-    rec.run<k::BvhPyramid>({.triangles = h.triangles, .boxes = h.pyramid}, push, Items{level});
-    push = {.from_triangles = 0, .from = push.to, .from_count = level, .to = push.to + level};
+  gpu::PyramidPush push = first_levels(h);
+  while (push.count > gpu::kPyramidFan) {
+    const uint32_t count = over(push.count, gpu::kPyramidFan);
+    push = {.from = push.sixteens + count,
+            .count = over(push.count, gpu::kRun),
+            .quads = push.quads + over(push.count, 4) + over(count, 4),
+            .sixteens = push.sixteens + count + over(push.count, gpu::kRun)};
+    if (push.count > 1) rec.run<k::BvhPyramid>({.boxes = h.pyramid}, push, Items{push.count});
   }
 }
 
-// All boxes of the nodes, from the triangles and the topology as they are.
+// All boxes of the nodes, from the triangles, the boxes over runs of them, and the topology as they
+// are.
 void record_boxes(Recorder& rec, const Hierarchy& h) {
   record_pyramid(rec, h);
-  rec.run<k::BvhRefit>(
-      {.triangles = h.triangles, .boxes = h.pyramid, .branches = h.branches, .nodes = h.nodes},
-      gpu::CountPush{h.face_count}, Items{h.face_count});
+  rec.run<k::BvhRefit>({.triangles = as<gpu::uvec4>(h.triangles),
+                        .boxes = as<gpu::vec2>(h.pyramid),
+                        .branches = h.branches,
+                        .nodes = h.nodes},
+                       {.count = h.face_count, .quads = pyramid_size(h.face_count)},
+                       Items{4 * (std::max(h.face_count, 2u) - 1)});
 }
 
 }  // namespace
@@ -73,11 +88,9 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   record_load(rec, b, h.vertices, h.faces);
   const uint32_t first_bit = b.faceCount <= gpu::kFewFaces ? gpu::kFewFacesFirstBit : 0;
   const uint32_t side = sort_side(first_bit);
-  const VkDeviceSize half_box = h.box.size / 2;
-  rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset, half_box}, 0xffffffffu, Order::kIndependent);
-  rec.fill(Slice<uint32_t>{h.box.buffer, h.box.offset + half_box, half_box}, 0,
-           Order::kIndependent);
-  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count, faces);
+  rec.fill(h.box, 0xffffffffu, Order::kIndependent);
+  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count,
+                     Items{over(b.faceCount, gpu::kBoxFaces)});
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
                          .box = h.box,
@@ -93,8 +106,9 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .triangles = h.triangles,
                          .triangle_lows = h.triangle_lows,
                          .keys = s.sort.keys[0],
-                         .codes = h.codes},
-                        count, faces);
+                         .codes = h.codes,
+                         .boxes = h.pyramid},
+                        first_levels(h), faces);
   rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .branches = h.branches}, count, faces,
                            Order::kIndependent);
   record_boxes(rec, h);
@@ -107,8 +121,9 @@ void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   rec.run<k::BvhMove>({.vertices = h.vertices,
                        .faces = h.faces,
                        .triangles = h.triangles,
-                       .triangle_lows = h.triangle_lows},
-                      gpu::CountPush{b.faceCount}, Items{b.faceCount});
+                       .triangle_lows = h.triangle_lows,
+                       .boxes = h.pyramid},
+                      first_levels(h), Items{b.faceCount});
   record_boxes(rec, h);
   rec.stage("refit");
 }

@@ -64,6 +64,7 @@ class Recorder {
     if (order == Order::kAfterAll) barrier();
     context_.vk.CmdFillBuffer(commands_, slice.buffer, slice.offset, slice.size, word);
   }
+  uint32_t switches() const { return context_.limits.switches; }
   // Ends a stage: what ran since the last call is timed under this name (a static string).
   void stage(const char* name);
 

@@ -1,6 +1,7 @@
 // Radix sort of 32-bit keys with 32-bit values: 8-bit digits, count / scan / scatter a pass
 // (Harris, Satish and Garland's scheme, without look-back between workgroups, which Vulkan does not
 // promise to make progress).
+#include <algorithm>
 #include <cstddef>
 
 #include "engine/stages.h"
@@ -19,19 +20,31 @@ void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Pus
   rec.run_indirect<K>(args, push, size);
 }
 
+// By which bits, how many keys an invocation takes, how many there are, and whether each pass
+// counts for the next.
+struct Keys {
+  uint32_t first_bit, rounds, count;
+  bool counted_ahead;
+};
+
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
 // blocks are few.
 template <class Size>
-void record_passes(Recorder& rec, const SortStreams& s, uint32_t first_bit, const Size& blocks,
+void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, const Size& blocks,
                    const Size& digits) {
-  const uint32_t passes = (32 - first_bit) / 8;
+  const uint32_t passes = (32 - sorted.first_bit) / 8;
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const uint32_t from = (passes - pass) % 2;
     const uint32_t to = 1 - from;
-    const gpu::SortPush push{.shift = first_bit + 8 * pass};
-    dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
-                           push, blocks);
-    dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, {},
+    const gpu::SortPush push{.shift = sorted.first_bit + 8 * pass,
+                             .rounds = sorted.rounds,
+                             .count = sorted.count,
+                             .pass = sorted.counted_ahead ? pass : 0,
+                             .passes = sorted.counted_ahead ? passes : 1};
+    if (push.pass == 0)
+      dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
+                             push, blocks);
+    dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, push,
                           digits);
     dispatch<k::SortScatter>(rec,
                              {.keys_in = s.keys[from],
@@ -45,16 +58,26 @@ void record_passes(Recorder& rec, const SortStreams& s, uint32_t first_bit, cons
   }
 }
 
+// A sort of few keys is a chain of rounds and dispatches on a few of the device's processors: up to
+// kSortFewBlocks workgroups take fewer rounds, and each pass counts for the next, by atomics. A CPU
+// does not wait, and has more to do for each workgroup.
+Keys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
+  if ((rec.switches() & gpu::kUseGroupWalk) == 0)
+    return {first_bit, gpu::kSortRounds, count, false};
+  uint32_t rounds = gpu::kFewestSortRounds;
+  while (rounds < gpu::kSortRounds && sort_blocks(count, rounds) > gpu::kSortFewBlocks) rounds *= 2;
+  return {first_bit, rounds, count, sort_blocks(count, rounds) <= gpu::kSortFewBlocks};
+}
+
 }  // namespace
 
 uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
 
 void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit) {
-  // Whoever writes keys does not write the count, and the first pass waits for both.
-  rec.fill(s.count, count, Order::kIndependent);
-  const uint32_t blocks = (count + gpu::kSortBlock - 1) / gpu::kSortBlock;
+  const Keys keys = keys_for(rec, first_bit, count);
+  const uint32_t blocks = sort_blocks(count, keys.rounds);
   const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
-  record_passes(rec, s, first_bit, Groups{blocks}, Groups{digits});
+  record_passes(rec, s, keys, Groups{blocks}, Groups{digits});
 }
 
 void record_wave_sort(Recorder& rec, const Problem& p) {
@@ -71,8 +94,8 @@ void record_wave_sort(Recorder& rec, const Problem& p) {
                                  .keys = streams.keys[0],
                                  .values = streams.values[0]},
                                 {}, ws.dispatch(gpu::kDispatchSortKeys));
-  record_passes(rec, streams, 0, ws.dispatch(gpu::kDispatchSortBlocks),
-                ws.dispatch(gpu::kDispatchSortDigits));
+  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone, false},
+                ws.dispatch(gpu::kDispatchSortBlocks), ws.dispatch(gpu::kDispatchSortDigits));
   rec.stage("order");
 }
 

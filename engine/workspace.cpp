@@ -30,7 +30,7 @@ class Suballocator {
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
   take(h.branches, std::max(face_count, 2u) - 1);
   take(h.nodes, std::max(face_count, 2u) - 1);
-  take(h.pyramid, pyramid_size(face_count));
+  take(h.pyramid, pyramid_size(face_count) + quads_size(face_count));
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
   take(h.codes, face_count);
@@ -41,12 +41,11 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
 }
 
 void list(Suballocator& take, SortStreams& s, uint32_t key_count) {
-  const uint64_t blocks = (key_count + gpu::kSortBlock - 1) / gpu::kSortBlock;
   for (int side = 0; side < 2; ++side) {
     take(s.keys[side], key_count);
     take(s.values[side], key_count);
   }
-  take(s.counts, blocks * gpu::kSortDigits);
+  take(s.counts, 1ull * sort_rows(key_count) * gpu::kSortDigits);
   take(s.totals, gpu::kSortDigits);
   take(s.count, 1);
 }
@@ -85,11 +84,26 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 
 }  // namespace
 
+uint32_t sort_rows(uint32_t count) {
+  constexpr uint32_t most_passes = 4;  // of few blocks, each has counts of its own
+  const uint32_t few = std::min(sort_blocks(count, gpu::kFewestSortRounds), gpu::kSortFewBlocks);
+  return std::max(most_passes * few, sort_blocks(count, gpu::kSortRounds));
+}
+
 uint32_t pyramid_size(uint32_t face_count) {
   uint32_t boxes = 0;
   for (uint32_t level = face_count; level > 1;) {
     level = (level + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
     boxes += level;
+  }
+  return boxes;
+}
+
+uint32_t quads_size(uint32_t face_count) {
+  uint32_t boxes = 0;
+  for (uint32_t level = face_count; level > 1;) {
+    boxes += (level + 3) / 4;
+    level = (level + gpu::kPyramidFan - 1) / gpu::kPyramidFan;
   }
   return boxes;
 }

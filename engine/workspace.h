@@ -25,8 +25,15 @@ struct Hierarchy {
 struct SortStreams {
   Slice<uint32_t> keys[2], values[2];
   Slice<uint32_t> counts, totals;
-  Slice<uint32_t> count;  // how many keys there are: one word
+  Slice<uint32_t> count;  // how many keys there are, where the host does not know: one word
 };
+
+// Workgroups that sort `count` keys, `rounds` of them an invocation.
+constexpr uint32_t sort_blocks(uint32_t count, uint32_t rounds) {
+  return (count + gpu::kSortGroup * rounds - 1) / (gpu::kSortGroup * rounds);
+}
+// Rows of counts, one a block, that any way of sorting `count` keys may take (engine/sort.cpp).
+uint32_t sort_rows(uint32_t count);
 
 // What building it needs besides.
 struct BuildScratch {
@@ -60,6 +67,8 @@ struct Workspace {
 
 // Boxes of all levels of the pyramid over `face_count` triangles.
 uint32_t pyramid_size(uint32_t face_count);
+// And of those between them, over four boxes of a level each.
+uint32_t quads_size(uint32_t face_count);
 VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count);
 VkDeviceSize scratch_size(uint32_t face_count);
 // `switches`: of the context, for some have streams of their own.

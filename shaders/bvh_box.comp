@@ -1,6 +1,5 @@
-// What: the box of the middles of B's faces. In: vertices, indices. Out: box, as ordered bits; it
-// must start empty (lo all ones, hi zero). Max and min only, so the result does not depend on
-// scheduling.
+// What: the box of the middles of B's faces. In: vertices, faces. Out: box, as ordered bits; it
+// must start empty (all ones). Minima only, so the result does not depend on scheduling.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,22 +8,49 @@
 #include "shaders/lib/invocation.glsl"
 #include "shaders/lib/face_code.glsl"
 
-layout(local_size_x = kGroupSize) in;
+layout(local_size_x = kBoxGroup) in;
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) buffer BoxBlock { CentroidBox box; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
-void main() {
-  // Invocations past the end repeat the last face: every one takes part in the subgroup's
-  // reductions.
-  uvec3 f = faces[min(item_index(), push.count - 1u)];
-  vec3 middle = face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi);
-  vec3 lo = subgroupMin(middle);
-  vec3 hi = subgroupMax(middle);
-  if (!subgroupElect()) return;
-  for (int axis = 0; axis < 3; ++axis) {
-    atomicMin(box.lo[axis], ordered_bits(floatBitsToUint(lo[axis])));
-    atomicMax(box.hi[axis], ordered_bits(floatBitsToUint(hi[axis])));
+const uint kMaxSubgroups = kBoxGroup / 8u;  // uncertified: integers. They are 8 wide or wider.
+shared float sides[6][kMaxSubgroups];       // lo, and hi with its sign turned
+
+vec3 middle_of(uint face) {
+  uvec3 f = faces[min(face, push.count - 1u)];  // past the end, the last face again
+  return face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi);
+}
+
+// One atomic a workgroup for each side: all of them go to the same few words, one after the other.
+void widen(uint side) {
+  float least = sides[side][0];
+  for (uint s = 1u; s < gl_NumSubgroups; ++s) least = min(least, sides[side][s]);
+  uint bits = ordered_bits(floatBitsToUint(least));
+  if (side < 3u) {
+    atomicMin(box.lo[side], bits);
+  } else {
+    atomicMin(box.minus_hi[side - 3u], bits);
   }
+}
+
+void main() {
+  uint first = workgroup_index() * (kBoxGroup * kBoxFaces) + gl_LocalInvocationID.x;
+  vec3 lo = middle_of(first);
+  vec3 hi = lo;
+  for (uint k = 1u; k < kBoxFaces; ++k) {
+    vec3 middle = middle_of(first + k * kBoxGroup);
+    lo = min(lo, middle);
+    hi = max(hi, middle);
+  }
+  lo = subgroupMin(lo);
+  hi = subgroupMax(hi);
+  if (subgroupElect()) {
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      sides[axis][gl_SubgroupID] = lo[axis];
+      sides[3u + axis][gl_SubgroupID] = -hi[axis];
+    }
+  }
+  barrier();
+  if (gl_LocalInvocationID.x < 6u) widen(gl_LocalInvocationID.x);
 }

@@ -23,29 +23,41 @@ int prefix(int i, int j) {
   return 32 + 31 - findMSB(uint(i ^ j));
 }
 
-// The other end of the range that node i covers, and the direction it grows in.
+// Searches probe several places at a time, whose loads do not wait for each other: the longest
+// chain of one invocation is what a small mesh takes.
+const int kProbes = 3;
+
+// The largest s under `span` with prefix(i, i + s * direction) > least, where that holds for 0, not
+// for `span`, and up to some s only.
+int farthest(int i, int direction, int least, int span) {
+  int s = 0;
+  while (span > 1) {
+    span = (span + kProbes) / (kProbes + 1);  // uncertified: integers
+    int beyond = 0;
+    for (int k = 1; k <= kProbes; ++k)
+      beyond += prefix(i, i + (s + k * span) * direction) > least ? span : 0;
+    s += beyond;
+  }
+  return s;
+}
+
+// The other end of the range that node i covers, which grows in this direction.
 int range_end(int i, int direction) {
   int least = prefix(i, i - direction);
   int reach = 2;
-  while (prefix(i, i + reach * direction) > least) reach *= 2;
-  int length = 0;
-  for (int step_size = reach >> 1; step_size >= 1; step_size >>= 1) {
-    if (prefix(i, i + (length + step_size) * direction) > least) length += step_size;
+  int longer = kProbes;
+  while (longer == kProbes) {
+    longer = 0;
+    for (int k = 0; k < kProbes; ++k)
+      longer += prefix(i, i + (reach << k) * direction) > least ? 1 : 0;
+    reach <<= longer;
   }
-  return i + length * direction;
+  return i + farthest(i, direction, least, reach) * direction;
 }
 
 // The last triangle of the first child of a node over [first, last].
 int split_of(int first, int last) {
-  int shared_bits = prefix(first, last);
-  int split = first;
-  int step_size = last - first;
-  do {
-    step_size = (step_size + 1) >> 1;
-    if (split + step_size < last && prefix(first, split + step_size) > shared_bits)
-      split += step_size;
-  } while (step_size > 1);
-  return split;
+  return first + farthest(first, 1, prefix(first, last), last - first);
 }
 
 // Reference to the child over [first, last] whose inner node would be `inner`.

@@ -1,27 +1,26 @@
-// What: B's triangles where their vertices are now, in the order that they were sorted in. In:
-// triangles[].face, vertices, faces. Out: triangles, triangle_lows.
+// What: B's triangles where their vertices are now, in the order that they were sorted in, and the
+// first levels of the pyramid of boxes over them. In: triangles[].face, vertices, faces. Out:
+// triangles, triangle_lows, boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 #include "shaders/lib/invocation.glsl"
 
-layout(local_size_x = kGroupSize) in;
+layout(local_size_x = kRun) in;
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 3) writeonly buffer TriangleLows { TriangleLow triangle_lows[]; };
-layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+layout(scalar, binding = 4) writeonly buffer Boxes { Box boxes[]; };
+layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
+
+#include "shaders/lib/run_boxes.glsl"
+#include "shaders/lib/place.glsl"
 
 void main() {
-  uint i = item_index();
-  if (i >= push.count) return;
-  // Clamped, as in bvh_leaves: a triangle is one of B, whatever the memory held.
-  uint face = min(triangles[i].face, push.count - 1u);
-  uvec3 f = faces[face];
-  triangles[i].a = vertices[f.x].hi;
-  triangles[i].b = vertices[f.y].hi;
-  triangles[i].c = vertices[f.z].hi;
-  triangles[i].face = face;
-  triangle_lows[i] = TriangleLow(vertices[f.x].lo, vertices[f.y].lo, vertices[f.z].lo);
+  uint i = workgroup_index() * kRun + gl_LocalInvocationID.x;
+  Box own = empty_box();
+  if (i < push.count) own = place_triangle(i, triangles[i].face);
+  write_run(own, push.count, push.quads, push.sixteens);
 }

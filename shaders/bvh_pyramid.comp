@@ -1,31 +1,21 @@
-// What: one level of the pyramid of boxes over the sorted triangles: each box joins kPyramidFan
-// neighbours of the level below. In: triangles, or the level below in boxes. Out: this level in
-// boxes.
+// What: levels of the pyramid of boxes over the sorted triangles, from one of them: over runs of 4,
+// 16, 64 and 256 of its boxes. In: that level in boxes. Out: those above it in boxes. The levels
+// over the triangles themselves are written by whoever writes these (bvh_leaves, bvh_move).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 #include "shaders/lib/invocation.glsl"
 
-layout(local_size_x = kGroupSize) in;
-layout(scalar, binding = 0) readonly buffer Triangles { Triangle triangles[]; };
-layout(scalar, binding = 1) buffer Boxes { Box boxes[]; };
+layout(local_size_x = kRun) in;
+layout(scalar, binding = 0) buffer Boxes { Box boxes[]; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
-#include "shaders/lib/box.glsl"
+#include "shaders/lib/run_boxes.glsl"
 
 void main() {
-  uint i = item_index();
-  uint begin = i * kPyramidFan;
-  if (begin >= push.from_count) return;
-  uint end = min(begin + kPyramidFan, push.from_count);
-  Box b = empty_box();
-  for (uint k = begin; k < end; ++k) {
-    if (push.from_triangles != 0u) {
-      b = joined(b, triangle_box(k));
-    } else {
-      b = joined(b, boxes[push.from + k]);
-    }
-  }
-  boxes[push.to + i] = b;
+  uint i = workgroup_index() * kRun + gl_LocalInvocationID.x;
+  Box own = empty_box();
+  if (i < push.count) own = boxes[push.from + i];
+  write_run(own, push.count, push.quads, push.sixteens);
 }

@@ -8,6 +8,9 @@
 #include <cstdint>
 namespace vkh::gpu {
 using uint = uint32_t;
+struct vec2 {
+  float x, y;
+};
 struct vec3 {
   float x, y, z;
 };
@@ -46,8 +49,14 @@ VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group hold
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
+// bvh_box: faces of an invocation.
+VKH_CONST uint kBoxGroup = 256u;
+VKH_CONST uint kBoxFaces = 4u;
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
 VKH_CONST uint kPyramidFan = 16u;
+// Items of a level whose boxes a workgroup joins: two levels of the pyramid, and between them those
+// over four boxes each, which bvh_refit alone reads.
+VKH_CONST uint kRun = 256u;
 VKH_CONST uint kMaxTriangles = 1u << 28;
 // Hierarchy depth: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at
 // least one bit a level.
@@ -120,10 +129,11 @@ VKH_CONST uint kDispatchSortDigits = 8u;  // digits
 VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
 VKH_CONST uint kDispatchCount = 10u;
 
-// Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts
-// at a time.
+// Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
+// time, kSortRounds keys each, or down to kFewestSortRounds (SortPush).
 VKH_CONST uint kSortGroup = 256u;
 VKH_CONST uint kSortRounds = 8u;
+VKH_CONST uint kFewestSortRounds = 2u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
 // Up to so many faces are told apart well enough by 24 bits of their codes: the lowest 6 are 0, and
@@ -316,10 +326,11 @@ struct Box {
   vec3 hi;
 };
 
-// The box that the middles of B's faces' boxes lie in: floats as ordered bits (lib/morton.h).
+// The box that the middles of B's faces' boxes lie in: floats as ordered bits (lib/morton.h). Six
+// minima, so that one fill makes it empty.
 struct CentroidBox {
   uint lo[3];
-  uint hi[3];
+  uint minus_hi[3];
 };
 
 struct Report {
@@ -385,16 +396,28 @@ struct CountPush {
   uint count;
 };
 
-// bvh_pyramid: one level, from the one below it.
+// The levels above one of the pyramid: bvh_pyramid, and over the triangles bvh_leaves and bvh_move.
 struct PyramidPush {
-  uint from_triangles;  // the level below is the triangles
-  uint from;            // where the level below starts in `boxes`
-  uint from_count;
-  uint to;  // where this one starts
+  uint from;      // where that level starts in `boxes`; nothing where it is the triangles
+  uint count;     // of its boxes, or of triangles
+  uint quads;     // where the boxes over four of it each start
+  uint sixteens;  // and those over sixteen
+};
+
+// bvh_refit
+struct RefitPush {
+  uint count;  // of triangles
+  uint quads;  // where the boxes over four of them start in `boxes`; those over sixteen start at 0
 };
 
 struct SortPush {
-  uint shift;  // of the digit in the key
+  uint shift;   // of the digit in the key
+  uint rounds;  // keys of an invocation; fewer than kSortRounds where that still leaves few blocks
+  uint count;   // of keys; kNone where a buffer has it
+  // Where passes count for each other, sort_scatter for the one after it: which this is, and how
+  // many have counts of their own in `counts`. Else 0 of 1.
+  uint pass;
+  uint passes;
 };
 
 // seed_faces

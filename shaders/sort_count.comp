@@ -1,6 +1,7 @@
-// What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer, for
-// only the device knows the frontier's length. Out: counts[digit * blocks + block]. Radix sort,
-// first of three kernels a pass: count, scan, scatter.
+// What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer where
+// only the device knows, as with the frontier. Out: counts[block * kSortDigits + digit]. Radix
+// sort, first of three kernels a pass: count, scan, scatter. Where passes count for each other, it
+// runs in the first alone, and empties the counts of the others.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,19 +15,31 @@ layout(scalar, binding = 1) writeonly buffer Counts { uint counts[]; };
 layout(scalar, binding = 2) readonly buffer KeyCount { uint key_count; };
 layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
+#include "shaders/lib/key_total.glsl"
+
 shared uint histogram[kSortDigits];
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint block = workgroup_index();
-  uint blocks = sort_blocks(key_count);
+  uint total = key_total();
+  uint blocks = sort_blocks(total, push.rounds);
   if (block >= blocks) return;
+  uint first = block * push.rounds * kSortGroup + lane;
+  // All keys before any is counted: no load waits for a counter.
+  uint key[kSortRounds];
+  for (uint round = 0u; round < kSortRounds; ++round) {
+    if (round >= push.rounds) continue;
+    key[round] = keys[min(first + round * kSortGroup, total - 1u)];
+  }
   histogram[lane] = 0u;
   barrier();
   for (uint round = 0u; round < kSortRounds; ++round) {
-    uint i = block * kSortBlock + round * kSortGroup + lane;
-    if (i < key_count) atomicAdd(histogram[(keys[i] >> push.shift) & 255u], 1u);
+    if (round >= push.rounds || first + round * kSortGroup >= total) continue;
+    atomicAdd(histogram[(key[round] >> push.shift) & 255u], 1u);
   }
   barrier();
-  counts[lane * blocks + block] = histogram[lane];
+  counts[block * kSortDigits + lane] = histogram[lane];
+  for (uint pass = 1u; pass < push.passes; ++pass)
+    counts[(pass * blocks + block) * kSortDigits + lane] = 0u;
 }

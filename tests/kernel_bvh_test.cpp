@@ -131,7 +131,7 @@ void check_codes(const Mesh& mesh) {
   const gpu::CentroidBox found = bench.get(built.hierarchy.box)[0];
   for (int axis = 0; axis < 3; ++axis) {
     CHECK(from_ordered(found.lo[axis]) == box.lo[axis]);
-    CHECK(from_ordered(found.hi[axis]) == box.hi[axis]);
+    CHECK(-from_ordered(found.minus_hi[axis]) == box.hi[axis]);
   }
   const Words codes = bench.get(built.hierarchy.codes);
   const Words order = bench.get(built.scratch.sort.values[0]);

@@ -63,8 +63,6 @@ Sorted sort_on_cpu(const Words& keys, const Words& values) {
   return out;
 }
 
-uint32_t blocks_of(uint32_t count) { return (count + gpu::kSortBlock - 1) / gpu::kSortBlock; }
-
 Sorted sort_on_device(KernelBench& bench, const Words& keys, const Words& values) {
   const auto count = static_cast<uint32_t>(keys.size());
   SortStreams scratch;
@@ -72,7 +70,7 @@ Sorted sort_on_device(KernelBench& bench, const Words& keys, const Words& values
   scratch.values[0] = bench.put(values);
   scratch.keys[1] = bench.garbage<uint32_t>(count);
   scratch.values[1] = bench.garbage<uint32_t>(count);
-  scratch.counts = bench.garbage<uint32_t>(blocks_of(count) * gpu::kSortDigits);
+  scratch.counts = bench.garbage<uint32_t>(sort_rows(count) * gpu::kSortDigits);
   scratch.totals = bench.garbage<uint32_t>(gpu::kSortDigits);
   scratch.count = bench.garbage<uint32_t>(1);
   bench.run([&](Recorder& rec) { record_sort(rec, scratch, count); });
@@ -114,6 +112,20 @@ TEST_CASE("the sort is std::stable_sort on many keys") {
   check_sort(bench, make_keys(kAllKeys[0], gpu::kSortGroup * gpu::kSortBlock + 12'345));
 }
 
+TEST_CASE("the sort is std::stable_sort where blocks grow, and as a CPU device has it") {
+  const uint32_t few = gpu::kSortFewBlocks * gpu::kSortGroup;  // keys of few blocks, one a round
+  for (const uint32_t switches : {VKH_SWITCH_ALL, VKH_SWITCH_DEFAULT_CPU}) {
+    KernelBench bench(switches);
+    for (const uint32_t rounds : {2u, 4u, 8u}) {
+      for (const uint32_t count : {few * rounds - 1, few * rounds, few * rounds + 1}) {
+        CAPTURE(switches);
+        CAPTURE(count);
+        check_sort(bench, make_keys(kAllKeys[0], count));
+      }
+    }
+  }
+}
+
 TEST_CASE("sorting nothing touches nothing") {
   KernelBench bench;
   const Words one(1, 0xdeadbeefu);
@@ -130,44 +142,50 @@ TEST_CASE("sort_count counts each digit of each block") {
   for (const uint32_t count : kAwkwardSizes) {
     KernelBench bench;
     const Words keys = make_keys(kAllKeys[0], count);
-    const uint32_t blocks = blocks_of(count);
-    for (uint32_t shift = 0; shift < 32; shift += 8) {
-      Words expected(blocks * gpu::kSortDigits);
-      for (uint32_t i = 0; i < count; ++i) {
-        ++expected[((keys[i] >> shift) & 255) * blocks + i / gpu::kSortBlock];
+    const auto keys_in = bench.put(keys);
+    const auto key_count = bench.put(Words{count});
+    for (const uint32_t rounds : {2u, 4u, 8u}) {
+      const uint32_t blocks = sort_blocks(count, rounds);
+      for (uint32_t shift = 0; shift < 32; shift += 8) {
+        Words expected(blocks * gpu::kSortDigits);
+        for (uint32_t i = 0; i < count; ++i) {
+          const uint32_t block = i / (rounds * gpu::kSortGroup);
+          ++expected[block * gpu::kSortDigits + ((keys[i] >> shift) & 255)];
+        }
+        const auto counts = bench.garbage<uint32_t>(expected.size());
+        const gpu::SortPush push{
+            .shift = shift, .rounds = rounds, .count = gpu::kNone, .pass = 0, .passes = 1};
+        bench.run([&](Recorder& rec) {
+          rec.run<k::SortCount>({.keys = keys_in, .counts = counts, .key_count = key_count}, push,
+                                Groups{blocks});
+        });
+        CAPTURE(count);
+        CAPTURE(rounds);
+        CAPTURE(shift);
+        CHECK(bench.get(counts) == expected);
       }
-      const auto counts = bench.garbage<uint32_t>(expected.size());
-      const auto keys_in = bench.put(keys);
-      const gpu::SortPush push{.shift = shift};
-      const auto key_count = bench.put(Words{count});
-      bench.run([&](Recorder& rec) {
-        rec.run<k::SortCount>({.keys = keys_in, .counts = counts, .key_count = key_count}, push,
-                              Groups{blocks});
-      });
-      CAPTURE(count);
-      CAPTURE(shift);
-      CHECK(bench.get(counts) == expected);
     }
   }
 }
 
-TEST_CASE("sort_scan sums each digit's row exclusively") {
+TEST_CASE("sort_scan sums each digit's counts exclusively") {
   for (const uint32_t blocks : {1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 511u, 513u, 1000u}) {
     KernelBench bench;
     Random random(blocks);
     Words counts(blocks * gpu::kSortDigits);
     for (uint32_t& c : counts) c = random.below(gpu::kSortBlock + 1);
-    Words sums, totals;
-    for (uint32_t digit = 0; digit < gpu::kSortDigits; ++digit) {
-      const auto row = counts.begin() + digit * blocks;
-      std::exclusive_scan(row, row + blocks, std::back_inserter(sums), 0u);
-      totals.push_back(std::accumulate(row, row + blocks, 0u));
+    Words sums, totals(gpu::kSortDigits);
+    for (uint32_t i = 0; i < counts.size(); ++i) {
+      sums.push_back(totals[i % gpu::kSortDigits]);
+      totals[i % gpu::kSortDigits] += counts[i];
     }
     const auto in_out = bench.put(counts);
     const auto totals_out = bench.garbage<uint32_t>(gpu::kSortDigits);
     const auto key_count = bench.put(Words{blocks * gpu::kSortBlock});
+    const gpu::SortPush push{
+        .shift = 0, .rounds = gpu::kSortRounds, .count = gpu::kNone, .pass = 0, .passes = 1};
     bench.run([&](Recorder& rec) {
-      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, {},
+      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, push,
                            Groups{gpu::kSortDigits});
     });
     CAPTURE(blocks);

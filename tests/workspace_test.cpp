@@ -125,6 +125,10 @@ TEST_CASE("the pyramid has room for every level") {
   CHECK(pyramid_size(17) == 3);
   CHECK(pyramid_size(256) == 17);
   CHECK(pyramid_size(257) == 17 + 2 + 1);
+  CHECK(quads_size(1) == 0);
+  CHECK(quads_size(2) == 1);
+  CHECK(quads_size(17) == 5 + 1);
+  CHECK(quads_size(257) == 65 + 5 + 1);
 }
 
 // --- Waves and time ---

@@ -1,4 +1,4 @@
-// Boxes of sorted triangles. Include after `triangles` is declared.
+// Boxes of sorted triangles.
 #ifndef VKH_SHADERS_LIB_BOX_GLSL
 #define VKH_SHADERS_LIB_BOX_GLSL
 
@@ -6,11 +6,6 @@ Box empty_box() { return Box(vec3(3.0e38), vec3(-3.0e38)); }
 
 Box joined(Box x, Box y) { return Box(min(x.lo, y.lo), max(x.hi, y.hi)); }
 
-Box triangle_box(uint i) {
-  vec3 a = triangles[i].a;
-  vec3 b = triangles[i].b;
-  vec3 c = triangles[i].c;
-  return Box(min(a, min(b, c)), max(a, max(b, c)));
-}
+Box triangle_box(vec3 a, vec3 b, vec3 c) { return Box(min(a, min(b, c)), max(a, max(b, c))); }
 
 #endif

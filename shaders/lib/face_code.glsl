@@ -23,7 +23,7 @@ uint code_in_box(vec3 p, vec3 lo, vec3 hi) {
 
 // `count`: of B's faces.
 uint face_code(vec3 middle, CentroidBox box, uint count) {
-  uint code = code_in_box(middle, box_corner(box.lo), box_corner(box.hi));
+  uint code = code_in_box(middle, box_corner(box.lo), -box_corner(box.minus_hi));
   return count <= kFewFaces ? code & (0xffffffffu << kFewFacesFirstBit) : code;
 }
 

@@ -2,8 +2,12 @@
 #ifndef VKH_SHADERS_LIB_SORT_GLSL
 #define VKH_SHADERS_LIB_SORT_GLSL
 
-uint sort_blocks(uint keys) {
-  return (keys + kSortBlock - 1u) / kSortBlock;  // uncertified: integers
+// Blocks of `rounds` times kSortGroup keys.
+uint sort_blocks(uint keys, uint rounds) {
+  uint block = kSortGroup * rounds;
+  return (keys + block - 1u) / block;  // uncertified: integers
 }
+
+uint sort_blocks(uint keys) { return sort_blocks(keys, kSortRounds); }
 
 #endif

@@ -1,0 +1,43 @@
+// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64 and
+// 256 of them. Include after `boxes` is declared; the workgroup has kRun invocations.
+#ifndef VKH_SHADERS_LIB_RUN_BOXES_GLSL
+#define VKH_SHADERS_LIB_RUN_BOXES_GLSL
+
+#include "shaders/lib/box.glsl"
+
+// Those of 1, then those of 4, 16 and 64, each at its level's start.
+shared Box run_boxes[kRun + kRun / 4u + kRun / 16u + kRun / 64u];  // uncertified: integers
+
+uint fours(uint count) { return (count + 3u) / 4u; }  // uncertified: integers
+
+// Called by every invocation of the workgroup. `own`: the box of item workgroup * kRun + lane,
+// empty past the end; `count`: of all items; `quads`, `sixteens`: where the levels above them start
+// in boxes (PyramidPush). One item has no levels above it.
+void write_run(Box own, uint count, uint quads, uint sixteens) {
+  uint lane = gl_LocalInvocationID.x;
+  uint below = 0u;
+  uint width = kRun;
+  run_boxes[lane] = own;
+  for (uint level = 0u; level < 4u; ++level) {
+    if ((level & 1u) == 0u && count <= 1u) return;
+    barrier();
+    uint above = below + width;
+    width /= 4u;  // uncertified: integers
+    count = fours(count);
+    uint i = workgroup_index() * width + lane;
+    if (lane < width) {
+      uint k = below + 4u * lane;
+      Box b = joined(joined(run_boxes[k], run_boxes[k + 1u]),
+                     joined(run_boxes[k + 2u], run_boxes[k + 3u]));
+      if (level < 3u) run_boxes[above + lane] = b;
+      if (i < count) boxes[quads + i] = b;
+    }
+    // The next level is of the other kind: each starts behind the last of its own.
+    uint other = sixteens;
+    sixteens = quads + count;
+    quads = other;
+    below = above;
+  }
+}
+
+#endif
