@@ -22,6 +22,20 @@ Slice<float> u3_bounds_of(const Problem& p) {
   return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
 }
 
+// Nothing, unless the plan has moved the base: then the witness is measured above the new one.
+void record_witness(Recorder& rec, const Problem& p) {
+  const gpu::SeedPush push{.vertex_count = 0, .triangle_count = p.b.face_count, .warm = 1};
+  rec.run_indirect<k::SeedLower>({.vertices = p.ws.vertices,
+                                  .nodes = as<gpu::uvec4>(p.b.nodes),
+                                  .triangles = as<gpu::uvec4>(p.b.triangles),
+                                  .vertex_nearest = p.ws.vertex_nearest,
+                                  .vertex_distance = p.ws.vertex_distance,
+                                  .control = p.ws.control,
+                                  .triangle_lows = p.b.triangle_lows,
+                                  .faces = p.ws.faces},
+                                 push, p.ws.dispatch(gpu::kDispatchWitness));
+}
+
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -38,6 +52,8 @@ void record_plan(Recorder& rec, const Problem& p) {
                         .triangles = as<gpu::uvec4>(p.b.triangles),
                         .triangle_lows = p.b.triangle_lows},
                        {}, Groups{1});
+  // With kUseGroupWalk the plan does it.
+  if ((p.switches & gpu::kUseGroupWalk) == 0) record_witness(rec, p);
   rec.stage("plan");
 }
 

@@ -127,7 +127,8 @@ VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
 VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
 VKH_CONST uint kDispatchSortDigits = 8u;  // digits
 VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
-VKH_CONST uint kDispatchCount = 10u;
+VKH_CONST uint kDispatchWitness = 10u;    // seed_lower, where the base has moved
+VKH_CONST uint kDispatchCount = 11u;
 
 // Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
 // time, kSortRounds keys each, or down to kFewestSortRounds (SortPush).

@@ -37,6 +37,8 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 const uint kAdoptGroup = kPlanGroup;
 #include "shaders/lib/adopt.glsl"
 
+bool base_moved = false;  // in this wave; of the invocation that plans
+
 // Adds what the wave before this one did to the totals.
 void close_wave() {
   if (control.wave == 0u) return;
@@ -66,9 +68,21 @@ void rebase_maximum(uint which) {
   control.maximum[which] = floatBitsToUint(rebased(uintBitsToFloat(control.maximum[which])));
 }
 
+// Here where a wave is a chain of steps, and a dispatch is one more. Elsewhere seed_lower does it,
+// which has the code for it: pipelines are created at every start of a program.
+void measure_witness() {
+  Witness w = control.witness;
+  Two3 p = place(load_root(w.root), uvec2(w.j, w.k));
+  Query q = Query(p, control.base, true);
+  Nearest found = measured(q, nearest_triangle(q, w.nearest), -1.0);
+  control.witness.nearest = found.triangle;
+  control.witness.distance = max(found.above, 0.0);
+  control.maximum[kMaxLower] = floatBitsToUint(control.witness.distance);
+}
+
 // The lower bound has risen so far above the base that an ulp of what it is above it matters: moves
-// the base up to it, everything kept above the old one with it, and measures the witness again. The
-// frontier is moved as it is read in this wave.
+// the base up to it, and everything kept above the old one with it. The witness is to be measured
+// again. The frontier is moved as it is read in this wave.
 void move_base() {
   control.rebase_hi = 0.0;
   control.rebase_lo = 0.0;
@@ -83,13 +97,10 @@ void move_base() {
   rebase_maximum(kMaxFrontier);
   rebase_maximum(kMaxDropped);
   rebase_maximum(kMaxSpilled);
-  Witness w = control.witness;
-  Two3 p = place(load_root(w.root), uvec2(w.j, w.k));
-  Query q = Query(p, control.base, true);
-  Nearest found = measured(q, nearest_triangle(q, w.nearest), -1.0);
-  control.witness.nearest = found.triangle;
-  control.witness.distance = max(found.above, 0.0);
-  control.maximum[kMaxLower] = floatBitsToUint(control.witness.distance);
+  base_moved = true;
+  control.maximum[kMaxLower] = 0u;
+  control.witness.distance = 3.0e38;
+  if (kSpread) measure_witness();
 }
 
 // A refined candidate leaves at most four where it was one. While more than the reserve is free, as
@@ -144,6 +155,7 @@ void write_sizes() {
   uint parents = running ? control.parents : 0u;
   uint held = running ? parents + control.deferred : 0u;
   dispatches[kDispatchSubdivide] = groups_for(held * split_lanes());
+  dispatches[kDispatchWitness] = groups_of(base_moved && !kSpread ? 1u : 0u);
   write_query_sizes(parents);
   write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
   uint children = running ? child_count() : 0u;

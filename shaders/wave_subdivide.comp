@@ -52,10 +52,10 @@ uint choose_split(Bary3 at, Root root) {
 uint best_start(Candidate c, vec3 p) {
   if ((kSwitches & kUseWarmStart) == 0u) return kNone;
   Nearest best = nothing_near();
-  try_triangle(p, c.nearest.x, best);
-  if (c.nearest.y != c.nearest.x) try_triangle(p, c.nearest.y, best);
-  if (c.nearest.z != c.nearest.x && c.nearest.z != c.nearest.y) try_triangle(p, c.nearest.z, best);
-  if (c.nearest_centroid != kNone) try_triangle(p, c.nearest_centroid, best);
+  for (uint k = 0u; k < 4u; ++k) {
+    uint i = k < 3u ? c.nearest[k] : c.nearest_centroid;
+    if (i != kNone && i != best.triangle) try_triangle(p, i, best);
+  }
   return best.triangle;
 }
 

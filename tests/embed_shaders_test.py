@@ -4,13 +4,18 @@
 A kernel that breaks it must stop the build with a message that names the shader and the block.
 """
 
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-EMBED = Path(__file__).resolve().parent.parent / "tools" / "embed_shaders.py"
+TOOLS = Path(__file__).resolve().parent.parent / "tools"
+EMBED = TOOLS / "embed_shaders.py"
+sys.path.insert(0, str(TOOLS))
+
+import spirv_module  # noqa: E402: found only now
 
 HEAD = """#version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -85,20 +90,30 @@ BROKEN = {
 }
 
 
+def words_in(array):
+    return [int(word, 16) for word in re.findall("0x[0-9a-f]{8}", array.split("}")[0])]
+
+
+def loop_controls(words):
+    """What the module says of each of its loops."""
+    return [words[at + 3] for at, op in spirv_module.instructions(words)
+            if op == spirv_module.OP_LOOP_MERGE]
+
+
 class EmbedShaders(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.dir = Path(self.folder.name)
 
-    def embed(self, declarations, body="", head=HEAD, flags=()):
+    def embed(self, declarations, body="", head=HEAD, flags=(), variants=()):
         """Compiles and embeds try_it.comp; the result of embed_shaders.py."""
         source, spv = self.dir / "try_it.comp", self.dir / "try_it.spv"
         source.write_text(head + declarations + MAIN % body)
         glslang = ["glslangValidator", "--quiet", "--target-env", "vulkan1.2", *flags]
         compiled = subprocess.run([*glslang, "-o", spv, source], capture_output=True, text=True)
         self.assertEqual(compiled.returncode, 0, compiled.stdout)
-        command = [sys.executable, "-B", EMBED, "kernel", spv, self.dir]
+        command = [sys.executable, "-B", EMBED, "kernel", spv, self.dir, *variants]
         return subprocess.run(command, capture_output=True, text=True)
 
     def header(self, *args, **kwargs):
@@ -167,6 +182,21 @@ class EmbedShaders(unittest.TestCase):
         push = "layout(scalar, push_constant) uniform PushBlock { Item push; };"
         self.assertIn("using Push = NoPush;", self.header(KEYS))
         self.assertIn("using Push = gpu::Item;", self.header(KEYS + push))
+
+    def test_cpu_devices_leave_loops_as_they_are(self):
+        """Their words say so of each loop, but for those that the shader wants unrolled."""
+        head = HEAD + "#extension GL_EXT_control_flow_attributes : require\n"
+        loop = "for (uint i = 0; i < 4; ++i) keys[i] = i;"
+        spv = self.dir / "try_it.spv"
+        for body, controls in [("keys[0] = 1;", None), (loop, [2]),
+                               ("[[unroll]] " + loop + loop, [1, 2])]:
+            with self.subTest(body):
+                self.header(KEYS, body, head=head, variants=(spv, spv))
+                source = (self.dir / "try_it.cpp").read_text()
+                given, *for_cpu = [words_in(part) for part in source.split("Words[] = {")[1:]]
+                self.assertEqual(loop_controls(given), [c & 1 for c in controls or []])
+                self.assertEqual([loop_controls(words) for words in for_cpu],
+                                 [controls] if controls else [])
 
     def test_an_equal_header_keeps_its_time(self):
         self.header(KEYS, "keys[0] = 1;")

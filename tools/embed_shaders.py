@@ -4,7 +4,7 @@
   embed_shaders.py kernel SPV OUT_DIR [FLAT CPU]
                                            OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
                                            SPV tells of the buffers, and FLAT is embedded where it
-                                           is given, and CPU too where there are switches
+                                           is given, and CPU too, its loops kept, if that differs
   embed_shaders.py index OUT_DIR NAME...   OUT_DIR/all_kernels.h and .cpp, and no other kernel's
 
 The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... without a gap, storage
@@ -325,9 +325,10 @@ def embed_kernel(spv, out_dir, flat=None, cpu=None):
     except (ContractError, ValueError) as error:
         sys.exit(f"shaders/{spv.stem}.comp: {error}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
-    cpu_words = read_words(cpu) if cpu and spirv.has_switches(words) else None
+    flat_words = read_words(flat) if flat else words
+    cpu_words = spirv.with_loops_kept(read_words(cpu)) if cpu else flat_words
     # Always: it is the output by which a Makefile knows that this ran.
-    text = source_text(kernel, read_words(flat) if flat else words, cpu_words)
+    text = source_text(kernel, flat_words, cpu_words if cpu_words != flat_words else None)
     (out_dir / f"{kernel.name}.cpp").write_text(text)
 
 

@@ -8,11 +8,12 @@ OP_NAME, OP_MEMBER_NAME, OP_EXECUTION_MODE, OP_EXECUTION_MODE_ID = 5, 6, 16, 331
 OP_TYPE_BOOL, OP_TYPE_INT, OP_TYPE_FLOAT, OP_TYPE_VECTOR = 20, 21, 22, 23
 OP_TYPE_ARRAY, OP_TYPE_RUNTIME_ARRAY, OP_TYPE_STRUCT, OP_TYPE_POINTER = 28, 29, 30, 32
 OP_CONSTANT, OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT, OP_SPEC_CONSTANT_COMPOSITE = 43, 44, 50, 51
-OP_VARIABLE, OP_DECORATE, OP_MEMBER_DECORATE = 59, 71, 72
+OP_VARIABLE, OP_DECORATE, OP_MEMBER_DECORATE, OP_LOOP_MERGE = 59, 71, 72, 246
 TYPES = range(19, 40)
 MODE_LOCAL_SIZE, MODE_LOCAL_SIZE_ID = 17, 38
-SPEC_ID, ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 1, 6, 11, 24, 33, 34, 35
+ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 6, 11, 24, 33, 34, 35
 BUILT_IN_WORKGROUP_SIZE = 25
+LOOP_UNROLL, LOOP_DONT_UNROLL = 1, 2
 UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER = 0, 2, 9, 12
 INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # what the host binds
 
@@ -21,9 +22,21 @@ def literal_string(words):
     return struct.pack(f"<{len(words)}I", *words).split(b"\0", 1)[0].decode()
 
 
-def has_switches(words):
-    """Whether there is a specialisation constant: the kernels' only one is their switches."""
-    return any(SPEC_ID in d for d in Module(words).decorations.values())
+def instructions(words):
+    """The place and the opcode of each."""
+    at = 5
+    while at < len(words):
+        yield at, words[at] & 0xFFFF
+        at += words[at] >> 16
+
+
+def with_loops_kept(words):
+    """The module, its loops marked to be left as they are, but for those marked to be unrolled."""
+    kept = list(words)
+    for at, op in instructions(words):
+        if op == OP_LOOP_MERGE and not words[at + 3] & LOOP_UNROLL:
+            kept[at + 3] |= LOOP_DONT_UNROLL
+    return tuple(kept)
 
 
 class Module:
@@ -36,11 +49,8 @@ class Module:
         self.decorations, self.member_decorations = defaultdict(dict), defaultdict(dict)
         self.types, self.constants, self.composites = {}, {}, {}
         self.variables, self.local_size = [], None
-        at = 5
-        while at < len(words):
-            count, op = words[at] >> 16, words[at] & 0xFFFF
-            self._declare(op, words[at + 1 : at + count])
-            at += count
+        for at, op in instructions(words):
+            self._declare(op, words[at + 1 : at + (words[at] >> 16)])
         self._find_local_size()
 
     def _declare(self, op, args):

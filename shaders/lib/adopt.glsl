@@ -5,6 +5,7 @@
 
 shared uint smallest_key;
 shared uint chosen_sample;
+shared Witness chosen;
 
 // Where the list of offers did not hold them all, every sample of the wave is looked at.
 uint samples_at_hand() {
@@ -18,36 +19,36 @@ uint sample_at_hand(uint i) {
   return i < points_asked ? i : (i - points_asked) | kCentroidSample;
 }
 
-void find_smallest_key(uint count) {
-  for (uint i = gl_LocalInvocationID.x; i < count; i += kAdoptGroup) {
-    uint s = sample_at_hand(i);
-    if (is_new_lower(distance_of_sample(s))) atomicMin(smallest_key, key_of_sample(s));
-  }
-}
-
-// Several with the same key are one to the report: any of them.
-void choose_by_key(uint count) {
-  for (uint i = gl_LocalInvocationID.x; i < count; i += kAdoptGroup) {
-    uint s = sample_at_hand(i);
-    if (is_new_lower(distance_of_sample(s)) && key_of_sample(s) == smallest_key) chosen_sample = s;
+// First the smallest key, then a sample that has it: several with the same key are one to the
+// report, and the first to come is taken. One loop for both, since what it calls is long.
+void choose_sample(uint count) {
+  for (uint turn = 0u; turn < 2u; ++turn) {
+    for (uint i = gl_LocalInvocationID.x; i < count; i += kAdoptGroup) {
+      uint s = sample_at_hand(i);
+      if (!is_new_lower(distance_of_sample(s))) continue;
+      Witness w = witness_at(s);
+      if (turn == 0u) {
+        atomicMin(smallest_key, key_of_witness(w));
+      } else if (key_of_witness(w) == smallest_key &&
+                 atomicCompSwap(chosen_sample, kNone, s) == kNone) {
+        chosen = w;
+      }
+    }
+    barrier();
   }
 }
 
 // Called by every invocation; control is changed by the first one alone.
 void adopt_witness() {
   bool first = gl_LocalInvocationID.x == 0u;
-  uint count = samples_at_hand();
   if (first) {
     smallest_key = kNone;
     chosen_sample = kNone;
   }
   barrier();
-  find_smallest_key(count);
-  barrier();
-  choose_by_key(count);
-  barrier();
+  choose_sample(samples_at_hand());
   if (!first) return;
-  if (chosen_sample != kNone) adopt_sample(chosen_sample);
+  if (chosen_sample != kNone) control.witness = chosen;
   control.offer_count = 0u;
 }
 

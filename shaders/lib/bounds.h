@@ -30,12 +30,6 @@ VKH_FN Patch make_patch(Two3 a, Two3 b, Two3 c) {
   return p;
 }
 
-// d(corner, S) for each corner of T.
-VKH_FN vec3 corner_distances(Patch t, Surface s) {
-  return vec3(surface_distance_up(t.a, s), surface_distance_up(t.b, s),
-              surface_distance_up(t.c, s));
-}
-
 // `bound` moved by `shift` >= 0, rounded up, as it is kept: a bound below the base is one of the
 // base too.
 VKH_FN float kept_bound(float bound, float shift) {
@@ -70,6 +64,18 @@ VKH_FN Two3 corner_at(Patch t, uint i) {
   if (i == 1u) p = t.b;
   if (i == 2u) p = t.c;
   return p;
+}
+
+// d(corner, S) for each corner of T.
+VKH_FN vec3 corner_distances(Patch t, Surface s) {
+  vec3 d = vec3(0.0f, 0.0f, 0.0f);
+  for (uint i = 0u; i < 3u; ++i) {
+    float at_corner = surface_distance_up(corner_at(t, i), s);
+    if (i == 0u) d.x = at_corner;
+    if (i == 1u) d.y = at_corner;
+    if (i == 2u) d.z = at_corner;
+  }
+  return d;
 }
 
 // How T is cut between two surfaces (u3), by a number for each corner that says on which side it

@@ -113,9 +113,10 @@ Nearest measured(Query q, Nearest best, float than) {
   float next = next_to_surface(q.tight) - q.base;
   if (q.tight && best.above > next) return best;
   Surface s = load_surface(best.triangle, view_from(q.p, q.base));
-  if (!q.tight) best.above = surface_distance_up(two(vec3(0.0)), s);
+  Closest c = closest_point(vec3(0.0), s.at);
+  if (!q.tight) best.above = distance_to_up(two(vec3(0.0)), s, c);
   bool matters = best.above > than;
-  if (matters && best.above <= next) best.above = triangle_distance_down(s, 3.0e38);
+  if (matters && best.above <= next) best.above = distance_down(s, c, 3.0e38);
   return best;
 }
 

@@ -96,13 +96,16 @@ VKH_FN float fine_distance_down(Surface s, Closest c) {
   return best;
 }
 
-// <= d(origin, S) - base. Precise only where it has to be: a triangle that is farther than base +
-// `enough` by plain floats stays at that.
-VKH_FN float triangle_distance_down(Surface s, float enough) {
-  Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
+// <= d(origin, S) - base, `c` the closest point found. Precise only where it has to be: a triangle
+// that is farther than base + `enough` by plain floats stays at that.
+VKH_FN float distance_down(Surface s, Closest c, float enough) {
   float coarse = coarse_distance_down(s, c.offset);
   if (coarse >= enough) return coarse;
   return max(coarse, fine_distance_down(s, c));
+}
+
+VKH_FN float triangle_distance_down(Surface s, float enough) {
+  return distance_down(s, closest_point(vec3(0.0f, 0.0f, 0.0f), s.at), enough);
 }
 
 VKH_LIB_END

@@ -33,17 +33,16 @@ void offer_point(uint code) {
     offer_sample(points_each() * parent_of(code) + which);
 }
 
-struct Sample {
-  uint root;
-  uvec2 at;
-  Point asked;
-};
+Witness witness_from(Point asked, uint root, uvec2 at) {
+  return Witness(asked.position, asked.distance, root, at.x, at.y, asked.nearest);
+}
 
-Sample load_sample(uint s) {
+// A sample as the witness that it would be.
+Witness witness_at(uint s) {
   if ((s & kCentroidSample) != 0u) {
     uint c = s & ~kCentroidSample;
     Child child = load_child(survivors[c]);
-    return Sample(child.root, centroid_of(child.at), centroids[c]);
+    return witness_from(centroids[c], child.root, centroid_of(child.at));
   }
   Split split = splits[s / points_each()];  // uncertified: integers
   Candidate parent = frontier[reading(split.parent)];
@@ -53,18 +52,9 @@ Sample load_sample(uint s) {
     uint child = (which - 3u) / 3u;  // uncertified: integers
     six = split_points(child_of(six, child_points(split.code, child)), inner_split(split, child));
   }
-  return Sample(parent.root, corner_of(six.fresh, which % 3u), points[s]);
+  return witness_from(points[s], parent.root, corner_of(six.fresh, which % 3u));
 }
 
-uint key_of_sample(uint s) {
-  Sample x = load_sample(s);
-  return mixed(mixed(mixed(mixed(0u, x.root), x.at.x), x.at.y), x.asked.nearest);
-}
-
-void adopt_sample(uint s) {
-  Sample x = load_sample(s);
-  control.witness =
-      Witness(x.asked.position, x.asked.distance, x.root, x.at.x, x.at.y, x.asked.nearest);
-}
+uint key_of_witness(Witness w) { return mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest); }
 
 #endif
