@@ -55,6 +55,8 @@ Witness witness_at(uint s) {
   return witness_from(points[s], parent.root, corner_of(six.fresh, which % 3u));
 }
 
-uint key_of_witness(Witness w) { return mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest); }
+uint key_of_witness(Witness w) {
+  return mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest);
+}
 
 #endif
