@@ -35,7 +35,7 @@ struct Nearest {
 Nearest nothing_near() { return Nearest(kNone, 3.0e38, 3.0e38); }
 
 void try_triangle(vec3 p, uint i, inout Nearest best) {
-  float d2 = closest_point(vec3(0.0), local_triangle(i, p)).distance2;
+  float d2 = plain_distance2(vec3(0.0), local_triangle(i, p));
   // Of equally far triangles the first, in whichever order they are tried.
   if (d2 < best.distance2 || (d2 == best.distance2 && i < best.triangle))
     best = Nearest(i, d2, 0.0);
@@ -76,7 +76,7 @@ void try_query(Query q, uint i, inout Nearest best) {
     try_triangle(q.p.hi, i, best);
     return;
   }
-  float d2 = closest_point(vec3(0.0), local_triangle(i, q.p.hi)).distance2;
+  float d2 = plain_distance2(vec3(0.0), local_triangle(i, q.p.hi));
   if (d2 > reach_of(best)) return;
   best.distance2 = min(best.distance2, d2);
   tied[tied_count] = i;
