@@ -79,13 +79,9 @@ void main() {
     Two3 p = seed_point(i);
     uint start = start_of(i);
     Query q = Query(p, 0.0, false);
-    if (in_groups) {
-      barrier();  // read before it is answered
-      Nearest found = nearest_triangle_by_group(q, start);
-      if (lane == 0u) d = answer(i, p.hi, found);
-    } else {
-      d = answer(i, p.hi, nearest_triangle(q, start));
-    }
+    if (in_groups) barrier();  // read before it is answered
+    Nearest found = nearest_triangle(q, start, in_groups);
+    if (first) d = answer(i, p.hi, found);
   }
   raise(kMaxVertex, d);
 }

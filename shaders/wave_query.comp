@@ -27,18 +27,15 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 void main() {
   uint count = push.centroids != 0u ? control.count[kCountSurvivors] : point_count();
+  bool by_group = walks_in_groups(count);
+  uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + gl_LocalInvocationID.x;
+  bool asked = i < count && points[i].distance >= 0.0;
   float d = 0.0;
-  if (walks_in_groups(count)) {
-    uint i = workgroup_index();
-    if (i >= count || points[i].distance < 0.0) return;
+  if (asked) {
     uint start = points[i].nearest;
-    barrier();  // read before it is answered
-    Nearest found = nearest_triangle_by_group(query_at(i), start);
-    if (gl_LocalInvocationID.x == 0u) d = answer(i, found);
-  } else {
-    uint i = workgroup_index() * kQueryGroup + gl_LocalInvocationID.x;
-    if (i < count && points[i].distance >= 0.0)
-      d = answer(i, nearest_triangle(query_at(i), points[i].nearest));
+    if (by_group) barrier();  // read before it is answered
+    Nearest found = nearest_triangle(query_at(i), start, by_group);
+    if (!by_group || gl_LocalInvocationID.x == 0u) d = answer(i, found);
   }
   raise(kMaxLower, d);
 }

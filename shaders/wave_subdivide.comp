@@ -59,36 +59,26 @@ uint best_start(Candidate c, vec3 p) {
   return best.triangle;
 }
 
-// A negative distance tells the query to skip the point.
-void write_point(uint at, Candidate c, Root root, uvec2 point, bool asked) {
-  Two3 p = place(root, point);
-  points[at] = asked ? Point(p.hi, best_start(c, p.hi), p.lo, 0.0) : Point(p.hi, kNone, p.lo, -1.0);
-}
-
-// Point k of a child of the candidate: the child is split, too.
-void write_inner_point(uint i, uint k, Candidate c, Bary6 six, Root root, uint split, uint group) {
-  uint which = k / 3u;  // uncertified: integers
-  Bary3 child = child_of(six, child_points(split, which));
-  uint inner = choose_split(child, root);
-  if (k % 3u == 0u) atomicOr(inner_in_group[group], (inner & kInnerNone) << (5u * which));
-  bool asked = inner != kSplitNone;
-  Bary6 points_of_child = split_points(child, asked ? inner : kSplitMidpoint);
-  write_point(15u * i + 3u + k, c, root, corner_of(points_of_child.fresh, k % 3u), asked);
+// New point k of a candidate at `at`: of its own split, or of the split of one of its children. A
+// negative distance tells the query to skip the point.
+void write_point(uint to, uint k, Candidate c, Bary3 at, Root root, uint split, uint group) {
+  bool inner = k >= 3u && split != kSplitNone;
+  if (inner) {
+    uint which = k / 3u - 1u;  // uncertified: integers
+    at = child_of(split_points(at, split), child_points(split, which));
+    split = choose_split(at, root);
+    if (k % 3u == 0u) atomicOr(inner_in_group[group], (split & kInnerNone) << (5u * which));
+  }
+  bool asked = split != kSplitNone;
+  Bary6 six = split_points(at, asked ? split : kSplitMidpoint);
+  Two3 p = place(root, corner_of(six.fresh, k % 3u));
+  uint start = asked ? best_start(c, p.hi) : kNone;
+  points[to] = Point(p.hi, start, p.lo, asked ? 0.0 : -1.0);
 }
 
 void write_points(uint i, uint lane, Candidate c, Bary3 at, Root root, uint split, uint group) {
-  bool asked = split != kSplitNone;
-  uint code = asked ? split : kSplitMidpoint;
-  Bary6 six = split_points(at, code);
-  for (uint k = lane; k < points_each(); k += split_lanes()) {
-    if (k < 3u) {
-      write_point(points_each() * i + k, c, root, corner_of(six.fresh, k), asked);
-    } else if (asked) {
-      write_inner_point(i, k - 3u, c, six, root, code, group);
-    } else {
-      points[15u * i + k].distance = -1.0;
-    }
-  }
+  for (uint k = lane; k < points_each(); k += split_lanes())
+    write_point(points_each() * i + k, k, c, at, root, split, group);
 }
 
 // Whether items are taken in the order of the sort. Then the wave's parents come first, and one

@@ -74,16 +74,19 @@ void descend(Query q, Level below, uint side) {
 Nearest try_runs(Query q, uint side) {
   Nearest best = Nearest(kNone, uintBitsToFloat(nearest_bits), 3.0e38);
   tied_count = 0u;
-  for (uint k = gl_LocalInvocationID.x; k < level_count[side] * kPyramidFan; k += kQueryGroup) {
-    uint i = entry_of(side, k);
-    if (i < push.triangle_count) try_query(q, i, best);
-    if (tied_count == kTied) measure_tied(q, best);
-  }
-  if (q.tight) {
-    atomicMin(nearest_bits, floatBitsToUint(best.distance2));
-    barrier();
-    best.distance2 = uintBitsToFloat(nearest_bits);
-    measure_tied(q, best);
+  uint total = level_count[side] * kPyramidFan;
+  uint k = gl_LocalInvocationID.x;
+  while (k < total) {
+    for (; k < total && tied_count < kTied; k += kQueryGroup) {
+      uint i = entry_of(side, k);
+      if (i < push.triangle_count) try_query(q, i, best);
+    }
+    // What others have found spares ties; which ones it spares does not change the result.
+    if (q.tight) {
+      atomicMin(nearest_bits, floatBitsToUint(best.distance2));
+      best.distance2 = uintBitsToFloat(nearest_bits);
+      measure_tied(q, best);
+    }
   }
   return best;
 }
@@ -99,9 +102,9 @@ void join_lanes(Query q) {
   }
 }
 
-// Called by every invocation of the workgroup with the same arguments; the result is invocation
-// 0's.
-Nearest nearest_triangle_by_group(Query q, uint start) {
+// Called by every invocation of the workgroup with the same arguments; what is found is invocation
+// 0's. False where too many boxes matter: then each is to walk alone.
+bool walk_by_group(Query q, uint start, out Nearest found) {
   uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) {
     Nearest first = nothing_near();
@@ -122,11 +125,20 @@ Nearest nearest_triangle_by_group(Query q, uint start) {
       descend(q, level_at(level - 1u), side);
     }
     side = 1u - side;
-    if (level_count[side] > kGroupWalkBoxes) return nearest_triangle(q, start);
+    if (level_count[side] > kGroupWalkBoxes) return false;
   }
   nearest_of_lane[lane] = try_runs(q, side);
   join_lanes(q);
-  return nearest_of_lane[lane];
+  found = nearest_of_lane[lane];
+  return true;
+}
+
+// `by_group`: the same for all invocations of the workgroup, and so are the arguments where it is
+// true.
+Nearest nearest_triangle(Query q, uint start, bool by_group) {
+  Nearest found;
+  if (by_group && walk_by_group(q, start, found)) return found;
+  return nearest_triangle(q, start);
 }
 
 #endif
