@@ -60,7 +60,8 @@ Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
   if ((kSwitches & kUsePaperU3) != 0u && u3_bounds[i] < v.upper) v = Verdict(u3_bounds[i], kCullU3);
   if ((kSwitches & kUseU4) == 0u) return v;  // alone: optimisers then leave all of it out
   if (v.upper <= threshold) return v;
-  float u4 = bound_u4(patch_of_child(child), c.nearest, view_of_child(child), held[child].slack);
+  float u4 =
+      bound_u4(patch_of_child(child), c.nearest, view_of_child(child), held[kHeldSlack][child]);
   if (u4 < v.upper) v = Verdict(u4, kCullU4);
   return v;
 }

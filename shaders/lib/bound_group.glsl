@@ -8,17 +8,21 @@
 const uint kMostKnown = kKnowsMore ? kMaxKnown : 3u;
 const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: integers
 
-// A child as all invocations need it. With it, 17 KiB of shared memory at most, even where a
-// compiler pads vec3 to 16 bytes (engine/support.cpp asks for 18).
-struct Held {
-  Two3 b, c;  // corners around the first
-  Two3 origin;
-  float reach, slack;
-  float upper;  // u so far
-  uint known, first_pair, pairs;
-};
+// A child as all invocations need it, each word beside the same one of other children: invocations
+// of a subgroup read those at once, and as structs they would be in few of the banks of shared
+// memory. With it, 13 KiB of that at most.
+const uint kHeldB = 0u;  // corners around the first
+const uint kHeldC = 6u;
+const uint kHeldOrigin = 12u;
+const uint kHeldReach = 18u;
+const uint kHeldSlack = 19u;
+const uint kHeldUpper = 20u;  // u so far
+const uint kHeldWords = 21u;
 
-shared Held held[kMostChildren];
+shared float held[kHeldWords][kMostChildren];
+shared uint known_count[kMostChildren];
+shared uint first_pair[kMostChildren];
+shared uint pairs_of[kMostChildren];
 shared uint known_triangle[kMostChildren * kMostKnown];
 shared float corner_distance[kMostChildren * kMostKnown * 3u];
 shared uint measures[kMostChildren * kMostKnown];  // kMostKnown * child + k: triangle k of a child
@@ -40,15 +44,29 @@ void begin_group() {
   barrier();
 }
 
+void hold_point(uint word, uint child, Two3 p) {
+  held[word][child] = p.hi.x;
+  held[word + 1u][child] = p.hi.y;
+  held[word + 2u][child] = p.hi.z;
+  held[word + 3u][child] = p.lo.x;
+  held[word + 4u][child] = p.lo.y;
+  held[word + 5u][child] = p.lo.z;
+}
+
+Two3 held_point(uint word, uint child) {
+  return Two3(vec3(held[word][child], held[word + 1u][child], held[word + 2u][child]),
+              vec3(held[word + 3u][child], held[word + 4u][child], held[word + 5u][child]));
+}
+
 View view_of_child(uint child) {
   Placement p;
-  p.origin = held[child].origin;
-  p.reach = held[child].reach;
+  p.origin = held_point(kHeldOrigin, child);
+  p.reach = held[kHeldReach][child];
   return view_of(p, (kSwitches & kUseCertificate) == 0u);
 }
 
 Patch patch_of_child(uint child) {
-  return make_patch(two(vec3(0.0)), held[child].b, held[child].c);
+  return make_patch(two(vec3(0.0)), held_point(kHeldB, child), held_point(kHeldC, child));
 }
 
 Surface surface_of(uint child, uint k) {
@@ -62,8 +80,14 @@ vec3 distances_of(uint child, uint k) {
 
 void hold(uint child, Child c, Known known) {
   Placement placed = place_corners(load_root(c.root), c.at);
-  held[child] = Held(placed.b, placed.c, placed.origin, placed.reach, placed.slack, c.upper,
-                     known.count, 0u, 0u);
+  hold_point(kHeldB, child, placed.b);
+  hold_point(kHeldC, child, placed.c);
+  hold_point(kHeldOrigin, child, placed.origin);
+  held[kHeldReach][child] = placed.reach;
+  held[kHeldSlack][child] = placed.slack;
+  held[kHeldUpper][child] = c.upper;
+  known_count[child] = known.count;
+  pairs_of[child] = 0u;
   uint first = atomicAdd(measure_count, known.count);
   for (uint k = 0u; k < known.count; ++k) {
     known_triangle[child * kMostKnown + k] = known.triangle[k];
@@ -80,8 +104,8 @@ void measure_corners(bool fine) {
     Surface s = surface_of(child, at % kMostKnown);
     for (uint corner = n % step; corner < 3u; corner += step) {
       Two3 p = two(vec3(0.0));
-      if (corner == 1u) p = held[child].b;
-      if (corner == 2u) p = held[child].c;
+      if (corner == 1u) p = held_point(kHeldB, child);
+      if (corner == 2u) p = held_point(kHeldC, child);
       corner_distance[3u * at + corner] = surface_distance_up(p, s);
     }
   }
@@ -90,23 +114,23 @@ void measure_corners(bool fine) {
 // What single triangles give: u1, u2 and ha, and the exact case, ha of the only one.
 Verdict bound_singly(uint child, float threshold) {
   Patch t = patch_of_child(child);
-  float shift = held[child].slack;
+  float shift = held[kHeldSlack][child];
   vec3 own = vec3(3.0e38);
   float ha = 3.0e38;
-  for (uint k = 0u; k < held[child].known; ++k) {
+  for (uint k = 0u; k < known_count[child]; ++k) {
     vec3 d = distances_of(child, k);
     own = min(own, d);
     ha = min(ha, kept_bound(bound_single(d), shift));
   }
   float u1 = kept_bound(bound_u1(t, own), shift);
   float u2 = kept_bound(bound_u2(t, own), shift);
-  uint by = held[child].known == 1u ? kCullExact
-            : u1 <= threshold       ? kCullU1
-            : u2 <= threshold       ? kCullU2
-            : ha <= threshold       ? kCullHa
-                                    : kCullLowerRaised;
-  held[child].upper = min(held[child].upper, min(ha, min(u1, u2)));
-  return Verdict(held[child].upper, by);
+  uint by = known_count[child] == 1u ? kCullExact
+            : u1 <= threshold        ? kCullU1
+            : u2 <= threshold        ? kCullU2
+            : ha <= threshold        ? kCullHa
+                                     : kCullLowerRaised;
+  held[kHeldUpper][child] = min(held[kHeldUpper][child], min(ha, min(u1, u2)));
+  return Verdict(held[kHeldUpper][child], by);
 }
 
 // Pairs of triangles that may bound a child better, for measure_cuts: a pair cannot beat the better
@@ -115,19 +139,19 @@ Verdict bound_singly(uint child, float threshold) {
 void list_pairs(uint child) {
   uint listed[kMostPairs];
   uint count = 0u;
-  for (uint i = 1u; i < held[child].known; ++i) {
+  for (uint i = 1u; i < known_count[child]; ++i) {
     for (uint j = 0u; j < i; ++j) {
       vec3 di = distances_of(child, i);
       vec3 dj = distances_of(child, j);
-      float at_best = kept_bound(bound_nearer(di, dj), held[child].slack);
-      if (cut_by(di - dj).none || at_best >= held[child].upper) continue;
+      float at_best = kept_bound(bound_nearer(di, dj), held[kHeldSlack][child]);
+      if (cut_by(di - dj).none || at_best >= held[kHeldUpper][child]) continue;
       listed[count] = (child * kMaxKnown + i) * kMaxKnown + j;
       ++count;
     }
   }
   uint first = atomicAdd(pair_count, count);
-  held[child].first_pair = first;
-  held[child].pairs = count;
+  first_pair[child] = first;
+  pairs_of[child] = count;
   for (uint n = 0u; n < count; ++n) {
     pairs[first + n] = listed[n];
     pair_bits[first + n] = 0u;
@@ -152,13 +176,13 @@ void measure_cuts(bool fine) {
         p = cut_point(patch_of_child(child), cut, part >> 1, di - dj);
       u3 = max(u3, surface_distance_up(p, surface_of(child, (part & 1u) == 0u ? i : j)));
     }
-    atomicMax(pair_bits[at], floatBitsToUint(kept_bound(u3, held[child].slack)));
+    atomicMax(pair_bits[at], floatBitsToUint(kept_bound(u3, held[kHeldSlack][child])));
   }
 }
 
 Verdict bound_in_pairs(uint child, Verdict v) {
-  for (uint n = 0u; n < held[child].pairs; ++n) {
-    float u3 = uintBitsToFloat(pair_bits[held[child].first_pair + n]);
+  for (uint n = 0u; n < pairs_of[child]; ++n) {
+    float u3 = uintBitsToFloat(pair_bits[first_pair[child] + n]);
     if (u3 < v.upper) v = Verdict(u3, kCullU3);
   }
   return v;
