@@ -44,17 +44,6 @@ layout(scalar, binding = 13) readonly buffer U3Bounds { float u3_bounds[]; };
 // Whether wave_filter has gone over the children.
 const bool kFiltered = (kSwitches & kUseFilter) != 0u;
 
-Known known_to(Child c, uint code, uint centre) {
-  Known known;
-  known.count = 0u;
-  know(known, centre);
-  know(known, c.nearest.x);
-  know(known, c.nearest.y);
-  know(known, c.nearest.z);
-  if ((kSwitches & kUseParentSamples) != 0u) know_parent_samples(code, known);
-  return known;
-}
-
 // By what kernels of their own found, and by points.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
   if ((kSwitches & kUsePaperU3) != 0u && u3_bounds[i] < v.upper) v = Verdict(u3_bounds[i], kCullU3);
@@ -125,7 +114,10 @@ void main() {
   if (bounded) {
     c = load_child(code);
     centre = centre_of(i);
-    hold(lane, c, known_to(c, code, centre));
+    know(lane, centre);
+    know_corners(lane, c);
+    know_parent_samples(lane, code);
+    hold(lane, c);
   }
   barrier();
   measure_corners(fine);

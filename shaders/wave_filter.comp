@@ -29,8 +29,12 @@ layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
 #include "shaders/lib/candidate.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
+#include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
+
+const uint kKnowers = kGroupSize;
+#include "shaders/lib/known.glsl"
 
 struct Verdict {
   float upper;
@@ -51,24 +55,22 @@ void measure(Patch t, uint triangle, View view, inout vec3 own, inout Verdict v,
 }
 
 Verdict filter_child(uint code, Child c, Root root, float threshold) {
+  uint child = gl_LocalInvocationID.x;
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
   View view = view_of(placed, (kSwitches & kUseCertificate) == 0u);
   float shift = placed.slack;
-  Known known;
-  known.count = 0u;
-  know(known, c.nearest.x);
-  know(known, c.nearest.y);
-  know(known, c.nearest.z);
-  uint own_count = known.count;
-  if ((kSwitches & kUseParentSamples) != 0u) know_parent_samples(code, known);
+  known_count[child] = 0u;
+  know_corners(child, c);
+  uint own_count = known_count[child];
+  know_parent_samples(child, code);
 
   Verdict v = Verdict(c.upper, kCullU1, c.nearest.x);
   vec3 own = vec3(3.0e38);
   float ha = 3.0e38;
-  for (uint k = 0u; k < known.count; ++k) {
+  for (uint k = 0u; k < known_count[child]; ++k) {
     if (k == own_count && v.upper <= threshold) return v;
-    measure(t, known.triangle[k], view, own, v, ha);
+    measure(t, known_to(child, k), view, own, v, ha);
     if (k + 1u == own_count) {
       float u1 = kept_bound(bound_u1(t, own), shift);
       float u2 = kept_bound(bound_u2(t, own), shift);

@@ -4,8 +4,9 @@
 #ifndef VKH_SHADERS_LIB_BOUND_GROUP_GLSL
 #define VKH_SHADERS_LIB_BOUND_GROUP_GLSL
 
-// Without the centroid's triangle and the parent's, only the three corners' are known.
-const uint kMostKnown = kKnowsMore ? kMaxKnown : 3u;
+const uint kKnowers = kMostChildren;
+#include "shaders/lib/known.glsl"
+
 const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: integers
 
 // A child as all invocations need it, each word beside the same one of other children: invocations
@@ -20,10 +21,8 @@ const uint kHeldUpper = 20u;  // u so far
 const uint kHeldWords = 21u;
 
 shared float held[kHeldWords][kMostChildren];
-shared uint known_count[kMostChildren];
 shared uint first_pair[kMostChildren];
 shared uint pairs_of[kMostChildren];
-shared uint known_triangle[kMostChildren * kMostKnown];
 shared float corner_distance[kMostChildren * kMostKnown * 3u];
 shared uint measures[kMostChildren * kMostKnown];  // kMostKnown * child + k: triangle k of a child
 shared uint measure_count;
@@ -37,6 +36,7 @@ struct Verdict {
 };
 
 void begin_group() {
+  if (gl_LocalInvocationID.x < kMostChildren) known_count[gl_LocalInvocationID.x] = 0u;
   if (gl_LocalInvocationID.x == 0u) {
     measure_count = 0u;
     pair_count = 0u;
@@ -70,7 +70,7 @@ Patch patch_of_child(uint child) {
 }
 
 Surface surface_of(uint child, uint k) {
-  return load_surface(known_triangle[child * kMostKnown + k], view_of_child(child));
+  return load_surface(known_to(child, k), view_of_child(child));
 }
 
 vec3 distances_of(uint child, uint k) {
@@ -78,7 +78,8 @@ vec3 distances_of(uint child, uint k) {
   return vec3(corner_distance[at], corner_distance[at + 1u], corner_distance[at + 2u]);
 }
 
-void hold(uint child, Child c, Known known) {
+// Of a child whose known triangles are there already.
+void hold(uint child, Child c) {
   Placement placed = place_corners(load_root(c.root), c.at);
   hold_point(kHeldB, child, placed.b);
   hold_point(kHeldC, child, placed.c);
@@ -86,13 +87,9 @@ void hold(uint child, Child c, Known known) {
   held[kHeldReach][child] = placed.reach;
   held[kHeldSlack][child] = placed.slack;
   held[kHeldUpper][child] = c.upper;
-  known_count[child] = known.count;
   pairs_of[child] = 0u;
-  uint first = atomicAdd(measure_count, known.count);
-  for (uint k = 0u; k < known.count; ++k) {
-    known_triangle[child * kMostKnown + k] = known.triangle[k];
-    measures[first + k] = child * kMostKnown + k;
-  }
+  uint first = atomicAdd(measure_count, known_count[child]);
+  for (uint k = 0u; k < known_count[child]; ++k) measures[first + k] = child * kMostKnown + k;
 }
 
 // Every child's corners against the triangles known to it; where `fine`, an invocation a corner.
@@ -137,24 +134,29 @@ Verdict bound_singly(uint child, float threshold) {
 // of its two distances at the worst corner. Which are tried does not depend on what others found,
 // or the bound would depend on their order.
 void list_pairs(uint child) {
-  uint listed[kMostPairs];
-  uint count = 0u;
+  uint worth = 0u;  // a bit a pair
+  uint bit = 1u;
   for (uint i = 1u; i < known_count[child]; ++i) {
     for (uint j = 0u; j < i; ++j) {
       vec3 di = distances_of(child, i);
       vec3 dj = distances_of(child, j);
       float at_best = kept_bound(bound_nearer(di, dj), held[kHeldSlack][child]);
-      if (cut_by(di - dj).none || at_best >= held[kHeldUpper][child]) continue;
-      listed[count] = (child * kMaxKnown + i) * kMaxKnown + j;
-      ++count;
+      if (!cut_by(di - dj).none && at_best < held[kHeldUpper][child]) worth |= bit;
+      bit <<= 1;
     }
   }
-  uint first = atomicAdd(pair_count, count);
-  first_pair[child] = first;
-  pairs_of[child] = count;
-  for (uint n = 0u; n < count; ++n) {
-    pairs[first + n] = listed[n];
-    pair_bits[first + n] = 0u;
+  pairs_of[child] = uint(bitCount(worth));
+  uint next = atomicAdd(pair_count, pairs_of[child]);
+  first_pair[child] = next;
+  for (uint i = 1u; i < known_count[child]; ++i) {
+    for (uint j = 0u; j < i; ++j) {
+      if ((worth & 1u) != 0u) {
+        pairs[next] = (child * kMaxKnown + i) * kMaxKnown + j;
+        pair_bits[next] = 0u;
+        ++next;
+      }
+      worth >>= 1;
+    }
   }
 }
 

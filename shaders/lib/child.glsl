@@ -5,10 +5,6 @@
 #ifndef VKH_SHADERS_LIB_CHILD_GLSL
 #define VKH_SHADERS_LIB_CHILD_GLSL
 
-// At most: three own, three more of the parent's six points, the parent's centroid, the child's own
-// centroid.
-const uint kMaxKnown = 8u;
-
 #include "shaders/lib/generations.glsl"
 
 struct Child {
@@ -17,19 +13,6 @@ struct Child {
   uvec3 nearest;  // closest triangles of the three corners
   float upper;    // the parent's u, which bounds the child too; huge for a face of A
 };
-
-struct Known {
-  uint triangle[kMaxKnown];
-  uint count;
-};
-
-void know(inout Known known, uint triangle) {
-  bool fresh = triangle != kNone && known.count < kMaxKnown;
-  for (uint i = 0u; i < known.count; ++i) fresh = fresh && known.triangle[i] != triangle;
-  if (!fresh) return;
-  known.triangle[known.count] = triangle;
-  ++known.count;
-}
 
 bool is_root(uint code) { return code >= children_each() * control.parents; }
 
@@ -105,14 +88,6 @@ bool is_child(uint code) {
 Child load_child(uint code) {
   if (is_root(code)) return root_child(code);
   return split_child(code);
-}
-
-// The parent's samples are free: its other corners, its other new points, its centroid.
-void know_parent_samples(uint code, inout Known known) {
-  if (is_root(code)) return;
-  Candidate parent = frontier[reading(splits[parent_of(code)].parent)];
-  for (uint i = 0u; i < 6u; ++i) know(known, nearest_of(parent, parent_of(code), i));
-  know(known, parent.nearest_centroid);
 }
 
 #endif
