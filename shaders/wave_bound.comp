@@ -125,11 +125,15 @@ void main() {
   Verdict v = Verdict(0.0, kCullExact);
   if (bounded) {
     v = bound_singly(lane, threshold);
-    if ((kSwitches & kUsePairs) != 0u && v.upper > threshold) list_pairs(lane);
+    if ((kSwitches & kUsePairs) != 0u && v.upper > threshold) list_pairs(lane, v.upper, fine);
   }
   barrier();
   measure_cuts(fine);
   barrier();
+  if (fine) {
+    join_cuts();
+    barrier();
+  }
   if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
   write(mine, c, centre, v, threshold);
 }

@@ -17,17 +17,18 @@ const uint kHeldC = 6u;
 const uint kHeldOrigin = 12u;
 const uint kHeldReach = 18u;
 const uint kHeldSlack = 19u;
-const uint kHeldUpper = 20u;  // u so far
-const uint kHeldWords = 21u;
+const uint kHeldWords = 20u;
 
 shared float held[kHeldWords][kMostChildren];
-shared uint first_pair[kMostChildren];
-shared uint pairs_of[kMostChildren];
+shared uint upper_bits[kMostChildren];  // u so far
 shared float corner_distance[kMostChildren * kMostKnown * 3u];
-shared uint measures[kMostChildren * kMostKnown];  // kMostKnown * child + k: triangle k of a child
+// First what is to be measured, kMostKnown * child + k for triangle k of a child; then pairs,
+// (child * kMaxKnown + i) * kMaxKnown + j and, where they are measured in parts, the bits of each
+// one's u3: then the children are half as many at most.
+const uint kMostListed = kMostChildren * kMostPairs;  // kMostPairs >= kMostKnown
+const uint kPairBits = kMostListed / 2u;                               // uncertified: integers
+shared uint listed[kMostListed];
 shared uint measure_count;
-shared uint pairs[kMostChildren * kMostPairs];  // (child * kMaxKnown + i) * kMaxKnown + j
-shared uint pair_bits[kMostChildren * kMostPairs];
 shared uint pair_count;
 
 struct Verdict {
@@ -86,17 +87,16 @@ void hold(uint child, Child c) {
   hold_point(kHeldOrigin, child, placed.origin);
   held[kHeldReach][child] = placed.reach;
   held[kHeldSlack][child] = placed.slack;
-  held[kHeldUpper][child] = c.upper;
-  pairs_of[child] = 0u;
+  upper_bits[child] = floatBitsToUint(c.upper);
   uint first = atomicAdd(measure_count, known_count[child]);
-  for (uint k = 0u; k < known_count[child]; ++k) measures[first + k] = child * kMostKnown + k;
+  for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;
 }
 
 // Every child's corners against the triangles known to it; where `fine`, an invocation a corner.
 void measure_corners(bool fine) {
   uint step = fine ? 3u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
-    uint at = measures[n / step];  // uncertified: integers
+    uint at = listed[n / step];    // uncertified: integers
     uint child = at / kMostKnown;  // uncertified: integers
     Surface s = surface_of(child, at % kMostKnown);
     for (uint corner = n % step; corner < 3u; corner += step) {
@@ -126,68 +126,66 @@ Verdict bound_singly(uint child, float threshold) {
             : u2 <= threshold        ? kCullU2
             : ha <= threshold        ? kCullHa
                                      : kCullLowerRaised;
-  held[kHeldUpper][child] = min(held[kHeldUpper][child], min(ha, min(u1, u2)));
-  return Verdict(held[kHeldUpper][child], by);
+  float upper = min(uintBitsToFloat(upper_bits[child]), min(ha, min(u1, u2)));
+  upper_bits[child] = floatBitsToUint(upper);
+  return Verdict(upper, by);
 }
 
-// Pairs of triangles that may bound a child better, for measure_cuts: a pair cannot beat the better
-// of its two distances at the worst corner. Which are tried does not depend on what others found,
-// or the bound would depend on their order.
-void list_pairs(uint child) {
-  uint worth = 0u;  // a bit a pair
-  uint bit = 1u;
+// Pairs of triangles that may bound a child better than `upper`, for measure_cuts: a pair cannot
+// beat the better of its two distances at the worst corner. Which are tried does not depend on what
+// others found, or the bound would depend on their order.
+void list_pairs(uint child, float upper, bool fine) {
   for (uint i = 1u; i < known_count[child]; ++i) {
     for (uint j = 0u; j < i; ++j) {
       vec3 di = distances_of(child, i);
       vec3 dj = distances_of(child, j);
       float at_best = kept_bound(bound_nearer(di, dj), held[kHeldSlack][child]);
-      if (!cut_by(di - dj).none && at_best < held[kHeldUpper][child]) worth |= bit;
-      bit <<= 1;
-    }
-  }
-  pairs_of[child] = uint(bitCount(worth));
-  uint next = atomicAdd(pair_count, pairs_of[child]);
-  first_pair[child] = next;
-  for (uint i = 1u; i < known_count[child]; ++i) {
-    for (uint j = 0u; j < i; ++j) {
-      if ((worth & 1u) != 0u) {
-        pairs[next] = (child * kMaxKnown + i) * kMaxKnown + j;
-        pair_bits[next] = 0u;
-        ++next;
-      }
-      worth >>= 1;
+      if (cut_by(di - dj).none || at_best >= upper) continue;
+      uint slot = atomicAdd(pair_count, 1u);
+      listed[slot] = (child * kMaxKnown + i) * kMaxKnown + j;
+      if (fine) listed[kPairBits + slot] = 0u;
     }
   }
 }
+
+uint child_of_pair(uint pair) { return pair / (kMaxKnown * kMaxKnown); }  // uncertified: integers
 
 // u3 of the listed pairs: two cuts, each against two surfaces; where `fine`, an invocation each.
 void measure_cuts(bool fine) {
   uint step = fine ? 4u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < pair_count * step; n += kGroupSize) {
-    uint at = n / step;                                // uncertified: integers
-    uint child = pairs[at] / (kMaxKnown * kMaxKnown);  // uncertified: integers
-    uint i = (pairs[at] / kMaxKnown) % kMaxKnown;      // uncertified: integers
-    uint j = pairs[at] % kMaxKnown;
+    uint pair = listed[n / step];  // uncertified: integers
+    uint child = child_of_pair(pair);
+    uint i = (pair / kMaxKnown) % kMaxKnown;  // uncertified: integers
+    uint j = pair % kMaxKnown;
     vec3 di = distances_of(child, i);
     vec3 dj = distances_of(child, j);
     Cut cut = cut_by(di - dj);
     float u3 = bound_nearer(di, dj);
-    Two3 p = two(vec3(0.0));
+    Surface s;
     for (uint part = n % step; part < 4u; part += step) {
-      if (step == 4u || (part & 1u) == 0u)
-        p = cut_point(patch_of_child(child), cut, part >> 1, di - dj);
-      u3 = max(u3, surface_distance_up(p, surface_of(child, (part & 1u) == 0u ? i : j)));
+      if (fine || (part & 1u) == 0u) s = surface_of(child, part < 2u ? i : j);
+      Two3 p = cut_point(patch_of_child(child), cut, part & 1u, di - dj);
+      u3 = max(u3, surface_distance_up(p, s));
     }
-    atomicMax(pair_bits[at], floatBitsToUint(kept_bound(u3, held[kHeldSlack][child])));
+    uint bits = floatBitsToUint(kept_bound(u3, held[kHeldSlack][child]));
+    if (fine) {
+      atomicMax(listed[kPairBits + n / step], bits);  // uncertified: integers
+    } else {
+      atomicMin(upper_bits[child], bits);
+    }
   }
 }
 
+// What the invocations of a pair have found together.
+void join_cuts() {
+  for (uint n = gl_LocalInvocationID.x; n < pair_count; n += kGroupSize)
+    atomicMin(upper_bits[child_of_pair(listed[n])], listed[kPairBits + n]);
+}
+
 Verdict bound_in_pairs(uint child, Verdict v) {
-  for (uint n = 0u; n < pairs_of[child]; ++n) {
-    float u3 = uintBitsToFloat(pair_bits[first_pair[child] + n]);
-    if (u3 < v.upper) v = Verdict(u3, kCullU3);
-  }
-  return v;
+  float u3 = uintBitsToFloat(upper_bits[child]);
+  return u3 < v.upper ? Verdict(u3, kCullU3) : v;
 }
 
 #endif
