@@ -55,6 +55,10 @@ Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
   return v;
 }
 
+// Of the tolerance, what a distance in plain floats may leave out: it is quicker, and a candidate
+// is closed by it all the same, unless it is as close to the threshold as that.
+const float kEnough = 0.125;
+
 uint child_total() { return kFiltered ? control.count[kCountSurvivors] : child_count(); }
 
 // The child's code; kNone where its parent was not split.
@@ -96,6 +100,7 @@ void main() {
   bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
+  float enough = kEnough * effective_tolerance();
   begin_group();
   uint code = kNone;
   if (lane < children && i < total) {
@@ -120,7 +125,7 @@ void main() {
     hold(lane, c);
   }
   barrier();
-  measure_corners(fine);
+  measure_corners(fine, enough);
   barrier();
   Verdict v = Verdict(0.0, kCullExact);
   if (bounded) {
@@ -128,7 +133,7 @@ void main() {
     if ((kSwitches & kUsePairs) != 0u && v.upper > threshold) list_pairs(lane, v.upper, fine);
   }
   barrier();
-  measure_cuts(fine);
+  measure_cuts(fine, enough);
   barrier();
   if (fine) {
     join_cuts();

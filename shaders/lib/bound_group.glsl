@@ -26,7 +26,7 @@ shared float corner_distance[kMostChildren * kMostKnown * 3u];
 // (child * kMaxKnown + i) * kMaxKnown + j and, where they are measured in parts, the bits of each
 // one's u3: then the children are half as many at most.
 const uint kMostListed = kMostChildren * kMostPairs;  // kMostPairs >= kMostKnown
-const uint kPairBits = kMostListed / 2u;                               // uncertified: integers
+const uint kPairBits = kMostListed / 2u;              // uncertified: integers
 shared uint listed[kMostListed];
 shared uint measure_count;
 shared uint pair_count;
@@ -70,8 +70,11 @@ Patch patch_of_child(uint child) {
   return make_patch(two(vec3(0.0)), held_point(kHeldB, child), held_point(kHeldC, child));
 }
 
-Surface surface_of(uint child, uint k) {
-  return load_surface(known_to(child, k), view_of_child(child));
+// In plain floats where these leave out no more than `enough`.
+Surface surface_of(uint child, uint k, float enough) {
+  View view = view_of_child(child);
+  view.enough = enough;
+  return load_surface(known_to(child, k), view);
 }
 
 vec3 distances_of(uint child, uint k) {
@@ -93,12 +96,12 @@ void hold(uint child, Child c) {
 }
 
 // Every child's corners against the triangles known to it; where `fine`, an invocation a corner.
-void measure_corners(bool fine) {
+void measure_corners(bool fine, float enough) {
   uint step = fine ? 3u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
     uint at = listed[n / step];    // uncertified: integers
     uint child = at / kMostKnown;  // uncertified: integers
-    Surface s = surface_of(child, at % kMostKnown);
+    Surface s = surface_of(child, at % kMostKnown, enough);
     for (uint corner = n % step; corner < 3u; corner += step) {
       Two3 p = two(vec3(0.0));
       if (corner == 1u) p = held_point(kHeldB, child);
@@ -151,7 +154,7 @@ void list_pairs(uint child, float upper, bool fine) {
 uint child_of_pair(uint pair) { return pair / (kMaxKnown * kMaxKnown); }  // uncertified: integers
 
 // u3 of the listed pairs: two cuts, each against two surfaces; where `fine`, an invocation each.
-void measure_cuts(bool fine) {
+void measure_cuts(bool fine, float enough) {
   uint step = fine ? 4u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < pair_count * step; n += kGroupSize) {
     uint pair = listed[n / step];  // uncertified: integers
@@ -164,7 +167,7 @@ void measure_cuts(bool fine) {
     float u3 = bound_nearer(di, dj);
     Surface s;
     for (uint part = n % step; part < 4u; part += step) {
-      if (fine || (part & 1u) == 0u) s = surface_of(child, part < 2u ? i : j);
+      if (fine || (part & 1u) == 0u) s = surface_of(child, part < 2u ? i : j, enough);
       Two3 p = cut_point(patch_of_child(child), cut, part & 1u, di - dj);
       u3 = max(u3, surface_distance_up(p, s));
     }

@@ -34,11 +34,18 @@ struct Nearest {
 
 Nearest nothing_near() { return Nearest(kNone, 3.0e38, 3.0e38); }
 
-void try_triangle(vec3 p, uint i, inout Nearest best) {
-  float d2 = plain_distance2(vec3(0.0), local_triangle(i, p));
-  // Of equally far triangles the first, in whichever order they are tried.
+float triangle_distance2(vec3 p, uint i) {
+  return plain_distance2(vec3(0.0), local_triangle(i, p));
+}
+
+// Of equally far triangles the first, in whichever order they are tried.
+void keep_nearer(uint i, float d2, inout Nearest best) {
   if (d2 < best.distance2 || (d2 == best.distance2 && i < best.triangle))
     best = Nearest(i, d2, 0.0);
+}
+
+void try_triangle(vec3 p, uint i, inout Nearest best) {
+  keep_nearer(i, triangle_distance2(p, i), best);
 }
 
 // Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
@@ -71,17 +78,20 @@ uint tied[kTied];
 float tied_distance2[kTied];
 uint tied_count;
 
-void try_query(Query q, uint i, inout Nearest best) {
+void keep_query(Query q, uint i, float d2, inout Nearest best) {
   if (!q.tight) {
-    try_triangle(q.p.hi, i, best);
+    keep_nearer(i, d2, best);
     return;
   }
-  float d2 = plain_distance2(vec3(0.0), local_triangle(i, q.p.hi));
   if (d2 > reach_of(best)) return;
   best.distance2 = min(best.distance2, d2);
   tied[tied_count] = i;
   tied_distance2[tied_count] = d2;
   ++tied_count;
+}
+
+void try_query(Query q, uint i, inout Nearest best) {
+  keep_query(q, i, triangle_distance2(q.p.hi, i), best);
 }
 
 void measure_tied(Query q, inout Nearest best) {
@@ -192,7 +202,14 @@ Nearest nearest_triangle(Query q, uint start) {
       if (at == kNone) break;
       uint first = at & (kMaxTriangles - 1u);
       uint last = first + ((at >> 28) & 7u);
-      for (uint i = first; i <= last; ++i) try_query(q, i, best);
+      // Two at a time, so that they are loaded at once.
+      for (uint i = first; i <= last; i += 2u) {
+        uint next = min(i + 1u, last);
+        float d2 = triangle_distance2(q.p.hi, i);
+        float next_d2 = triangle_distance2(q.p.hi, next);
+        keep_query(q, i, d2, best);
+        if (next > i) keep_query(q, next, next_d2, best);
+      }
       reach = reach_of(q, best);
       at = pop(reach);
     }

@@ -47,6 +47,6 @@ bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
 }
 
 // To measure one point from, as precisely as it goes.
-View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false); }
+View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false, 0.0); }
 
 #endif

@@ -89,8 +89,12 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
   return best;
 }
 
-// The squared distance that closest_point finds, up to rounding, at half its cost: what walks compare
-// triangles by. Steers.
+// A point of T is so far from p: squared, in plain floats. Nearly what closest_point finds, at half
+// its cost. With L the longest edge, D the distance of the point that it is the distance of, and
+// both in exact arithmetic for p and T as given, its root is off by kUlp (3 D + 4 L) before its own
+// rounding: inside, where 0 <= v, w and v + w <= 1 hold exactly as in closest_point, ap, which is
+// under D + L, is off by one kUlp of itself, v ab and w ac by two, the differences by one; on an
+// edge it is less.
 VKH_FN float plain_distance2(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -102,11 +106,10 @@ VKH_FN float plain_distance2(vec3 p, Corners t) {
   vec3 h = ac - s * ab;
   float hh = dot(h, h);
   float x = per_ab * dot(ap, ab);
-  vec3 from_foot = ap - x * ab;
-  float w = ratio(dot(from_foot, h), hh);
+  float w = ratio(dot(ap - x * ab, h), hh);
   float v = x - w * s;
-  vec3 normal = from_foot - w * h;
-  bool inside = hh > kSmallSquare && v >= 0.0f && w >= 0.0f && v + w <= 1.0f;
+  vec3 normal = (ap - v * ab) - w * ac;
+  bool inside = hh > kSmallSquare && v >= 0.0f && w >= 0.0f && v + w <= 1.0f - 4.0f * kUlp;
   vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;
   vec3 to_ac = ap - clamp(ratio(dot(ap, ac), dot(ac, ac)), 0.0f, 1.0f) * ac;
   vec3 to_bc = bp - clamp(ratio(dot(bp, bc), dot(bc, bc)), 0.0f, 1.0f) * bc;
@@ -121,11 +124,12 @@ VKH_FN float radius_up(Corners t) {
 
 // Where a surface is measured from, and how precisely.
 struct View {
-  Two3 origin;  // near the points; they are given relative to it
-  float reach;  // >= |origin|, and >= |p| for every p whose distance will be asked
-  float base;   // >= 0; distances are given as what they are above it, which may be negative
-  bool sharp;   // a distance's own rounding matters: it is taken to 48 bits instead of 20
-  bool plain;   // nothing is certified: plain floats, to measure what the certificate costs
+  Two3 origin;   // near the points; they are given relative to it
+  float reach;   // >= |origin|, and >= |p| for every p whose distance will be asked
+  float base;    // >= 0; distances are given as what they are above it, which may be negative
+  bool sharp;    // a distance's own rounding matters: it is taken to 48 bits instead of 20
+  bool plain;    // nothing is certified: plain floats, to measure what the certificate costs
+  float enough;  // a surface may be coarse where its slack is no more than this; 0: none may
 };
 
 // A triangle of B around a local origin: its corners to 48 bits, and rounded to find the closest
@@ -136,8 +140,21 @@ struct Surface {
   float base;   // as View::base
   bool sharp;   // as View::sharp
   bool plain;   // as View::plain
-  float slack;  // what distances leave out: see make_surface
+  bool coarse;  // it is `at` alone, and distances are taken in plain floats: they err by the slack
+  float slack;  // what distances leave out: see make_surface and coarse_slack
 };
+
+// a - origin in plain floats: off by 2 kUlp of itself and kUlp2 of what both are.
+VKH_FN vec3 coarse_difference(Two3 a, Two3 origin) {
+  return (a.hi - origin.hi) + (a.lo - origin.lo);
+}
+
+// What a coarse surface's distances leave out, R its radius: its corners are off by 2 kUlp R; p, no
+// farther away than D + R, is rounded by kUlp; plain_distance2 leaves 3 D + 4 L, and L <= 2 R. So
+// 11 kUlp R, and 4 kUlp D that surface_distance_up takes.
+VKH_FN float coarse_slack(Corners at, float reach) {
+  return round_up(12.0f * kUlp * radius_up(at) + 8.0f * kUlp2 * reach, 4.0f);
+}
 
 // In units of kUlp2, R the surface's radius: corners are off by |origin| + |corner| <= 2 reach + R
 // each, and so is a point between them; the edges by 4 R; offset_from's combination by 4 (|p| + 5
@@ -147,12 +164,21 @@ VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   s.base = from.base;
   s.sharp = from.sharp;
   s.plain = from.plain;
+  s.coarse = false;
   if (from.plain) {
     s.at.a = a.hi - from.origin.hi;
     s.at.b = b.hi - from.origin.hi;
     s.at.c = c.hi - from.origin.hi;
     s.slack = 0.0f;
     return s;
+  }
+  if (from.enough > 0.0f) {
+    s.at.a = coarse_difference(a, from.origin);
+    s.at.b = coarse_difference(b, from.origin);
+    s.at.c = coarse_difference(c, from.origin);
+    s.slack = coarse_slack(s.at, from.reach);
+    s.coarse = s.slack <= from.enough;
+    if (s.coarse) return s;
   }
   s.a = two_difference(a, from.origin);
   s.b = two_difference(b, from.origin);
@@ -186,6 +212,10 @@ VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
 
 // >= d(p, S) - base, for p taken as it is.
 VKH_FN float surface_distance_up(Two3 p, Surface s) {
+  if (s.coarse) {
+    float d = length_up(plain_distance2(rounded(p), s.at));
+    return raised(round_up(d + s.slack, 5.0f) - s.base);
+  }
   return distance_to_up(p, s, closest_point(rounded(p), s.at));
 }
 
