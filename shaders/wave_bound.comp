@@ -57,7 +57,7 @@ Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
 
 // Of the tolerance, what a distance in plain floats may leave out: it is quicker, and a candidate
 // is closed by it all the same, unless it is as close to the threshold as that.
-const float kEnough = 0.125;
+const float kEnough = 0.25;
 
 uint child_total() { return kFiltered ? control.count[kCountSurvivors] : child_count(); }
 

@@ -24,7 +24,7 @@ struct UpperCase {
   StoredTriangle triangle;
   Stored origin, p;  ///< p is relative to the origin
   float base;
-  bool sharp;
+  bool sharp, coarse;
 };
 
 /// Local origins as the kernels have them, close to p, and anywhere.
@@ -48,16 +48,22 @@ UpperCase hard_upper_case(Random& random) {
       origin += log_uniform(random, -24, 0) * random.direction();
   }
   const Stored o = random.below(4) == 0 ? stored_single(origin) : stored(origin);
-  return {t, o, stored(p - o.value()), hard_base(random, t, p), random.below(2) == 0};
+  return {t,
+          o,
+          stored(p - o.value()),
+          hard_base(random, t, p),
+          random.below(2) == 0,
+          random.below(2) == 0};
 }
 
 std::string describe_upper(const UpperCase& c) {
   return hex(c.triangle) + " around " + hex(c.origin) + " p " + hex(c.p) +
-         (c.sharp ? " sharp" : "") + " base " + hex(static_cast<double>(c.base));
+         (c.sharp ? " sharp" : "") + (c.coarse ? " coarse" : "") + " base " +
+         hex(static_cast<double>(c.base));
 }
 
 struct UpperAnswer {
-  double distance, slack, radius;
+  double distance, slack, radius, plain;
   Stored offset;
   float v, w;
   uint32_t feature;
@@ -66,13 +72,15 @@ struct UpperAnswer {
 UpperAnswer distance_up(const UpperCase& c, const Device& device) {
   const float reach = std::max(length_up(c.origin), length_up(c.p));
   return device.run([&]() -> UpperAnswer {
-    const math::Surface s = math::surface_around(c.triangle, c.origin, reach, c.sharp, c.base);
+    const math::Surface s =
+        math::surface_around(c.triangle, c.origin, reach, c.sharp, c.base, c.coarse ? 1e30f : 0.0f);
     const math::Two3 p = math::given(c.p);
     const math::Closest at = math::closest_point(math::rounded(p), s.at);
     return {math::wide(math::surface_distance_up(p, s)),
             math::wide(s.slack),
             math::wide(math::radius_up(s.at)),
-            math::answer(math::offset_from(p, s, at)),
+            math::wide(math::plain_distance2(math::rounded(p), s.at)),
+            c.coarse ? Stored{} : math::answer(math::offset_from(p, s, at)),
             math::answer(at.v),
             math::answer(at.w),
             at.feature};
@@ -107,17 +115,27 @@ void check_loose(const UpperCase& c, const UpperAnswer& got, double near, Tally&
   const double base = static_cast<double>(c.base);
   const double fine = 0x1p-38 * (near + base);  // 64 kUlp2
   const double above = near - base;
-  const double allowed = c.sharp ? 16.0 * kTriangleUlp * std::abs(above) + fine
-                                 : kTriangleUlp * (24.0 * near + 16.0 * std::abs(above));
+  const bool sharp = c.sharp && !c.coarse;
+  const double allowed = sharp ? 16.0 * kTriangleUlp * std::abs(above) + fine
+                               : kTriangleUlp * (24.0 * near + 16.0 * std::abs(above));
   const double rest = got.distance - above - allowed - 2.0 * got.slack - 0x1p-46;
   const double ulps = rest / (size * kTriangleUlp);
   tally.require(size == 0.0 || ulps <= 6.0, "upper is tight", describe);
   if (size > 0x1p-20) tally.measure("rest, ulp of the coordinates", ulps, describe);
-  if (!c.sharp || near <= 0x1p-3 * size || near < 0x1p-30) return;
+  if (!sharp || near <= 0x1p-3 * size || near < 0x1p-30) return;
   tally.measure("a far distance's excess, kUlp2 of distance and base",
                 (got.distance - above - 16.0 * kTriangleUlp * std::abs(above) - 2.0 * got.slack) /
                     (0x1p-44 * (near + base)),
                 describe);
+}
+
+/// A coarse surface's slack, with 4 ulp of the distance and 3 of the square's own, holds what plain
+/// floats make of it.
+void check_coarse(const UpperAnswer& got, double near, Tally& tally, const auto& describe) {
+  const double short_of = near - std::sqrt(got.plain) * (1.0 + 7.0 * kTriangleUlp);
+  tally.require(short_of <= got.slack + 0x1p-60, "plain_distance2 is off by at most the slack",
+                describe);
+  tally.measure("plain_distance2, error / slack", short_of / got.slack, describe);
 }
 
 }  // namespace
@@ -141,10 +159,14 @@ TEST_CASE("triangle.h: surface_distance_up is never below the distance, and is t
     tally.require(is_upper_bound(static_cast<double>(c.base), got.distance, exact),
                   "base + upper >= d(p, S)", describe);
     check_weights(got, tally, describe);
-    const double off = length_near(
-        fixed(1.0) * (p - fixed_vector(got.offset)) - named_point(got, local), 2 * kFixedBits);
-    tally.require(off <= got.slack, "offset_from is off by at most slack", describe);
-    tally.measure("offset_from, error / slack", off / got.slack, describe);
+    if (c.coarse) {
+      check_coarse(got, near, tally, describe);
+    } else {
+      const double off = length_near(
+          fixed(1.0) * (p - fixed_vector(got.offset)) - named_point(got, local), 2 * kFixedBits);
+      tally.require(off <= got.slack, "offset_from is off by at most slack", describe);
+      tally.measure("offset_from, error / slack", off / got.slack, describe);
+    }
     check_loose(c, got, near, tally, describe);
   }
   tally.conclude(4 * count);

@@ -92,15 +92,17 @@ double wide(F x) {
   return static_cast<double>(answer(x));
 }
 
-/// The triangle around `origin`, for points within `reach` of it.
+/// The triangle around `origin`, for points within `reach` of it; coarse where its slack is then no
+/// more than `enough`.
 inline Surface surface_around(const test::StoredTriangle& t, const test::Stored& origin,
-                              float reach, bool sharp, float base = 0.0f) {
+                              float reach, bool sharp, float base = 0.0f, float enough = 0.0f) {
   View from;
   from.origin = given(origin);
   from.reach = reach;
   from.base = base;
   from.sharp = sharp;
   from.plain = false;
+  from.enough = enough;
   return make_surface(given(t.corner[0]), given(t.corner[1]), given(t.corner[2]), from);
 }
 
