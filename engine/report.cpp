@@ -5,6 +5,9 @@ namespace vkh {
 
 namespace {
 
+// Above the ordered bits (lib/morton.h) of every distance.
+constexpr uint32_t kHighest = 0xffffffffu;
+
 void record_open(Recorder& rec, const Problem& p) {
   if (p.areas.buffer == VK_NULL_HANDLE) return;
   const VkDeviceSize half = p.face_count * sizeof(gpu::Area);
@@ -18,17 +21,7 @@ void record_open(Recorder& rec, const Problem& p) {
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
   const Workspace& ws = p.ws;
-  rec.run<k::ReportBegin>({.control = ws.control,
-                           .lower_bits = ws.lower_bits,
-                           .frontier = ws.frontier,
-                           .splits = ws.splits,
-                           .points = ws.points,
-                           .survivors = ws.survivors,
-                           .centroids = ws.centroids,
-                           .vertices = ws.vertices,
-                           .faces = ws.faces,
-                           .vertex_nearest = ws.vertex_nearest},
-                          {}, Groups{1});
+  rec.fill(ws.lower_bits, kHighest);
   rec.run<k::ReportLower>({.control = ws.control,
                            .b_vertices = p.b.vertices,
                            .lower_bits = ws.lower_bits,

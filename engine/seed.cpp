@@ -69,11 +69,6 @@ void record_seed(Recorder& rec, const Problem& p) {
   rec.run<k::SeedWitness>(
       {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
       Items{p.face_count});
-  rec.run<k::SeedAdopt>({.vertices = ws.vertices,
-                         .faces = ws.faces,
-                         .vertex_nearest = ws.vertex_nearest,
-                         .control = ws.control},
-                        {}, Groups{1});
   rec.stage("seed");
 }
 

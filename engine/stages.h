@@ -37,6 +37,8 @@ struct Problem {
 };
 
 void record_seed(Recorder& rec, const Problem& p);
+// What the first wave does, and each wave for the next.
+void record_plan(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan
 // finds it worth it.

@@ -1,5 +1,5 @@
 // One wave: every refined candidate becomes four, or sixteen, every new point is queried, every
-// child bounded, most of them closed.
+// child bounded, most of them closed; then the next one is planned.
 #include "engine/stages.h"
 
 namespace vkh {
@@ -36,6 +36,8 @@ void record_witness(Recorder& rec, const Problem& p) {
                                  push, p.ws.dispatch(gpu::kDispatchWitness));
 }
 
+}  // namespace
+
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -56,6 +58,8 @@ void record_plan(Recorder& rec, const Problem& p) {
   if ((p.switches & gpu::kUseGroupWalk) == 0) record_witness(rec, p);
   rec.stage("plan");
 }
+
+namespace {
 
 void record_subdivide(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
@@ -164,7 +168,6 @@ void record_bound(Recorder& rec, const Problem& p) {
 
 void record_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");
-  record_plan(rec, p);
   if ((p.switches & gpu::kUseSort) != 0) record_wave_sort(rec, p);
   record_subdivide(rec, p);
   record_query_points(rec, p);
@@ -173,6 +176,7 @@ void record_wave(Recorder& rec, const Problem& p) {
   if ((p.switches & gpu::kUseCentroid) != 0)
     record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
+  record_plan(rec, p);
 }
 
 }  // namespace vkh

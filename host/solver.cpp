@@ -75,10 +75,8 @@ void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
   out.peak_frontier = r.peakFrontier;
   const uint32_t* c = r.culled;
   out.culled = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
-  // The plan after a wave records it.
-  const uint32_t recorded = r.status == VKH_STATUS_RUNNING ? r.waves - 1 : r.waves;
-  const uint32_t first = recorded > VKH_MAX_WAVE_RECORDS ? recorded - VKH_MAX_WAVE_RECORDS : 0;
-  for (uint32_t w = first; w < recorded; ++w) {
+  const uint32_t first = r.waves > VKH_MAX_WAVE_RECORDS ? r.waves - VKH_MAX_WAVE_RECORDS : 0;
+  for (uint32_t w = first; w < r.waves; ++w) {
     const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
     out.wave_stats.push_back({w, rec.parents, rec.candidates, rec.queries, rec.survivors,
                               rec.deferred, frame.length_down(static_cast<double>(rec.lower)),

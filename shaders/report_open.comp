@@ -16,11 +16,8 @@ layout(scalar, binding = 2) buffer Areas { Area areas[]; };
 #include "shaders/lib/coverage.glsl"
 
 void main() {
-  // Until the end the last wave's output stands in the half that the next one will read.
-  bool running = control.status == kStatusRunning;
-  uint half_read = running ? 1u - control.parity : control.parity;
   uint i = item_index();
-  if (i >= control.count[running ? kCountNext : kCountFrontier]) return;
-  Candidate c = frontier[half_read * control.capacity + i];
+  if (i >= control.count[kCountFrontier]) return;
+  Candidate c = frontier[control.parity * control.capacity + i];
   add_area(control.face_count + c.root, unpack_corners(c.corners));
 }

@@ -8,7 +8,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer LowerBits { uint lower_bits[]; };
@@ -18,21 +17,26 @@ layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
 
 #include "shaders/lib/root.glsl"
-#include "shaders/lib/generations.glsl"
 #include "shaders/lib/morton.h"
 
 float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
 
+bool is_running() { return control.status == kStatusRunning; }
+
+// Faces of A that no wave has bounded; the planned wave's are admitted only.
+uint waiting_faces() {
+  return control.face_count - control.root_cursor + (is_running() ? control.roots : 0u);
+}
+
 uint remaining() {
-  uint open = control.status == kStatusRunning ? control.count[kCountNext] : 0u;
-  if (control.status == kStatusMemory) open = control.count[kCountFrontier];
-  return open + (control.face_count - control.root_cursor);
+  bool open = is_running() || control.status == kStatusMemory;
+  return (open ? control.count[kCountFrontier] : 0u) + waiting_faces();
 }
 
 float upper_bound() {
-  if (control.wave == 0u || control.root_cursor < control.face_count) return 3.0e38;
+  if (waiting_faces() > 0u) return 3.0e38;
   uint bits = max(max(control.maximum[kMaxDropped], control.maximum[kMaxSpilled]),
-                  control.maximum[kMaxNext]);
+                  control.maximum[kMaxFrontier]);
   return uintBitsToFloat(bits);
 }
 
@@ -52,18 +56,14 @@ void write_report() {
   report.lower = max(lowered(control.base + lower), 0.0);
   report.upper = raised(control.base + upper);
   report.status = control.status;
-  report.wave = control.wave;
+  report.wave = is_running() ? control.wave - 1u : control.wave;  // one is planned
   report.witness = w;
   report.witness.distance = control.base + w.distance;
   report.witness_face = triangles[w.nearest].face;
   report.remaining = remaining();
-  // The last recorded wave is only closed by the plan after it: its work is added here.
-  bool running = control.status == kStatusRunning;
-  uint candidates = running ? child_count() : 0u;
-  uint queries = running ? query_count() : 0u;
-  report.candidate_total = control.candidate_total + candidates;
-  report.query_total = control.query_total + queries;
-  report.peak_frontier = max(control.peak_frontier, control.count[kCountNext]);
+  report.candidate_total = control.candidate_total;
+  report.query_total = control.query_total;
+  report.peak_frontier = control.peak_frontier;
   for (int i = 0; i < 8; ++i) report.culled[i] = control.culled[i];
 }
 

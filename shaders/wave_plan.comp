@@ -1,10 +1,10 @@
-// What: everything that a wave decides as a whole: adopts the last wave's witness, flips the
-// frontier's halves, moves the base of distances, tests for the end, shares the room out between
-// refined, deferred and newly admitted candidates, selects which ones are refined, writes the sizes
-// of the wave's first half. One workgroup, of which one invocation plans. After the end it writes
-// zeros, so that recorded waves cost empty dispatches only. Invariant:
-// deferred + 4 parents + roots <= capacity, or 16 parents where they are split twice, and their new
-// points fit the stream of points; so no stream of the wave can overflow.
+// What: everything that a wave decides as a whole: adopts the seed's or the last wave's witness,
+// flips the frontier's halves, moves the base of distances, tests for the end, shares the room out
+// between refined, deferred and newly admitted candidates, selects which ones are refined, writes
+// the sizes of the wave's first half. One workgroup, of which one invocation plans. After the end
+// it writes zeros, so that recorded waves cost empty dispatches only. Invariant: deferred + 4
+// parents + roots <= capacity, or 16 parents where they are split twice, and their new points fit
+// the stream of points; so no stream of the wave can overflow.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -36,6 +36,23 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 
 const uint kAdoptGroup = kPlanGroup;
 #include "shaders/lib/adopt.glsl"
+
+// The seed's corner, which seed_witness has chosen: the first witness, and the run's base. None
+// where a warm run's old witness is farther than every vertex and stays.
+void adopt_seed() {
+  uint chosen_corner = control.seed_witness;
+  if (chosen_corner != kNone) {
+    uint face = chosen_corner / 3u;  // uncertified: integers
+    uint corner = chosen_corner % 3u;
+    uint vertex = faces[face][corner];
+    float distance = uintBitsToFloat(control.maximum[kMaxLower]);
+    control.witness = Witness(vertices[vertex].hi, distance, face, corner == 1u ? kBaryOne : 0u,
+                              corner == 2u ? kBaryOne : 0u, vertex_nearest[vertex]);
+  }
+  float base = base_of_run();
+  control.base = base;
+  control.tight = is_tight(base) ? 1u : 0u;
+}
 
 bool base_moved = false;  // in this wave; of the invocation that plans
 
@@ -186,6 +203,7 @@ void plan() {
 void main() {
   bool first = gl_LocalInvocationID.x == 0u;
   adopt_witness();
+  if (first && control.wave == 0u) adopt_seed();
   if (first) plan();
   barrier();
   if (held_in_short_room > 0u) select_smallest(held_in_short_room);

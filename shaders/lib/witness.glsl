@@ -2,7 +2,7 @@
 // that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
 // that the report says of a witness, so that two samples with one key are one to the report.
 // Samples at what was the lower bound when they were looked at are offered (wave_filter,
-// wave_bound); a workgroup then adopts one (wave_plan, report_begin), before the wave's streams are
+// wave_bound); a workgroup then adopts one (wave_plan), before the wave's streams are
 // overwritten. Include after `control`, `frontier`, `splits`, `points`, `survivors` and `centroids`
 // are declared and lib/child.glsl is included.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
