@@ -1,15 +1,15 @@
-// What: the control block's first state. One invocation. In: push. Out: control; of a warm run the
-// last run's witness stays, for seed_query.
+// What: the control block's first state. One workgroup, of which an invocation writes all but the
+// waves. In: push. Out: control; of a warm run the last run's witness stays, for seed_query.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/gpu_types.h"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
-void main() {
+void begin() {
   for (int i = 0; i < 5; ++i) control.count[i] = 0u;
   for (int i = 0; i < 6; ++i) control.maximum[i] = 0u;
   for (int i = 0; i < 8; ++i) control.culled[i] = 0u;
@@ -40,6 +40,10 @@ void main() {
   control.candidate_total = 0u;
   control.query_total = 0u;
   control.peak_frontier = 0u;
-  for (uint w = 0u; w < kMaxWaveRecords; ++w)
-    control.waves[w] = WaveRecord(0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
+}
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  control.waves[lane] = WaveRecord(0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
+  if (lane == 0u) begin();
 }
