@@ -171,7 +171,7 @@ VKH_CONST uint kTwiceParents = 8192u;
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
 // small, so that it fills the device. Measured on an H200 (docs/measurements.md).
 VKH_CONST uint kFewestChildren = 8u;
-VKH_CONST uint kBoundGroups = 512u;  // workgroups that are worth having before they take more
+VKH_CONST uint kBoundGroups = 640u;  // workgroups that are worth having before they take more
 
 // A sample that may become the witness (lib/witness.glsl): a new point's index, or a survivor's
 // whose centroid it is, with this bit.

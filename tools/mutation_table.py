@@ -224,6 +224,7 @@ EXPECTED_SURVIVORS = {
     "Placement::reach": "8 ulp of a reach that only scales the slack",
     "distance_to_up's rounding, sharp": "the slack is several times the largest error found",
     "coarse_slack, its rounding": "4 ulp of a slack that is several times the largest error found",
+    "plain_distance2's guard under 1": "what is outside by an ulp or two of an edge is under the slack",
     "a coarse distance's own ulps": "the slack is several times the largest error found",
     "surface_distance_up's sum": "norm_up leaves 4.7 ulp to spare, the sum costs one",
     "kept_bound": "round_up's own two ulps take the sum's one",

@@ -11,13 +11,15 @@ const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: in
 
 // A child as all invocations need it, each word beside the same one of other children: invocations
 // of a subgroup read those at once, and as structs they would be in few of the banks of shared
-// memory. With it, 13 KiB of that at most.
+// memory. How much of it a workgroup takes decides how many run at once: 8 KiB of it without
+// centroids, and an H200 runs five on each of its processors, of 10 KiB four.
 const uint kHeldB = 0u;  // corners around the first
-const uint kHeldC = 6u;
-const uint kHeldOrigin = 12u;
-const uint kHeldReach = 18u;
-const uint kHeldSlack = 19u;
-const uint kHeldWords = 20u;
+const uint kHeldC = 3u;
+const uint kHeldOrigin = 6u;
+const uint kHeldOriginLow = 9u;
+const uint kHeldReach = 12u;
+const uint kHeldSlack = 13u;
+const uint kHeldWords = 14u;
 
 shared float held[kHeldWords][kMostChildren];
 shared uint upper_bits[kMostChildren];  // u so far
@@ -45,29 +47,24 @@ void begin_group() {
   barrier();
 }
 
-void hold_point(uint word, uint child, Two3 p) {
-  held[word][child] = p.hi.x;
-  held[word + 1u][child] = p.hi.y;
-  held[word + 2u][child] = p.hi.z;
-  held[word + 3u][child] = p.lo.x;
-  held[word + 4u][child] = p.lo.y;
-  held[word + 5u][child] = p.lo.z;
+void hold_vector(uint word, uint child, vec3 v) {
+  for (uint k = 0u; k < 3u; ++k) held[word + k][child] = v[k];
 }
 
-Two3 held_point(uint word, uint child) {
-  return Two3(vec3(held[word][child], held[word + 1u][child], held[word + 2u][child]),
-              vec3(held[word + 3u][child], held[word + 4u][child], held[word + 5u][child]));
+vec3 held_vector(uint word, uint child) {
+  return vec3(held[word][child], held[word + 1u][child], held[word + 2u][child]);
 }
 
 View view_of_child(uint child) {
   Placement p;
-  p.origin = held_point(kHeldOrigin, child);
+  p.origin = Two3(held_vector(kHeldOrigin, child), held_vector(kHeldOriginLow, child));
   p.reach = held[kHeldReach][child];
   return view_of(p, (kSwitches & kUseCertificate) == 0u);
 }
 
 Patch patch_of_child(uint child) {
-  return make_patch(two(vec3(0.0)), held_point(kHeldB, child), held_point(kHeldC, child));
+  return make_patch(two(vec3(0.0)), two(held_vector(kHeldB, child)),
+                    two(held_vector(kHeldC, child)));
 }
 
 // In plain floats where these leave out no more than `enough`.
@@ -85,11 +82,14 @@ vec3 distances_of(uint child, uint k) {
 // Of a child whose known triangles are there already.
 void hold(uint child, Child c) {
   Placement placed = place_corners(load_root(c.root), c.at);
-  hold_point(kHeldB, child, placed.b);
-  hold_point(kHeldC, child, placed.c);
-  hold_point(kHeldOrigin, child, placed.origin);
+  hold_vector(kHeldB, child, placed.b.hi);
+  hold_vector(kHeldC, child, placed.c.hi);
+  hold_vector(kHeldOrigin, child, placed.origin.hi);
+  hold_vector(kHeldOriginLow, child, placed.origin.lo);
   held[kHeldReach][child] = placed.reach;
-  held[kHeldSlack][child] = placed.slack;
+  // The low parts, under an ulp of T, are left out: T is moved by no more than the longer one.
+  float left_out = max(norm_up(placed.b.lo), norm_up(placed.c.lo));
+  held[kHeldSlack][child] = round_up(placed.slack + left_out, 1.0);
   upper_bits[child] = floatBitsToUint(c.upper);
   uint first = atomicAdd(measure_count, known_count[child]);
   for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;
@@ -104,8 +104,8 @@ void measure_corners(bool fine, float enough) {
     Surface s = surface_of(child, at % kMostKnown, enough);
     for (uint corner = n % step; corner < 3u; corner += step) {
       Two3 p = two(vec3(0.0));
-      if (corner == 1u) p = held_point(kHeldB, child);
-      if (corner == 2u) p = held_point(kHeldC, child);
+      if (corner == 1u) p = two(held_vector(kHeldB, child));
+      if (corner == 2u) p = two(held_vector(kHeldC, child));
       corner_distance[3u * at + corner] = surface_distance_up(p, s);
     }
   }
