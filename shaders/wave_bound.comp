@@ -56,7 +56,8 @@ Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
 }
 
 // Of the tolerance, what a distance in plain floats may leave out: it is quicker, and a candidate
-// is closed by it all the same, unless it is as close to the threshold as that.
+// is closed by it all the same, unless it is as close to the threshold as that. Not on CPU devices,
+// which go through both kinds wherever a few invocations of a subgroup have one of them each.
 const float kEnough = 0.25;
 
 uint child_total() { return kFiltered ? control.count[kCountSurvivors] : child_count(); }
@@ -100,7 +101,7 @@ void main() {
   bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
   float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
-  float enough = kEnough * effective_tolerance();
+  float enough = kSpread ? kEnough * effective_tolerance() : 0.0;
   begin_group();
   uint code = kNone;
   if (lane < children && i < total) {

@@ -48,7 +48,9 @@ void begin_group() {
 }
 
 void hold_vector(uint word, uint child, vec3 v) {
-  for (uint k = 0u; k < 3u; ++k) held[word + k][child] = v[k];
+  held[word][child] = v.x;
+  held[word + 1u][child] = v.y;
+  held[word + 2u][child] = v.z;
 }
 
 vec3 held_vector(uint word, uint child) {

@@ -25,7 +25,9 @@ void know(uint child, uint triangle) {
 }
 
 void know_corners(uint child, Child c) {
-  for (uint k = 0u; k < 3u; ++k) know(child, c.nearest[k]);
+  know(child, c.nearest.x);
+  know(child, c.nearest.y);
+  know(child, c.nearest.z);
 }
 
 // The parent's samples are free: its other corners, its other new points, its centroid.
