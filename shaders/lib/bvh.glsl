@@ -130,7 +130,7 @@ Nearest measured(Query q, Nearest best, float than) {
   return best;
 }
 
-// Where a walk stands: what is still to be visited, farther boxes below nearer ones. A node leaves
+// Where a walk stands: what is still to be visited, deeper boxes above others. A node leaves
 // at most three behind, and the tree of nodes is half as deep as that of branches.
 const uint kWalkStack = 3u * kStackDepth / 2u;  // uncertified: integers
 
@@ -169,12 +169,8 @@ uint step_down(uint at, vec3 p, float reach) {
     d[k] = box_distance2(p, uintBitsToFloat(lo.xyz), uintBitsToFloat(hi.xyz));
     child[k] = lo.w;
   }
-  // Farthest first.
-  sort_two(d, child, 0u, 1u);
-  sort_two(d, child, 2u, 3u);
-  sort_two(d, child, 0u, 2u);
-  sort_two(d, child, 1u, 3u);
-  sort_two(d, child, 1u, 2u);
+  // The nearest last; to sort the others, too, costs what it saves.
+  for (uint k = 0u; k < 3u; ++k) sort_two(d, child, k, 3u);
   for (uint k = 0u; k < 3u; ++k) {
     if (d[k] < reach) {
       left_child[left_count] = child[k];
