@@ -70,18 +70,14 @@ void main() {
   uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   uint state = i < push.vertex_count ? vertex_distance[i] : 0u;
   bool is_asked = state == kVertexUsed || is_old_witness(i);
-  float d = 0.0;
   // One alone: others of the group may read the state later than it is written.
   bool first = !in_groups || lane == 0u;
-  if (first && i < push.vertex_count && !is_asked) settle(i, state);
+  bool asked = is_asked && first;
+  if (first && i < push.vertex_count && !asked) settle(i, state);
   if (is_old_witness(i)) clamp_witness();
-  if (is_asked) {
-    Two3 p = seed_point(i);
-    uint start = start_of(i);
-    Query q = Query(p, 0.0, false);
-    if (in_groups) barrier();  // read before it is answered
-    Nearest found = nearest_triangle(q, start, in_groups);
-    if (first) d = answer(i, p.hi, found);
-  }
-  raise(kMaxVertex, d);
+  uint at = asked ? i : 0u;
+  Two3 p = seed_point(at);
+  Nearest found =
+      nearest_triangle(Query(p, 0.0, false), asked ? start_of(at) : kNone, asked, in_groups);
+  raise(kMaxVertex, asked ? answer(at, p.hi, found) : 0.0);
 }

@@ -20,22 +20,20 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/generations.glsl"
-#include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/query.glsl"
 #include "shaders/lib/stream.glsl"
 
 void main() {
   uint count = push.centroids != 0u ? control.count[kCountSurvivors] : point_count();
+  // All of a workgroup for one query, or an invocation for each.
   bool by_group = walks_in_groups(count);
-  uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + gl_LocalInvocationID.x;
-  bool asked = i < count && points[i].distance >= 0.0;
-  float d = 0.0;
-  if (asked) {
-    uint start = points[i].nearest;
-    if (by_group) barrier();  // read before it is answered
-    Nearest found = nearest_triangle(query_at(i), start, by_group);
-    if (!by_group || gl_LocalInvocationID.x == 0u) d = answer(i, found);
-  }
-  raise(kMaxLower, d);
+  uint lane = gl_LocalInvocationID.x;
+  uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
+  bool asked = i < count && (!by_group || lane == 0u);
+  asked = asked && points[asked ? i : 0u].distance >= 0.0;
+  uint at = asked ? i : 0u;
+  Nearest found = nearest_triangle(query_at(at), points[at].nearest, asked, by_group);
+  raise(kMaxLower, asked ? answer(i, found) : 0.0);
 }

@@ -182,22 +182,30 @@ uint step_down(uint at, vec3 p, float reach) {
   return pop(reach);
 }
 
-// The triangle closest to p, starting from `start` if that is one. Depth first, near children
-// first. Invocations go down until each is at a leaf, then all try triangles (Aila and Laine 2009,
-// "Understanding the Efficiency of Ray Traversal on GPUs").
-Nearest nearest_triangle(Query q, uint start) {
+// The node or leaf that the walk is at; kNone: it is done.
+uint walk_at;
+
+// A walk from the root. `start`: a triangle to begin with, or kNone.
+Nearest begin_walk(Query q, uint start) {
   Nearest best = nothing_near();
   tied_count = 0u;
   if (start != kNone) try_query(q, start, best);
   left_count = 0u;
-  uint at = 0u;
+  walk_at = 0u;
+  return best;
+}
+
+// Walks to the end. Depth first, near children first. Invocations go down
+// until each is at a leaf, then all try triangles (Aila and Laine 2009, "Understanding the
+// Efficiency of Ray Traversal on GPUs").
+void walk_on(Query q, inout Nearest best) {
   float reach = reach_of(q, best);
-  while (true) {
-    while (at != kNone && tied_count + kLeafTriangles <= kTied) {
-      while ((at & kLeafFlag) == 0u) at = step_down(at, q.p.hi, reach);
-      if (at == kNone) break;
-      uint first = at & (kMaxTriangles - 1u);
-      uint last = first + ((at >> 28) & 7u);
+  while (walk_at != kNone) {
+    while (walk_at != kNone && tied_count + kLeafTriangles <= kTied) {
+      while ((walk_at & kLeafFlag) == 0u) walk_at = step_down(walk_at, q.p.hi, reach);
+      if (walk_at == kNone) break;
+      uint first = walk_at & (kMaxTriangles - 1u);
+      uint last = first + ((walk_at >> 28) & 7u);
       // Two at a time, so that they are loaded at once.
       for (uint i = first; i <= last; i += 2u) {
         uint next = min(i + 1u, last);
@@ -207,11 +215,16 @@ Nearest nearest_triangle(Query q, uint start) {
         if (next > i) keep_query(q, next, next_d2, best);
       }
       reach = reach_of(q, best);
-      at = pop(reach);
+      walk_at = pop(reach);
     }
     measure_tied(q, best);
-    if (at == kNone) return best;
   }
+}
+
+// The triangle closest to q.p, to 48 bits in a tight walk.
+Nearest nearest_triangle(Query q, uint start) {
+  Nearest best = begin_walk(q, start);
+  walk_on(q, best);
   return best;
 }
 

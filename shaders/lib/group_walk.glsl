@@ -1,7 +1,8 @@
 // The walk of a whole workgroup for one query, where a wave has too few queries to fill the device:
 // level by level down the pyramid of boxes, all children of a level's boxes at once, then all
 // triangles of the runs that are left. It finds what nearest_triangle finds. Include after `boxes`
-// and `push` are declared and lib/bvh.glsl is included; the workgroup has kQueryGroup invocations.
+// and `push` are declared and lib/bvh.glsl and lib/dispatch.glsl are included; the workgroup has
+// kQueryGroup invocations.
 #ifndef VKH_SHADERS_LIB_GROUP_WALK_GLSL
 #define VKH_SHADERS_LIB_GROUP_WALK_GLSL
 
@@ -102,9 +103,9 @@ void join_lanes(Query q) {
   }
 }
 
-// Called by every invocation of the workgroup with the same arguments; what is found is invocation
-// 0's. False where too many boxes matter: then each is to walk alone.
-bool walk_by_group(Query q, uint start, out Nearest found) {
+// Called by every invocation of the workgroup with the same arguments; what is found is
+// nearest_of_lane[0]. False where too many boxes matter.
+bool walk_by_group(Query q, uint start) {
   uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) {
     Nearest first = nothing_near();
@@ -129,16 +130,32 @@ bool walk_by_group(Query q, uint start, out Nearest found) {
   }
   nearest_of_lane[lane] = try_runs(q, side);
   join_lanes(q);
-  found = nearest_of_lane[lane];
   return true;
 }
 
-// `by_group`: the same for all invocations of the workgroup, and so are the arguments where it is
-// true.
-Nearest nearest_triangle(Query q, uint start, bool by_group) {
-  Nearest found;
-  if (by_group && walk_by_group(q, start, found)) return found;
-  return nearest_triangle(q, start);
+shared Query query_of_group;
+shared uint start_of_group;
+
+// Called by every invocation of the workgroup, each with a query of its own if it has one
+// (`asked`); or, where `by_group`, at most the first with one for all.
+Nearest nearest_triangle(Query q, uint start, bool asked, bool by_group) {
+  Nearest best = nothing_near();
+  walk_at = kNone;
+  if (asked) best = begin_walk(q, start);
+  if (by_group) {
+    if (gl_LocalInvocationID.x == 0u) {
+      query_of_group = q;
+      start_of_group = asked ? start : kNone;
+      level_count[0] = asked ? 1u : 0u;
+    }
+    barrier();
+    if (level_count[0] > 0u && walk_by_group(query_of_group, start_of_group)) {
+      best = nearest_of_lane[0];
+      walk_at = kNone;
+    }
+  }
+  walk_on(q, best);
+  return best;
 }
 
 #endif
