@@ -37,7 +37,7 @@ struct Problem {
 };
 
 void record_seed(Recorder& rec, const Problem& p);
-// What the first wave does, and each wave for the next.
+// What the first wave does is planned before it, what another does at the end of the one before.
 void record_plan(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan

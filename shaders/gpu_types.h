@@ -283,11 +283,11 @@ struct Witness {
 };
 
 struct Control {
-  uint count[5];    // kCount*
-  uint maximum[6];  // kMax*
-  uint culled[8];   // kCull*
-  uint parity;      // which half of the frontier is being read
-  uint wave;
+  uint count[5];     // kCount*
+  uint maximum[6];   // kMax*
+  uint culled[8];    // kCull*
+  uint parity;       // which half of the frontier is being read
+  uint wave;         // while the run goes on, the planned one is counted
   uint status;       // kStatus*
   uint root_cursor;  // faces of A before this one were admitted
   uint roots;        // faces of A admitted in this wave

@@ -2,7 +2,7 @@
 // their maximum, from which the base follows; in a warm run control.witness likewise. Out:
 // vertex_distance above the base, at least 0; vertex_nearest of the farthest, looked for again
 // where the run is tight; in a warm run control.witness likewise; control.maximum[kMaxLower].
-// Also for the witness alone, in a wave whose plan has moved the base.
+// Also for the witness alone, after a plan that has moved the base.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -37,7 +37,7 @@ Nearest look_again(uint i, uint nearest, float distance, float base, bool tight)
 
 void main() {
   uint i = item_index();
-  float base = max(base_of_run(), control.base);  // 0 before the first wave
+  float base = max(base_of_run(), control.base);  // 0 before the first plan
   bool tight = is_tight(base) || control.tight != 0u;
   bool is_vertex = i < push.vertex_count && vertex_nearest[i] != kNone;
   float d = 0.0;

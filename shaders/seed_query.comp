@@ -78,6 +78,6 @@ void main() {
   uint at = asked ? i : 0u;
   Two3 p = seed_point(at);
   Nearest found =
-      nearest_triangle(Query(p, 0.0, false), asked ? start_of(at) : kNone, asked, in_groups);
+      find_nearest(Query(p, 0.0, false), asked ? start_of(at) : kNone, asked, in_groups);
   raise(kMaxVertex, asked ? answer(at, p.hi, found) : 0.0);
 }

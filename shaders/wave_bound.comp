@@ -55,8 +55,8 @@ Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) {
   return v;
 }
 
-// Of the tolerance, what a distance in plain floats may leave out: it is quicker, and a candidate
-// is closed by it all the same, unless it is as close to the threshold as that. Not on CPU devices,
+// Of the tolerance, the slack that plain floats may have: they are quicker, and a candidate is
+// closed by them all the same, unless it is as close to the threshold as that. Not on CPU devices,
 // which go through both kinds wherever a few invocations of a subgroup have one of them each.
 const float kEnough = 0.25;
 
@@ -100,8 +100,9 @@ void main() {
   uint children = children_a_group(total);
   bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
-  float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
-  float enough = kSpread ? kEnough * effective_tolerance() : 0.0;
+  bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
+  float threshold = cull_threshold(tolerant);
+  float enough = kSpread && tolerant ? kEnough * effective_tolerance() : 0.0;
   begin_group();
   uint code = kNone;
   if (lane < children && i < total) {

@@ -34,6 +34,6 @@ void main() {
   bool asked = i < count && (!by_group || lane == 0u);
   asked = asked && points[asked ? i : 0u].distance >= 0.0;
   uint at = asked ? i : 0u;
-  Nearest found = nearest_triangle(query_at(at), points[at].nearest, asked, by_group);
+  Nearest found = find_nearest(query_at(at), points[at].nearest, asked, by_group);
   raise(kMaxLower, asked ? answer(i, found) : 0.0);
 }

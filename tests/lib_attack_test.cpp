@@ -10,31 +10,17 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
 #include <vector>
 
 #include "tests/support/lib_device.h"
+#include "tests/support/wide.h"
 
 using namespace vkh;
 using namespace vkh::test;
 
 namespace {
 
-using Wide = long double;  // 64 bits: bounds are about 24 or 44
 constexpr Wide kUlpWide = 0x1p-23L;
-
-struct WideVector {
-  Wide x = 0, y = 0, z = 0;
-};
-WideVector operator-(const WideVector& a, const WideVector& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-WideVector operator+(const WideVector& a, const WideVector& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-WideVector operator*(Wide s, const WideVector& a) { return {s * a.x, s * a.y, s * a.z}; }
-Wide dot(const WideVector& a, const WideVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Wide size(const WideVector& a) { return std::sqrt(dot(a, a)); }
 
 Wide exact(math::Real x) { return static_cast<Wide>(static_cast<float>(x)); }
 Wide exact(const math::Two& x) { return exact(x.hi) + exact(x.lo); }
@@ -216,7 +202,8 @@ Wide attack_placement(Inputs& in) {
   return over(std::max(corner, size(exact(p.origin) + exact(q) - between)), exact(p.slack));
 }
 
-math::Surface surface_of(Inputs& in, math::Two3& origin, math::Two3& p, float reach_factor) {
+math::Surface surface_of(Inputs& in, math::Two3& origin, math::Two3& p, float reach_factor,
+                         float enough = 0.0f) {
   const math::Two3 a = in.two3(), b = in.two3(), c = in.two3();
   origin = in.two3();
   p = in.two3();
@@ -225,6 +212,7 @@ math::Surface surface_of(Inputs& in, math::Two3& origin, math::Two3& p, float re
   const Wide reach = std::max(size(exact(origin)), size(exact(p)));
   from.reach = float_up(static_cast<double>(reach) * (1 + 0x1p-50)) * reach_factor;
   from.sharp = true;
+  from.enough = enough;
   return math::make_surface(a, b, c, from);
 }
 
@@ -241,6 +229,17 @@ Wide attack_offset(Inputs& in) {
   const WideVector point = a + exact(at.v) * (b - a) + exact(at.w) * (c - a);
   const WideVector offset = exact(origin) + exact(p) - point;
   return over(size(offset - exact(math::offset_from(p, s, at))), exact(s.slack));
+}
+
+Wide attack_plain(Inputs& in) {
+  Inputs again = in;
+  math::Two3 origin, p;
+  const math::Surface s = surface_of(in, origin, p, 1.0f, 1e30f);
+  const std::array<WideVector, 3> t = {exact(again.two3()), exact(again.two3()),
+                                       exact(again.two3())};
+  const Wide square = exact(math::plain_distance2(math::rounded(p), s.at));
+  const Wide got = std::sqrt(static_cast<long double>(square)) * (1 + 7 * kUlpWide);
+  return over(std::max<Wide>(distance(exact(origin) + exact(p), t) - got, 0), exact(s.slack));
 }
 
 math::Corners corners_of(Inputs& in) {
@@ -320,6 +319,7 @@ constexpr Target kTargets[] = {{"norm_up", 3, attack_norm_up},
                                {"two_dot", 12, attack_dot},
                                {"place_corners", 24, attack_placement},
                                {"offset_from", 33, attack_offset},
+                               {"plain_distance2", 31, attack_plain},
                                {"enclosing_radius_up", 9, attack_radius},
                                {"bound_u1", 12, attack_u1},
                                {"bound_u2", 12, attack_u2},

@@ -185,6 +185,8 @@ exact::Vector exact_place(const ExactTriangle& root, const glm::uvec2& p) {
 struct PlaceAnswer {
   Stored origin, b, c, point, centroid;
   double slack, reach;
+  Stored high_b, high_c;  ///< without_low_parts, and its slack
+  double high_slack;
 };
 
 PlaceAnswer placed(const StoredTriangle& root, const math::Bary3& t, const glm::uvec2& p,
@@ -193,13 +195,17 @@ PlaceAnswer placed(const StoredTriangle& root, const math::Bary3& t, const glm::
     const math::Root r = math::make_root(math::given(root.corner[0]), math::given(root.corner[1]),
                                          math::given(root.corner[2]));
     const math::Placement at = math::place_corners(r, t);
+    const math::Placement high = math::without_low_parts(at);
     return {math::answer(at.origin),
             math::answer(at.b),
             math::answer(at.c),
             math::answer(math::place(r, p)),
             math::answer(math::place(r, math::centroid_of(t))),
             math::wide(at.slack),
-            math::wide(at.reach)};
+            math::wide(at.reach),
+            math::answer(high.b),
+            math::answer(high.c),
+            math::wide(high.slack)};
   });
 }
 
@@ -232,6 +238,11 @@ TEST_CASE("bary.h: placed corners lie within the slack of the exact ones") {
                   off_from(origin + fixed_vector(got.c), exact_place(exact, t.c))});
     tally.require(corner <= got.slack, "a corner is off by at most slack", describe);
     tally.measure("corner, error / slack", corner / got.slack, describe);
+    const double high =
+        std::max(off_from(origin + fixed_vector(got.high_b), exact_place(exact, t.b)),
+                 off_from(origin + fixed_vector(got.high_c), exact_place(exact, t.c)));
+    tally.require(high <= got.high_slack, "so is its high part", describe);
+    tally.measure("high part, error / slack", high / got.high_slack, describe);
 
     const double place =
         std::max(off_from(fixed_vector(got.point), exact_place(exact, p)),
@@ -243,7 +254,7 @@ TEST_CASE("bary.h: placed corners lie within the slack of the exact ones") {
       tally.require(is_upper_bound(got.reach, square_of(v)), "reach covers the root", describe);
     }
   }
-  tally.conclude(5 * count);
+  tally.conclude(6 * count);
 }
 
 TEST_CASE(

@@ -157,6 +157,8 @@ ROWS = [
     counts("Placement::reach", BARY, "norm_up(r.ac.hi), {8.0f})", ON_BARY),
     row("Placement::reach's terms", BARY, "norm_up(r.origin.hi) + norm_up(r.ab.hi) + norm_up(r.ac.hi)",
         ["norm_up(r.origin.hi) + norm_up(r.ab.hi)", "norm_up(r.origin.hi)"], ON_BARY),
+    row("without_low_parts", BARY, "max(norm_up(p.b.lo), norm_up(p.c.lo))",
+        ["min(norm_up(p.b.lo), norm_up(p.c.lo))", "0.0f"], ON_BARY),
     row("kBaryUnit", BARY, "9.5367431640625e-7f", ["9.5367426e-7f"], ON_BARY),
     row("place's second edge", BARY, "float(point.y) * kBaryUnit", ["0.0f * float(point.y)"], ON_BARY),
     row("middle", BARY, "(p.x + q.x) >> 1", ["(p.x + q.x + 1u) >> 1", "((p.x + q.x) >> 2) * 2u"], ON_BARY),

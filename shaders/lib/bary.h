@@ -107,6 +107,14 @@ VKH_FN Placement place_corners(Root r, Bary3 t) {
   return p;
 }
 
+// The same with the other corners' high parts alone: T is moved by the longer low part at most.
+VKH_FN Placement without_low_parts(Placement p) {
+  p.slack = round_up(p.slack + max(norm_up(p.b.lo), norm_up(p.c.lo)), 1.0f);
+  p.b = two(p.b.hi);
+  p.c = two(p.c.hi);
+  return p;
+}
+
 // ---- subdivision: 1 -> 4
 // ---------------------------------------------------------------------------------------- A split
 // is a code. 0: midpoints, new point i in the middle of the edge opposite corner i. Otherwise

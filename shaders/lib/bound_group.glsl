@@ -83,15 +83,13 @@ vec3 distances_of(uint child, uint k) {
 
 // Of a child whose known triangles are there already.
 void hold(uint child, Child c) {
-  Placement placed = place_corners(load_root(c.root), c.at);
+  Placement placed = without_low_parts(place_corners(load_root(c.root), c.at));
   hold_vector(kHeldB, child, placed.b.hi);
   hold_vector(kHeldC, child, placed.c.hi);
   hold_vector(kHeldOrigin, child, placed.origin.hi);
   hold_vector(kHeldOriginLow, child, placed.origin.lo);
   held[kHeldReach][child] = placed.reach;
-  // The low parts, under an ulp of T, are left out: T is moved by no more than the longer one.
-  float left_out = max(norm_up(placed.b.lo), norm_up(placed.c.lo));
-  held[kHeldSlack][child] = round_up(placed.slack + left_out, 1.0);
+  held[kHeldSlack][child] = placed.slack;
   upper_bits[child] = floatBitsToUint(c.upper);
   uint first = atomicAdd(measure_count, known_count[child]);
   for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;

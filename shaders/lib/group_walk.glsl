@@ -103,19 +103,11 @@ void join_lanes(Query q) {
   }
 }
 
-// Called by every invocation of the workgroup with the same arguments; what is found is
-// nearest_of_lane[0]. False where too many boxes matter.
-bool walk_by_group(Query q, uint start) {
+// Called by every invocation of the workgroup with the same query, after the first has set where to
+// begin: level_count[0], level_boxes[0][0], and nearest_bits. What is found is nearest_of_lane[0],
+// for the first invocation. False where too many boxes matter.
+bool walk_by_group(Query q) {
   uint lane = gl_LocalInvocationID.x;
-  if (lane == 0u) {
-    Nearest first = nothing_near();
-    tied_count = 0u;
-    if (start != kNone) try_query(q, start, first);
-    nearest_bits = floatBitsToUint(first.distance2);
-    level_count[0] = 1u;
-    level_boxes[0][0] = 0u;
-  }
-  barrier();
   uint side = 0u;
   for (uint level = level_total() - 1u; level > 0u; --level) {
     descend(q, level_at(level - 1u), side);
@@ -134,22 +126,25 @@ bool walk_by_group(Query q, uint start) {
 }
 
 shared Query query_of_group;
-shared uint start_of_group;
+shared bool group_asked;
 
-// Called by every invocation of the workgroup, each with a query of its own if it has one
-// (`asked`); or, where `by_group`, at most the first with one for all.
-Nearest nearest_triangle(Query q, uint start, bool asked, bool by_group) {
+// What nearest_triangle finds. Called by every invocation of the workgroup, each with a query of
+// its own if it has one (`asked`); or, where `by_group`, at most the first with one for all.
+Nearest find_nearest(Query q, uint start, bool asked, bool by_group) {
   Nearest best = nothing_near();
   walk_at = kNone;
   if (asked) best = begin_walk(q, start);
   if (by_group) {
-    if (gl_LocalInvocationID.x == 0u) {
+    bool first = gl_LocalInvocationID.x == 0u;
+    if (first) {
       query_of_group = q;
-      start_of_group = asked ? start : kNone;
-      level_count[0] = asked ? 1u : 0u;
+      group_asked = asked;
+      nearest_bits = floatBitsToUint(best.distance2);
+      level_count[0] = 1u;
+      level_boxes[0][0] = 0u;
     }
     barrier();
-    if (level_count[0] > 0u && walk_by_group(query_of_group, start_of_group)) {
+    if (group_asked && walk_by_group(query_of_group) && first) {
       best = nearest_of_lane[0];
       walk_at = kNone;
     }
