@@ -24,19 +24,18 @@ void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
                         push, Groups{groups});
 }
 
-void record_lower(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
-  rec.run<k::SeedLower>({.vertices = p.ws.vertices,
-                         .nodes = as<gpu::uvec4>(p.b.nodes),
-                         .triangles = as<gpu::uvec4>(p.b.triangles),
-                         .vertex_nearest = p.ws.vertex_nearest,
-                         .vertex_distance = p.ws.vertex_distance,
-                         .control = p.ws.control,
-                         .triangle_lows = p.b.triangle_lows,
-                         .faces = p.ws.faces},
-                        push, Items{p.vertex_count + push.warm});
-}
-
 }  // namespace
+
+k::SeedLower::Args lower_args(const Problem& p) {
+  return {.vertices = p.ws.vertices,
+          .nodes = as<gpu::uvec4>(p.b.nodes),
+          .triangles = as<gpu::uvec4>(p.b.triangles),
+          .vertex_nearest = p.ws.vertex_nearest,
+          .vertex_distance = p.ws.vertex_distance,
+          .control = p.ws.control,
+          .triangle_lows = p.b.triangle_lows,
+          .faces = p.ws.faces};
+}
 
 void record_seed(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("seed");
@@ -65,7 +64,7 @@ void record_seed(Recorder& rec, const Problem& p) {
                         {.face_count = p.face_count, .triangle_count = p.b.face_count},
                         Items{p.face_count});
   record_query(rec, p, seed);
-  record_lower(rec, p, seed);
+  rec.run<k::SeedLower>(lower_args(p), seed, Items{p.vertex_count + seed.warm});
   rec.run<k::SeedWitness>(
       {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
       Items{p.face_count});

@@ -37,7 +37,9 @@ struct Problem {
 };
 
 void record_seed(Recorder& rec, const Problem& p);
-// What the first wave does is planned before it, what another does at the end of the one before.
+// What seed_lower works on, for the seed and for a plan that has moved the base.
+k::SeedLower::Args lower_args(const Problem& p);
+// Plans the wave that comes next: after the seed, and at the end of each wave.
 void record_plan(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan

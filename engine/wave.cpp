@@ -22,45 +22,6 @@ Slice<float> u3_bounds_of(const Problem& p) {
   return {p.ws.lower_bits.buffer, p.ws.lower_bits.offset, p.ws.lower_bits.size};
 }
 
-// Nothing, unless the plan has moved the base: then the witness is measured above the new one.
-void record_witness(Recorder& rec, const Problem& p) {
-  const gpu::SeedPush push{.vertex_count = 0, .triangle_count = p.b.face_count, .warm = 1};
-  rec.run_indirect<k::SeedLower>({.vertices = p.ws.vertices,
-                                  .nodes = as<gpu::uvec4>(p.b.nodes),
-                                  .triangles = as<gpu::uvec4>(p.b.triangles),
-                                  .vertex_nearest = p.ws.vertex_nearest,
-                                  .vertex_distance = p.ws.vertex_distance,
-                                  .control = p.ws.control,
-                                  .triangle_lows = p.b.triangle_lows,
-                                  .faces = p.ws.faces},
-                                 push, p.ws.dispatch(gpu::kDispatchWitness));
-}
-
-}  // namespace
-
-void record_plan(Recorder& rec, const Problem& p) {
-  const Workspace& ws = p.ws;
-  rec.run<k::WavePlan>({.control = ws.control,
-                        .dispatches = ws.dispatches,
-                        .frontier = ws.frontier,
-                        .splits = ws.splits,
-                        .points = ws.points,
-                        .survivors = ws.survivors,
-                        .centroids = ws.centroids,
-                        .vertices = ws.vertices,
-                        .faces = ws.faces,
-                        .vertex_nearest = ws.vertex_nearest,
-                        .nodes = as<gpu::uvec4>(p.b.nodes),
-                        .triangles = as<gpu::uvec4>(p.b.triangles),
-                        .triangle_lows = p.b.triangle_lows},
-                       {}, Groups{1});
-  // With kUseGroupWalk the plan does it.
-  if ((p.switches & gpu::kUseGroupWalk) == 0) record_witness(rec, p);
-  rec.stage("plan");
-}
-
-namespace {
-
 void record_subdivide(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveSubdivide>({.control = ws.control,
@@ -164,7 +125,34 @@ void record_bound(Recorder& rec, const Problem& p) {
   rec.stage("bound");
 }
 
+// Nothing, unless the plan has moved the base: then the witness is measured above the new one.
+void record_witness(Recorder& rec, const Problem& p) {
+  const gpu::SeedPush push{.vertex_count = 0, .triangle_count = p.b.face_count, .warm = 1};
+  rec.run_indirect<k::SeedLower>(lower_args(p), push, p.ws.dispatch(gpu::kDispatchWitness));
+}
+
 }  // namespace
+
+void record_plan(Recorder& rec, const Problem& p) {
+  const Workspace& ws = p.ws;
+  rec.run<k::WavePlan>({.control = ws.control,
+                        .dispatches = ws.dispatches,
+                        .frontier = ws.frontier,
+                        .splits = ws.splits,
+                        .points = ws.points,
+                        .survivors = ws.survivors,
+                        .centroids = ws.centroids,
+                        .vertices = ws.vertices,
+                        .faces = ws.faces,
+                        .vertex_nearest = ws.vertex_nearest,
+                        .nodes = as<gpu::uvec4>(p.b.nodes),
+                        .triangles = as<gpu::uvec4>(p.b.triangles),
+                        .triangle_lows = p.b.triangle_lows},
+                       {}, Groups{1});
+  // With kUseGroupWalk the plan does it.
+  if ((p.switches & gpu::kUseGroupWalk) == 0) record_witness(rec, p);
+  rec.stage("plan");
+}
 
 void record_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");

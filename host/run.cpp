@@ -20,7 +20,7 @@ constexpr VkBufferUsageFlags kWorking =
 constexpr uint32_t kFirstWaves = 6;
 constexpr uint32_t kFirstWavesOnCpu = 2;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
-// H200 18 us, another report 23: so the second submission is short, and long runs get longer ones.
+// H200 17 us, another report 28: so the second submission is short, and long runs get longer ones.
 constexpr double kSubmissionMs = 100;
 constexpr uint32_t kSecondWaves = 2;
 constexpr uint32_t kMostWaves = 8;

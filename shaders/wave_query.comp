@@ -31,9 +31,9 @@ void main() {
   bool by_group = walks_in_groups(count);
   uint lane = gl_LocalInvocationID.x;
   uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
-  bool asked = i < count && (!by_group || lane == 0u);
-  asked = asked && points[asked ? i : 0u].distance >= 0.0;
-  uint at = asked ? i : 0u;
+  bool mine = i < count && (!by_group || lane == 0u);
+  uint at = mine ? i : 0u;
+  bool asked = mine && points[at].distance >= 0.0;
   Nearest found = find_nearest(query_at(at), points[at].nearest, asked, by_group);
-  raise(kMaxLower, asked ? answer(i, found) : 0.0);
+  raise(kMaxLower, asked ? answer(at, found) : 0.0);
 }

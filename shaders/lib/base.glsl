@@ -13,8 +13,8 @@ float base_of_run() {
 }
 
 // Whether 14 ulp of the distances at hand, as plain floats leave them, are more than a twentieth of
-// the tolerance. wave_bound measures coarser than that where a GPU
-// gains by it: coarse_slack in lib/triangle.h.
+// the tolerance. wave_bound measures coarser than that where a GPU gains by it: coarse_slack in
+// lib/triangle.h.
 bool needs_sharp(float distance) { return 3.0e-5 * distance > control.cull_tolerance; }
 
 // Whether plain floats are too coarse to compare samples in.

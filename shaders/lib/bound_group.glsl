@@ -11,8 +11,9 @@ const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: in
 
 // A child as all invocations need it, each word beside the same one of other children: invocations
 // of a subgroup read those at once, and as structs they would be in few of the banks of shared
-// memory. How much of it a workgroup takes decides how many run at once: 8 KiB of it without
-// centroids, and an H200 runs five on each of its processors, of 10 KiB four.
+// memory. How much of it a workgroup takes decides how many run at once: an H200 runs four of
+// 10 KiB on each of its processors; of 8 KiB, as it is without centroids, bounds come a tenth
+// sooner.
 const uint kHeldB = 0u;  // corners around the first
 const uint kHeldC = 3u;
 const uint kHeldOrigin = 6u;

@@ -195,9 +195,9 @@ Nearest begin_walk(Query q, uint start) {
   return best;
 }
 
-// Walks to the end. Depth first, near children first. Invocations go down
-// until each is at a leaf, then all try triangles (Aila and Laine 2009, "Understanding the
-// Efficiency of Ray Traversal on GPUs").
+// Walks to the end. Depth first, near children first. Invocations go down until each is at a leaf,
+// then all try triangles (Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on
+// GPUs").
 void walk_on(Query q, inout Nearest best) {
   float reach = reach_of(q, best);
   while (walk_at != kNone) {
