@@ -39,6 +39,7 @@ layout(scalar, binding = 13) readonly buffer U3Bounds { float u3_bounds[]; };
 #include "shaders/lib/stream.glsl"
 #include "shaders/lib/witness.glsl"
 #include "shaders/lib/bound_group.glsl"
+#include "shaders/lib/bound_tally.glsl"
 #include "shaders/lib/bound_u4.glsl"
 
 // Whether wave_filter has gone over the children.
@@ -86,12 +87,17 @@ void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
   bool open = mine && !closed;
   if (mine) close_area(closed, c.root, c.at);
   for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
-    count_culled(why, closed && v.by == why);
-  raise(kMaxDropped, closed ? v.upper : 0.0);
-  raise(kMaxNext, open ? v.upper : 0.0);
-  uint slot = stream_append(kCountNext, open);
-  if (open)
-    frontier[writing(slot)] = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
+    tally_count(why, closed && v.by == why);
+  tally_raise(kTallyDropped, closed ? v.upper : 0.0);
+  tally_raise(kTallyNext, open ? v.upper : 0.0);
+  uint slot = tally_count(kTallyOpen, open);
+  barrier();
+  give_tally();
+  barrier();
+  if (open) {
+    uint to = writing(tally_word(kTallyOpen) + slot);
+    frontier[to] = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
+  }
 }
 
 void main() {
@@ -137,10 +143,9 @@ void main() {
   barrier();
   measure_cuts(fine, enough);
   barrier();
-  if (fine) {
-    join_cuts();
-    barrier();
-  }
+  begin_tally();
+  if (fine) join_cuts();
+  barrier();
   if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
   write(mine, c, centre, v, threshold);
 }
