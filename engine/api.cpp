@@ -152,6 +152,7 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
   vkh::record_seed(rec, p);
   vkh::record_plan(rec, p);
   if (p.areas.buffer != VK_NULL_HANDLE) rec.fill(p.areas, 0);
+  vkh::record_first_wave(rec, p);
 }
 
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,

@@ -47,8 +47,9 @@ class Recorder {
     dispatch(groups);
   }
   template <class K>
-  void run(const typename K::Args& args, const typename K::Push& push, Groups groups) {
-    bind<K>(args, push, Order::kAfterAll);
+  void run(const typename K::Args& args, const typename K::Push& push, Groups groups,
+           Order order = Order::kAfterAll) {
+    bind<K>(args, push, order);
     dispatch(groups.count);
   }
   // `size` holds one gpu::Dispatch.

@@ -41,6 +41,8 @@ void record_seed(Recorder& rec, const Problem& p);
 k::SeedLower::Args lower_args(const Problem& p);
 // Plans the wave that comes next: after the seed, and at the end of each wave.
 void record_plan(Recorder& rec, const Problem& p);
+// The first wave refines nothing: it bounds faces of A.
+void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan
 // finds it worth it.

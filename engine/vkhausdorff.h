@@ -284,7 +284,8 @@ typedef struct VkhProblem {
   uint32_t sortFrom;
 } VkhProblem;
 
-/* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound.
+/* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound,
+ * and records the first wave, which bounds A's faces: all of them where the workspace has room.
  * Reads a's buffers and the hierarchy in compute shaders, writes the workspace. After it the
  * workspace holds the run, and a's buffers are not needed. */
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
@@ -340,7 +341,8 @@ typedef struct VkhReport {
 /* Certifies the witness against every triangle of B and writes the report at `offset` (a multiple
  * of 256 bytes) of `buffer` (usage STORAGE_BUFFER; TRANSFER_SRC if you copy it), in COMPUTE_SHADER
  * with SHADER_STORAGE_WRITE: your next shader can read it without the host. Costs a pass over B's
- * triangles. The run can be advanced further afterwards; before the first wave upper is 3e38. */
+ * triangles. The run can be advanced further afterwards; while faces of A wait for room upper is
+ * 3e38. */
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 

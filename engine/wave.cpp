@@ -154,17 +154,26 @@ void record_plan(Recorder& rec, const Problem& p) {
   rec.stage("plan");
 }
 
-void record_wave(Recorder& rec, const Problem& p) {
-  const auto scope = rec.scope("wave");
-  if ((p.switches & gpu::kUseSort) != 0) record_wave_sort(rec, p);
-  record_subdivide(rec, p);
-  record_query_points(rec, p);
+void record_bounds(Recorder& rec, const Problem& p) {
   // Without a filter, wave_bound has the whole cascade.
   if ((p.switches & gpu::kUseFilter) != 0) record_filter(rec, p);
   if ((p.switches & gpu::kUseCentroid) != 0)
     record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
   record_plan(rec, p);
+}
+
+void record_first_wave(Recorder& rec, const Problem& p) {
+  const auto scope = rec.scope("wave");
+  record_bounds(rec, p);
+}
+
+void record_wave(Recorder& rec, const Problem& p) {
+  const auto scope = rec.scope("wave");
+  if ((p.switches & gpu::kUseSort) != 0) record_wave_sort(rec, p);
+  record_subdivide(rec, p);
+  record_query_points(rec, p);
+  record_bounds(rec, p);
 }
 
 }  // namespace vkh

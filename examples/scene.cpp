@@ -105,7 +105,7 @@ void Pair::certify(VkCommandBuffer commands, Hierarchy hierarchy, bool warm, uin
     vkhCmdRefitHierarchy(context_, commands, &b_, &problem_.b, nullptr);
   }
   vkhCmdBegin(context_, commands, &problem_, nullptr);
-  vkhCmdAdvance(context_, commands, &problem_, waves, nullptr);
+  vkhCmdAdvance(context_, commands, &problem_, waves - 1, nullptr);  // the first is done
 }
 
 void Pair::write_report(VkCommandBuffer commands, const Buffer& report, VkDeviceSize offset) {

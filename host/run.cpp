@@ -253,7 +253,7 @@ RunOutput Runner::run(const RunInput& in) {
     const double submitted = now_ms();
     const VkCommandBuffer commands = begin();
     if (first) record_start(commands, in);
-    vkhCmdAdvance(context_, commands, &problem_, waves, profile());
+    vkhCmdAdvance(context_, commands, &problem_, first ? waves - 1 : waves, profile());
     vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, profile());
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
     const VkBufferCopy copy{0, 0, sizeof(VkhReport)};

@@ -1,5 +1,5 @@
-// What a workgroup of wave_bound has for the control block, summed up first: its words are in a cache
-// line or two, where the atomics of all workgroups wait for each other. Include after
+// What a workgroup of wave_bound has for the control block, summed up first: its words are in a
+// cache line or two, where the atomics of all workgroups wait for each other. Include after
 // lib/bound_group.glsl and lib/stream.glsl.
 #ifndef VKH_SHADERS_LIB_BOUND_TALLY_GLSL
 #define VKH_SHADERS_LIB_BOUND_TALLY_GLSL
@@ -22,8 +22,7 @@ void begin_tally() {
 uint tally_count(uint word, bool counts) {
   uvec4 counted = subgroupBallot(counts);
   uint before = 0u;
-  if (subgroupElect())
-    before = atomicAdd(known_triangle[word], subgroupBallotBitCount(counted));
+  if (subgroupElect()) before = atomicAdd(known_triangle[word], subgroupBallotBitCount(counted));
   return subgroupBroadcastFirst(before) + subgroupBallotExclusiveBitCount(counted);
 }
 
