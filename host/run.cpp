@@ -198,6 +198,14 @@ void Runner::record_upload(VkCommandBuffer commands) {
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
 }
 
+// A timestamp, where the library writes none.
+void Runner::stamp(VkCommandBuffer commands, const char* name) {
+  if (stage_times_ || !device_.has_timestamps()) return;
+  device_.vk().CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, profile_.pool,
+                                 profile_.count);
+  names_[profile_.count++] = name;
+}
+
 ResidentMesh Runner::build(const MeshData& b) {
   // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
   context_ = context_for(default_switches(device_));
@@ -217,8 +225,11 @@ ResidentMesh Runner::build(const MeshData& b) {
 
 void Runner::record_start(VkCommandBuffer commands, const RunInput& in) {
   record_upload(commands);
-  if (in.resident == nullptr)
+  stamp(commands, nullptr);
+  if (in.resident == nullptr) {
     vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &problem_.b, &scratch_, profile());
+    stamp(commands, "hierarchy");
+  }
   vkhCmdBegin(context_, commands, &problem_, profile());
 }
 
@@ -237,6 +248,7 @@ void Runner::submit(RunOutput& out) {
 RunOutput Runner::run(const RunInput& in) {
   RunOutput out;
   context_ = context_for(in.switches);
+  stage_times_ = in.stage_times;
   const double start = now_ms();
   upload(in.a, in.resident != nullptr ? MeshData{} : in.b);
   place(in, out);
@@ -252,9 +264,14 @@ RunOutput Runner::run(const RunInput& in) {
                                           // clock, the result must not
     const double submitted = now_ms();
     const VkCommandBuffer commands = begin();
-    if (first) record_start(commands, in);
+    if (first) {
+      record_start(commands, in);
+    } else {
+      stamp(commands, nullptr);
+    }
     vkhCmdAdvance(context_, commands, &problem_, first ? waves - 1 : waves, profile());
     vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, profile());
+    stamp(commands, "solve");
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
     const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
     device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);

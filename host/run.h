@@ -38,7 +38,8 @@ struct RunInput {
   uint32_t sort_from = 0;  ///< VkhProblem::sortFrom
   float cull_tolerance = 0, known_lower = 0;
   bool two_float = false;
-  bool coverage = false;  ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
+  bool stage_times = true;  ///< false: "hierarchy" and "solve" in their place
+  bool coverage = false;    ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
 };
@@ -75,7 +76,8 @@ class Runner {
   void place(const RunInput& input, RunOutput& output);
   VkDeviceSize place_b(const RunInput& input);
   VkCommandBuffer begin();
-  VkhProfile* profile() { return device_.has_timestamps() ? &profile_ : nullptr; }
+  VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }
+  void stamp(VkCommandBuffer commands, const char* name);
   void record_upload(VkCommandBuffer commands);
   void place_areas(const RunInput& input, RunOutput& output);
   void record_start(VkCommandBuffer commands, const RunInput& input);
@@ -92,6 +94,7 @@ class Runner {
   VkhProblem problem_{};
   VkhMemory scratch_{};
   VkhProfile profile_{};
+  bool stage_times_ = true;
   std::vector<const char*> names_;
 };
 

@@ -189,6 +189,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switc
           .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
           .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
           .two_float = two_float,
+          .stage_times = options.stage_times,
           .coverage = options.coverage,
           .advanced = {}};
 }

@@ -35,6 +35,9 @@ struct SolveOptions {
   std::vector<std::string> disabled;  ///< likewise, of those
   uint32_t sort_from =
       0;  ///< with `sort`: smaller frontiers are not sorted; 0: as was measured to pay
+  /// false: hierarchy and solution alone are timed, as Times has them; each timestamp between
+  /// stages waits for what is before it, which all together costs an H200 2 %.
+  bool stage_times = true;
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   /// false: bounds in plain floats, a report that nothing vouches for; for vkh_bench alone, which
   /// measures what the certificate costs.

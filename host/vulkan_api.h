@@ -41,6 +41,7 @@ namespace vkh {
   X(CmdCopyBuffer)               \
   X(CmdPipelineBarrier)          \
   X(CmdResetQueryPool)           \
+  X(CmdWriteTimestamp)           \
   X(CmdBindPipeline)             \
   X(CmdPushDescriptorSetKHR)     \
   X(CmdDispatch)                 \

@@ -32,9 +32,11 @@ double median_time(const std::vector<Report>& reports, double Times::*member) {
 }  // namespace
 
 bool Outcome::repeats() const {
-  return std::all_of(reports.begin(), reports.end(), [&](const Report& r) {
+  const auto is_same = [&](const Report& r) {
     return r.lower == last().lower && r.upper == last().upper;
-  });
+  };
+  return std::all_of(reports.begin(), reports.end(), is_same) &&
+         std::all_of(staged.begin(), staged.end(), is_same);
 }
 
 bool intervals_meet(const std::vector<Outcome>& outcomes) {
@@ -73,8 +75,9 @@ void print_row(const Row& row, const Outcome& o, bool meets) {
   std::printf(",%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.3f", o.load_ms, o.setup_ms,
               median_time(o.reports, &Times::upload_ms), hierarchy, solve, hierarchy + solve,
               median_time(o.reports, &Times::wall_ms));
+  const std::vector<Report>& staged = o.staged.empty() ? o.reports : o.staged;
   for (const char* stage : kStages)
-    std::printf(",%.4f", median_of(o.reports, [&](const Report& x) { return stage_ms(x, stage); }));
+    std::printf(",%.4f", median_of(staged, [&](const Report& x) { return stage_ms(x, stage); }));
   std::printf("\n");
   std::fflush(stdout);
 }
