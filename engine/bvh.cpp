@@ -88,17 +88,25 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   record_load(rec, b, h.vertices, h.faces);
   const uint32_t first_bit = b.faceCount <= gpu::kFewFaces ? gpu::kFewFacesFirstBit : 0;
   const uint32_t side = sort_side(first_bit);
+  const SortBlocks blocks = counted_blocks(rec, b.faceCount, first_bit);
   rec.fill(h.box, 0xffffffffu, Order::kIndependent);
+  if (blocks.words > 0) {
+    const Slice<uint32_t>& counts = s.sort.counts;
+    rec.fill(Slice<uint32_t>{counts.buffer, counts.offset, blocks.words * sizeof(uint32_t)}, 0,
+             Order::kIndependent);
+  }
   rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count,
                      Items{over(b.faceCount, gpu::kBoxFaces)});
   rec.run<k::BvhMorton>({.vertices = h.vertices,
                          .faces = h.faces,
                          .box = h.box,
                          .keys = s.sort.keys[side],
-                         .values = s.sort.values[side]},
-                        count, faces);
+                         .values = s.sort.values[side],
+                         .counts = s.sort.counts},
+                        {.count = b.faceCount, .block = blocks.keys, .first_bit = first_bit},
+                        faces);
   rec.stage("morton");
-  record_sort(rec, s.sort, b.faceCount, first_bit);
+  record_sort(rec, s.sort, b.faceCount, first_bit, blocks.words > 0 ? Counted::kYes : Counted::kNo);
   rec.stage("sort");
   rec.run<k::BvhLeaves>({.vertices = h.vertices,
                          .faces = h.faces,

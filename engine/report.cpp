@@ -5,9 +5,6 @@ namespace vkh {
 
 namespace {
 
-// Above the ordered bits (lib/morton.h) of every distance.
-constexpr uint32_t kHighest = 0xffffffffu;
-
 void record_open(Recorder& rec, const Problem& p) {
   if (p.areas.buffer == VK_NULL_HANDLE) return;
   const VkDeviceSize half = p.face_count * sizeof(gpu::Area);
@@ -21,21 +18,15 @@ void record_open(Recorder& rec, const Problem& p) {
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
   const Workspace& ws = p.ws;
-  rec.fill(ws.lower_bits, kHighest);
-  rec.run<k::ReportLower>({.control = ws.control,
-                           .b_vertices = p.b.vertices,
-                           .lower_bits = ws.lower_bits,
-                           .vertices = ws.vertices,
-                           .faces = ws.faces,
-                           .b_faces = p.b.faces},
-                          gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
   rec.run<k::ReportWrite>({.control = ws.control,
-                           .lower_bits = ws.lower_bits,
+                           .b_vertices = p.b.vertices,
+                           .b_faces = p.b.faces,
                            .vertices = ws.vertices,
                            .faces = ws.faces,
                            .triangles = p.b.triangles,
+                           .reduction = ws.reduction,
                            .report = report},
-                          {}, Groups{1});
+                          gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
   record_open(rec, p);
   rec.stage("report");
 }

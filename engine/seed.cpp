@@ -51,7 +51,8 @@ void record_seed(Recorder& rec, const Problem& p) {
   const gpu::SeedPush seed{
       .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
   // Nor do A's vertices and faces, which record_load writes, concern it.
-  rec.run<k::SeedBegin>({.control = ws.control}, begin, Groups{1}, Order::kIndependent);
+  rec.run<k::SeedBegin>({.control = ws.control, .reduction = ws.reduction}, begin, Groups{1},
+                        Order::kIndependent);
   rec.fill(ws.vertex_distance, 0, Order::kIndependent);
   rec.run<k::SeedFaces>({.faces = ws.faces,
                          .vertex_state = as<uint32_t>(ws.vertex_distance),

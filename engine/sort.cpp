@@ -30,8 +30,8 @@ struct Keys {
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
 // blocks are few.
 template <class Size>
-void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, const Size& blocks,
-                   const Size& digits) {
+void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted counted,
+                   const Size& blocks, const Size& digits) {
   const uint32_t passes = (32 - sorted.first_bit) / 8;
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const uint32_t from = (passes - pass) % 2;
@@ -41,7 +41,7 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, const Size&
                              .count = sorted.count,
                              .pass = sorted.counted_ahead ? pass : 0,
                              .passes = sorted.counted_ahead ? passes : 1};
-    if (push.pass == 0)
+    if (push.pass == 0 && counted == Counted::kNo)
       dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
                              push, blocks);
     dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, push,
@@ -73,11 +73,20 @@ Keys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
 
 uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
 
-void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit) {
+SortBlocks counted_blocks(const Recorder& rec, uint32_t count, uint32_t first_bit) {
+  const Keys keys = keys_for(rec, first_bit, count);
+  if (!keys.counted_ahead) return {0, 0};
+  const uint32_t passes = (32 - first_bit) / 8;
+  return {keys.rounds * gpu::kSortGroup,
+          passes * sort_blocks(count, keys.rounds) * gpu::kSortDigits};
+}
+
+void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit,
+                 Counted counted) {
   const Keys keys = keys_for(rec, first_bit, count);
   const uint32_t blocks = sort_blocks(count, keys.rounds);
   const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
-  record_passes(rec, s, keys, Groups{blocks}, Groups{digits});
+  record_passes(rec, s, keys, counted, Groups{blocks}, Groups{digits});
 }
 
 void record_wave_sort(Recorder& rec, const Problem& p) {
@@ -94,7 +103,7 @@ void record_wave_sort(Recorder& rec, const Problem& p) {
                                  .keys = streams.keys[0],
                                  .values = streams.values[0]},
                                 {}, ws.dispatch(gpu::kDispatchSortKeys));
-  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone, false},
+  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone, false}, Counted::kNo,
                 ws.dispatch(gpu::kDispatchSortBlocks), ws.dispatch(gpu::kDispatchSortDigits));
   rec.stage("order");
 }

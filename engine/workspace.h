@@ -54,7 +54,7 @@ struct Workspace {
   Slice<gpu::Point> points;
   Slice<uint32_t> survivors;
   Slice<gpu::Point> centroids;
-  Slice<uint32_t> lower_bits;
+  Slice<gpu::Reduction> reduction;
   SortStreams sort;        // none but with kUseSort
   Slice<float> u3_bounds;  // none but with kUsePaperU3
   uint32_t capacity = 0;

@@ -1,5 +1,5 @@
 // What: a Morton code for each face of B. In: vertices, faces, box of their middles. Out: keys[i],
-// values[i] = i.
+// values[i] = i; where push.block, the counts of the sort's first pass (sort_count), which were 0.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,13 +12,18 @@ layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) readonly buffer BoxBlock { CentroidBox box; };
 layout(scalar, binding = 3) writeonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 4) writeonly buffer Values { uint values[]; };
-layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+layout(scalar, binding = 5) buffer Counts { uint counts[]; };
+layout(scalar, push_constant) uniform PushBlock { MortonPush push; };
 
 void main() {
   uint i = item_index();
   if (i >= push.count) return;
   uvec3 f = faces[i];
-  keys[i] =
+  uint key =
       face_code(face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi), box, push.count);
+  keys[i] = key;
   values[i] = i;
+  if (push.block == 0u) return;
+  uint block = i / push.block;  // uncertified: integers
+  atomicAdd(counts[block * kSortDigits + ((key >> push.first_bit) & 255u)], 1u);
 }

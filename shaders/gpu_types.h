@@ -322,6 +322,12 @@ struct Control {
   WaveRecord waves[64];  // kMaxWaveRecords; wave w is in waves[w % kMaxWaveRecords]
 };
 
+// What the workgroups of report_write find together.
+struct Reduction {
+  uint lower_bits;   // the smallest distance above the base: ordered bits (lib/morton.h); kNone
+  uint groups_done;  // workgroups that have
+};
+
 struct Box {
   vec3 lo;
   vec3 hi;
@@ -395,6 +401,12 @@ struct LoadPush {
 
 struct CountPush {
   uint count;
+};
+
+struct MortonPush {
+  uint count;  // of faces
+  uint block;  // keys of a block of the sort whose first digits are counted here; 0: they are not
+  uint first_bit;  // of that digit
 };
 
 // The levels above one of the pyramid: bvh_pyramid, and over the triangles bvh_leaves and bvh_move.

@@ -1,23 +1,69 @@
-// What: the report. One workgroup, of which an invocation writes all but the waves. In: control,
-// lower_bits from report_lower. Out: report. lower: the witness's certified distance, less how far
-// its 48-bit position can lie from the point of A that it stands for. upper: the largest u of
+// What: the report, with the certified lower bound: the smallest distance of the witness from any
+// face of B, each rounded down. Every triangle is visited, so nothing rests on the hierarchy or on
+// the walks that found the witness. The last workgroup to end writes, one invocation all but the
+// waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
+// 48-bit position can lie from the point of A that it stands for. upper: the largest u of
 // everything that was dropped, spilled or is still open; without bound while faces of A wait. Both
-// as float32, and to more bits above the base.
+// as float32, and to more bits above the base. `reduction` is as it was before.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/gpu_types.h"
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shaders/lib/invocation.glsl"
+#include "shaders/lib/bary.h"
+#include "shaders/lib/lower.h"
+#include "shaders/lib/morton.h"
 
-layout(local_size_x = kMaxWaveRecords) in;
+layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) readonly buffer LowerBits { uint lower_bits[]; };
-layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
-layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
-layout(scalar, binding = 4) readonly buffer Triangles { Triangle triangles[]; };
-layout(scalar, binding = 5) writeonly buffer ReportBlock { Report report; };
+layout(scalar, binding = 1) readonly buffer BVertices { Vertex b_vertices[]; };
+layout(scalar, binding = 2) readonly buffer BFaces { uvec3 b_faces[]; };
+layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 6) buffer ReductionBlock { Reduction reduction; };
+layout(scalar, binding = 7) writeonly buffer ReportBlock { Report report; };
+layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/lib/root.glsl"
-#include "shaders/lib/morton.h"
+
+// A corner of B by the parts that the run works with.
+Two3 b_corner(uint v) {
+  Two3 p = two(b_vertices[v].hi);
+  if (control.two_float != 0u) p.lo = b_vertices[v].lo;
+  return p;
+}
+
+// Of this invocation's triangle. Those past the end repeat the last one: every one takes part in
+// the subgroup's minimum.
+float certified_distance() {
+  uint i = min(item_index(), push.count - 1u);
+  Witness w = control.witness;
+  Root root = load_root(w.root);
+  Two3 p = place(root, uvec2(w.j, w.k));
+  uvec3 f = b_faces[i];
+  Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
+                           View(p, norm_up(p.hi), control.base, true, false, 0.0));
+  // A triangle farther than the steering distance by a margin does not decide the minimum.
+  float enough = w.distance + 1.0e-4 * (control.base + w.distance);
+  return triangle_distance_down(s, enough);
+}
+
+shared bool is_last;
+
+// Whether all other workgroups have done as much.
+void join_groups(float d) {
+  float smallest = subgroupMin(d);
+  if (subgroupElect()) atomicMin(reduction.lower_bits, ordered_bits(floatBitsToUint(smallest)));
+  memoryBarrierBuffer();
+  barrier();
+  if (gl_LocalInvocationID.x == 0u) {
+    uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    is_last = atomicAdd(reduction.groups_done, 1u) == groups - 1u;
+  }
+  barrier();
+}
 
 float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
 
@@ -42,7 +88,7 @@ float upper_bound() {
 
 // What the certified lower bound is above the base, at least -base.
 float lower_bound(Witness w) {
-  float above = uintBitsToFloat(from_ordered_bits(lower_bits[0]));
+  float above = uintBitsToFloat(from_ordered_bits(atomicExchange(reduction.lower_bits, kNone)));
   return max(lowered(above - 2.0 * witness_slack(w)), -control.base);
 }
 
@@ -68,7 +114,11 @@ void write_report() {
 }
 
 void main() {
+  join_groups(certified_distance());
+  if (!is_last) return;
   uint lane = gl_LocalInvocationID.x;
-  report.waves[lane] = control.waves[lane];
-  if (lane == 0u) write_report();
+  for (uint w = lane; w < kMaxWaveRecords; w += kGroupSize) report.waves[w] = control.waves[w];
+  if (lane > 0u) return;
+  write_report();
+  reduction.groups_done = 0u;
 }

@@ -1,5 +1,6 @@
 // What: the control block's first state. One workgroup, of which an invocation writes all but the
-// waves. In: push. Out: control; of a warm run the last run's witness stays, for seed_query.
+// waves. In: push. Out: control, reduction; of a warm run the last run's witness stays, for
+// seed_query.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,6 +8,7 @@
 
 layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) writeonly buffer ReductionBlock { Reduction reduction; };
 layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
 void begin() {
@@ -40,6 +42,7 @@ void begin() {
   control.candidate_total = 0u;
   control.query_total = 0u;
   control.peak_frontier = 0u;
+  reduction = Reduction(kNone, 0u);
 }
 
 void main() {

@@ -30,16 +30,20 @@ layout(scalar, push_constant) uniform PushBlock { FacesPush push; };
 // a face that is not found is bounded as any other.
 const uint kMostOfOneCode = 256u;
 
+// The first of the sorted codes that is not under `code`. Three are looked at a step, whose loads
+// do not wait for each other.
 uint first_with(uint code) {
   uint from = 0u;
-  uint to = push.triangle_count;
-  while (from < to) {
-    uint middle = (from + to) >> 1;
-    if (codes[middle] < code) {
-      from = middle + 1u;
-    } else {
-      to = middle;
+  uint count = push.triangle_count;  // it is one of so many places after `from`, or the next
+  while (count > 0u) {
+    uint part = (count + 3u) >> 2;
+    uint under = 0u;
+    for (uint k = 1u; k < 4u; ++k) {
+      uint at = from + k * part - 1u;
+      under += k * part <= count && codes[min(at, push.triangle_count - 1u)] < code ? 1u : 0u;
     }
+    from += under * part;
+    count = min(count - under * part, under < 3u ? part - 1u : count);
   }
   return from;
 }

@@ -1,5 +1,5 @@
 // The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
-// (algorithm.md §2.4), and no lower bound rests on it (report_lower.comp visits every triangle), so
+// (algorithm.md §2.4), and no lower bound rests on it (report_write.comp visits every triangle), so
 // it needs no rounding analysis. Include after `nodes`, `triangles`, `triangle_lows` and `control`
 // are declared.
 #ifndef VKH_SHADERS_LIB_BVH_GLSL
