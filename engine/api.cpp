@@ -150,7 +150,6 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
   if (problem->twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   vkh::record_load(rec, a, p.ws.vertices, p.ws.faces);
   vkh::record_seed(rec, p);
-  vkh::record_plan(rec, p);
   if (p.areas.buffer != VK_NULL_HANDLE) rec.fill(p.areas, 0);
   vkh::record_first_wave(rec, p);
 }

@@ -1,4 +1,4 @@
-// The seed: one query a vertex of A, the first lower bound and its witness.
+// The seed: one query a vertex of A, the first lower bound and its witness, the first wave's plan.
 #include "engine/stages.h"
 
 namespace vkh {
@@ -67,9 +67,14 @@ void record_seed(Recorder& rec, const Problem& p) {
                         Items{p.face_count});
   record_query(rec, p, seed);
   rec.run<k::SeedLower>(lower_args(p), seed, Items{p.vertex_count + seed.warm});
-  rec.run<k::SeedWitness>(
-      {.faces = ws.faces, .vertex_distance = ws.vertex_distance, .control = ws.control}, faces,
-      Items{p.face_count});
+  rec.run<k::SeedWitness>({.faces = ws.faces,
+                           .vertex_distance = ws.vertex_distance,
+                           .control = ws.control,
+                           .vertices = ws.vertices,
+                           .vertex_nearest = ws.vertex_nearest,
+                           .dispatches = ws.dispatches,
+                           .reduction = ws.reduction},
+                          faces, Items{p.face_count});
   rec.stage("seed");
 }
 

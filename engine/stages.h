@@ -48,8 +48,6 @@ struct Problem {
 void record_seed(Recorder& rec, const Problem& p);
 // What seed_lower works on, for the seed and for a plan that has moved the base.
 k::SeedLower::Args lower_args(const Problem& p);
-// Plans the wave that comes next: after the seed, and at the end of each wave.
-void record_plan(Recorder& rec, const Problem& p);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);

@@ -131,8 +131,6 @@ void record_witness(Recorder& rec, const Problem& p) {
   rec.run_indirect<k::SeedLower>(lower_args(p), push, p.ws.dispatch(gpu::kDispatchWitness));
 }
 
-}  // namespace
-
 void record_plan(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run<k::WavePlan>({.control = ws.control,
@@ -162,6 +160,8 @@ void record_bounds(Recorder& rec, const Problem& p) {
   record_bound(rec, p);
   record_plan(rec, p);
 }
+
+}  // namespace
 
 void record_first_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");

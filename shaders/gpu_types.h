@@ -322,10 +322,10 @@ struct Control {
   WaveRecord waves[64];  // kMaxWaveRecords; wave w is in waves[w % kMaxWaveRecords]
 };
 
-// What the workgroups of report_write find together.
+// What the workgroups of report_write find together, and of seed_witness.
 struct Reduction {
   uint lower_bits;   // the smallest distance above the base: ordered bits (lib/morton.h); kNone
-  uint groups_done;  // workgroups that have
+  uint groups_done;  // workgroups that have (lib/last_group.glsl)
 };
 
 struct Box {

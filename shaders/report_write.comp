@@ -26,6 +26,7 @@ layout(scalar, binding = 6) buffer ReductionBlock { Reduction reduction; };
 layout(scalar, binding = 7) writeonly buffer ReportBlock { Report report; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
+#include "shaders/lib/last_group.glsl"
 #include "shaders/lib/root.glsl"
 
 // A corner of B by the parts that the run works with.
@@ -48,21 +49,6 @@ float certified_distance() {
   // A triangle farther than the steering distance by a margin does not decide the minimum.
   float enough = w.distance + 1.0e-4 * (control.base + w.distance);
   return triangle_distance_down(s, enough);
-}
-
-shared bool is_last;
-
-// Whether all other workgroups have done as much.
-void join_groups(float d) {
-  float smallest = subgroupMin(d);
-  if (subgroupElect()) atomicMin(reduction.lower_bits, ordered_bits(floatBitsToUint(smallest)));
-  memoryBarrierBuffer();
-  barrier();
-  if (gl_LocalInvocationID.x == 0u) {
-    uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    is_last = atomicAdd(reduction.groups_done, 1u) == groups - 1u;
-  }
-  barrier();
 }
 
 float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
@@ -114,11 +100,10 @@ void write_report() {
 }
 
 void main() {
-  join_groups(certified_distance());
-  if (!is_last) return;
+  float smallest = subgroupMin(certified_distance());
+  if (subgroupElect()) atomicMin(reduction.lower_bits, ordered_bits(floatBitsToUint(smallest)));
+  if (!is_last_group()) return;
   uint lane = gl_LocalInvocationID.x;
   for (uint w = lane; w < kMaxWaveRecords; w += kGroupSize) report.waves[w] = control.waves[w];
-  if (lane > 0u) return;
-  write_report();
-  reduction.groups_done = 0u;
+  if (lane == 0u) write_report();
 }

@@ -1,4 +1,4 @@
-// What: everything that a wave decides as a whole: adopts the seed's or the last wave's witness,
+// What: everything that a wave decides as a whole: adopts the last wave's witness,
 // flips the frontier's halves, moves the base of distances, tests for the end, shares the room out
 // between refined, deferred and newly admitted candidates, selects which ones are refined, writes
 // the sizes of the wave's first half. One workgroup, of which one invocation plans. After the end
@@ -37,28 +37,10 @@ layout(scalar, binding = 12) readonly buffer TriangleLows { TriangleLow triangle
 const uint kAdoptGroup = kPlanGroup;
 #include "shaders/lib/adopt.glsl"
 
-// The seed's corner, which seed_witness has chosen: the first witness, and the run's base. None
-// where a warm run's old witness is farther than every vertex and stays.
-void adopt_seed() {
-  uint chosen_corner = control.seed_witness;
-  if (chosen_corner != kNone) {
-    uint face = chosen_corner / 3u;  // uncertified: integers
-    uint corner = chosen_corner % 3u;
-    uint vertex = faces[face][corner];
-    float distance = uintBitsToFloat(control.maximum[kMaxLower]);
-    control.witness = Witness(vertices[vertex].hi, distance, face, corner == 1u ? kBaryOne : 0u,
-                              corner == 2u ? kBaryOne : 0u, vertex_nearest[vertex]);
-  }
-  float base = base_of_run();
-  control.base = base;
-  control.tight = is_tight(base) ? 1u : 0u;
-}
-
 bool base_moved = false;  // in this wave; of the invocation that plans
 
 // Adds what the wave before this one did to the totals.
 void close_wave() {
-  if (control.wave == 0u) return;
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = child_count();
   uint queries = query_count();
@@ -122,12 +104,10 @@ void move_base() {
 
 // A refined candidate leaves at most four where it was one. While more than the reserve is free, as
 // many are refined as surely fit; else one alone, whose descendants fit the reserve (kReserve), so
-// that the run always goes on. Faces of A are admitted while the frontier is at most a quarter
-// full, so that it can be refined as a whole.
+// that the run always goes on.
 void share_room() {
   uint held = control.count[kCountFrontier];
   uint capacity = control.capacity;
-  uint cursor = control.root_cursor;
   uint room = capacity - held;
   uint parents =
       min(held, room > kReserve + 3u ? (room - kReserve) / 3u : 1u);  // uncertified: integers
@@ -139,11 +119,9 @@ void share_room() {
   bool twice = control.deferred == 0u && may_split_twice(parents, room);
   control.twice = twice ? 1u : 0u;
   uint needed = (twice ? 15u : 3u) * parents;  // places besides the candidates' own
-  uint quarter = (capacity - kReserve) / 4u;   // uncertified: integers
-  uint waiting = control.face_count - cursor;
-  uint roots = held < quarter ? min(waiting, min(quarter - held, room - needed - kReserve)) : 0u;
+  uint roots = roots_to_admit(held, room - needed);
   control.roots = roots;
-  control.root_cursor = cursor + roots;
+  control.root_cursor += roots;
 }
 
 // All that is left is within the tolerance: what culling would find out with one more wave.
@@ -203,7 +181,6 @@ void plan() {
 void main() {
   bool first = gl_LocalInvocationID.x == 0u;
   adopt_witness();
-  if (first && control.wave == 0u) adopt_seed();
   if (first) plan();
   barrier();
   if (held_in_short_room > 0u) select_smallest(held_in_short_room);

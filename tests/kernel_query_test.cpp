@@ -229,7 +229,6 @@ Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b, bool two_
   bench.run([&](Recorder& rec) {
     record_load(rec, on, p.ws.vertices, p.ws.faces);
     record_seed(rec, p);
-    record_plan(rec, p);
   });
   return {bench.get(p.ws.vertex_nearest), bench.get(p.ws.vertex_distance),
           bench.get(p.ws.control)[0]};

@@ -30,6 +30,14 @@ uint schedule(uint held, uint room) {
   return 0u;
 }
 
+// Faces of A that the wave admits, beside `held` candidates, with so much room left: while the
+// frontier is at most a quarter full, so that it can be refined as a whole.
+uint roots_to_admit(uint held, uint room) {
+  uint quarter = (control.capacity - kReserve) / 4u;  // uncertified: integers
+  uint waiting = control.face_count - control.root_cursor;
+  return held < quarter ? min(waiting, min(quarter - held, room - kReserve)) : 0u;
+}
+
 // Whether the wave splits its `held` candidates twice: there are few, and there is room for their
 // children and, in a stream for three of each of a quarter of the capacity, for their new points.
 bool may_split_twice(uint held, uint room) {

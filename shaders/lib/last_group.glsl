@@ -1,0 +1,21 @@
+// Which workgroup of a dispatch is the last to come to a point: it sees, by atomics, what all
+// others have found by atomics. Include after `reduction` is declared.
+#ifndef VKH_SHADERS_LIB_LAST_GROUP_GLSL
+#define VKH_SHADERS_LIB_LAST_GROUP_GLSL
+
+shared bool last_group;
+
+// Called once, by every invocation of every workgroup.
+bool is_last_group() {
+  memoryBarrierBuffer();
+  barrier();
+  if (gl_LocalInvocationID.x == 0u) {
+    uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    last_group = atomicAdd(reduction.groups_done, 1u) == groups - 1u;
+    if (last_group) reduction.groups_done = 0u;
+  }
+  barrier();
+  return last_group;
+}
+
+#endif
