@@ -26,17 +26,17 @@ gpu::PyramidPush first_levels(const Hierarchy& h) {
   return {.from = 0, .count = h.face_count, .quads = pyramid_size(h.face_count), .sixteens = 0};
 }
 
-// Above those that the triangles' kernel wrote: 256 triangles a box, 65,536, .. until one box is
-// left.
+// Above those that the triangles' kernel wrote, of 256 triangles a box, 65,536, ..: none up to
+// there, where its last workgroup writes them all; else until a run holds a level.
 void record_pyramid(Recorder& rec, const Hierarchy& h) {
   gpu::PyramidPush push = first_levels(h);
-  while (push.count > gpu::kPyramidFan) {
+  while (push.count > gpu::kRun * gpu::kRun) {
     const uint32_t count = over(push.count, gpu::kPyramidFan);
     push = {.from = push.sixteens + count,
             .count = over(push.count, gpu::kRun),
             .quads = push.quads + over(push.count, 4) + over(count, 4),
             .sixteens = push.sixteens + count + over(push.count, gpu::kRun)};
-    if (push.count > 1) rec.run<k::BvhPyramid>({.boxes = h.pyramid}, push, Items{push.count});
+    rec.run<k::BvhPyramid>({.boxes = h.pyramid, .reduction = h.reduction}, push, Items{push.count});
   }
 }
 
@@ -102,7 +102,8 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .box = h.box,
                          .keys = s.sort.keys[side],
                          .values = s.sort.values[side],
-                         .counts = s.sort.counts},
+                         .counts = s.sort.counts,
+                         .reduction = h.reduction},
                         {.count = b.faceCount, .block = blocks.keys, .first_bit = first_bit},
                         faces);
   rec.stage("morton");
@@ -115,7 +116,8 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .triangle_lows = h.triangle_lows,
                          .keys = s.sort.keys[0],
                          .codes = h.codes,
-                         .boxes = h.pyramid},
+                         .boxes = h.pyramid,
+                         .reduction = h.reduction},
                         first_levels(h), faces);
   rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .branches = h.branches}, count, faces,
                            Order::kIndependent);
@@ -130,7 +132,8 @@ void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
                        .faces = h.faces,
                        .triangles = h.triangles,
                        .triangle_lows = h.triangle_lows,
-                       .boxes = h.pyramid},
+                       .boxes = h.pyramid,
+                       .reduction = h.reduction},
                       first_levels(h), Items{b.faceCount});
   record_boxes(rec, h);
   rec.stage("refit");

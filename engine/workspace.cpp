@@ -37,6 +37,7 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
   take(h.box, 1);
   take(h.vertices, vertex_count);
   take(h.faces, face_count);
+  take(h.reduction, 1);
   h.face_count = face_count;
 }
 

@@ -18,6 +18,7 @@ struct Hierarchy {
   Slice<gpu::CentroidBox> box;  // faces are found by them
   Slice<gpu::Vertex> vertices;  // B as given: the report's lower bound rests on these two alone
   Slice<gpu::uvec3> faces;
+  Slice<gpu::Reduction> reduction;
   uint32_t face_count = 0;
 };
 

@@ -15,7 +15,8 @@ layout(scalar, binding = 3) writeonly buffer Triangles { Triangle triangles[]; }
 layout(scalar, binding = 4) writeonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 5) readonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 6) writeonly buffer Codes { uint codes[]; };
-layout(scalar, binding = 7) writeonly buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 7) coherent buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 8) buffer ReductionBlock { Reduction reduction; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/lib/run_boxes.glsl"
@@ -28,5 +29,5 @@ void main() {
     codes[i] = keys[i];
     own = place_triangle(i, values[i]);
   }
-  write_run(own, push.count, push.quads, push.sixteens);
+  write_levels(own, push.count, push.quads, push.sixteens);
 }

@@ -12,7 +12,8 @@ layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 3) writeonly buffer TriangleLows { TriangleLow triangle_lows[]; };
-layout(scalar, binding = 4) writeonly buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 4) coherent buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 5) buffer ReductionBlock { Reduction reduction; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/lib/run_boxes.glsl"
@@ -22,5 +23,5 @@ void main() {
   uint i = workgroup_index() * kRun + gl_LocalInvocationID.x;
   Box own = empty_box();
   if (i < push.count) own = place_triangle(i, triangles[i].face);
-  write_run(own, push.count, push.quads, push.sixteens);
+  write_levels(own, push.count, push.quads, push.sixteens);
 }

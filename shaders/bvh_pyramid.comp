@@ -8,7 +8,8 @@
 #include "shaders/lib/invocation.glsl"
 
 layout(local_size_x = kRun) in;
-layout(scalar, binding = 0) buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 0) coherent buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 1) buffer ReductionBlock { Reduction reduction; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/lib/run_boxes.glsl"
@@ -17,5 +18,5 @@ void main() {
   uint i = workgroup_index() * kRun + gl_LocalInvocationID.x;
   Box own = empty_box();
   if (i < push.count) own = boxes[push.from + i];
-  write_run(own, push.count, push.quads, push.sixteens);
+  write_levels(own, push.count, push.quads, push.sixteens);
 }
