@@ -3,38 +3,16 @@
 
 namespace vkh {
 
-namespace {
-
-// One item a vertex of A, and one for the last run's witness where `push.warm`.
-void record_query(Recorder& rec, const Problem& p, const gpu::SeedPush& push) {
-  // As seed_query has it: a workgroup an item where they are few.
-  const bool in_groups =
-      (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
-  const uint32_t items = p.vertex_count + push.warm;
-  const uint32_t groups = in_groups ? items : (items + gpu::kQueryGroup - 1) / gpu::kQueryGroup;
-  rec.run<k::SeedQuery>({.vertices = p.ws.vertices,
-                         .nodes = as<gpu::uvec4>(p.b.nodes),
-                         .triangles = as<gpu::uvec4>(p.b.triangles),
-                         .vertex_nearest = p.ws.vertex_nearest,
-                         .vertex_distance = as<uint32_t>(p.ws.vertex_distance),
-                         .control = p.ws.control,
-                         .triangle_lows = p.b.triangle_lows,
-                         .faces = p.ws.faces,
-                         .boxes = p.b.pyramid},
-                        push, Groups{groups});
-}
-
-}  // namespace
-
-k::SeedLower::Args lower_args(const Problem& p) {
+k::SeedQuery::Args seed_args(const Problem& p) {
   return {.vertices = p.ws.vertices,
           .nodes = as<gpu::uvec4>(p.b.nodes),
           .triangles = as<gpu::uvec4>(p.b.triangles),
           .vertex_nearest = p.ws.vertex_nearest,
-          .vertex_distance = p.ws.vertex_distance,
+          .vertex_distance = as<uint32_t>(p.ws.vertex_distance),
           .control = p.ws.control,
           .triangle_lows = p.b.triangle_lows,
-          .faces = p.ws.faces};
+          .faces = p.ws.faces,
+          .boxes = p.b.pyramid};
 }
 
 void record_seed(Recorder& rec, const Problem& p) {
@@ -48,8 +26,14 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .two_float = p.two_float ? 1u : 0u,
                              .warm = p.warm ? 1u : 0u,
                              .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom};
-  const gpu::SeedPush seed{
-      .vertex_count = p.vertex_count, .triangle_count = p.b.face_count, .warm = p.warm ? 1u : 0u};
+  gpu::SeedPush seed{.vertex_count = p.vertex_count,
+                     .triangle_count = p.b.face_count,
+                     .warm = p.warm ? 1u : 0u,
+                     .again = 0};
+  // As seed_query has it: a workgroup an item where they are few.
+  const uint32_t items = p.vertex_count + seed.warm;
+  const bool in_groups =
+      (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
   // Nor do A's vertices and faces, which record_load writes, concern it.
   rec.run<k::SeedBegin>({.control = ws.control, .reduction = ws.reduction}, begin, Groups{1},
                         Order::kIndependent);
@@ -65,8 +49,13 @@ void record_seed(Recorder& rec, const Problem& p) {
                          .face_shared = ws.face_shared},
                         {.face_count = p.face_count, .triangle_count = p.b.face_count},
                         Items{p.face_count});
-  record_query(rec, p, seed);
-  rec.run<k::SeedLower>(lower_args(p), seed, Items{p.vertex_count + seed.warm});
+  if (in_groups) {
+    rec.run<k::SeedQuery>(seed_args(p), seed, Groups{items});
+  } else {
+    rec.run<k::SeedQuery>(seed_args(p), seed, Items{items});
+  }
+  seed.again = 1;
+  rec.run<k::SeedQuery>(seed_args(p), seed, Items{items});
   rec.run<k::SeedWitness>({.faces = ws.faces,
                            .vertex_distance = ws.vertex_distance,
                            .control = ws.control,

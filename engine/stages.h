@@ -46,8 +46,8 @@ struct Problem {
 };
 
 void record_seed(Recorder& rec, const Problem& p);
-// What seed_lower works on, for the seed and for a plan that has moved the base.
-k::SeedLower::Args lower_args(const Problem& p);
+// What seed_query works on, for the seed and for a plan that has moved the base.
+k::SeedQuery::Args seed_args(const Problem& p);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);

@@ -127,8 +127,9 @@ void record_bound(Recorder& rec, const Problem& p) {
 
 // Nothing, unless the plan has moved the base: then the witness is measured above the new one.
 void record_witness(Recorder& rec, const Problem& p) {
-  const gpu::SeedPush push{.vertex_count = 0, .triangle_count = p.b.face_count, .warm = 1};
-  rec.run_indirect<k::SeedLower>(lower_args(p), push, p.ws.dispatch(gpu::kDispatchWitness));
+  const gpu::SeedPush push{
+      .vertex_count = 0, .triangle_count = p.b.face_count, .warm = 1, .again = 1};
+  rec.run_indirect<k::SeedQuery>(seed_args(p), push, p.ws.dispatch(gpu::kDispatchWitness));
 }
 
 void record_plan(Recorder& rec, const Problem& p) {

@@ -127,7 +127,7 @@ VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
 VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
 VKH_CONST uint kDispatchSortDigits = 8u;  // digits
 VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
-VKH_CONST uint kDispatchWitness = 10u;    // seed_lower, where the base has moved
+VKH_CONST uint kDispatchWitness = 10u;    // seed_query again, where the base has moved
 VKH_CONST uint kDispatchCount = 11u;
 
 // Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
@@ -460,6 +460,7 @@ struct SeedPush {
   uint vertex_count;
   uint triangle_count;  // of B
   uint warm;            // start from the last run's closest triangles
+  uint again;           // to 48 bits above the base
 };
 
 #ifdef __cplusplus

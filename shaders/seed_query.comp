@@ -1,10 +1,13 @@
-// What: the closest triangle of B to each vertex of A, in plain floats. A warm run starts each walk
-// from the triangle that the last run found, and queries the last run's witness as one more item.
-// What the last run left may be anything: starts are checked, and the witness is moved into A, so
-// that it costs time at worst.
-// In: vertices, faces; vertex_distance holds the states from seed_faces; where push.warm,
+// What: the closest triangle of B to each vertex of A. First in plain floats: a warm run starts
+// each walk from the triangle that the last run found, and queries the last run's witness as one
+// more item. What the last run left may be anything: starts are checked, and the witness is moved
+// into A, so that it costs time at worst. Then, where `push.again`, to 48 bits above the base,
+// which follows from the maximum of the first; what is farthest is looked for once more where the
+// run is tight. Also again for the witness alone, after a plan that has moved the base. In:
+// vertices, faces; first, vertex_distance holds the states from seed_faces; where push.warm,
 // vertex_nearest and control.witness. Out: vertex_nearest (kNone where no face uses the vertex),
-// vertex_distance; control.maximum[kMaxVertex]; where push.warm, control.witness.
+// vertex_distance, again above the base and at least 0; control.maximum[kMaxVertex], again
+// [kMaxLower]; where push.warm, control.witness.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -25,6 +28,7 @@ layout(scalar, binding = 8) readonly buffer Boxes { Box boxes[]; };
 layout(scalar, push_constant) uniform PushBlock { SeedPush push; };
 
 #include "shaders/lib/bvh.glsl"
+#include "shaders/lib/base.glsl"
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/seed.glsl"
@@ -44,18 +48,15 @@ void clamp_witness() {
   control.witness.k = min(control.witness.k, kBaryOne - control.witness.j);
 }
 
-// Adopts what was found for item i; returns its distance.
-float answer(uint i, vec3 p, Nearest found) {
-  float d = sqrt(found.distance2);  // uncertified: steers; seed_lower measures what matters
+// Adopts what was found for item i.
+void answer(uint i, uint nearest, float distance) {
   if (i < push.vertex_count) {
-    vertex_nearest[i] = found.triangle;
-    vertex_distance[i] = floatBitsToUint(d);
+    vertex_nearest[i] = nearest;
+    vertex_distance[i] = floatBitsToUint(distance);
   } else {
-    control.witness.position = p;
-    control.witness.nearest = found.triangle;
-    control.witness.distance = d;
+    control.witness.nearest = nearest;
+    control.witness.distance = distance;
   }
-  return d;
 }
 
 // A vertex that needs no query: on B, or of no face.
@@ -64,20 +65,58 @@ void settle(uint i, uint state) {
   vertex_distance[i] = 0u;
 }
 
-void main() {
-  uint lane = gl_LocalInvocationID.x;
-  bool in_groups = kSpread && push.vertex_count <= kGroupWalkVertices;
-  uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
+// What an invocation knows of its item, and whether a walk is to find more.
+struct Item {
+  bool exists;  // it is to be answered
+  bool asked;
+  uint nearest;    // where a walk starts
+  float distance;  // above the base
+};
+
+// `first`: of the invocations of an item. One alone: others may read the state later than it is
+// written.
+Item first_item(uint i, bool first) {
   uint state = i < push.vertex_count ? vertex_distance[i] : 0u;
-  bool is_asked = state == kVertexUsed || is_old_witness(i);
-  // One alone: others of the group may read the state later than it is written.
-  bool first = !in_groups || lane == 0u;
-  bool asked = is_asked && first;
+  bool asked = first && (state == kVertexUsed || is_old_witness(i));
   if (first && i < push.vertex_count && !asked) settle(i, state);
   if (is_old_witness(i)) clamp_witness();
-  uint at = asked ? i : 0u;
-  Two3 p = seed_point(at);
-  Nearest found =
-      find_nearest(Query(p, 0.0, false), asked ? start_of(at) : kNone, asked, in_groups);
-  raise(kMaxVertex, asked ? answer(at, p.hi, found) : 0.0);
+  return Item(asked, asked, asked ? start_of(i) : kNone, 0.0);
+}
+
+// As known in plain floats; a tight run looks again where that is over 0.
+Item known_item(uint i, float base, bool tight) {
+  bool is_vertex = i < push.vertex_count && vertex_nearest[i] != kNone;
+  Item item = Item(is_vertex || is_old_witness(i), false, kNone, 0.0);
+  if (!item.exists) return item;
+  item.nearest = is_vertex ? vertex_nearest[i] : control.witness.nearest;
+  float distance = is_vertex ? uintBitsToFloat(vertex_distance[i]) : control.witness.distance;
+  item.distance = max(distance - base, 0.0);
+  item.asked = tight && item.distance > 0.0;
+  return item;
+}
+
+void main() {
+  bool again = push.again != 0u;
+  bool in_groups = kSpread && !again && push.vertex_count <= kGroupWalkVertices;
+  uint lane = gl_LocalInvocationID.x;
+  uint i = in_groups ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
+  float base = again ? max(base_of_run(), control.base) : 0.0;  // 0 before the first plan
+  bool tight = again && (is_tight(base) || control.tight != 0u);
+  Item item = again ? known_item(i, base, tight) : first_item(i, !in_groups || lane == 0u);
+  Two3 p = seed_point(item.asked ? i : 0u);
+  Query q = Query(p, base, tight);
+  Nearest found = find_nearest(q, item.asked ? item.nearest : kNone, item.asked, in_groups);
+  if (item.asked) {
+    item.nearest = found.triangle;
+    item.distance = sqrt(found.distance2);  // uncertified: steers; again measures what matters
+    if (again) {
+      found = measured(q, found, -1.0);
+      item.nearest = found.triangle;
+      item.distance = max(found.above, 0.0);
+    } else if (i == push.vertex_count) {
+      control.witness.position = p.hi;
+    }
+  }
+  if (item.exists) answer(i, item.nearest, item.distance);
+  raise(again ? kMaxLower : kMaxVertex, item.distance);
 }
