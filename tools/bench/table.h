@@ -13,7 +13,7 @@ namespace vkh::bench {
 struct Outcome {
   std::string variant;
   std::vector<Report> reports;  ///< of its repeats; of a run that did not close, that one alone
-  std::vector<Report> staged;   ///< of as many runs with a timestamp after each stage
+  std::vector<Report> staged;   ///< of other runs, with a timestamp after each stage
   double load_ms = 0;           ///< both files
   double setup_ms = 0;          ///< device and this variant's pipelines, once a process
 
