@@ -285,8 +285,9 @@ typedef struct VkhProblem {
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound,
- * and records the first wave, which bounds A's faces: all of them where the workspace has room.
- * Reads a's buffers and the hierarchy in compute shaders, writes the workspace. After it the
+ * and records the first wave, which bounds A's faces: all of them where the workspace has room, and
+ * none yet in a run whose tolerance is under 1e-9 of the coordinates, which may have a base to
+ * move. Reads a's buffers and the hierarchy in compute shaders, writes the workspace. After it the
  * workspace holds the run, and a's buffers are not needed. */
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                  VkhProfile* profile);

@@ -257,7 +257,8 @@ RunOutput Runner::run(const RunInput& in) {
   bool wanted = true;
   uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
   uint32_t submissions = 0;
-  uint32_t waves_left = std::max(in.wave_limit, 1u);
+  const uint32_t limit = std::max(in.wave_limit, 1u);
+  uint32_t waves_left = limit;
   do {
     if (!in.multiwave) waves = 1;
     waves = std::min(waves, waves_left);  // exactly the budget: how they are grouped depends on the
@@ -282,7 +283,7 @@ RunOutput Runner::run(const RunInput& in) {
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
     submit(out);
     first = false;
-    waves_left -= waves;
+    waves_left = limit - std::min(out.report.waves, limit);
     waves = next_waves(++submissions, waves, now_ms() - submitted);
     wanted = in.advanced(out.report);
   } while (wanted && waves_left > 0 && out.report.status == VKH_STATUS_RUNNING);

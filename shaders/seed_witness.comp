@@ -52,10 +52,13 @@ void plan_first_wave() {
   float base = base_of_run();
   control.base = base;
   control.tight = is_tight(base) ? 1u : 0u;
-  uint roots = roots_to_admit(0u, control.capacity);
+  // Where the tolerance is so small that the base is to be moved before anything is closed,
+  // wave_plan moves it, and admits the faces; the first wave's dispatches are empty then.
+  bool base_is_right = !needs_sharp(uintBitsToFloat(control.maximum[kMaxLower]));
+  uint roots = base_is_right ? roots_to_admit(0u, control.capacity) : 0u;
   control.roots = roots;
   control.root_cursor = roots;
-  control.wave = 1u;
+  control.wave = base_is_right ? 1u : 0u;
   dispatches[kDispatchFilter] = groups_for(roots);
   dispatches[kDispatchBound] = groups_for_children(roots);
 }

@@ -41,6 +41,7 @@ bool base_moved = false;  // in this wave; of the invocation that plans
 
 // Adds what the wave before this one did to the totals.
 void close_wave() {
+  if (control.wave == 0u) return;  // it was left to this plan
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = child_count();
   uint queries = query_count();
