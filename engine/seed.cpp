@@ -34,7 +34,7 @@ void record_seed(Recorder& rec, const Problem& p) {
   const uint32_t items = p.vertex_count + seed.warm;
   const bool in_groups =
       (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
-  // Nor do A's vertices and faces, which record_load writes, concern it.
+  // Independent of record_load, which writes A's vertices and faces.
   rec.run<k::SeedBegin>({.control = ws.control, .reduction = ws.reduction}, begin, Groups{1},
                         Order::kIndependent);
   rec.fill(ws.vertex_distance, 0, Order::kIndependent);

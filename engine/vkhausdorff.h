@@ -272,12 +272,13 @@ typedef struct VkhProblem {
    * the interval is as true, and takes longer. Zero it for a first frame, and where a run must
    * repeat to the last bit. */
   VkBool32 warm;
-  /* Null, or with a context of VKH_SWITCH_COVERAGE: 16 bytes a face of A, usage STORAGE_BUFFER and
-   * TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute shaders and transfers:
-   * vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport what is open. It holds
-   * faceCount 64-bit integers (two little-endian words each), what of each face has been closed,
-   * and faceCount more, what is open, in units of 2^-40 of the face. After vkhCmdWriteReport the
-   * two are 2^40 together, or both 0 for a face that waits for its first bound. */
+  /* Null, or, with a context of VKH_SWITCH_COVERAGE and with no other, 16 bytes a face of A, usage
+   * STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute shaders
+   * and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport what is
+   * open. It holds faceCount 64-bit integers (two little-endian words each), what of each face has
+   * been closed, and faceCount more, what is open, in units of 2^-40 of the face. After
+   * vkhCmdWriteReport the two are 2^40 together, or both 0 for a face that waits for its first
+   * bound. */
   VkBuffer coverageBuffer;
   VkDeviceSize coverageOffset; /* bytes */
   /* With VKH_SWITCH_SORT: frontiers of fewer candidates are not sorted. 0: as measured to pay. */
@@ -342,7 +343,7 @@ typedef struct VkhReport {
 /* Certifies the witness against every triangle of B and writes the report at `offset` (a multiple
  * of 256 bytes) of `buffer` (usage STORAGE_BUFFER; TRANSFER_SRC if you copy it), in COMPUTE_SHADER
  * with SHADER_STORAGE_WRITE: your next shader can read it without the host. Costs a pass over B's
- * triangles. The run can be advanced further afterwards; while faces of A wait for room upper is
+ * triangles. The run can be advanced further afterwards; while faces of A wait for a bound upper is
  * 3e38. */
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);

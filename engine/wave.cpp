@@ -8,18 +8,18 @@ namespace {
 // Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
 Slice<gpu::Area> areas_of(const Problem& p) {
   if (p.areas.buffer != VK_NULL_HANDLE) return p.areas;
-  return {p.ws.reduction.buffer, p.ws.reduction.offset, p.ws.reduction.size};
+  return {p.ws.unused.buffer, p.ws.unused.offset, p.ws.unused.size};
 }
 
 // Likewise, without kUseSort.
 Slice<uint32_t> order_of(const Problem& p) {
-  return (p.switches & gpu::kUseSort) != 0 ? p.ws.sort.values[0] : as<uint32_t>(p.ws.reduction);
+  return (p.switches & gpu::kUseSort) != 0 ? p.ws.sort.values[0] : p.ws.unused;
 }
 
 // Likewise, without kUsePaperU3.
 Slice<float> u3_bounds_of(const Problem& p) {
   if ((p.switches & gpu::kUsePaperU3) != 0) return p.ws.u3_bounds;
-  return {p.ws.reduction.buffer, p.ws.reduction.offset, p.ws.reduction.size};
+  return {p.ws.unused.buffer, p.ws.unused.offset, p.ws.unused.size};
 }
 
 void record_subdivide(Recorder& rec, const Problem& p) {

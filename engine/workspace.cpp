@@ -78,6 +78,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.survivors, capacity);
   take(w.centroids, capacity);
   take(w.reduction, 1);
+  take(w.unused, 1);
   if ((room.switches & gpu::kUseSort) != 0) list(take, w.sort, capacity);
   if ((room.switches & gpu::kUsePaperU3) != 0) take(w.u3_bounds, capacity);
   w.capacity = capacity;

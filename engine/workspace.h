@@ -18,7 +18,7 @@ struct Hierarchy {
   Slice<gpu::CentroidBox> box;  // faces are found by them
   Slice<gpu::Vertex> vertices;  // B as given: the report's lower bound rests on these two alone
   Slice<gpu::uvec3> faces;
-  Slice<gpu::Reduction> reduction;
+  Slice<gpu::Reduction> reduction;  // groups_done alone
   uint32_t face_count = 0;
 };
 
@@ -56,6 +56,7 @@ struct Workspace {
   Slice<uint32_t> survivors;
   Slice<gpu::Point> centroids;
   Slice<gpu::Reduction> reduction;
+  Slice<uint32_t> unused;  // for bindings that the switches leave without a buffer
   SortStreams sort;        // none but with kUseSort
   Slice<float> u3_bounds;  // none but with kUsePaperU3
   uint32_t capacity = 0;

@@ -1,5 +1,6 @@
 #include "examples/scene.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -105,7 +106,7 @@ void Pair::certify(VkCommandBuffer commands, Hierarchy hierarchy, bool warm, uin
     vkhCmdRefitHierarchy(context_, commands, &b_, &problem_.b, nullptr);
   }
   vkhCmdBegin(context_, commands, &problem_, nullptr);
-  vkhCmdAdvance(context_, commands, &problem_, waves - 1, nullptr);  // the first is done
+  vkhCmdAdvance(context_, commands, &problem_, std::max(waves, 1u) - 1, nullptr);
 }
 
 void Pair::write_report(VkCommandBuffer commands, const Buffer& report, VkDeviceSize offset) {

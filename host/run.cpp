@@ -27,7 +27,7 @@ constexpr uint32_t kMostWaves = 8;
 
 uint32_t next_waves(uint32_t submissions, uint32_t last, double last_ms) {
   const double per_wave = std::max(last_ms / last, 1e-3);
-  const uint32_t most = std::min(kSecondWaves << std::min(submissions / 2, 2u), kMostWaves);
+  const uint32_t most = std::min(kSecondWaves << std::min(submissions - 1, 2u), kMostWaves);
   return static_cast<uint32_t>(
       std::clamp(kSubmissionMs / per_wave, 1.0, static_cast<double>(most)));
 }

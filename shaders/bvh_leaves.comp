@@ -1,4 +1,5 @@
-// What: B's triangles in Morton order, and the first levels of the pyramid of boxes over them. In:
+// What: B's triangles in Morton order, and the levels of the pyramid of boxes over them, all of
+// up to kRun^2 triangles (lib/run_boxes.glsl). In:
 // keys and values (sorted codes and face numbers), vertices, faces. Out: triangles, triangle_lows,
 // codes, boxes.
 #version 460

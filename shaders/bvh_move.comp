@@ -1,6 +1,6 @@
 // What: B's triangles where their vertices are now, in the order that they were sorted in, and the
-// first levels of the pyramid of boxes over them. In: triangles[].face, vertices, faces. Out:
-// triangles, triangle_lows, boxes.
+// levels of the pyramid of boxes over them, as in bvh_leaves. In: triangles[].face, vertices,
+// faces. Out: triangles, triangle_lows, boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

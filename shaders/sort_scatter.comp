@@ -1,10 +1,9 @@
 // What: moves each key and value to its place for one digit, keeping the order of equal digits.
 // In: keys_in, values_in; counts and totals from sort_scan, or, of few blocks, counts from
-// sort_count or the pass before. Out: keys_out, values_out, and the next pass's counts where this
-// one counts for it.
-// Each subgroup owns a contiguous run of the block, so that its own counters, taken round by round,
-// keep the order; lanes of equal digit find each other by ballots. 16-bit counters, two a word: a
-// block has 2048 keys at most.
+// sort_count, from who wrote the keys or from the pass before. Out: keys_out, values_out, and the
+// next pass's counts where this one counts for it. Each subgroup owns a contiguous run of the
+// block, so that its own counters, taken round by round, keep the order; lanes of equal digit find
+// each other by ballots. 16-bit counters, two a word: a block has 2048 keys at most.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
-// Which workgroup of a dispatch is the last to come to a point: it sees, by atomics, what all
-// others have found by atomics. Include after `reduction` is declared.
+// Which workgroup of a dispatch is the last to come to a point: it sees what all others have
+// written by then, by atomics or to coherent buffers, if it reads it in the same way. Include after
+// `reduction` is declared.
 #ifndef VKH_SHADERS_LIB_LAST_GROUP_GLSL
 #define VKH_SHADERS_LIB_LAST_GROUP_GLSL
 
@@ -11,10 +12,12 @@ bool is_last_group() {
   barrier();
   if (gl_LocalInvocationID.x == 0u) {
     uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    memoryBarrierBuffer();
     last_group = atomicAdd(reduction.groups_done, 1u) == groups - 1u;
     if (last_group) reduction.groups_done = 0u;
   }
   barrier();
+  memoryBarrierBuffer();
   return last_group;
 }
 
