@@ -86,18 +86,9 @@ void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;
   if (mine) close_area(closed, c.root, c.at);
-  for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
-    tally_count(why, closed && v.by == why);
-  tally_raise(kTallyDropped, closed ? v.upper : 0.0);
-  tally_raise(kTallyNext, open ? v.upper : 0.0);
-  uint slot = tally_count(kTallyOpen, open);
-  barrier();
-  give_tally();
-  barrier();
-  if (open) {
-    uint to = writing(tally_word(kTallyOpen) + slot);
-    frontier[to] = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
-  }
+  uint slot = give(closed, open, v);
+  if (open)
+    frontier[writing(slot)] = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
 }
 
 void main() {
@@ -143,9 +134,11 @@ void main() {
   barrier();
   measure_cuts(fine, enough);
   barrier();
-  begin_tally();
-  if (fine) join_cuts();
-  barrier();
+  if (kSpread) {
+    begin_tally();
+    if (fine) join_cuts();
+    barrier();
+  }
   if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
   write(mine, c, centre, v, threshold);
 }
