@@ -36,7 +36,8 @@ void record_pyramid(Recorder& rec, const Hierarchy& h) {
             .count = over(push.count, gpu::kRun),
             .quads = push.quads + over(push.count, 4) + over(count, 4),
             .sixteens = push.sixteens + count + over(push.count, gpu::kRun)};
-    rec.run<k::BvhPyramid>({.boxes = h.pyramid, .reduction = h.reduction}, push, Items{push.count});
+    rec.run<k::BvhPyramid>({.boxes = h.pyramid, .groups_done = h.groups_done}, push,
+                           Items{push.count});
   }
 }
 
@@ -77,7 +78,7 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& v
                         .index_words = indices.words,
                         .low_words = low.words,
                         .vertices = vertices,
-                        .indices = Slice<uint32_t>{faces.buffer, faces.offset, faces.size}},
+                        .indices = as<uint32_t>(faces)},
                        push, Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
 }
 
@@ -88,13 +89,9 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   record_load(rec, b, h.vertices, h.faces);
   const uint32_t first_bit = b.faceCount <= gpu::kFewFaces ? gpu::kFewFacesFirstBit : 0;
   const uint32_t side = sort_side(first_bit);
-  const SortBlocks blocks = counted_blocks(rec, b.faceCount, first_bit);
   rec.fill(h.box, 0xffffffffu, Order::kIndependent);
-  if (blocks.words > 0) {
-    const Slice<uint32_t>& counts = s.sort.counts;
-    rec.fill(Slice<uint32_t>{counts.buffer, counts.offset, blocks.words * sizeof(uint32_t)}, 0,
-             Order::kIndependent);
-  }
+  const uint32_t block =
+      record_empty_counts(rec, s.sort, b.faceCount, first_bit, Order::kIndependent);
   rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count,
                      Items{over(b.faceCount, gpu::kBoxFaces)});
   rec.run<k::BvhMorton>({.vertices = h.vertices,
@@ -103,11 +100,10 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .keys = s.sort.keys[side],
                          .values = s.sort.values[side],
                          .counts = s.sort.counts,
-                         .reduction = h.reduction},
-                        {.count = b.faceCount, .block = blocks.keys, .first_bit = first_bit},
-                        faces);
+                         .groups_done = h.groups_done},
+                        {.count = b.faceCount, .block = block, .first_bit = first_bit}, faces);
   rec.stage("morton");
-  record_sort(rec, s.sort, b.faceCount, first_bit, blocks.words > 0 ? Counted::kYes : Counted::kNo);
+  record_sort(rec, s.sort, b.faceCount, first_bit, block > 0 ? Counted::kYes : Counted::kNo);
   rec.stage("sort");
   rec.run<k::BvhLeaves>({.vertices = h.vertices,
                          .faces = h.faces,
@@ -117,7 +113,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
                          .keys = s.sort.keys[0],
                          .codes = h.codes,
                          .boxes = h.pyramid,
-                         .reduction = h.reduction},
+                         .groups_done = h.groups_done},
                         first_levels(h), faces);
   rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .branches = h.branches}, count, faces,
                            Order::kIndependent);
@@ -133,7 +129,7 @@ void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
                        .triangles = h.triangles,
                        .triangle_lows = h.triangle_lows,
                        .boxes = h.pyramid,
-                       .reduction = h.reduction},
+                       .groups_done = h.groups_done},
                       first_levels(h), Items{b.faceCount});
   record_boxes(rec, h);
   rec.stage("refit");

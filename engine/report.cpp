@@ -24,7 +24,8 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
                            .vertices = ws.vertices,
                            .faces = ws.faces,
                            .triangles = p.b.triangles,
-                           .reduction = ws.reduction,
+                           .lower_bits = ws.lower_bits,
+                           .groups_done = ws.groups_done,
                            .report = report},
                           gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
   record_open(rec, p);

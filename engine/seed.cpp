@@ -30,13 +30,14 @@ void record_seed(Recorder& rec, const Problem& p) {
                      .triangle_count = p.b.face_count,
                      .warm = p.warm ? 1u : 0u,
                      .again = 0};
-  // As seed_query has it: a workgroup an item where they are few.
   const uint32_t items = p.vertex_count + seed.warm;
+  // As seed_query has it: all of a workgroup for an item where they are few.
   const bool in_groups =
       (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
   // Independent of record_load, which writes A's vertices and faces.
-  rec.run<k::SeedBegin>({.control = ws.control, .reduction = ws.reduction}, begin, Groups{1},
-                        Order::kIndependent);
+  rec.run<k::SeedBegin>(
+      {.control = ws.control, .lower_bits = ws.lower_bits, .groups_done = ws.groups_done}, begin,
+      Groups{1}, Order::kIndependent);
   rec.fill(ws.vertex_distance, 0, Order::kIndependent);
   rec.run<k::SeedFaces>({.faces = ws.faces,
                          .vertex_state = as<uint32_t>(ws.vertex_distance),
@@ -49,11 +50,7 @@ void record_seed(Recorder& rec, const Problem& p) {
                          .face_shared = ws.face_shared},
                         {.face_count = p.face_count, .triangle_count = p.b.face_count},
                         Items{p.face_count});
-  if (in_groups) {
-    rec.run<k::SeedQuery>(seed_args(p), seed, Groups{items});
-  } else {
-    rec.run<k::SeedQuery>(seed_args(p), seed, Items{items});
-  }
+  rec.run<k::SeedQuery>(seed_args(p), seed, Items{in_groups ? items * gpu::kQueryGroup : items});
   seed.again = 1;
   rec.run<k::SeedQuery>(seed_args(p), seed, Items{items});
   rec.run<k::SeedWitness>({.faces = ws.faces,
@@ -62,7 +59,7 @@ void record_seed(Recorder& rec, const Problem& p) {
                            .vertices = ws.vertices,
                            .vertex_nearest = ws.vertex_nearest,
                            .dispatches = ws.dispatches,
-                           .reduction = ws.reduction},
+                           .groups_done = ws.groups_done},
                           faces, Items{p.face_count});
   rec.stage("seed");
 }

@@ -27,12 +27,14 @@ struct Keys {
   bool counted_ahead;
 };
 
+uint32_t passes_of(const Keys& keys) { return (32 - keys.first_bit) / 8; }
+
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
 // blocks are few.
 template <class Size>
 void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted counted,
                    const Size& blocks, const Size& digits) {
-  const uint32_t passes = (32 - sorted.first_bit) / 8;
+  const uint32_t passes = passes_of(sorted);
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const uint32_t from = (passes - pass) % 2;
     const uint32_t to = 1 - from;
@@ -73,12 +75,13 @@ Keys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
 
 uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
 
-SortBlocks counted_blocks(const Recorder& rec, uint32_t count, uint32_t first_bit) {
+uint32_t record_empty_counts(Recorder& rec, const SortStreams& s, uint32_t count,
+                             uint32_t first_bit, Order order) {
   const Keys keys = keys_for(rec, first_bit, count);
-  if (!keys.counted_ahead) return {0, 0};
-  const uint32_t passes = (32 - first_bit) / 8;
-  return {keys.rounds * gpu::kSortGroup,
-          passes * sort_blocks(count, keys.rounds) * gpu::kSortDigits};
+  if (!keys.counted_ahead) return 0;
+  const uint64_t words = passes_of(keys) * sort_blocks(count, keys.rounds) * gpu::kSortDigits;
+  rec.fill(Slice<uint32_t>{s.counts.buffer, s.counts.offset, words * sizeof(uint32_t)}, 0, order);
+  return keys.rounds * gpu::kSortGroup;
 }
 
 void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit,
@@ -86,6 +89,8 @@ void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t f
   const Keys keys = keys_for(rec, first_bit, count);
   const uint32_t blocks = sort_blocks(count, keys.rounds);
   const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
+  if (counted == Counted::kNo && count > 0)
+    record_empty_counts(rec, s, count, first_bit, Order::kAfterAll);
   record_passes(rec, s, keys, counted, Groups{blocks}, Groups{digits});
 }
 

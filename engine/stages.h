@@ -14,13 +14,11 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& v
 // Sorts keys with values by bits first_bit and up, 8 a pass, stable, ascending: from the side that
 // sort_side names to side 0.
 uint32_t sort_side(uint32_t first_bit);
-// A sort of few keys is a chain of dispatches, and spares one where whoever writes the keys counts
-// their first digits: `counts` has `words`, which are to be 0 before, a digit's of a block of so
-// many `keys` one after the other. No words: it counts by itself.
-struct SortBlocks {
-  uint32_t keys, words;
-};
-SortBlocks counted_blocks(const Recorder& rec, uint32_t count, uint32_t first_bit);
+// A sort of few keys is a chain of dispatches, and spares one where whoever writes the keys
+// counts their first digits, into streams.counts by blocks of so many keys as this returns: it
+// empties them. 0: the sort is to count by itself.
+uint32_t record_empty_counts(Recorder& rec, const SortStreams& streams, uint32_t count,
+                             uint32_t first_bit, Order order);
 enum class Counted { kNo, kYes };
 void record_sort(Recorder& rec, const SortStreams& streams, uint32_t count, uint32_t first_bit = 0,
                  Counted counted = Counted::kNo);

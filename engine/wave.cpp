@@ -7,8 +7,7 @@ namespace {
 
 // Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
 Slice<gpu::Area> areas_of(const Problem& p) {
-  if (p.areas.buffer != VK_NULL_HANDLE) return p.areas;
-  return {p.ws.unused.buffer, p.ws.unused.offset, p.ws.unused.size};
+  return p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused);
 }
 
 // Likewise, without kUseSort.
@@ -18,8 +17,7 @@ Slice<uint32_t> order_of(const Problem& p) {
 
 // Likewise, without kUsePaperU3.
 Slice<float> u3_bounds_of(const Problem& p) {
-  if ((p.switches & gpu::kUsePaperU3) != 0) return p.ws.u3_bounds;
-  return {p.ws.unused.buffer, p.ws.unused.offset, p.ws.unused.size};
+  return (p.switches & gpu::kUsePaperU3) != 0 ? p.ws.u3_bounds : as<float>(p.ws.unused);
 }
 
 void record_subdivide(Recorder& rec, const Problem& p) {

@@ -37,7 +37,7 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
   take(h.box, 1);
   take(h.vertices, vertex_count);
   take(h.faces, face_count);
-  take(h.reduction, 1);
+  take(h.groups_done, 1);
   h.face_count = face_count;
 }
 
@@ -77,7 +77,8 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.points, 3 * parents);
   take(w.survivors, capacity);
   take(w.centroids, capacity);
-  take(w.reduction, 1);
+  take(w.lower_bits, 1);
+  take(w.groups_done, 1);
   take(w.unused, 1);
   if ((room.switches & gpu::kUseSort) != 0) list(take, w.sort, capacity);
   if ((room.switches & gpu::kUsePaperU3) != 0) take(w.u3_bounds, capacity);

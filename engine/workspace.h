@@ -18,7 +18,7 @@ struct Hierarchy {
   Slice<gpu::CentroidBox> box;  // faces are found by them
   Slice<gpu::Vertex> vertices;  // B as given: the report's lower bound rests on these two alone
   Slice<gpu::uvec3> faces;
-  Slice<gpu::Reduction> reduction;  // groups_done alone
+  Slice<uint32_t> groups_done;  // 0 between dispatches
   uint32_t face_count = 0;
 };
 
@@ -55,10 +55,11 @@ struct Workspace {
   Slice<gpu::Point> points;
   Slice<uint32_t> survivors;
   Slice<gpu::Point> centroids;
-  Slice<gpu::Reduction> reduction;
-  Slice<uint32_t> unused;  // for bindings that the switches leave without a buffer
-  SortStreams sort;        // none but with kUseSort
-  Slice<float> u3_bounds;  // none but with kUsePaperU3
+  Slice<uint32_t> lower_bits;   // between reports kNone
+  Slice<uint32_t> groups_done;  // 0 between dispatches
+  Slice<uint32_t> unused;       // for bindings that the switches leave without a buffer
+  SortStreams sort;             // none but with kUseSort
+  Slice<float> u3_bounds;       // none but with kUsePaperU3
   uint32_t capacity = 0;
 
   Slice<gpu::Dispatch> dispatch(uint32_t which) const {

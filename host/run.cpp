@@ -20,7 +20,7 @@ constexpr VkBufferUsageFlags kWorking =
 constexpr uint32_t kFirstWaves = 6;
 constexpr uint32_t kFirstWavesOnCpu = 2;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
-// H200 17 us, another report 28: so the second submission is short, and long runs get longer ones.
+// H200 17 us, another report 22: so the second submission is short, and long runs get longer ones.
 constexpr double kSubmissionMs = 100;
 constexpr uint32_t kSecondWaves = 2;
 constexpr uint32_t kMostWaves = 8;
@@ -253,16 +253,15 @@ RunOutput Runner::run(const RunInput& in) {
   upload(in.a, in.resident != nullptr ? MeshData{} : in.b);
   place(in, out);
   out.upload_ms = now_ms() - start;
-  bool first = true;
   bool wanted = true;
   uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
   uint32_t submissions = 0;
   const uint32_t limit = std::max(in.wave_limit, 1u);
-  uint32_t waves_left = limit;
   do {
+    const bool first = submissions == 0;
     if (!in.multiwave) waves = 1;
-    waves = std::min(waves, waves_left);  // exactly the budget: how they are grouped depends on the
-                                          // clock, the result must not
+    // Exactly the budget: how they are grouped depends on the clock, the result must not.
+    waves = std::min(waves, limit - out.report.waves);
     const double submitted = now_ms();
     const VkCommandBuffer commands = begin();
     if (first) {
@@ -282,11 +281,9 @@ RunOutput Runner::run(const RunInput& in) {
     }
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
     submit(out);
-    first = false;
-    waves_left = limit - std::min(out.report.waves, limit);
     waves = next_waves(++submissions, waves, now_ms() - submitted);
     wanted = in.advanced(out.report);
-  } while (wanted && waves_left > 0 && out.report.status == VKH_STATUS_RUNNING);
+  } while (wanted && out.report.waves < limit && out.report.status == VKH_STATUS_RUNNING);
   return out;
 }
 

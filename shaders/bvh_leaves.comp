@@ -1,7 +1,6 @@
 // What: B's triangles in Morton order, and the levels of the pyramid of boxes over them, all of
-// up to kRun^2 triangles (lib/run_boxes.glsl). In:
-// keys and values (sorted codes and face numbers), vertices, faces. Out: triangles, triangle_lows,
-// codes, boxes.
+// up to kRun^2 triangles (lib/run_boxes.glsl). In: keys and values (sorted codes and face numbers),
+// vertices, faces. Out: triangles, triangle_lows, codes, boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +16,7 @@ layout(scalar, binding = 4) writeonly buffer TriangleLows { TriangleLow triangle
 layout(scalar, binding = 5) readonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 6) writeonly buffer Codes { uint codes[]; };
 layout(scalar, binding = 7) coherent buffer Boxes { Box boxes[]; };
-layout(scalar, binding = 8) buffer ReductionBlock { Reduction reduction; };
+layout(scalar, binding = 8) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/lib/run_boxes.glsl"

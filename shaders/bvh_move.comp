@@ -13,7 +13,7 @@ layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 3) writeonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 4) coherent buffer Boxes { Box boxes[]; };
-layout(scalar, binding = 5) buffer ReductionBlock { Reduction reduction; };
+layout(scalar, binding = 5) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/lib/run_boxes.glsl"

@@ -10,7 +10,7 @@
 
 layout(local_size_x = kRun) in;
 layout(scalar, binding = 0) coherent buffer Boxes { Box boxes[]; };
-layout(scalar, binding = 1) buffer ReductionBlock { Reduction reduction; };
+layout(scalar, binding = 1) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/lib/run_boxes.glsl"

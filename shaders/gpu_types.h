@@ -322,13 +322,6 @@ struct Control {
   WaveRecord waves[64];  // kMaxWaveRecords; wave w is in waves[w % kMaxWaveRecords]
 };
 
-// What the workgroups of report_write find together, and of seed_witness; a hierarchy has one of
-// its own, of which bvh_leaves, bvh_move and bvh_pyramid use the count.
-struct Reduction {
-  uint lower_bits;   // the smallest distance above the base: ordered bits (lib/morton.h); kNone
-  uint groups_done;  // workgroups that have (lib/last_group.glsl)
-};
-
 struct Box {
   vec3 lo;
   vec3 hi;

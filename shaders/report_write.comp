@@ -4,7 +4,8 @@
 // waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
 // 48-bit position can lie from the point of A that it stands for. upper: the largest u of
 // everything that was dropped, spilled or is still open; without bound while faces of A wait. Both
-// as float32, and to more bits above the base. `reduction` is as it was before.
+// as float32, and to more bits above the base. lower_bits, ordered bits (lib/morton.h), and
+// groups_done are kNone and 0 again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -22,8 +23,9 @@ layout(scalar, binding = 2) readonly buffer BFaces { uvec3 b_faces[]; };
 layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
-layout(scalar, binding = 6) buffer ReductionBlock { Reduction reduction; };
-layout(scalar, binding = 7) writeonly buffer ReportBlock { Report report; };
+layout(scalar, binding = 6) buffer LowerBits { uint lower_bits; };
+layout(scalar, binding = 7) buffer GroupsDone { uint groups_done; };
+layout(scalar, binding = 8) writeonly buffer ReportBlock { Report report; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/lib/last_group.glsl"
@@ -74,7 +76,7 @@ float upper_bound() {
 
 // What the certified lower bound is above the base, at least -base.
 float lower_bound(Witness w) {
-  float above = uintBitsToFloat(from_ordered_bits(atomicExchange(reduction.lower_bits, kNone)));
+  float above = uintBitsToFloat(from_ordered_bits(atomicExchange(lower_bits, kNone)));
   return max(lowered(above - 2.0 * witness_slack(w)), -control.base);
 }
 
@@ -101,7 +103,7 @@ void write_report() {
 
 void main() {
   float smallest = subgroupMin(certified_distance());
-  if (subgroupElect()) atomicMin(reduction.lower_bits, ordered_bits(floatBitsToUint(smallest)));
+  if (subgroupElect()) atomicMin(lower_bits, ordered_bits(floatBitsToUint(smallest)));
   if (!is_last_group()) return;
   uint lane = gl_LocalInvocationID.x;
   for (uint w = lane; w < kMaxWaveRecords; w += kGroupSize) report.waves[w] = control.waves[w];

@@ -1,6 +1,6 @@
 // What: the control block's first state. One workgroup, of which an invocation writes all but the
-// waves. In: push. Out: control, reduction; of a warm run the last run's witness stays, for
-// seed_query.
+// waves. In: push. Out: control, lower_bits, groups_done; of a warm run the last run's witness
+// stays, for seed_query.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,7 +8,8 @@
 
 layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) writeonly buffer ReductionBlock { Reduction reduction; };
+layout(scalar, binding = 1) writeonly buffer LowerBits { uint lower_bits; };
+layout(scalar, binding = 2) writeonly buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
 void begin() {
@@ -42,7 +43,8 @@ void begin() {
   control.candidate_total = 0u;
   control.query_total = 0u;
   control.peak_frontier = 0u;
-  reduction = Reduction(kNone, 0u);
+  lower_bits = kNone;
+  groups_done = 0u;
 }
 
 void main() {

@@ -30,22 +30,23 @@ layout(scalar, push_constant) uniform PushBlock { FacesPush push; };
 // a face that is not found is bounded as any other.
 const uint kMostOfOneCode = 256u;
 
-// The first of the sorted codes that is not under `code`. Three are looked at a step, whose loads
-// do not wait for each other.
+// Whether the first n of the sorted codes are under `code`.
+bool are_under(uint n, uint code) {
+  return codes[min(n, push.triangle_count) - 1u] < code && n <= push.triangle_count;
+}
+
+// How many codes are under `code`: three places are probed at a time, whose loads do not wait for
+// each other, as in bvh_hierarchy.
 uint first_with(uint code) {
-  uint from = 0u;
-  uint count = push.triangle_count;  // it is one of so many places after `from`, or the next
-  while (count > 0u) {
-    uint part = (count + 3u) >> 2;
-    uint under = 0u;
-    for (uint k = 1u; k < 4u; ++k) {
-      uint at = from + k * part - 1u;
-      under += k * part <= count && codes[min(at, push.triangle_count - 1u)] < code ? 1u : 0u;
-    }
-    from += under * part;
-    count = min(count - under * part, under < 3u ? part - 1u : count);
+  uint first = 0u;
+  uint span = push.triangle_count + 1u;  // it is under first + span
+  while (span > 1u) {
+    span = (span + 3u) >> 2;
+    uint beyond = 0u;
+    for (uint k = 1u; k < 4u; ++k) beyond += are_under(first + k * span, code) ? span : 0u;
+    first += beyond;
   }
-  return from;
+  return first;
 }
 
 // The triangle of B that has the corners of face f; kNone.

@@ -1,8 +1,8 @@
 // What: which corner of A is the witness of the first lower bound: the smallest face and corner
 // whose distance is the maximum, so that the choice does not depend on scheduling. The last
 // workgroup to end adopts it, sets the run's base and plans the first wave, which admits faces of A
-// and refines nothing. Out: control; the sizes of the first wave's dispatches. `reduction` is as it
-// was before.
+// and refines nothing. Out: control; the sizes of the first wave's dispatches. groups_done is
+// 0 again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(scalar, binding = 2) buffer ControlBlock { Control control; };
 layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 4) readonly buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 5) writeonly buffer Dispatches { Dispatch dispatches[]; };
-layout(scalar, binding = 6) buffer ReductionBlock { Reduction reduction; };
+layout(scalar, binding = 6) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/lib/base.glsl"

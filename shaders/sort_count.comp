@@ -1,8 +1,7 @@
 // What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer where
 // only the device knows, as with the frontier. Out: counts[block * kSortDigits + digit]. Radix
 // sort, first of three kernels a pass: count, scan, scatter. Where passes count for each other, it
-// runs in the first alone, and empties the counts of the others; or not at all, where whoever wrote
-// the keys has counted (bvh_morton).
+// runs in the first at most: not where whoever wrote the keys has counted (bvh_morton).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -41,6 +40,4 @@ void main() {
   }
   barrier();
   counts[block * kSortDigits + lane] = histogram[lane];
-  for (uint pass = 1u; pass < push.passes; ++pass)
-    counts[(pass * blocks + block) * kSortDigits + lane] = 0u;
 }

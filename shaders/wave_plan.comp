@@ -1,5 +1,5 @@
-// What: everything that a wave decides as a whole: adopts the last wave's witness,
-// flips the frontier's halves, moves the base of distances, tests for the end, shares the room out
+// What: everything that a wave decides as a whole: adopts the last wave's witness, flips
+// the frontier's halves, moves the base of distances, tests for the end, shares the room out
 // between refined, deferred and newly admitted candidates, selects which ones are refined, writes
 // the sizes of the wave's first half. One workgroup, of which one invocation plans. After the end
 // it writes zeros, so that recorded waves cost empty dispatches only. Invariant: deferred + 4

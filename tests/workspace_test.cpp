@@ -95,7 +95,7 @@ TEST_CASE("sizes and views agree for every capacity") {
         CHECK(capacity_for(limits, vertices, faces, bytes) >= capacity);
         CHECK(capacity_for(limits, vertices, faces, bytes - 256) < capacity + 64);
         const Workspace ws = view_workspace({VK_NULL_HANDLE, 512, bytes}, limits, vertices, faces);
-        CHECK(ws.reduction.offset + ws.reduction.size <= 512 + bytes);
+        CHECK(ws.lower_bits.offset + ws.lower_bits.size <= 512 + bytes);
         CHECK(ws.frontier.size == 2ull * ws.capacity * sizeof(gpu::Candidate));
         CHECK(ws.points.size >= 3ull * (ws.capacity / 4) * sizeof(gpu::Point));
         CHECK(ws.frontier.offset % 256 == 0);

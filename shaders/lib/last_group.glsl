@@ -1,6 +1,6 @@
 // Which workgroup of a dispatch is the last to come to a point: it sees what all others have
 // written by then, by atomics or to coherent buffers, if it reads it in the same way. Include after
-// `reduction` is declared.
+// `groups_done`, which counts them, is declared.
 #ifndef VKH_SHADERS_LIB_LAST_GROUP_GLSL
 #define VKH_SHADERS_LIB_LAST_GROUP_GLSL
 
@@ -13,8 +13,8 @@ bool is_last_group() {
   if (gl_LocalInvocationID.x == 0u) {
     uint groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
     memoryBarrierBuffer();
-    last_group = atomicAdd(reduction.groups_done, 1u) == groups - 1u;
-    if (last_group) reduction.groups_done = 0u;
+    last_group = atomicAdd(groups_done, 1u) == groups - 1u;
+    if (last_group) groups_done = 0u;
   }
   barrier();
   memoryBarrierBuffer();

@@ -1,7 +1,7 @@
 // The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64 and
 // 256 of them; and by the last workgroup to end, where a run holds all of the level over 256, those
-// over them. Include after `boxes`, coherent, and `reduction` are declared; the workgroup has kRun
-// invocations.
+// over them. Include after `boxes`, coherent, and `groups_done` are declared; the workgroup has
+// kRun invocations.
 #ifndef VKH_SHADERS_LIB_RUN_BOXES_GLSL
 #define VKH_SHADERS_LIB_RUN_BOXES_GLSL
 
