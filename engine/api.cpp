@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <new>
+#include <vector>
 
 #include "engine/stages.h"
 #include "engine/support.h"
@@ -57,6 +58,60 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
+}
+
+void record_begin(Recorder& rec, const VkhContext_T& context, const VkhProblem& problem) {
+  const Problem p = view_problem(context, problem);
+  // Without twoFloat, B is measured by its high parts alone: A must be, too.
+  VkhMesh a = problem.a;
+  if (problem.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
+  record_load(rec, a, p.ws.vertices, p.ws.faces);
+  record_seed(rec, p);
+  if (p.areas.buffer != VK_NULL_HANDLE) rec.fill(p.areas, 0);
+  record_first_wave(rec, p);
+}
+
+void record_waves(Recorder& rec, const Problem& p, uint32_t waves) {
+  for (uint32_t wave = 0; wave < waves; ++wave) record_wave(rec, p);
+}
+
+Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
+  return {buffer, offset, sizeof(VkhReport)};
+}
+
+// B's hierarchy is known once it is built: before anything reads its counts.
+void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task) {
+  VkhProblem& problem = *task.problem;
+  if (task.mesh != nullptr && task.scratch != nullptr) {
+    problem.b.faceCount = task.mesh->faceCount;
+    problem.b.vertexCount = task.mesh->vertexCount;
+    record_build(rec, *task.mesh, view_scratch(*task.scratch, task.mesh->faceCount),
+                 view_hierarchy(problem.b));
+  } else if (task.mesh != nullptr) {
+    record_refit(rec, *task.mesh, view_hierarchy(problem.b));
+  }
+  if (task.begin != VK_FALSE) record_begin(rec, context, problem);
+  const Problem p = view_problem(context, problem);
+  record_waves(rec, p, task.waves);
+  if (task.reportBuffer != VK_NULL_HANDLE)
+    record_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
+}
+
+// False where the host has no memory to keep the commands in.
+bool record_in_step(const VkhContext_T& context, VkCommandBuffer commands, const VkhTask* tasks,
+                    uint32_t count) {
+  std::vector<Track> tracks;
+  try {
+    tracks.resize(count);
+    for (uint32_t i = 0; i < count; ++i) {
+      Recorder rec(context, tracks[i]);
+      record_task(rec, context, tasks[i]);
+    }
+    write_in_step(context, commands, tracks);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
 }
 
 bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize face_bytes,
@@ -144,26 +199,28 @@ void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                  VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  const vkh::Problem p = vkh::view_problem(*context, *problem);
-  // Without twoFloat, B is measured by its high parts alone: A must be, too.
-  VkhMesh a = problem->a;
-  if (problem->twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
-  vkh::record_load(rec, a, p.ws.vertices, p.ws.faces);
-  vkh::record_seed(rec, p);
-  if (p.areas.buffer != VK_NULL_HANDLE) rec.fill(p.areas, 0);
-  vkh::record_first_wave(rec, p);
+  vkh::record_begin(rec, *context, *problem);
 }
 
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                    uint32_t waves, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  const vkh::Problem p = vkh::view_problem(*context, *problem);
-  for (uint32_t wave = 0; wave < waves; ++wave) vkh::record_wave(rec, p);
+  vkh::record_waves(rec, vkh::view_problem(*context, *problem), waves);
 }
 
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_report(rec, vkh::view_problem(*context, *problem),
-                     {buffer, offset, sizeof(VkhReport)});
+  vkh::record_report(rec, vkh::view_problem(*context, *problem), vkh::report_at(buffer, offset));
+}
+
+void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,
+                    const VkhTask* tasks, VkhProfile* profile) {
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  const auto scope = rec.scope("tasks");
+  if (taskCount > 1 && vkh::record_in_step(*context, commandBuffer, tasks, taskCount)) {
+    rec.stage("tasks");
+    return;
+  }
+  for (uint32_t i = 0; i < taskCount; ++i) vkh::record_task(rec, *context, tasks[i]);
 }

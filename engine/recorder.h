@@ -1,17 +1,15 @@
-// Records kernels into the caller's command buffer. It alone writes barriers and timestamps: a
-// global barrier stands before every command unless it is told that the command is independent of
-// the one before.
+// Records kernels into the caller's command buffer, or onto a track. It alone names barriers and
+// timestamps: a global barrier stands before every command unless it is told that the command is
+// independent of the one before.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <algorithm>
+#include <cstring>
 
+#include "engine/command.h"
 #include "engine/kernels.h"
-#include "shaders/gpu_types.h"
 
 namespace vkh {
-
-enum class Order { kAfterAll, kIndependent };
 
 // Invocations of a dispatch, one an item, in workgroups of gpu::kGroupSize that continue on y after
 // kMaxGroupsX.
@@ -38,63 +36,78 @@ class Recorder {
   [[nodiscard]] Scope scope(const char* name) { return {*this, name}; }
 
   Recorder(const VkhContext_T& context, VkCommandBuffer commands, VkhProfile* profile);
+  // Keeps the commands instead, without labels and timestamps.
+  Recorder(const VkhContext_T& context, Track& track) : context_(context), track_(&track) {}
 
   template <class K>
   void run(const typename K::Args& args, const typename K::Push& push, Items items,
            Order order = Order::kAfterAll) {
-    bind<K>(args, push, order);
     const uint32_t groups = (items.count + K::kLocalSize[0] - 1) / K::kLocalSize[0];
-    dispatch(groups);
+    run<K>(args, push, Groups{groups}, order);
   }
   template <class K>
   void run(const typename K::Args& args, const typename K::Push& push, Groups groups,
            Order order = Order::kAfterAll) {
-    bind<K>(args, push, order);
-    dispatch(groups.count);
+    Command command = command_of<K>(args, push);
+    command.order = order;
+    command.groups = groups.count;
+    put(command);
   }
   // `size` holds one gpu::Dispatch.
   template <class K>
   void run_indirect(const typename K::Args& args, const typename K::Push& push,
                     const Slice<gpu::Dispatch>& size) {
-    bind<K>(args, push, Order::kAfterAll);
-    context_.vk.CmdDispatchIndirect(commands_, size.buffer, size.offset);
+    Command command = command_of<K>(args, push);
+    command.kind = Command::Kind::kDispatchIndirect;
+    command.size = size;
+    put(command);
   }
   // Every 4-byte word of the slice becomes `word`.
   template <class T>
   void fill(const Slice<T>& slice, uint32_t word, Order order = Order::kAfterAll) {
-    if (order == Order::kAfterAll) barrier();
-    context_.vk.CmdFillBuffer(commands_, slice.buffer, slice.offset, slice.size, word);
+    Command command;
+    command.kind = Command::Kind::kFill;
+    command.order = order;
+    command.slices[0] = as<uint32_t>(slice);
+    command.groups = word;
+    put(command);
   }
   uint32_t switches() const { return context_.limits.switches; }
   // Ends a stage: what ran since the last call is timed under this name (a static string).
   void stage(const char* name);
 
  private:
-  static constexpr uint32_t kMaxBindings = 16;
   void begin_label(const char* name);
   void end_label();
 
   template <class K>
-  void bind(const typename K::Args& args, const typename K::Push& push, Order order) {
+  Command command_of(const typename K::Args& args, const typename K::Push& push) const {
     constexpr uint32_t count = sizeof(K::kBindings) / sizeof(Binding);
     static_assert(sizeof(args) == count * sizeof(Slice<uint32_t>) && count <= kMaxBindings);
-    if (order == Order::kAfterAll) barrier();
-    const KernelPipeline& kernel = context_.kernels[IndexOf<K>::value];
-    context_.vk.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
+    Command command;
+    command.kernel = &context_.kernels[IndexOf<K>::value];
     // Args is `count` slices in the order of the bindings, which are 0, 1, 2, ...
-    push_descriptors(kernel.layout, reinterpret_cast<const Slice<uint32_t>*>(&args), count);
+    std::copy_n(reinterpret_cast<const Slice<uint32_t>*>(&args), count, command.slices.begin());
+    command.slice_count = count;
     if constexpr (!std::is_same_v<typename K::Push, NoPush>) {
-      context_.vk.CmdPushConstants(commands_, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                   sizeof(push), &push);
+      static_assert(sizeof(push) <= kMaxPushBytes);
+      std::memcpy(command.push.data(), &push, sizeof(push));
+      command.push_bytes = sizeof(push);
+    }
+    return command;
+  }
+  void put(const Command& command) {
+    if (track_ != nullptr) {
+      track_->push_back(command);
+    } else {
+      write(context_, commands_, command);
     }
   }
-  void push_descriptors(VkPipelineLayout layout, const Slice<uint32_t>* slices, uint32_t count);
-  void dispatch(uint32_t groups);
-  void barrier();
 
   const VkhContext_T& context_;
-  VkCommandBuffer commands_;
-  VkhProfile* profile_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkhProfile* profile_ = nullptr;
+  Track* track_ = nullptr;
 };
 
 }  // namespace vkh

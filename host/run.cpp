@@ -1,20 +1,13 @@
 #include "host/run.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
-#include <cstring>
-#include <string>
-#include <tuple>
 
 #include "host/error.h"
 
 namespace vkh {
 namespace {
 
-constexpr VkBufferUsageFlags kWorking =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 // Waves of the first submission: enough for most pairs on a GPU; on a CPU one wave can take
 // seconds.
 constexpr uint32_t kFirstWaves = 6;
@@ -37,53 +30,6 @@ double now_ms() {
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
-// Room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
-VkDeviceSize roomy(VkDeviceSize bytes) {
-  constexpr VkDeviceSize kLargest = VkDeviceSize{64} << 20;
-  return bytes > kLargest ? bytes : std::bit_ceil(bytes);
-}
-
-VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
-
-void check_engine(VkhResult result, const char* what) {
-  if (result == VKH_SUCCESS) return;
-  const char* reason = result == VKH_ERROR_TOO_LARGE ? "too large for the device's buffer bindings"
-                       : result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
-                                                         : "the driver refused a pipeline";
-  throw DeviceError(std::string(what) + ": " + reason);
-}
-
-// High parts, low parts, faces, one after the other.
-struct MeshBytes {
-  VkDeviceSize vertices, faces;
-  explicit MeshBytes(const Mesh& m)
-      : vertices(aligned(m.vertices.size() * 12)), faces(aligned(m.faces.size() * 12)) {}
-  VkDeviceSize total() const { return 2 * vertices + faces; }
-};
-
-VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
-  const MeshBytes bytes(*m.mesh);
-  return {.vertexBuffer = buffer,
-          .vertexOffset = offset,
-          .vertexStride = 12,
-          .vertexCount = static_cast<uint32_t>(m.mesh->vertices.size()),
-          .indexBuffer = buffer,
-          .indexOffset = offset + 2 * bytes.vertices,
-          .indexType = VK_INDEX_TYPE_UINT32,
-          .faceCount = static_cast<uint32_t>(m.mesh->faces.size()),
-          .vertexLowBuffer = m.stored->has_low ? buffer : VK_NULL_HANDLE,
-          .vertexLowOffset = offset + bytes.vertices};
-}
-
-void write(std::byte* to, const MeshData& m) {
-  const MeshBytes bytes(*m.mesh);
-  const auto& [high, low] = std::tie(m.stored->high, m.stored->low);
-  std::memcpy(to, high.data(), high.size() * sizeof(float));
-  std::memcpy(to + bytes.vertices, low.data(), low.size() * sizeof(float));
-  std::memcpy(to + 2 * bytes.vertices, m.mesh->faces.data(),
-              m.mesh->faces.size() * sizeof(m.mesh->faces[0]));
-}
-
 // Makes what one stage wrote visible to the next: copies before and after the engine's commands.
 void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStageFlags to) {
   VkMemoryBarrier barrier{};
@@ -95,6 +41,13 @@ void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStage
 }
 
 }  // namespace
+
+// One submission.
+struct Runner::Round {
+  std::vector<size_t> running;  // seats
+  bool first;
+  uint32_t waves;
+};
 
 uint32_t default_switches(const Device& device) {
   const bool is_cpu = device.description().type == "cpu";
@@ -118,84 +71,21 @@ VkhContext Runner::context_for(uint32_t switches) {
   return context;
 }
 
-VkhHierarchyRequirements Runner::hierarchy_requirements() const {
-  VkhHierarchyRequirements needed{};
-  check_engine(
-      vkhGetHierarchyRequirements(context_, mesh_b_.vertexCount, mesh_b_.faceCount, &needed),
-      "mesh B");
-  return needed;
-}
-
-// Either may be missing.
-void Runner::upload(const MeshData& a, const MeshData& b) {
-  const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
-  const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
-  uploaded_bytes_ = bytes_a + bytes_b;
-  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-       Placement::kUpload);
-  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
-  if (bytes_a > 0) write(staging_.mapped(), a);
-  if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
-  if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
-  if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
-}
-
-// Where B's hierarchy is or will be built; returns the scratch that building needs.
-VkDeviceSize Runner::place_b(const RunInput& in) {
-  if (in.resident != nullptr) {
-    const ResidentMesh& b = *in.resident;
-    problem_.b = {{b.hierarchy.handle(), 0, b.hierarchy.size()}, b.face_count, b.vertex_count};
-    return 0;
+// Seats are kept, for their buffers.
+void Runner::seat(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
+  while (seats_.size() < std::max<size_t>(inputs.size(), 1))
+    seats_.push_back(std::make_unique<Seat>(device_));
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    const double start = now_ms();
+    seats_[i]->take(context_, inputs[i], outputs[i]);
+    outputs[i].upload_ms = now_ms() - start;
   }
-  const VkhHierarchyRequirements needed = hierarchy_requirements();
-  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
-  problem_.b = {
-      {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
-  return needed.scratchSize;
-}
-
-void Runner::place(const RunInput& in, RunOutput& out) {
-  VkhWorkspaceRequirements workspace{};
-  check_engine(vkhGetWorkspaceRequirements(context_, problem_.a.vertexCount, problem_.a.faceCount,
-                                           &workspace),
-               "mesh A");
-  VkDeviceSize bytes = in.memory_bytes == 0 ? workspace.recommended : in.memory_bytes;
-  bytes = std::clamp(bytes, workspace.minimum, workspace.maximum);
-  out.workspace_bytes = bytes;
-  const VkDeviceSize scratch = place_b(in);
-  grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
-  grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
-  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-       Placement::kReadback);
-  problem_.workspace = {workspace_.handle(), 0, bytes};
-  problem_.cullTolerance = in.cull_tolerance;
-  problem_.knownLower = in.known_lower;
-  problem_.sortFrom = in.sort_from;
-  problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
-  place_areas(in, out);
-  scratch_ = {workspace_.handle(), 0, workspace_.size()};
-}
-
-void Runner::place_areas(const RunInput& in, RunOutput& out) {
-  problem_.coverageBuffer = VK_NULL_HANDLE;
-  if (!in.coverage) return;
-  out.areas.resize(2 * in.a.mesh->faces.size());
-  const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
-  grow(areas_, device_, bytes, kWorking, Placement::kDevice);
-  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
-  problem_.coverageBuffer = areas_.handle();
 }
 
 VkCommandBuffer Runner::begin() {
   const VkCommandBuffer commands = submitter_.begin();
   profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
   return commands;
-}
-
-void Runner::record_upload(VkCommandBuffer commands) {
-  const VkBufferCopy copy{0, 0, uploaded_bytes_};
-  device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
-  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
 }
 
 // A timestamp, where the library writes none.
@@ -209,82 +99,109 @@ void Runner::stamp(VkCommandBuffer commands, const char* name) {
 ResidentMesh Runner::build(const MeshData& b) {
   // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
   context_ = context_for(default_switches(device_));
-  upload({}, b);
-  const VkhHierarchyRequirements needed = hierarchy_requirements();
-  ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),
-                        mesh_b_.vertexCount, mesh_b_.faceCount};
-  grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
+  std::vector<RunOutput> none;
+  seat({}, none);
+  ResidentMesh resident = seats_[0]->take_resident(context_, b);
   VkhHierarchy hierarchy{{resident.hierarchy.handle(), 0, resident.hierarchy.size()}, 0, 0};
-  const VkhMemory scratch{workspace_.handle(), 0, workspace_.size()};
   const VkCommandBuffer commands = begin();
-  record_upload(commands);
-  vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &hierarchy, &scratch, nullptr);
+  seats_[0]->record_upload(commands);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  vkhCmdBuildHierarchy(context_, commands, seats_[0]->mesh_b(), &hierarchy, seats_[0]->scratch(),
+                       nullptr);
   submitter_.submit_and_wait({});
   return resident;
 }
 
-void Runner::record_start(VkCommandBuffer commands, const RunInput& in) {
-  record_upload(commands);
+// With its hierarchy timed apart.
+void Runner::record_one(VkCommandBuffer commands, const Round& round) {
+  Seat& seat = *seats_[round.running[0]];
+  VkhProblem& problem = seat.problem();
   stamp(commands, nullptr);
-  if (in.resident == nullptr) {
-    vkhCmdBuildHierarchy(context_, commands, &mesh_b_, &problem_.b, &scratch_, profile());
+  if (round.first && seat.mesh_b() != nullptr) {
+    vkhCmdBuildHierarchy(context_, commands, seat.mesh_b(), &problem.b, seat.scratch(), profile());
     stamp(commands, "hierarchy");
   }
-  vkhCmdBegin(context_, commands, &problem_, profile());
+  if (round.first) vkhCmdBegin(context_, commands, &problem, profile());
+  const uint32_t waves = round.first ? round.waves - 1 : round.waves;  // the begin has one
+  vkhCmdAdvance(context_, commands, &problem, waves, profile());
+  vkhCmdWriteReport(context_, commands, &problem, seat.report(), 0, profile());
+  stamp(commands, "solve");
 }
 
-void Runner::submit(RunOutput& out) {
-  submitter_.submit_and_wait({});
-  std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
-  if (!out.areas.empty()) {
-    std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
+void Runner::record_together(VkCommandBuffer commands, const Round& round) {
+  std::vector<VkhTask> tasks;
+  for (const size_t i : round.running) {
+    Seat& seat = *seats_[i];
+    tasks.push_back({.mesh = round.first ? seat.mesh_b() : nullptr,
+                     .scratch = seat.scratch(),
+                     .problem = &seat.problem(),
+                     .begin = round.first ? VK_TRUE : VK_FALSE,
+                     .waves = round.first ? round.waves - 1 : round.waves,
+                     .reportBuffer = seat.report(),
+                     .reportOffset = 0});
   }
+  stamp(commands, nullptr);
+  vkhCmdRunTasks(context_, commands, static_cast<uint32_t>(tasks.size()), tasks.data(), nullptr);
+  stamp(commands, "solve");
+}
+
+void Runner::record(const Round& round, const std::vector<RunOutput>& outputs) {
+  const VkCommandBuffer commands = begin();
+  if (round.first) {
+    for (const size_t i : round.running) seats_[i]->record_upload(commands);
+    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  }
+  if (outputs.size() == 1) {
+    record_one(commands, round);
+  } else {
+    record_together(commands, round);
+  }
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
+  for (const size_t i : round.running) seats_[i]->record_readback(commands, outputs[i]);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+}
+
+void Runner::read_stages(const Round& round, std::vector<RunOutput>& outputs) {
   const std::vector<double> ms = submitter_.read_timestamps(profile_.count);
-  for (uint32_t i = 1; i < profile_.count; ++i) {
-    if (names_[i] != nullptr) out.stages.push_back({names_[i], ms[i] - ms[i - 1]});
+  for (uint32_t stage = 1; stage < profile_.count; ++stage) {
+    if (names_[stage] == nullptr) continue;
+    for (const size_t i : round.running)
+      outputs[i].stages.push_back({names_[stage], ms[stage] - ms[stage - 1]});
   }
 }
 
-RunOutput Runner::run(const RunInput& in) {
-  RunOutput out;
-  context_ = context_for(in.switches);
-  stage_times_ = in.stage_times;
-  const double start = now_ms();
-  upload(in.a, in.resident != nullptr ? MeshData{} : in.b);
-  place(in, out);
-  out.upload_ms = now_ms() - start;
-  bool wanted = true;
-  uint32_t waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves;
+std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
+  std::vector<RunOutput> outputs(inputs.size());
+  if (inputs.empty()) return outputs;
+  context_ = context_for(inputs[0].switches);
+  stage_times_ = inputs[0].stage_times && inputs.size() == 1;
+  seat(inputs, outputs);
+  const auto is_over = [&](size_t i) {
+    const VkhReport& r = outputs[i].report;
+    const bool is_wanted = inputs[i].advanced(r);
+    return !is_wanted || r.waves >= inputs[i].wave_limit || r.status != VKH_STATUS_RUNNING;
+  };
+  Round round{.running = {},
+              .first = true,
+              .waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves};
+  for (size_t i = 0; i < inputs.size(); ++i) round.running.push_back(i);
   uint32_t submissions = 0;
-  const uint32_t limit = std::max(in.wave_limit, 1u);
-  do {
-    const bool first = submissions == 0;
-    if (!in.multiwave) waves = 1;
+  while (!round.running.empty()) {
+    if (!inputs[0].multiwave) round.waves = 1;
     // Exactly the budget: how they are grouped depends on the clock, the result must not.
-    waves = std::min(waves, limit - out.report.waves);
+    for (const size_t i : round.running)
+      round.waves =
+          std::min(round.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);
     const double submitted = now_ms();
-    const VkCommandBuffer commands = begin();
-    if (first) {
-      record_start(commands, in);
-    } else {
-      stamp(commands, nullptr);
-    }
-    vkhCmdAdvance(context_, commands, &problem_, first ? waves - 1 : waves, profile());
-    vkhCmdWriteReport(context_, commands, &problem_, report_.handle(), 0, profile());
-    stamp(commands, "solve");
-    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
-    const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
-    device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
-    if (in.coverage) {
-      const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
-      device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
-    }
-    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
-    submit(out);
-    waves = next_waves(++submissions, waves, now_ms() - submitted);
-    wanted = in.advanced(out.report);
-  } while (wanted && out.report.waves < limit && out.report.status == VKH_STATUS_RUNNING);
-  return out;
+    record(round, outputs);
+    submitter_.submit_and_wait({});
+    for (const size_t i : round.running) seats_[i]->read(outputs[i]);
+    read_stages(round, outputs);
+    round.waves = next_waves(++submissions, round.waves, now_ms() - submitted);
+    round.first = false;
+    std::erase_if(round.running, is_over);
+  }
+  return outputs;
 }
 
 }  // namespace vkh

@@ -114,7 +114,8 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
 
 struct Solver::Impl {
   Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
-  Report solve(const Pair& pair, const SolveOptions& options, Clock::time_point start);
+  std::vector<Report> solve(const std::vector<Pair>& pairs, const SolveOptions& options,
+                            Clock::time_point start);
   Device& device;
   Runner runner;
 };
@@ -144,16 +145,19 @@ namespace {
 struct Watch {
   const SolveOptions& options;
   const Pair& pair;
+  size_t number;  // of the pair
   double diagonal_a;
   Clock::time_point start;
   Status ended = Status::kClosed;
 
+  double tolerance() const {
+    return options.tolerance_is_absolute ? options.tolerance : options.tolerance * diagonal_a;
+  }
+
   bool operator()(const VkhReport& r) {
     if (r.status != VKH_STATUS_RUNNING) return false;
     const FileInterval now = to_files(r, pair);
-    const double gap =
-        diagonal_a > 0 ? (now.upper - now.lower) / diagonal_a : now.upper - now.lower;
-    if (options.progress && !options.progress({r.waves, r.remaining, now.lower, now.upper, gap})) {
+    if (options.progress && !options.progress(progress_of(r, now))) {
       ended = Status::kCancelled;
     } else if (ms_since(start) > 1000 * options.time_limit_s) {
       ended = Status::kTime;
@@ -164,7 +168,41 @@ struct Watch {
     }
     return false;
   }
+
+  Progress progress_of(const VkhReport& r, const FileInterval& now) const {
+    const double gap = now.upper - now.lower;
+    return {.wave = r.waves,
+            .candidates = r.remaining,
+            .lower = now.lower,
+            .upper = now.upper,
+            .gap = diagonal_a > 0 ? gap / diagonal_a : gap,
+            .back = false,
+            .pair = number};
+  }
 };
+
+Report report_of(const RunOutput& run, const Watch& watch) {
+  const Pair& pair = watch.pair;
+  const SolveOptions& options = watch.options;
+  Report out;
+  out.diagonal_a = watch.diagonal_a;
+  out.tolerance = watch.tolerance();
+  out.known_lower = options.known_lower;
+  const FileInterval bounds = to_files(run.report, pair);
+  out.lower = bounds.lower;
+  out.upper = bounds.upper;
+  out.status = status_of(run.report, out, watch.ended);
+  out.mesh_a = pair.a.counts;
+  out.mesh_b = pair.b.counts;
+  out.workspace_bytes = run.workspace_bytes;
+  out.preset = options.preset.empty() ? "default" : options.preset;
+  fill_counts(run.report, pair.frame, out);
+  fill_stages(run, out);
+  fill_witness(run.report, pair.a, pair.b, out);
+  // Before every face of A has a bound, `upper` says so: 3e38.
+  if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
+  return out;
+}
 
 // How finely the device has to work. Its errors are relative to the coordinates, which a prepared
 // B's frame lets exceed 1.
@@ -202,61 +240,72 @@ void check_options(const SolveOptions& options) {
 
 }  // namespace
 
-Report Solver::Impl::solve(const Pair& pair, const SolveOptions& options, Clock::time_point start) {
-  Report out;
-  out.diagonal_a = diagonal(pair.box_a);
-  out.tolerance =
-      options.tolerance_is_absolute ? options.tolerance : options.tolerance * out.diagonal_a;
-  out.known_lower = options.known_lower;
+std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const SolveOptions& options,
+                                        Clock::time_point start) {
   const uint32_t switches = switches_of(options, device);
-  RunInput in = input_for(pair, options, switches, out.tolerance);
-  Watch watch{options, pair, out.diagonal_a, start};
-  in.advanced = [&](const VkhReport& r) { return watch(r); };
-  const double framed_ms = ms_since(start);
-  const RunOutput run = runner.run(in);
+  std::vector<Watch> watches;
+  std::vector<RunInput> inputs;
+  watches.reserve(pairs.size());  // inputs refer to them
+  for (const Pair& pair : pairs) {
+    watches.push_back({.options = options,
+                       .pair = pair,
+                       .number = watches.size(),
+                       .diagonal_a = diagonal(pair.box_a),
+                       .start = start});
+    inputs.push_back(input_for(pair, options, switches, watches.back().tolerance()));
+    inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
+  }
+  Times times;
+  times.upload_ms = ms_since(start);
+  const std::vector<RunOutput> runs = runner.run(inputs);
+  for (const RunOutput& run : runs) times.upload_ms += run.upload_ms;
+  times.wall_ms = ms_since(start);
 
-  const FileInterval bounds = to_files(run.report, pair);
-  out.lower = bounds.lower;
-  out.upper = bounds.upper;
-  out.status = status_of(run.report, out, watch.ended);
-  out.device = device.description();
-  out.mesh_a = pair.a.counts;
-  out.mesh_b = pair.b.counts;
-  out.workspace_bytes = run.workspace_bytes;
-  out.preset = options.preset.empty() ? "default" : options.preset;
-  SwitchStates states = switch_states(switches);
-  out.switched_on = std::move(states.on);
-  out.switched_off = std::move(states.off);
-  fill_counts(run.report, pair.frame, out);
-  fill_stages(run, out);
-  fill_witness(run.report, pair.a, pair.b, out);
-  // Before every face of A has a bound, `upper` says so: 3e38.
-  if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
-  out.times.upload_ms = framed_ms + run.upload_ms;
-  out.times.wall_ms = ms_since(start);
-  return out;
+  std::vector<Report> reports;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    reports.push_back(report_of(runs[i], watches[i]));
+    Report& out = reports.back();
+    out.device = device.description();
+    SwitchStates states = switch_states(switches);
+    out.switched_on = std::move(states.on);
+    out.switched_off = std::move(states.off);
+    out.times.upload_ms = times.upload_ms;
+    out.times.wall_ms = times.wall_ms;
+  }
+  return reports;
 }
 
 void Solver::make_ready(const SolveOptions& options) {
   impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
-Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+std::vector<Report> Solver::distances(std::span<const PairView> meshes,
+                                      const SolveOptions& options) {
   const auto start = Clock::now();
   check_options(options);
-  const FramedPair framed = frame_pair(a, b);
-  const Box box_a = bounding_box(a);
-  const Pair pair{.a = a,
-                  .b = b,
-                  .frame = framed.frame,
-                  .stored_a = framed.a,
-                  .stored_b = &framed.b,
-                  .resident = nullptr,
-                  .displacement = framed.a.displacement + framed.b.displacement,
-                  .has_low = framed.a.has_low || framed.b.has_low,
-                  .box_a = box_a,
-                  .joint = join(box_a, bounding_box(b))};
-  return impl_->solve(pair, options, start);
+  std::vector<FramedPair> framed;
+  for (const PairView& m : meshes) framed.push_back(frame_pair(m.a, m.b));
+  std::vector<Pair> pairs;
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    const FramedPair& f = framed[i];
+    const Box box_a = bounding_box(meshes[i].a);
+    pairs.push_back({.a = meshes[i].a,
+                     .b = meshes[i].b,
+                     .frame = f.frame,
+                     .stored_a = f.a,
+                     .stored_b = &f.b,
+                     .resident = nullptr,
+                     .displacement = f.a.displacement + f.b.displacement,
+                     .has_low = f.a.has_low || f.b.has_low,
+                     .box_a = box_a,
+                     .joint = join(box_a, bounding_box(meshes[i].b))});
+  }
+  return impl_->solve(pairs, options, start);
+}
+
+Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+  const PairView pair{a, b};
+  return std::move(distances({&pair, 1}, options)[0]);
 }
 
 PreparedMesh Solver::prepare(Mesh b) {
@@ -296,7 +345,7 @@ Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions
                   .has_low = stored.has_low || kept.has_low,
                   .box_a = box_a,
                   .joint = join(box_a, kept.box)};
-  return impl_->solve(pair, options, start);
+  return std::move(impl_->solve({pair}, options, start)[0]);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Progress {
          upper = 0;   ///< in the files' units; upper is infinite before the first bounds exist
   double gap = 0;     ///< (upper - lower) / diag(A)
   bool back = false;  ///< of h(B,A), in a symmetric run
+  size_t pair = 0;    ///< which one of Solver::distances
 };
 
 struct SolveOptions {
@@ -75,6 +77,12 @@ class PreparedMesh {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Two meshes of the caller's, who keeps them.
+struct PairView {
+  const Mesh& a;
+  const Mesh& b;
+};
+
 /// Keeps pipelines and buffers of one device between runs. One thread at a time. Everything throws
 /// DeviceError if the device is lost or out of memory, and UsageError for an unknown switch or a
 /// tolerance that is not positive and finite.
@@ -93,6 +101,13 @@ class Solver {
 
   /// Encloses h(a, b).
   Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
+
+  /// Encloses h(a, b) of each, all at once: a GPU that one pair leaves mostly idle takes many in
+  /// little more time (vkhCmdRunTasks). Every bound is that of distance(). Each pair has a workspace
+  /// of options.memory_bytes to itself. Give pairs of like size, 16 or so, and no more than the
+  /// device has memory for. Times in a report are those of all together while it ran, stages are
+  /// not told apart; options.progress is asked for each pair, and ends that one.
+  std::vector<Report> distances(std::span<const PairView> pairs, const SolveOptions& options = {});
 
   /// Uploads B and builds its hierarchy.
   PreparedMesh prepare(Mesh b);

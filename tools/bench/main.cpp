@@ -9,6 +9,9 @@
 //   default,paper,baseline-gpu,-sort,+packet,paper-thin,-u3@64MiB]
 //             [--filter TEXT] [--max-faces N] [--repeat N] [--tol T] [--device D] [--time SECONDS]
 //             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
+//             [--together N]
+//
+// With --together, the default preset alone: each pair alone and N side by side, a row a group.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -19,6 +22,7 @@
 #include "host/solver.h"
 #include "tools/bench/manifest.h"
 #include "tools/bench/table.h"
+#include "tools/bench/together.h"
 #include "tools/bench/variant.h"
 
 namespace vkh::bench {
@@ -32,6 +36,7 @@ struct Arguments {
   Choice choice;
   bool plain = false;
   int repeat = 5;
+  size_t together = 0;
   SolveOptions common;
 };
 
@@ -66,7 +71,9 @@ class Race {
   }
 
   ExitCode run() {
-    print_head();
+    print_device();
+    if (args_.together > 0) return run_groups();
+    print_header();
     warm_up();
     for (const Row& row : read_manifest(args_.manifest, args_.choice)) run_pair(row);
     return print_tail();
@@ -114,12 +121,19 @@ class Race {
     }
   }
 
-  void print_head() const {
+  ExitCode run_groups() {
+    const Groups groups{args_.together, args_.repeat};
+    const std::vector<Row> rows = read_manifest(args_.manifest, args_.choice);
+    const int wrong = run_together(solver_, rows, groups, args_.common);
+    std::printf("# %d reports wrong\n", wrong);
+    return wrong > 0 ? kExitWrong : kExitClosed;
+  }
+
+  void print_device() const {
     std::printf("# device %s, driver %s, tolerance %g, repeat %d, time limit %g s%s\n",
                 device_.description().name.c_str(), device_.description().driver.c_str(),
                 args_.common.tolerance, args_.repeat, args_.common.time_limit_s,
                 args_.plain ? "; NOT CERTIFIED" : "");
-    print_header();
   }
 
   ExitCode print_tail() const {
@@ -175,6 +189,7 @@ int main(int argc, char** argv) {
   app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
   app.add_option("--memory", args.memory);
   app.add_option("--time", args.common.time_limit_s);
+  app.add_option("--together", args.together, "pairs side by side, and each alone");
   app.add_option("--sort-from", args.common.sort_from, "smaller frontiers are not sorted");
   CLI11_PARSE(app, argc, argv);
   try {

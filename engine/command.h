@@ -1,0 +1,46 @@
+// What a stage records: a command, which is written into a command buffer at once, or kept on a
+// track, so that several problems' commands can stand side by side.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/context.h"
+#include "shaders/gpu_types.h"
+
+namespace vkh {
+
+// kAfterAll: a memory barrier stands before the command, for all that was recorded before it.
+enum class Order { kAfterAll, kIndependent };
+
+constexpr uint32_t kMaxBindings = 16;
+constexpr uint32_t kMaxPushBytes = 64;
+
+struct Command {
+  enum class Kind { kDispatch, kDispatchIndirect, kFill };
+  Kind kind = Kind::kDispatch;
+  Order order = Order::kAfterAll;
+  const KernelPipeline* kernel = nullptr;  // null: a fill
+  // The bindings 0, 1, 2, ...; what is filled.
+  std::array<Slice<uint32_t>, kMaxBindings> slices;
+  uint32_t slice_count = 0;
+  std::array<std::byte, kMaxPushBytes> push;
+  uint32_t push_bytes = 0;
+  uint32_t groups = 0;        // of a dispatch; the word of a fill
+  Slice<gpu::Dispatch> size;  // of an indirect one: one of them
+};
+
+// Writes the command, with the barrier that its order asks for.
+void write(const VkhContext_T& context, VkCommandBuffer commands, const Command& command);
+
+// Commands in their order. From one that is kAfterAll to the next is a step.
+using Track = std::vector<Command>;
+
+// Writes the tracks in step: one barrier, then the next step of each. What one track writes no
+// other may use.
+void write_in_step(const VkhContext_T& context, VkCommandBuffer commands,
+                   const std::vector<Track>& tracks);
+
+}  // namespace vkh

@@ -1,0 +1,129 @@
+#include "tools/bench/together.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "host/mesh_io.h"
+
+namespace vkh::bench {
+namespace {
+
+struct Loaded {
+  Mesh a, b;
+  uint64_t faces() const { return a.faces.size() + b.faces.size(); }
+};
+
+struct Cost {
+  std::vector<double> gpu_ms, wall_ms;
+
+  void add(double gpu, double wall) {
+    gpu_ms.push_back(gpu);
+    wall_ms.push_back(wall);
+  }
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double gpu_ms(const Report& r) { return r.times.hierarchy_ms + r.times.solve_ms; }
+
+// Of several side by side, the last to end has all submissions in its time.
+double longest_gpu_ms(const std::vector<Report>& reports) {
+  double longest = 0;
+  for (const Report& r : reports) longest = std::max(longest, gpu_ms(r));
+  return longest;
+}
+
+bool is_same(const Report& x, const Report& y) {
+  return x.status == Status::kClosed && y.status == Status::kClosed && x.lower == y.lower &&
+         x.upper == y.upper && x.candidates == y.candidates && x.queries == y.queries;
+}
+
+std::vector<Report> run_alone(Solver& solver, const std::vector<PairView>& pairs,
+                              const SolveOptions& options, Cost& cost) {
+  std::vector<Report> reports;
+  double gpu = 0, wall = 0;
+  for (const PairView& p : pairs) {
+    reports.push_back(solver.distance(p.a, p.b, options));
+    gpu += gpu_ms(reports.back());
+    wall += reports.back().times.wall_ms;
+  }
+  cost.add(gpu, wall);
+  return reports;
+}
+
+class Totals {
+ public:
+  void add(const std::string& family, double alone, double together) {
+    for (const std::string& of : {family, std::string("all")}) {
+      alone_[of] += alone;
+      together_[of] += together;
+    }
+  }
+  void print() const {
+    for (const auto& [family, alone] : alone_)
+      std::printf("# %s: alone %.2f ms, together %.2f ms of GPU time\n", family.c_str(), alone,
+                  together_.at(family));
+  }
+
+ private:
+  std::map<std::string, double> alone_, together_;
+};
+
+int run_group(Solver& solver, const std::string& family, const std::vector<const Loaded*>& group,
+              int repeat, const SolveOptions& options, Totals& totals) {
+  std::vector<PairView> pairs;
+  uint64_t faces = 0;
+  for (const Loaded* loaded : group) {
+    pairs.push_back({loaded->a, loaded->b});
+    faces += loaded->faces();
+  }
+  Cost unused, alone, together;
+  const std::vector<Report> expected = run_alone(solver, pairs, options, unused);
+  int wrong = 0;
+  solver.distances(pairs, options);
+  for (int i = 0; i < repeat; ++i) {
+    run_alone(solver, pairs, options, alone);
+    const std::vector<Report> found = solver.distances(pairs, options);
+    together.add(longest_gpu_ms(found), found[0].times.wall_ms);
+    for (size_t p = 0; p < pairs.size(); ++p) wrong += is_same(found[p], expected[p]) ? 0 : 1;
+  }
+  std::printf("%s,%zu,%llu,%s,%.4f,%.4f,%.3f,%.3f\n", family.c_str(), pairs.size(),
+              static_cast<unsigned long long>(faces), wrong == 0 ? "ok" : "DIFFERENT",
+              median(alone.gpu_ms), median(together.gpu_ms), median(alone.wall_ms),
+              median(together.wall_ms));
+  std::fflush(stdout);
+  totals.add(family, median(alone.gpu_ms), median(together.gpu_ms));
+  return wrong;
+}
+
+}  // namespace
+
+int run_together(Solver& solver, const std::vector<Row>& rows, const Groups& groups,
+                 SolveOptions options) {
+  options.stage_times = false;
+  std::map<std::string, std::vector<Loaded>> families;
+  for (const Row& row : rows)
+    families[row.family].push_back({read_mesh(row.file_a), read_mesh(row.file_b)});
+  std::printf(
+      "family,pairs,faces,verdict,alone_gpu_ms,together_gpu_ms,alone_wall_ms,together_wall_ms\n");
+  Totals totals;
+  int wrong = 0;
+  for (auto& [family, pairs] : families) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Loaded& x, const Loaded& y) { return x.faces() < y.faces(); });
+    for (size_t from = 0; from < pairs.size(); from += groups.size) {
+      std::vector<const Loaded*> group;
+      for (size_t i = from; i < std::min(from + groups.size, pairs.size()); ++i)
+        group.push_back(&pairs[i]);
+      wrong += run_group(solver, family, group, groups.repeat, options, totals);
+    }
+  }
+  totals.print();
+  return wrong;
+}
+
+}  // namespace vkh::bench
