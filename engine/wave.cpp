@@ -10,16 +10,6 @@ Slice<gpu::Area> areas_of(const Problem& p) {
   return p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused);
 }
 
-// Likewise, without kUseSort.
-Slice<uint32_t> order_of(const Problem& p) {
-  return (p.switches & gpu::kUseSort) != 0 ? p.ws.sort.values[0] : p.ws.unused;
-}
-
-// Likewise, without kUsePaperU3.
-Slice<float> u3_bounds_of(const Problem& p) {
-  return (p.switches & gpu::kUsePaperU3) != 0 ? p.ws.u3_bounds : as<float>(p.ws.unused);
-}
-
 void record_subdivide(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveSubdivide>({.control = ws.control,
@@ -32,7 +22,8 @@ void record_subdivide(Recorder& rec, const Problem& p) {
                                       .points = ws.points,
                                       .triangle_lows = p.b.triangle_lows,
                                       .areas = areas_of(p),
-                                      .order = order_of(p)},
+                                      .order = ws.sort.values[0],
+                                      .centroid_nearest = ws.centroid_nearest},
                                      {}, ws.dispatch(gpu::kDispatchSubdivide));
   rec.stage("subdivide");
 }
@@ -80,7 +71,8 @@ void record_filter(Recorder& rec, const Problem& p) {
                                    .centroids = ws.centroids,
                                    .triangle_lows = p.b.triangle_lows,
                                    .areas = areas_of(p),
-                                   .face_shared = ws.face_shared},
+                                   .face_shared = ws.face_shared,
+                                   .centroid_nearest = ws.centroid_nearest},
                                   {}, ws.dispatch(gpu::kDispatchFilter));
   rec.run<k::WaveSurvivors>({.control = ws.control, .dispatches = ws.dispatches}, {}, Groups{1});
   rec.stage("filter");
@@ -118,7 +110,8 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .triangle_lows = p.b.triangle_lows,
                                   .areas = areas_of(p),
                                   .face_shared = ws.face_shared,
-                                  .u3_bounds = u3_bounds_of(p)},
+                                  .u3_bounds = ws.u3_bounds,
+                                  .centroid_nearest = ws.centroid_nearest},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
 }

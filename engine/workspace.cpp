@@ -75,13 +75,25 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.frontier, 2ull * capacity);
   take(w.splits, parents);
   take(w.points, 3 * parents);
-  take(w.survivors, capacity);
-  take(w.centroids, capacity);
   take(w.lower_bits, 1);
   take(w.groups_done, 1);
   take(w.unused, 1);
-  if ((room.switches & gpu::kUseSort) != 0) list(take, w.sort, capacity);
-  if ((room.switches & gpu::kUsePaperU3) != 0) take(w.u3_bounds, capacity);
+  const auto take_if = [&]<class T>(uint32_t switches, Slice<T>& slice, uint64_t count) {
+    if ((room.switches & switches) != 0) {
+      take(slice, count);
+    } else {
+      slice = as<T>(w.unused);
+    }
+  };
+  take_if(gpu::kUseCentroid, w.centroid_nearest, 2ull * capacity);
+  take_if(gpu::kUseFilter, w.survivors, capacity);
+  take_if(gpu::kUseFilter, w.centroids, capacity);
+  take_if(gpu::kUsePaperU3, w.u3_bounds, capacity);
+  if ((room.switches & gpu::kUseSort) != 0) {
+    list(take, w.sort, capacity);
+  } else {
+    w.sort.values[0] = w.unused;
+  }
   w.capacity = capacity;
 }
 

@@ -53,13 +53,15 @@ struct Workspace {
   Slice<gpu::Candidate> frontier;  // two halves of `capacity`
   Slice<gpu::Split> splits;
   Slice<gpu::Point> points;
-  Slice<uint32_t> survivors;
-  Slice<gpu::Point> centroids;
   Slice<uint32_t> lower_bits;   // between reports kNone
   Slice<uint32_t> groups_done;  // 0 between dispatches
-  Slice<uint32_t> unused;       // for bindings that the switches leave without a buffer
-  SortStreams sort;             // none but with kUseSort
-  Slice<float> u3_bounds;       // none but with kUsePaperU3
+  // What the switches leave out is `unused`, for a binding must be something.
+  Slice<uint32_t> unused;
+  Slice<uint32_t> centroid_nearest;  // kUseCentroid: beside the frontier
+  Slice<uint32_t> survivors;         // kUseFilter
+  Slice<gpu::Point> centroids;       // kUseFilter
+  Slice<float> u3_bounds;            // kUsePaperU3
+  SortStreams sort;                  // kUseSort
   uint32_t capacity = 0;
 
   Slice<gpu::Dispatch> dispatch(uint32_t which) const {

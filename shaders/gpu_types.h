@@ -239,13 +239,12 @@ struct TriangleLow {
   vec3 a, b, c;
 };
 
-// A sub-triangle of A that is still undecided: 40 bytes.
+// A sub-triangle of A that is still undecided: 36 bytes.
 struct Candidate {
-  uvec4 corners;          // three dyadic barycentric pairs, see lib/bary.h
-  uint root;              // face of A
-  uvec3 nearest;          // closest triangle of B found for each corner
-  uint nearest_centroid;  // and for the centroid, or kNone
-  float upper;            // u: h(candidate, B) <= Control::base + upper, rounding included
+  uvec4 corners;  // three dyadic barycentric pairs, see lib/bary.h
+  uint root;      // face of A
+  uvec3 nearest;  // closest triangle of B found for each corner
+  float upper;    // u: h(candidate, B) <= Control::base + upper, rounding included
 };
 
 // A refined candidate in its wave.

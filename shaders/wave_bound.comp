@@ -30,9 +30,11 @@ layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle
 layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
 layout(scalar, binding = 13) readonly buffer U3Bounds { float u3_bounds[]; };
+layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; };
 
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
+#include "shaders/lib/centroid.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
 #include "shaders/lib/dispatch.glsl"
@@ -87,8 +89,9 @@ void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
   bool open = mine && !closed;
   if (mine) close_area(closed, c.root, c.at);
   uint slot = give(closed, open, v);
-  if (open)
-    frontier[writing(slot)] = Candidate(pack_corners(c.at), c.root, c.nearest, centre, v.upper);
+  if (!open) return;
+  frontier[writing(slot)] = Candidate(pack_corners(c.at), c.root, c.nearest, v.upper);
+  if (kKnowsCentroids) centroid_nearest[writing(slot)] = centre;
 }
 
 void main() {

@@ -24,9 +24,11 @@ layout(scalar, binding = 9) buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
+layout(scalar, binding = 13) readonly buffer CentroidNearest { uint centroid_nearest[]; };
 
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
+#include "shaders/lib/centroid.glsl"
 #include "shaders/lib/child.glsl"
 #include "shaders/lib/coverage.glsl"
 #include "shaders/lib/dispatch.glsl"

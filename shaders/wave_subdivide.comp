@@ -24,15 +24,19 @@ layout(scalar, binding = 7) writeonly buffer Points { Point points[]; };
 layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 9) buffer Areas { Area areas[]; };
 layout(scalar, binding = 10) readonly buffer Order { uint order[]; };
+layout(scalar, binding = 11) buffer CentroidNearest { uint centroid_nearest[]; };
 
 #include "shaders/lib/bvh.glsl"
 #include "shaders/lib/candidate.glsl"
+#include "shaders/lib/centroid.glsl"
 #include "shaders/lib/coverage.glsl"
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/stream.glsl"
 
 shared uint place_in_group[kGroupSize];
 shared uint inner_in_group[kGroupSize];
+
+uint centre;  // the triangle closest to the candidate's centroid, or kNone
 
 // The code of the candidate's split; kSplitNone where the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
@@ -53,7 +57,7 @@ uint best_start(Candidate c, vec3 p) {
   if ((kSwitches & kUseWarmStart) == 0u) return kNone;
   Nearest best = nothing_near();
   for (uint k = 0u; k < 4u; ++k) {
-    uint i = k < 3u ? c.nearest[k] : c.nearest_centroid;
+    uint i = k < 3u ? c.nearest[k] : centre;
     if (i != kNone && i != best.triangle) try_triangle(p, i, best);
   }
   return best.triangle;
@@ -92,6 +96,12 @@ void lose(bool held, Candidate c, float upper) {
   close_area(held, c.root, unpack_corners(c.corners));
 }
 
+void defer(uint place, Candidate c, float upper) {
+  c.upper = upper;
+  frontier[writing(place)] = c;
+  if (kKnowsCentroids) centroid_nearest[writing(place)] = centre;
+}
+
 // Where the candidate of an item, `c`, stands among the wave's parents; kNone if there is no room
 // for it in this wave: then it is copied to the next frontier. Where none is deferred, items are
 // parents.
@@ -104,8 +114,7 @@ uint place_of(uint item, bool held, Candidate c, float upper) {
   if (is_sorted()) {
     bool waits = held && item >= control.parents;
     raise(kMaxNext, waits ? upper : 0.0);
-    c.upper = upper;
-    if (waits) frontier[writing(item - control.parents)] = c;
+    if (waits) defer(item - control.parents, c, upper);
     return held && !waits ? item : kNone;
   }
   Key key = key_of(c, control.select_largest != 0u);
@@ -118,8 +127,7 @@ uint place_of(uint item, bool held, Candidate c, float upper) {
   bool fits = slot < control.deferred;
   lose(deferred && !fits, c, upper);
   raise(kMaxNext, deferred && fits ? upper : 0.0);
-  c.upper = upper;
-  if (deferred && fits) frontier[writing(slot)] = c;
+  if (deferred && fits) defer(slot, c, upper);
   return refined ? place : kNone;
 }
 
@@ -157,6 +165,7 @@ void main() {
   uint at = held ? item : 0u;
   if (held && is_sorted()) at = order[item];
   Candidate c = frontier[reading(at)];
+  centre = nearest_to_centroid(reading(at));
   float upper = upper_of(c);
   uint i = shared_place_of(item, held, c, upper, group);
   bool mine = i != kNone;

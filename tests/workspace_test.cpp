@@ -85,17 +85,24 @@ TEST_CASE("a small workspace after a large one, and the other way round") {
   CHECK(again.upper == large.upper);
 }
 
-TEST_CASE("sizes and views agree for every capacity") {
-  KernelBench bench;
-  const Limits& limits = bench.context()->limits;
+namespace {
+
+// With every stream, with those of a GPU, and of a CPU device.
+constexpr uint32_t kSwitchSets[] = {
+    VKH_SWITCH_ALL | VKH_SWITCH_SORT | VKH_SWITCH_U3_PAPER | VKH_SWITCH_CENTROID,
+    VKH_SWITCH_DEFAULT, VKH_SWITCH_DEFAULT_CPU};
+
+void check_sizes(const Limits& limits) {
   for (const uint32_t vertices : {1u, 3u, 1000u, 100'000u}) {
     for (const uint32_t faces : {1u, 2u, 65u, 200'000u}) {
       for (const uint32_t capacity : {64u, 65u, 1000u, 12'345u, 1u << 20}) {
-        const VkDeviceSize bytes = workspace_size(vertices, faces, capacity);
+        const VkDeviceSize bytes = workspace_size(vertices, faces, capacity, limits.switches);
         CHECK(capacity_for(limits, vertices, faces, bytes) >= capacity);
         CHECK(capacity_for(limits, vertices, faces, bytes - 256) < capacity + 64);
         const Workspace ws = view_workspace({VK_NULL_HANDLE, 512, bytes}, limits, vertices, faces);
-        CHECK(ws.lower_bits.offset + ws.lower_bits.size <= 512 + bytes);
+        CHECK(ws.unused.offset + ws.unused.size <= 512 + bytes);
+        CHECK(ws.centroid_nearest.offset + ws.centroid_nearest.size <= 512 + bytes);
+        CHECK(ws.centroids.offset + ws.centroids.size <= 512 + bytes);
         CHECK(ws.frontier.size == 2ull * ws.capacity * sizeof(gpu::Candidate));
         CHECK(ws.points.size >= 3ull * (ws.capacity / 4) * sizeof(gpu::Point));
         CHECK(ws.frontier.offset % 256 == 0);
@@ -106,11 +113,32 @@ TEST_CASE("sizes and views agree for every capacity") {
   CHECK(capacity_for(limits, 1000, 1000, 100) == 0);  // not even the fixed streams
 }
 
+}  // namespace
+
+TEST_CASE("sizes and views agree for every capacity and set of switches") {
+  KernelBench bench;
+  Limits limits = bench.context()->limits;
+  for (const uint32_t switches : kSwitchSets) {
+    limits.switches = switches;
+    check_sizes(limits);
+  }
+}
+
+TEST_CASE("a candidate takes 36 bytes, and a place in the workspace 100 where no stream is idle") {
+  static_assert(sizeof(gpu::Candidate) == 36);
+  const uint32_t capacity = 1u << 20;
+  const auto each = [&](uint32_t switches) {
+    return static_cast<double>(workspace_size(1, 1, capacity, switches)) / capacity;
+  };
+  CHECK(each(VKH_SWITCH_DEFAULT) < 100);
+  CHECK(each(VKH_SWITCH_DEFAULT_CPU) > 140);  // centroids
+}
+
 TEST_CASE("no binding of a workspace exceeds what the device can bind") {
   KernelBench bench;
   const Limits& limits = bench.context()->limits;
   const uint32_t capacity = largest_capacity(limits);
-  const VkDeviceSize bytes = workspace_size(1, 1, capacity);
+  const VkDeviceSize bytes = workspace_size(1, 1, capacity, limits.switches);
   const Workspace ws = view_workspace({VK_NULL_HANDLE, 0, bytes}, limits, 1, 1);
   CHECK(ws.capacity == capacity);
   for (const VkDeviceSize size :

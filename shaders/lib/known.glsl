@@ -1,6 +1,6 @@
 // Triangles of B that are known to be near a child: of the children that a workgroup looks at.
-// Include after kKnowers, how many these are, is declared and lib/child.glsl and lib/dispatch.glsl
-// are included.
+// Include after kKnowers, how many these are, is declared and lib/child.glsl, lib/dispatch.glsl and
+// lib/centroid.glsl are included.
 #ifndef VKH_SHADERS_LIB_KNOWN_GLSL
 #define VKH_SHADERS_LIB_KNOWN_GLSL
 
@@ -33,9 +33,10 @@ void know_corners(uint child, Child c) {
 // The parent's samples are free: its other corners, its other new points, its centroid.
 void know_parent_samples(uint child, uint code) {
   if ((kSwitches & kUseParentSamples) == 0u || is_root(code)) return;
-  Candidate parent = frontier[reading(splits[parent_of(code)].parent)];
+  uint place = reading(splits[parent_of(code)].parent);
+  Candidate parent = frontier[place];
   for (uint i = 0u; i < 6u; ++i) know(child, nearest_of(parent, parent_of(code), i));
-  know(child, parent.nearest_centroid);
+  know(child, nearest_to_centroid(place));
 }
 
 #endif
