@@ -3,16 +3,24 @@
 
 namespace vkh {
 
-k::SeedQuery::Args seed_args(const Problem& p) {
-  return {.vertices = p.ws.vertices,
+k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points) {
+  return {.control = p.ws.control,
           .nodes = as<gpu::uvec4>(p.b.nodes),
           .triangles = as<gpu::uvec4>(p.b.triangles),
-          .vertex_nearest = p.ws.vertex_nearest,
-          .vertex_distance = as<uint32_t>(p.ws.vertex_distance),
-          .control = p.ws.control,
           .triangle_lows = p.b.triangle_lows,
+          .boxes = p.b.pyramid,
+          .points = points,
+          .vertices = p.ws.vertices,
           .faces = p.ws.faces,
-          .boxes = p.b.pyramid};
+          .vertex_nearest = p.ws.vertex_nearest,
+          .vertex_distance = as<uint32_t>(p.ws.vertex_distance)};
+}
+
+gpu::QueryPush ask_vertices(const Problem& p, uint32_t asked, uint32_t vertex_count, bool warm) {
+  return {.asked = asked,
+          .triangle_count = p.b.face_count,
+          .vertex_count = vertex_count,
+          .warm = warm ? 1u : 0u};
 }
 
 void record_seed(Recorder& rec, const Problem& p) {
@@ -26,12 +34,8 @@ void record_seed(Recorder& rec, const Problem& p) {
                              .two_float = p.two_float ? 1u : 0u,
                              .warm = p.warm ? 1u : 0u,
                              .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom};
-  gpu::SeedPush seed{.vertex_count = p.vertex_count,
-                     .triangle_count = p.b.face_count,
-                     .warm = p.warm ? 1u : 0u,
-                     .again = 0};
-  const uint32_t items = p.vertex_count + seed.warm;
-  // As seed_query has it: all of a workgroup for an item where they are few.
+  const uint32_t items = p.vertex_count + begin.warm;
+  // As `query` has it: all of a workgroup for an item where they are few.
   const bool in_groups =
       (p.switches & gpu::kUseGroupWalk) != 0 && p.vertex_count <= gpu::kGroupWalkVertices;
   // Independent of record_load, which writes A's vertices and faces.
@@ -50,9 +54,11 @@ void record_seed(Recorder& rec, const Problem& p) {
                          .face_shared = ws.face_shared},
                         {.face_count = p.face_count, .triangle_count = p.b.face_count},
                         Items{p.face_count});
-  rec.run<k::SeedQuery>(seed_args(p), seed, Items{in_groups ? items * gpu::kQueryGroup : items});
-  seed.again = 1;
-  rec.run<k::SeedQuery>(seed_args(p), seed, Items{items});
+  const k::Query::Args args = query_args(p, p.ws.points);
+  const auto ask = [&](uint32_t asked) { return ask_vertices(p, asked, p.vertex_count, p.warm); };
+  rec.run<k::Query>(args, ask(gpu::kAskVertices),
+                    Items{in_groups ? items * gpu::kQueryGroup : items});
+  rec.run<k::Query>(args, ask(gpu::kAskVerticesAgain), Items{items});
   rec.run<k::SeedWitness>({.faces = ws.faces,
                            .vertex_distance = ws.vertex_distance,
                            .control = ws.control,

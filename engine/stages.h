@@ -44,8 +44,10 @@ struct Problem {
 };
 
 void record_seed(Recorder& rec, const Problem& p);
-// What seed_query works on, for the seed and for a plan that has moved the base.
-k::SeedQuery::Args seed_args(const Problem& p);
+// What `query` works on; `points`: of a wave.
+k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points);
+// A's vertices, or no more than the witness.
+gpu::QueryPush ask_vertices(const Problem& p, uint32_t asked, uint32_t vertex_count, bool warm);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);

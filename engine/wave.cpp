@@ -28,16 +28,11 @@ void record_subdivide(Recorder& rec, const Problem& p) {
   rec.stage("subdivide");
 }
 
-void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points, bool centroids,
+void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points, uint32_t asked,
                   uint32_t dispatch) {
-  const gpu::QueryPush push{.centroids = centroids ? 1u : 0u, .triangle_count = p.b.face_count};
-  rec.run_indirect<k::WaveQuery>({.control = p.ws.control,
-                                  .nodes = as<gpu::uvec4>(p.b.nodes),
-                                  .triangles = as<gpu::uvec4>(p.b.triangles),
-                                  .points = points,
-                                  .triangle_lows = p.b.triangle_lows,
-                                  .boxes = p.b.pyramid},
-                                 push, p.ws.dispatch(dispatch));
+  const gpu::QueryPush push{
+      .asked = asked, .triangle_count = p.b.face_count, .vertex_count = 0, .warm = 0};
+  rec.run_indirect<k::Query>(query_args(p, points), push, p.ws.dispatch(dispatch));
   rec.stage("query");
 }
 
@@ -54,7 +49,7 @@ void record_query_points(Recorder& rec, const Problem& p) {
     rec.stage("query");
   }
   if (!packets || (p.switches & gpu::kUseGroupWalk) != 0)
-    record_query(rec, p, p.ws.points, false, gpu::kDispatchQueryPoints);
+    record_query(rec, p, p.ws.points, gpu::kAskPoints, gpu::kDispatchQueryPoints);
 }
 
 void record_filter(Recorder& rec, const Problem& p) {
@@ -118,9 +113,9 @@ void record_bound(Recorder& rec, const Problem& p) {
 
 // Nothing, unless the plan has moved the base: then the witness is measured above the new one.
 void record_witness(Recorder& rec, const Problem& p) {
-  const gpu::SeedPush push{
-      .vertex_count = 0, .triangle_count = p.b.face_count, .warm = 1, .again = 1};
-  rec.run_indirect<k::SeedQuery>(seed_args(p), push, p.ws.dispatch(gpu::kDispatchWitness));
+  rec.run_indirect<k::Query>(query_args(p, p.ws.points),
+                             ask_vertices(p, gpu::kAskVerticesAgain, 0, true),
+                             p.ws.dispatch(gpu::kDispatchWitness));
 }
 
 void record_plan(Recorder& rec, const Problem& p) {
@@ -148,7 +143,7 @@ void record_bounds(Recorder& rec, const Problem& p) {
   // Without a filter, wave_bound has the whole cascade.
   if ((p.switches & gpu::kUseFilter) != 0) record_filter(rec, p);
   if ((p.switches & gpu::kUseCentroid) != 0)
-    record_query(rec, p, p.ws.centroids, true, gpu::kDispatchQueryCentroids);
+    record_query(rec, p, p.ws.centroids, gpu::kAskCentroids, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
   record_plan(rec, p);
 }

@@ -39,8 +39,13 @@ VKH_CONST uint kGroupSize =
     64u;  // invocations of a workgroup, one item each, where a kernel does not say otherwise
 VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
-// Invocations of wave_query: one query each, or one for all where a wave has few queries.
+// Invocations of query: one query each, or one for all where a wave has few queries.
 VKH_CONST uint kQueryGroup = 64u;
+// Which points it is asked for.
+VKH_CONST uint kAskPoints = 0u;         // the wave's new points
+VKH_CONST uint kAskCentroids = 1u;      // the centroids of its survivors
+VKH_CONST uint kAskVertices = 2u;       // of A, in plain floats
+VKH_CONST uint kAskVerticesAgain = 3u;  // to 48 bits above the base
 VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
                                               // alike on an H200, 2^11 and 2^14 slower
 // Vertices of A, whose walks start from nowhere: the group's is long, too.
@@ -127,7 +132,7 @@ VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
 VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
 VKH_CONST uint kDispatchSortDigits = 8u;  // digits
 VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
-VKH_CONST uint kDispatchWitness = 10u;    // seed_query again, where the base has moved
+VKH_CONST uint kDispatchWitness = 10u;    // the witness again, where the base has moved
 VKH_CONST uint kDispatchCount = 11u;
 
 // Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
@@ -432,10 +437,12 @@ struct FacesPush {
   uint triangle_count;  // of B
 };
 
-// wave_query: which stream of points.
+// query: which points. Of A's vertices and, where `warm`, the last run's witness behind them.
 struct QueryPush {
-  uint centroids;       // 0: the new points, 1: the centroids
+  uint asked;           // kAsk*
   uint triangle_count;  // of B
+  uint vertex_count;    // of A
+  uint warm;            // start from the last run's closest triangles
 };
 
 struct BeginPush {
@@ -446,14 +453,6 @@ struct BeginPush {
   uint two_float;
   uint warm;  // the last run's witness is kept
   uint sort_from;
-};
-
-// seed_query: A's vertices and, where `warm`, the last run's witness behind them.
-struct SeedPush {
-  uint vertex_count;
-  uint triangle_count;  // of B
-  uint warm;            // start from the last run's closest triangles
-  uint again;           // to 48 bits above the base
 };
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 // What: the closest triangles of B to the three new points of each refined candidate, an invocation
 // a candidate (paper.md Alg. 2): the points are close to each other, so that they share most nodes
 // and triangles of the walk. In: points, each with a triangle to start from; a negative distance
-// means skip. Out: nearest, distance; control.maximum[kMaxLower]. As wave_query, and in its place.
+// means skip. Out: nearest, distance; control.maximum[kMaxLower]. As query, and in its place.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,6 +20,13 @@ layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_
 #include "shaders/lib/query.glsl"
 #include "shaders/lib/stream.glsl"
 
+float answer(uint i, Query q, Nearest found) {
+  found = measured(q, found, control.witness.distance);
+  points[i].nearest = found.triangle;
+  points[i].distance = max(found.above, 0.0);
+  return points[i].distance;
+}
+
 float ask(uint parent) {
   Packet p;
   uint mask = 0u;
@@ -35,7 +42,7 @@ float ask(uint parent) {
   walk_packet(mask, p);
   float d = 0.0;
   for (uint k = 0u; k < kPacket; ++k) {
-    if ((mask & (1u << k)) != 0u) d = max(d, answer(3u * parent + k, p.best[k]));
+    if ((mask & (1u << k)) != 0u) d = max(d, answer(3u * parent + k, p.query[k], p.best[k]));
   }
   return d;
 }

@@ -68,7 +68,7 @@ void rebase_maximum(uint which) {
   control.maximum[which] = floatBitsToUint(rebased(uintBitsToFloat(control.maximum[which])));
 }
 
-// Here where a wave is a chain of steps, and a dispatch is one more. Elsewhere seed_query does it,
+// Here where a wave is a chain of steps, and a dispatch is one more. Elsewhere `query` does it,
 // which has the code for it: pipelines are created at every start of a program.
 void measure_witness() {
   Witness w = control.witness;

@@ -108,7 +108,7 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
   }
 }
 
-// --- wave_query ---
+// --- a wave's queries ---
 
 constexpr uint32_t kSkipped = 5;  // every so many-th point is not to be queried
 
@@ -160,14 +160,18 @@ Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, u
                              {}, Groups{count / 3 + 1});
       return;
     }
-    rec.run<k::WaveQuery>({.control = control,
-                           .nodes = as<gpu::uvec4>(h.nodes),
-                           .triangles = as<gpu::uvec4>(h.triangles),
-                           .points = points,
-                           .triangle_lows = h.triangle_lows,
-                           .boxes = h.pyramid},
-                          gpu::QueryPush{mode.centroids ? 1u : 0u, h.face_count},
-                          Groups{count + 3});
+    Problem p;
+    p.ws.control = control;
+    p.ws.vertices = bench.put(std::vector<gpu::Vertex>(1));
+    p.ws.faces = bench.put(std::vector<gpu::uvec3>(1));
+    p.ws.vertex_nearest = bench.put(std::vector<uint32_t>(1));
+    p.ws.vertex_distance = bench.put(std::vector<float>(1));
+    p.b = h;
+    const gpu::QueryPush push{.asked = mode.centroids ? gpu::kAskCentroids : gpu::kAskPoints,
+                              .triangle_count = h.face_count,
+                              .vertex_count = 0,
+                              .warm = 0};
+    rec.run<k::Query>(query_args(p, points), push, Groups{count + 3});
   });
   q.after = bench.get(points);
   q.control = bench.get(control)[0];
@@ -217,7 +221,8 @@ struct Seeded {
 Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b, bool two_float) {
   const VkhMesh on = put_mesh(bench, a);
   const uint32_t vertices = on.vertexCount, faces = on.faceCount;
-  const auto memory = bench.garbage<uint32_t>(workspace_size(vertices, faces, 64) / 4);
+  const auto memory = bench.garbage<uint32_t>(
+      workspace_size(vertices, faces, 64, bench.context()->limits.switches) / 4);
   const Problem p{.vertex_count = vertices,
                   .face_count = faces,
                   .cull_tolerance = 1e-6f,
@@ -276,7 +281,7 @@ void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b, bool two_float
 
 }  // namespace
 
-TEST_CASE("wave_query finds the nearest triangle, new points and centroids alike") {
+TEST_CASE("query finds the nearest triangle, new points and centroids alike") {
   for (const bool two_float : {false, true}) {
     for (const auto& [name, mesh] : targets(two_float)) {
       CAPTURE(name);
@@ -288,7 +293,7 @@ TEST_CASE("wave_query finds the nearest triangle, new points and centroids alike
   }
 }
 
-TEST_CASE("wave_packet finds what wave_query finds, three points at a time") {
+TEST_CASE("wave_packet finds what query finds, three points at a time") {
   for (const bool two_float : {false, true}) {
     for (const auto& [name, mesh] : targets(two_float)) {
       CAPTURE(name);
@@ -303,7 +308,7 @@ TEST_CASE("wave_packet finds what wave_query finds, three points at a time") {
     check_wave_query(bench, mesh, 3 * parents, {.packet = true});
 }
 
-TEST_CASE("wave_query at awkward sizes") {
+TEST_CASE("query at awkward sizes") {
   const Mesh mesh = stored(soup(50, 100), false);
   KernelBench bench;
   for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 2047u, 2048u, 2049u}) {

@@ -1,4 +1,4 @@
-// The sizes of indirect dispatches: one invocation an item, or as wave_query takes its queries.
+// The sizes of indirect dispatches: one invocation an item, or as `query` takes its points.
 #ifndef VKH_SHADERS_LIB_DISPATCH_GLSL
 #define VKH_SHADERS_LIB_DISPATCH_GLSL
 
@@ -18,7 +18,7 @@ const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
 
 bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQueries; }
 
-// Of wave_query.
+// Of query.
 Dispatch groups_for_queries(uint queries) {
   if (walks_in_groups(queries)) return groups_of(queries);
   return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers

@@ -2,16 +2,27 @@
 #ifndef VKH_SHADERS_LIB_QUERY_GLSL
 #define VKH_SHADERS_LIB_QUERY_GLSL
 
+// What an invocation knows of its item, and whether a walk is to find more.
+struct Item {
+  bool exists;  // it is to be answered
+  bool asked;
+  uint nearest;    // where a walk starts; then what it found
+  float distance;  // above the base
+  Query query;
+};
+
 Query query_at(uint i) {
   return Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u);
 }
 
-float answer(uint i, Nearest found) {
-  // Not kMaxLower: others raise it at the same time.
-  float d = max(measured(query_at(i), found, control.witness.distance).above, 0.0);
-  points[i].nearest = found.triangle;
-  points[i].distance = d;
-  return d;
+Item point_item(uint i, bool mine) {
+  bool asked = mine && points[i].distance >= 0.0;
+  return Item(asked, asked, points[i].nearest, 0.0, query_at(i));
+}
+
+void answer_point(uint i, Item item) {
+  points[i].nearest = item.nearest;
+  points[i].distance = item.distance;
 }
 
 #endif
