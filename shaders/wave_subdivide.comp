@@ -66,7 +66,7 @@ uint best_start(Candidate c, vec3 p) {
 // New point k of a candidate at `at`: of its own split, or of the split of one of its children. A
 // negative distance tells the query to skip the point.
 void write_point(uint to, uint k, Candidate c, Bary3 at, Root root, uint split, uint group) {
-  bool inner = k >= 3u && split != kSplitNone;
+  bool inner = kMaySplitTwice && k >= 3u && split != kSplitNone;
   if (inner) {
     uint which = k / 3u - 1u;  // uncertified: integers
     at = child_of(split_points(at, split), child_points(split, which));

@@ -11,6 +11,16 @@ struct Bary3 {
   uvec2 a, b, c;
 };
 
+// x if `first`, else y, both taken: `?:` becomes a branch, and a driver takes longer for hundreds of
+// branches than for all else in this header.
+#ifdef __cplusplus
+VKH_FN uint choose(bool first, uint x, uint y) { return first ? x : y; }
+VKH_FN uvec2 choose(bool first, uvec2 x, uvec2 y) { return first ? x : y; }
+#else
+uint choose(bool first, uint x, uint y) { return mix(y, x, first); }
+uvec2 choose(bool first, uvec2 x, uvec2 y) { return mix(y, x, bvec2(first)); }
+#endif
+
 VKH_FN Bary3 whole_root() {
   Bary3 t;
   t.a = uvec2(0u, 0u);
@@ -126,15 +136,15 @@ VKH_CONST uint kSplitMidpoint = 0u;
 VKH_CONST uint kInnerNone = 31u;          // as kSplitNone, in 5 bits
 VKH_CONST uint kSplitNone = 0xffffffffu;  // not split: closed before its subdivision
 
-VKH_FN uint pick(uvec3 t, uint i) { return i == 0u ? t.x : (i == 1u ? t.y : t.z); }
+VKH_FN uint pick(uvec3 t, uint i) { return choose(i == 0u, t.x, choose(i == 1u, t.y, t.z)); }
 
 // One half of triangle t, bisected at the middle m of the edge opposite corner `opposite`. Both
 // halves keep t's orientation.
 VKH_FN uvec3 bisected(uvec3 t, uint opposite, uint m, uint side) {
   uint a = pick(t, opposite);
-  uint b = pick(t, opposite == 2u ? 0u : opposite + 1u);
-  uint c = pick(t, opposite == 0u ? 2u : opposite - 1u);
-  return side == 0u ? uvec3(a, b, m) : uvec3(a, m, c);
+  uint b = choose(opposite == 0u, t.y, choose(opposite == 1u, t.z, t.x));
+  uint c = choose(opposite == 0u, t.z, choose(opposite == 1u, t.x, t.y));
+  return uvec3(a, choose(side == 0u, b, m), choose(side == 0u, m, c));
 }
 
 VKH_FN uint bisection_code(uint x, uint y, uint z) { return 1u + x + 3u * y + 9u * z; }
@@ -142,15 +152,15 @@ VKH_FN uint bisection_code(uint x, uint y, uint z) { return 1u + x + 3u * y + 9u
 // Which of the six points are the corners of child 0..3.
 VKH_FN uvec3 child_points(uint split, uint child) {
   if (split == kSplitMidpoint) {
-    if (child == 0u) return uvec3(0u, 5u, 4u);
-    if (child == 1u) return uvec3(5u, 1u, 3u);
-    if (child == 2u) return uvec3(4u, 3u, 2u);
-    return uvec3(3u, 4u, 5u);
+    if (child == 3u) return uvec3(3u, 4u, 5u);
+    // (0, 5, 4), (5, 1, 3), (4, 3, 2): a corner, and the middles of the edges at it.
+    return uvec3(choose(child == 0u, 0u, 6u - child), choose(child == 1u, 1u, 5u - child),
+                 choose(child == 2u, 2u, 4u - child));
   }
   uint code = split - 1u;
   uint half_side = child >> 1;
   uvec3 half_points = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, half_side);
-  uint inner = half_side == 0u ? (code / 3u) % 3u : code / 9u;  // uncertified: integers
+  uint inner = choose(half_side == 0u, (code / 3u) % 3u, code / 9u);  // uncertified: integers
   return bisected(half_points, inner, 4u + half_side, child & 1u);
 }
 
@@ -158,19 +168,25 @@ VKH_FN uvec2 middle(uvec2 p, uvec2 q) { return uvec2((p.x + q.x) >> 1, (p.y + q.
 
 VKH_FN bool has_middle(uvec2 p, uvec2 q) { return (((p.x + q.x) | (p.y + q.y)) & 1u) == 0u; }
 
-VKH_FN uvec2 corner_of(Bary3 t, uint i) { return i == 0u ? t.a : (i == 1u ? t.b : t.c); }
+VKH_FN uvec2 corner_of(Bary3 t, uint i) {
+  return choose(i == 0u, t.a, choose(i == 1u, t.b, t.c));
+}
 
 struct Bary6 {
   Bary3 corner, fresh;
 };
 
 VKH_FN uvec2 point_of(Bary6 p, uint i) {
-  return i < 3u ? corner_of(p.corner, i) : corner_of(p.fresh, i - 3u);
+  return choose(i < 3u, corner_of(p.corner, i), corner_of(p.fresh, i - 3u));
 }
 
 // The corners after and before corner i, whose edge lies opposite.
-VKH_FN uvec2 next_of(Bary3 t, uint i) { return corner_of(t, i == 2u ? 0u : i + 1u); }
-VKH_FN uvec2 last_of(Bary3 t, uint i) { return corner_of(t, i == 0u ? 2u : i - 1u); }
+VKH_FN uvec2 next_of(Bary3 t, uint i) {
+  return choose(i == 0u, t.b, choose(i == 1u, t.c, t.a));
+}
+VKH_FN uvec2 last_of(Bary3 t, uint i) {
+  return choose(i == 0u, t.c, choose(i == 1u, t.a, t.b));
+}
 
 VKH_FN uvec2 middle_opposite(Bary3 t, uint i) { return middle(next_of(t, i), last_of(t, i)); }
 

@@ -48,7 +48,7 @@ Witness witness_at(uint s) {
   Candidate parent = frontier[reading(split.parent)];
   Bary6 six = split_points(unpack_corners(parent.corners), split.code);
   uint which = s % points_each();
-  if (which >= 3u) {                 // a child's
+  if (kMaySplitTwice && which >= 3u) {  // a child's
     uint child = (which - 3u) / 3u;  // uncertified: integers
     six = split_points(child_of(six, child_points(split.code, child)), inner_split(split, child));
   }
