@@ -3,6 +3,7 @@
 #ifndef VKH_SHADERS_LIB_BARY_H
 #define VKH_SHADERS_LIB_BARY_H
 
+#include "shaders/lib/choose.h"
 #include "shaders/lib/triangle.h"
 
 VKH_LIB_BEGIN
@@ -10,16 +11,6 @@ VKH_LIB_BEGIN
 struct Bary3 {
   uvec2 a, b, c;
 };
-
-// x if `first`, else y, both taken: `?:` becomes a branch, and a driver takes longer for hundreds of
-// branches than for all else in this header.
-#ifdef __cplusplus
-VKH_FN uint choose(bool first, uint x, uint y) { return first ? x : y; }
-VKH_FN uvec2 choose(bool first, uvec2 x, uvec2 y) { return first ? x : y; }
-#else
-uint choose(bool first, uint x, uint y) { return mix(y, x, first); }
-uvec2 choose(bool first, uvec2 x, uvec2 y) { return mix(y, x, bvec2(first)); }
-#endif
 
 VKH_FN Bary3 whole_root() {
   Bary3 t;

@@ -149,36 +149,42 @@ uint pop(float reach) {
   return kNone;
 }
 
-void sort_two(inout vec4 d, inout uvec4 child, uint i, uint j) {
-  if (d[j] <= d[i]) return;
-  float nearer = d[i];
-  d[i] = d[j];
-  d[j] = nearer;
-  uint c = child[i];
-  child[i] = child[j];
-  child[j] = c;
+// A child of a node, and how far it is, squared.
+struct Near {
+  uint child;
+  float distance2;
+};
+
+Near child_at(uint at, uint k, vec3 p) {
+  uvec4 lo = nodes[kNodeWords * at + 2u * k];
+  uvec4 hi = nodes[kNodeWords * at + 2u * k + 1u];
+  return Near(lo.w, box_distance2(p, uintBitsToFloat(lo.xyz), uintBitsToFloat(hi.xyz)));
 }
 
-// From a node to its nearest child within reach; the others are left for later.
+// The nearer of the two becomes `nearest`, the other is left for later where it is within reach.
+void leave_farther(Near other, inout Near nearest, float reach) {
+  bool nearer = other.distance2 < nearest.distance2;
+  uint left = choose(nearer, nearest.child, other.child);
+  float distance2 = choose(nearer, nearest.distance2, other.distance2);
+  nearest.child = choose(nearer, other.child, nearest.child);
+  nearest.distance2 = choose(nearer, other.distance2, nearest.distance2);
+  if (distance2 >= reach) return;
+  left_child[left_count] = left;
+  left_distance2[left_count] = distance2;
+  ++left_count;
+}
+
+// From a node to its nearest child within reach. To sort the others costs what it saves. Not a
+// loop, whose vectors' components would be named by a variable: slow on CPU devices.
 uint step_down(uint at, vec3 p, float reach) {
-  vec4 d;
-  uvec4 child;
-  for (uint k = 0u; k < 4u; ++k) {
-    uvec4 lo = nodes[kNodeWords * at + 2u * k];
-    uvec4 hi = nodes[kNodeWords * at + 2u * k + 1u];
-    d[k] = box_distance2(p, uintBitsToFloat(lo.xyz), uintBitsToFloat(hi.xyz));
-    child[k] = lo.w;
-  }
-  // The nearest last; to sort the others, too, costs what it saves.
-  for (uint k = 0u; k < 3u; ++k) sort_two(d, child, k, 3u);
-  for (uint k = 0u; k < 3u; ++k) {
-    if (d[k] < reach) {
-      left_child[left_count] = child[k];
-      left_distance2[left_count] = d[k];
-      ++left_count;
-    }
-  }
-  if (d.w < reach) return child.w;
+  Near a = child_at(at, 0u, p);
+  Near b = child_at(at, 1u, p);
+  Near c = child_at(at, 2u, p);
+  Near nearest = child_at(at, 3u, p);
+  leave_farther(a, nearest, reach);
+  leave_farther(b, nearest, reach);
+  leave_farther(c, nearest, reach);
+  if (nearest.distance2 < reach) return nearest.child;
   return pop(reach);
 }
 

@@ -11,6 +11,7 @@
 #ifndef VKH_SHADERS_LIB_CERTIFIED_H
 #define VKH_SHADERS_LIB_CERTIFIED_H
 
+#include "shaders/lib/choose.h"
 #include "shaders/lib/two_float.h"
 
 VKH_LIB_BEGIN
@@ -63,7 +64,10 @@ VKH_FN float next_down(float x) {
 
 // a / b where b is a square, 0 where b is too small to mean anything. Not certified: a quotient
 // only places a point, and any point in its range is right.
-VKH_FN float ratio(float a, float b) { return b > kSmallSquare ? a / b : 0.0f; }
+VKH_FN float ratio(float a, float b) {
+  float quotient = a / b;
+  return choose(b > kSmallSquare, quotient, 0.0f);
+}
 
 // >= |v|, within 4 ulp. From s near sqrt(x), sqrt(x) = sqrt(s^2 + e) <= s + e / (2 s) for either
 // sign of e: the root's own error only enters through e, which is taken to 48 bits. The dot

@@ -67,9 +67,9 @@ Child split_child(uint code) {
   uint index = parent_of(code);
   Split split = splits[index];
   Candidate parent = frontier[reading(split.parent)];
-  if (!splits_twice()) return child_of_candidate(parent, index, split.code, code & 3u);
-  uint which = (code >> 2) & 3u;
+  uint which = (splits_twice() ? code >> 2 : code) & 3u;
   Child c = child_of_candidate(parent, index, split.code, which);
+  if (!splits_twice()) return c;
   uint inner = inner_split(split, which);
   if (inner == kSplitNone) return c;
   return child_of_child(c, inner, code & 3u, 15u * index + 3u + 3u * which);

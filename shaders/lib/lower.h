@@ -21,12 +21,12 @@ VKH_FN float coarse_distance_down(Surface s, vec3 r) {
   return lowered(quotient_down(reach, length) - s.base);
 }
 
-// What must be taken from r so that it is orthogonal to u, and to v too where `both`.
-VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool both) {
+// What must be taken from r so that it is orthogonal to u, and to v too where `to_both`.
+VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool to_both) {
   float uu = dot(u.hi, u.hi);
   float x = rounded(two_dot(r, u));
   vec3 correction = ratio(x, uu) * u.hi;
-  if (both) {
+  if (to_both) {
     float along = ratio(dot(v.hi, u.hi), uu);
     vec3 h = v.hi - along * u.hi;
     float y = rounded(two_dot(r, v)) - along * x;
@@ -37,10 +37,16 @@ VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool both) {
 
 // The offset made orthogonal, to 48 bits: the second correction is of the order of an ulp of r, so
 // that its own rounding does not matter.
-VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool both) {
+VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool to_both) {
   Two3 r = two(offset);
-  r.hi = r.hi - orthogonal_correction(r, u, v, both);
-  r.lo = -orthogonal_correction(r, u, v, both);
+  for (uint k = 0u; k < 2u; ++k) {
+    vec3 correction = orthogonal_correction(r, u, v, to_both);
+    if (k == 0u) {
+      r.hi = r.hi - correction;
+    } else {
+      r.lo = -correction;
+    }
+  }
   return two_sum(r.hi, r.lo);  // on a sliver the second correction is not small
 }
 

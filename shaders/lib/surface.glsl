@@ -30,14 +30,15 @@ Surface load_surface(uint i, View from) {
 bool is_same(vec3 p, vec3 q) {
   uvec3 u = floatBitsToUint(p);
   uvec3 v = floatBitsToUint(q);
-  bvec3 zero = equal((u | v) << 1, uvec3(0u));
-  bvec3 same = equal(u, v);
-  return (same.x || zero.x) && (same.y || zero.y) && (same.z || zero.z);
+  uvec3 zero = uvec3(equal((u | v) << 1, uvec3(0u)));
+  return all(bvec3(zero | uvec3(equal(u, v))));
 }
 
-bool is_same(Two3 p, Two3 q) { return is_same(p.hi, q.hi) && is_same(p.lo, q.lo); }
+bool is_same(Two3 p, Two3 q) { return both(is_same(p.hi, q.hi), is_same(p.lo, q.lo)); }
 
-bool is_corner(Two3 p, Exact t) { return is_same(p, t.a) || is_same(p, t.b) || is_same(p, t.c); }
+bool is_corner(Two3 p, Exact t) {
+  return either(is_same(p, t.a), either(is_same(p, t.b), is_same(p, t.c)));
+}
 
 // Whether each corner of a triangle is one of triangle i: then it lies in that, and its distance
 // from B is 0 whatever the rounding.

@@ -31,7 +31,7 @@ VKH_CONST uint kInside = 3u;
 VKH_FN Closest closer(Closest x, Closest y) {
   bool surely = y.distance2 < (1.0f - 8.0f * kUlp) * x.distance2;
   bool perhaps = y.distance2 <= (1.0f + 8.0f * kUlp) * x.distance2;
-  if (surely || (perhaps && y.rank < x.rank)) return y;
+  if (either(surely, both(perhaps, y.rank < x.rank))) return y;
   return x;
 }
 
@@ -68,7 +68,8 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
       ratio(dot(ap - x * ab, h), hh);  // not ap: h is only orthogonal to ab up to an ulp of ac
   float v = x - w * s;
 
-  vec3 normal = hh > kSmallSquare ? (ap - v * ab) - w * ac : vec3(0.0f, 0.0f, 0.0f);
+  bool has_inside = hh > kSmallSquare;
+  vec3 normal = choose(has_inside, (ap - v * ab) - w * ac, vec3(0.0f, 0.0f, 0.0f));
 
   Closest best = closest_on_edge(ap, ab, x, kEdgeAb, normal);
   float along_ac = ratio(dot(ap, ac), dot(ac, ac));
@@ -76,7 +77,8 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
   float along_bc = ratio(dot(bp, bc), dot(bc, bc));
   best = closer(best, closest_on_edge(bp, bc, along_bc, kEdgeBc, normal));
   // 4 kUlp under 1, so that v + w <= 1 holds for the exact sum too.
-  if (hh > kSmallSquare && v >= 0.0f && w >= 0.0f && v + w <= 1.0f - 4.0f * kUlp) {
+  bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp));
+  if (both(has_inside, in_halves)) {
     Closest inner;
     inner.offset = normal;
     inner.distance2 = dot(inner.offset, inner.offset);
@@ -109,12 +111,13 @@ VKH_FN float plain_distance2(vec3 p, Corners t) {
   float w = ratio(dot(ap - x * ab, h), hh);
   float v = x - w * s;
   vec3 normal = (ap - v * ab) - w * ac;
-  bool inside = hh > kSmallSquare && v >= 0.0f && w >= 0.0f && v + w <= 1.0f - 4.0f * kUlp;
+  bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp));
+  bool inside = both(hh > kSmallSquare, in_halves);
   vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;
   vec3 to_ac = ap - clamp(ratio(dot(ap, ac), dot(ac, ac)), 0.0f, 1.0f) * ac;
   vec3 to_bc = bp - clamp(ratio(dot(bp, bc), dot(bc, bc)), 0.0f, 1.0f) * bc;
   float at_edges = min(dot(to_ab, to_ab), min(dot(to_ac, to_ac), dot(to_bc, to_bc)));
-  return inside ? dot(normal, normal) : at_edges;
+  return choose(inside, dot(normal, normal), at_edges);
 }
 
 // Largest distance of a corner from the local origin.
