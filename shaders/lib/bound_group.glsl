@@ -139,11 +139,13 @@ Verdict bound_singly(uint child, float threshold) {
 // beat the better of its two distances at the worst corner. Which are tried does not depend on what
 // others found, or the bound would depend on their order.
 void list_pairs(uint child, float upper, bool fine) {
-  for (uint i = 1u; i < known_count[child]; ++i) {
+  float shift = held[kHeldSlack][child];
+  uint known = known_count[child];
+  for (uint i = 1u; i < known; ++i) {
+    vec3 di = distances_of(child, i);
     for (uint j = 0u; j < i; ++j) {
-      vec3 di = distances_of(child, i);
       vec3 dj = distances_of(child, j);
-      float at_best = kept_bound(bound_nearer(di, dj), held[kHeldSlack][child]);
+      float at_best = kept_bound(bound_nearer(di, dj), shift);
       if (cut_by(di - dj).none || at_best >= upper) continue;
       uint slot = atomicAdd(pair_count, 1u);
       listed[slot] = (child * kMaxKnown + i) * kMaxKnown + j;
@@ -165,11 +167,14 @@ void measure_cuts(bool fine, float enough) {
     vec3 di = distances_of(child, i);
     vec3 dj = distances_of(child, j);
     Cut cut = cut_by(di - dj);
+    Patch t = patch_of_child(child);
+    View view = view_of_child(child);
+    view.enough = enough;
     float u3 = bound_nearer(di, dj);
     Surface s;
     for (uint part = n % step; part < 4u; part += step) {
-      if (fine || (part & 1u) == 0u) s = surface_of(child, part < 2u ? i : j, enough);
-      Two3 p = cut_point(patch_of_child(child), cut, part & 1u, di - dj);
+      if (fine || (part & 1u) == 0u) s = load_surface(known_to(child, part < 2u ? i : j), view);
+      Two3 p = cut_point(t, cut, part & 1u, di - dj);
       u3 = max(u3, surface_distance_up(p, s));
     }
     uint bits = floatBitsToUint(kept_bound(u3, held[kHeldSlack][child]));

@@ -58,11 +58,11 @@ VKH_FN float bound_u2(Patch t, vec3 d) {
   return round_up(max(enclosing_radius_up(t.at) + max3(d), 0.0f), 2.0f);
 }
 
-VKH_FN float pick3(vec3 v, uint i) { return i == 0u ? v.x : (i == 1u ? v.y : v.z); }
+VKH_FN float pick3(vec3 v, uint i) { return choose(i == 0u, v.x, choose(i == 1u, v.y, v.z)); }
 VKH_FN Two3 corner_at(Patch t, uint i) {
-  Two3 p = t.a;
-  if (i == 1u) p = t.b;
-  if (i == 2u) p = t.c;
+  Two3 p;
+  p.hi = choose(i == 0u, t.a.hi, choose(i == 1u, t.b.hi, t.c.hi));
+  p.lo = choose(i == 0u, t.a.lo, choose(i == 1u, t.b.lo, t.c.lo));
   return p;
 }
 
@@ -84,7 +84,7 @@ VKH_FN vec3 corner_distances(Patch t, Surface s) {
 struct Cut {
   bool none;  // all corners are on one side
   uint alone;
-  uint ends[2];  // the other corners
+  uint first, second;  // the other corners, the next and the last
 };
 
 VKH_FN Cut cut_by(vec3 side) {
@@ -93,21 +93,22 @@ VKH_FN Cut cut_by(vec3 side) {
   bool nc = side.z < 0.0f;
   Cut cut;
   cut.none = na == nb && nb == nc;
-  cut.alone = na == nb ? 2u : (na == nc ? 1u : 0u);
-  cut.ends[0] = cut.alone == 2u ? 0u : cut.alone + 1u;
-  cut.ends[1] = cut.alone == 0u ? 2u : cut.alone - 1u;
+  cut.alone = choose(na == nb, 2u, choose(na == nc, 1u, 0u));
+  cut.first = choose(cut.alone == 2u, 0u, cut.alone + 1u);
+  cut.second = choose(cut.alone == 0u, 2u, cut.alone - 1u);
   return cut;
 }
 
-// Where the edge to ends[k] is cut: where `side` would be 0 if it were linear. Any cut is right, as
+// Where the edge to the first (k = 0) or second other corner is cut: where `side` would be 0 if it were linear. Any cut is right, as
 // both pieces use it. It is off by 6 kUlp2 of T's radius, which is under 2^-41 of the surfaces'
 // slack and of T: placement_slack takes it.
 VKH_FN Two3 cut_point(Patch t, Cut cut, uint k, vec3 side) {
+  uint end = choose(k == 0u, cut.first, cut.second);
   Two3 from = corner_at(t, cut.alone);
-  Two3 to = corner_at(t, cut.ends[k]);
+  Two3 to = corner_at(t, end);
   float near_from = abs(pick3(side, cut.alone));
-  float gap = near_from + abs(pick3(side, cut.ends[k]));
-  float at = gap > kTiny ? min(near_from / gap, 1.0f) : 0.5f;  // uncertified: any cut is right
+  float gap = near_from + abs(pick3(side, end));
+  float at = choose(gap > kTiny, min(near_from / gap, 1.0f), 0.5f);  // uncertified: any cut is right
   return two_combination(from, at, two_difference(to, from), 0.0f, two(vec3(0.0f, 0.0f, 0.0f)));
 }
 
