@@ -22,7 +22,7 @@ Corners local_triangle(uint i, vec3 origin) {
 }
 
 float box_distance2(vec3 p, vec3 lo, vec3 hi) {
-  vec3 d = min(max(p, lo), hi) - p;  // an empty box is farther than all others
+  vec3 d = max(max(lo - p, p - hi), vec3(0.0));
   return dot(d, d);
 }
 
@@ -40,9 +40,8 @@ float triangle_distance2(vec3 p, uint i) {
 
 // Of equally far triangles the first, in whichever order they are tried.
 void keep_nearer(uint i, float d2, inout Nearest best) {
-  bool nearer = either(d2 < best.distance2, both(d2 == best.distance2, i < best.triangle));
-  best.triangle = choose(nearer, i, best.triangle);
-  best.distance2 = choose(nearer, d2, best.distance2);
+  if (d2 < best.distance2 || (d2 == best.distance2 && i < best.triangle))
+    best = Nearest(i, d2, 0.0);
 }
 
 void try_triangle(vec3 p, uint i, inout Nearest best) {
@@ -219,7 +218,7 @@ void walk_on(Query q, inout Nearest best) {
         float d2 = triangle_distance2(q.p.hi, i);
         float next_d2 = triangle_distance2(q.p.hi, next);
         keep_query(q, i, d2, best);
-        keep_query(q, next, next_d2, best);  // where it is i again, it changes nothing
+        if (next > i) keep_query(q, next, next_d2, best);
       }
       reach = reach_of(q, best);
       walk_at = pop(reach);
