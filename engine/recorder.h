@@ -1,6 +1,6 @@
-// Records kernels into the caller's command buffer, or onto a track. It alone names barriers and
-// timestamps: a global barrier stands before every command unless it is told that the command is
-// independent of the one before.
+// Records kernels into the caller's command buffer, or onto a track. It alone writes timestamps; a
+// global barrier stands before every command unless it is told that the command is independent of
+// the one before (engine/command.cpp).
 #pragma once
 
 #include <algorithm>

@@ -42,10 +42,10 @@ VKH_CONST uint kMaxGroupsX =
 // Invocations of query: one query each, or one for all where a wave has few queries.
 VKH_CONST uint kQueryGroup = 64u;
 // Which points it is asked for.
-VKH_CONST uint kAskPoints = 0u;         // the wave's new points
-VKH_CONST uint kAskCentroids = 1u;      // the centroids of its survivors
-VKH_CONST uint kAskVertices = 2u;       // of A, in plain floats
-VKH_CONST uint kAskVerticesAgain = 3u;  // to 48 bits above the base
+VKH_CONST uint kAskPoints = 0u;               // the wave's new points
+VKH_CONST uint kAskCentroids = 1u;            // the centroids of its survivors
+VKH_CONST uint kAskVertices = 2u;             // of A, in plain floats
+VKH_CONST uint kAskVerticesAgain = 3u;        // to 48 bits above the base
 VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
                                               // alike on an H200, 2^11 and 2^14 slower
 // Vertices of A, whose walks start from nowhere: the group's is long, too.

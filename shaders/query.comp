@@ -69,8 +69,9 @@ void main() {
     float than = asks_for_points() ? control.witness.distance : -1.0;
     if (!plain) found = measured(item.query, found, than);
     item.nearest = found.triangle;
-    // Uncertified: in plain floats it steers; the second pass measures what matters.
-    item.distance = plain ? sqrt(found.distance2) : max(found.above, 0.0);
+    item.distance = max(found.above, 0.0);
+    // In plain floats it steers; the second pass measures what matters.
+    if (plain) item.distance = sqrt(found.distance2);  // uncertified: steers
   }
   if (asks_for_points()) {
     if (item.asked) answer_point(i, item);

@@ -3,7 +3,7 @@
 #   - sqrt length distance normalize inversesqrt and '/' in shaders/: only in lib/certified.h, or with
 #     '// uncertified: why' on the line or in the comment right above it. A '/' whose divisor is an unsigned literal or
 #     a 'const uint' passes, if nothing on its line is or looks like a float.
-#   - calls of vkCmdPipelineBarrier in engine/: only in engine/recorder.cpp.
+#   - calls of vkCmdPipelineBarrier in engine/: only in engine/command.cpp.
 #   - 400 lines a file, 250 a kernel (*.comp).
 #   - clang-format, where it is the version that the project is written with (others disagree in details).
 # usage: tools/check_style.sh [ROOT]
@@ -114,7 +114,7 @@ check_certified() {
 check_barriers() {
   [ ${#recording[@]} -gt 0 ] || return 0
   code_lines "${recording[@]}" | awk -F '\t' '
-    $3 ~ /CmdPipelineBarrier[0-9A-Z]*[ ]*\(/ && $1 !~ /^engine\/recorder\.cpp:/ { print $1 " a barrier outside engine/recorder.cpp" }'
+    $3 ~ /CmdPipelineBarrier[0-9A-Z]*[ ]*\(/ && $1 !~ /^engine\/command\.cpp:/ { print $1 " a barrier outside engine/command.cpp" }'
 }
 
 # check_length LIMIT FILE...

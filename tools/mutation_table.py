@@ -163,6 +163,8 @@ ROWS = [
     row("place's second edge", BARY, "float(point.y) * kBaryUnit", ["0.0f * float(point.y)"], ON_BARY),
     row("middle", BARY, "(p.x + q.x) >> 1", ["(p.x + q.x + 1u) >> 1", "((p.x + q.x) >> 2) * 2u"], ON_BARY),
     row("has_middle", BARY, "((p.x + q.x) | (p.y + q.y)) & 1u", ["(p.x + q.x) & 1u"], ON_BARY),
+    row("the first child", BARY, "choose(child == 0u, 0u, 6u - child)", ["choose(child == 0u, 0u, 5u - child)"], ON_BARY),
+    row("the third child", BARY, "choose(child == 2u, 2u, 4u - child)", ["choose(child == 1u, 2u, 4u - child)"], ON_BARY),
     row("the fourth child", BARY, "return uvec3(3u, 4u, 5u);", ["return uvec3(0u, 5u, 4u);"], ON_BARY),
 
     # lower.h

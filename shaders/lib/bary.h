@@ -159,9 +159,7 @@ VKH_FN uvec2 middle(uvec2 p, uvec2 q) { return uvec2((p.x + q.x) >> 1, (p.y + q.
 
 VKH_FN bool has_middle(uvec2 p, uvec2 q) { return (((p.x + q.x) | (p.y + q.y)) & 1u) == 0u; }
 
-VKH_FN uvec2 corner_of(Bary3 t, uint i) {
-  return choose(i == 0u, t.a, choose(i == 1u, t.b, t.c));
-}
+VKH_FN uvec2 corner_of(Bary3 t, uint i) { return choose(i == 0u, t.a, choose(i == 1u, t.b, t.c)); }
 
 struct Bary6 {
   Bary3 corner, fresh;
@@ -172,12 +170,8 @@ VKH_FN uvec2 point_of(Bary6 p, uint i) {
 }
 
 // The corners after and before corner i, whose edge lies opposite.
-VKH_FN uvec2 next_of(Bary3 t, uint i) {
-  return choose(i == 0u, t.b, choose(i == 1u, t.c, t.a));
-}
-VKH_FN uvec2 last_of(Bary3 t, uint i) {
-  return choose(i == 0u, t.c, choose(i == 1u, t.a, t.b));
-}
+VKH_FN uvec2 next_of(Bary3 t, uint i) { return choose(i == 0u, t.b, choose(i == 1u, t.c, t.a)); }
+VKH_FN uvec2 last_of(Bary3 t, uint i) { return choose(i == 0u, t.c, choose(i == 1u, t.a, t.b)); }
 
 VKH_FN uvec2 middle_opposite(Bary3 t, uint i) { return middle(next_of(t, i), last_of(t, i)); }
 

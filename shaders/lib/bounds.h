@@ -99,16 +99,17 @@ VKH_FN Cut cut_by(vec3 side) {
   return cut;
 }
 
-// Where the edge to the first (k = 0) or second other corner is cut: where `side` would be 0 if it were linear. Any cut is right, as
-// both pieces use it. It is off by 6 kUlp2 of T's radius, which is under 2^-41 of the surfaces'
-// slack and of T: placement_slack takes it.
+// Where the edge to the first (k = 0) or second other corner is cut: where `side` would be 0 if it
+// were linear. Any cut is right, as both pieces use it. It is off by 6 kUlp2 of T's radius, which
+// is under 2^-41 of the surfaces' slack and of T: placement_slack takes it.
 VKH_FN Two3 cut_point(Patch t, Cut cut, uint k, vec3 side) {
   uint end = choose(k == 0u, cut.first, cut.second);
   Two3 from = corner_at(t, cut.alone);
   Two3 to = corner_at(t, end);
   float near_from = abs(pick3(side, cut.alone));
   float gap = near_from + abs(pick3(side, end));
-  float at = choose(gap > kTiny, min(near_from / gap, 1.0f), 0.5f);  // uncertified: any cut is right
+  float at =
+      choose(gap > kTiny, min(near_from / gap, 1.0f), 0.5f);  // uncertified: any cut is right
   return two_combination(from, at, two_difference(to, from), 0.0f, two(vec3(0.0f, 0.0f, 0.0f)));
 }
 

@@ -134,11 +134,11 @@ ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance)
   problem_.b.memory = {hierarchy_.handle(), 0, hierarchy.hierarchySize};
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = cull_tolerance;
+  scratch_view_ = {scratch_.handle(), 0, scratch_.size()};
 }
 
 void ApiPair::build(VkCommandBuffer commands) {
-  const VkhMemory scratch{scratch_.handle(), 0, scratch_.size()};
-  vkhCmdBuildHierarchy(context_, commands, &b_.view(), &problem_.b, &scratch, nullptr);
+  vkhCmdBuildHierarchy(context_, commands, &b_.view(), &problem_.b, &scratch_view_, nullptr);
 }
 
 void ApiPair::refit(VkCommandBuffer commands) {
@@ -162,6 +162,20 @@ void ApiPair::advance(VkCommandBuffer commands, uint32_t waves) {
 
 void ApiPair::report(VkCommandBuffer commands, uint32_t slot) {
   vkhCmdWriteReport(context_, commands, &problem_, reports_.handle(), report_offset(slot), nullptr);
+  record_host_barrier(commands);
+}
+
+VkhTask ApiPair::task(uint32_t waves) {
+  return {.mesh = &b_.view(),
+          .scratch = &scratch_view_,
+          .problem = &problem_,
+          .begin = VK_TRUE,
+          .waves = waves,
+          .reportBuffer = reports_.handle(),
+          .reportOffset = report_offset(0)};
+}
+
+void record_host_barrier(VkCommandBuffer commands) {
   VkMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
   barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;

@@ -66,6 +66,8 @@ class ApiPair {
   /// Writes report `slot` (0..3), and makes it visible to the host.
   void report(VkCommandBuffer commands, uint32_t slot = 0);
   VkhReport read(uint32_t slot = 0) const;
+  /// Build, begin, `waves` and report 0, to be changed as a test likes; refers to this pair.
+  VkhTask task(uint32_t waves);
   VkBuffer report_buffer() const { return reports_.handle(); }
   static VkDeviceSize report_offset(uint32_t slot);
 
@@ -75,7 +77,8 @@ class ApiPair {
   std::byte* workspace() const { return workspace_.mapped(); }
   VkDeviceSize workspace_size() const { return problem_.workspace.size; }
   ApiCommands& commands() { return commands_; }
-  const VkhProblem& problem() const { return problem_; }
+  VkhProblem& problem() { return problem_; }
+  VkhContext context() const { return context_; }
 
  private:
   VkhContext context_;
@@ -83,8 +86,12 @@ class ApiPair {
   ApiMesh& a_;
   ApiMesh& b_;
   Buffer hierarchy_, scratch_, workspace_, reports_;
+  VkhMemory scratch_view_{};
   VkhProblem problem_{};
 };
+
+/// Makes what compute shaders wrote visible to the host.
+void record_host_barrier(VkCommandBuffer commands);
 
 Interval interval(const VkhReport& report);
 /// lower <= h(a, b) <= upper, as far as the reference encloses h.
