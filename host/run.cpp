@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "host/error.h"
+#include "host/parallel.h"
 
 namespace vkh {
 namespace {
@@ -75,11 +76,8 @@ VkhContext Runner::context_for(uint32_t switches) {
 void Runner::seat(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
   while (seats_.size() < std::max<size_t>(inputs.size(), 1))
     seats_.push_back(std::make_unique<Seat>(device_));
-  for (size_t i = 0; i < inputs.size(); ++i) {
-    const double start = now_ms();
-    seats_[i]->take(context_, inputs[i], outputs[i]);
-    outputs[i].upload_ms = now_ms() - start;
-  }
+  for_each_index(inputs.size(),
+                 [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i]); });
 }
 
 VkCommandBuffer Runner::begin() {
@@ -175,7 +173,9 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   if (inputs.empty()) return outputs;
   context_ = context_for(inputs[0].switches);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
+  const double start = now_ms();
   seat(inputs, outputs);
+  for (RunOutput& output : outputs) output.upload_ms = now_ms() - start;
   const auto is_over = [&](size_t i) {
     const VkhReport& r = outputs[i].report;
     const bool is_wanted = inputs[i].advanced(r);

@@ -49,7 +49,7 @@ struct RunOutput {
   uint64_t workspace_bytes = 0;
   /// Asked for: of each face of A the closed part, then of each the open one; 2^40 is a whole face.
   std::vector<uint64_t> areas;
-  double upload_ms = 0;  ///< host: buffers and copying into them
+  double upload_ms = 0;  ///< host: buffers and copying into them; of all that were run at once
 };
 
 class Seat {

@@ -8,6 +8,7 @@
 #include "host/closest.h"
 #include "host/error.h"
 #include "host/frame.h"
+#include "host/parallel.h"
 #include "host/run.h"
 #include "host/switches.h"
 #include "host/verify.h"
@@ -258,7 +259,7 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const So
   Times times;
   times.upload_ms = ms_since(start);
   const std::vector<RunOutput> runs = runner.run(inputs);
-  for (const RunOutput& run : runs) times.upload_ms += run.upload_ms;
+  if (!runs.empty()) times.upload_ms += runs[0].upload_ms;
   times.wall_ms = ms_since(start);
 
   std::vector<Report> reports;
@@ -283,12 +284,19 @@ std::vector<Report> Solver::distances(std::span<const PairView> meshes,
                                       const SolveOptions& options) {
   const auto start = Clock::now();
   check_options(options);
-  std::vector<FramedPair> framed;
-  for (const PairView& m : meshes) framed.push_back(frame_pair(m.a, m.b));
+  struct Framed {
+    FramedPair pair;
+    Box box_a, joint;
+  };
+  std::vector<Framed> framed(meshes.size());
+  for_each_index(meshes.size(), [&](size_t i) {
+    const auto& [a, b] = meshes[i];
+    const Box box_a = bounding_box(a);
+    framed[i] = {frame_pair(a, b), box_a, join(box_a, bounding_box(b))};
+  });
   std::vector<Pair> pairs;
   for (size_t i = 0; i < meshes.size(); ++i) {
-    const FramedPair& f = framed[i];
-    const Box box_a = bounding_box(meshes[i].a);
+    const FramedPair& f = framed[i].pair;
     pairs.push_back({.a = meshes[i].a,
                      .b = meshes[i].b,
                      .frame = f.frame,
@@ -297,8 +305,8 @@ std::vector<Report> Solver::distances(std::span<const PairView> meshes,
                      .resident = nullptr,
                      .displacement = f.a.displacement + f.b.displacement,
                      .has_low = f.a.has_low || f.b.has_low,
-                     .box_a = box_a,
-                     .joint = join(box_a, bounding_box(meshes[i].b))});
+                     .box_a = framed[i].box_a,
+                     .joint = framed[i].joint});
   }
   return impl_->solve(pairs, options, start);
 }
