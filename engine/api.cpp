@@ -108,7 +108,7 @@ bool record_in_step(const VkhContext_T& context, VkCommandBuffer commands, const
       record_task(rec, context, tasks[i]);
     }
     write_in_step(context, commands, tracks);
-  } catch (const std::bad_alloc&) {
+  } catch (...) {  // no exception may cross a C interface; nothing has been written yet
     return false;
   }
   return true;

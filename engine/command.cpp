@@ -56,7 +56,7 @@ void write_without_barrier(const VkhContext_T& context, VkCommandBuffer commands
       context.vk.CmdDispatchIndirect(commands, c.size.buffer, c.size.offset);
       break;
     case Command::Kind::kFill:
-      context.vk.CmdFillBuffer(commands, filled.buffer, filled.offset, filled.size, c.groups);
+      context.vk.CmdFillBuffer(commands, filled.buffer, filled.offset, filled.size, c.word);
       break;
   }
 }

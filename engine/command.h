@@ -28,7 +28,8 @@ struct Command {
   uint32_t slice_count = 0;
   std::array<std::byte, kMaxPushBytes> push;
   uint32_t push_bytes = 0;
-  uint32_t groups = 0;        // of a dispatch; the word of a fill
+  uint32_t groups = 0;        // of a dispatch
+  uint32_t word = 0;          // of a fill
   Slice<gpu::Dispatch> size;  // of an indirect one: one of them
 };
 

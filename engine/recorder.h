@@ -69,7 +69,7 @@ class Recorder {
     command.kind = Command::Kind::kFill;
     command.order = order;
     command.slices[0] = as<uint32_t>(slice);
-    command.groups = word;
+    command.word = word;
     put(command);
   }
   uint32_t switches() const { return context_.limits.switches; }

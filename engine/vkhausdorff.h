@@ -15,7 +15,7 @@
  *               whenever B moves:   vkhCmdRefitHierarchy, or build again
  *               once a pair:        vkhGetWorkspaceRequirements, vkhCmdBegin
  *               then as you like:   vkhCmdAdvance (n waves), vkhCmdWriteReport
- *               many pairs at once: vkhCmdRunTasks, which does the last four for each
+ *               many pairs at once: vkhCmdRunTasks, which builds, begins, advances and reports
  * All of it may stand in one command buffer, or be spread over many: two waves a frame and a report
  * after each. Reports of one run nest: lower never falls and upper never rises, but for rounding.
  * For a mesh that deforms, each frame is: refit, begin (warm), advance, report.
@@ -26,8 +26,8 @@
  *
  * Threads. A context is immutable and may be used from several threads at once. A command buffer,
  * as always in Vulkan, is recorded by one thread at a time. Two recordings that run at the same
- * time on the device must not share a workspace, a scratch or a report, and a hierarchy must not be
- * built or refitted while a run reads it.
+ * time on the device must not share a workspace, a scratch, a report or a coverage buffer, and a
+ * hierarchy must not be built or refitted while a run reads it.
  *
  * Recording. Outside a render pass, into a primary or secondary command buffer whose pool's queue
  * family has VK_QUEUE_COMPUTE_BIT. The command buffer may be submitted any number of times, one at
@@ -364,13 +364,15 @@ typedef struct VkhTask {
 
 /* Records the tasks side by side: what each does is what the functions above would do one after the
  * other, and so is every bit of its report, but one barrier stands for the same step of all. A pair
- * of some 10,000 faces leaves most of a large GPU idle; 16 of them take little longer than the
- * slowest (measured on an H200: 80 pairs in less than half the time that they take in turn). Tasks
- * run at the same time on the device: no two may share a workspace, a scratch, a report or a
- * hierarchy that one of them builds or refits; a hierarchy that none does may serve many. As many
- * waves as the longest task needs are gone through by all, so give tasks of like size. Memory on
- * the host while it records: about 50 kB a task. If there is none, tasks are recorded in turn.
- * Timestamps: with one task as the functions above write them; else one stage, "tasks". */
+ * of some 10,000 faces leaves most of a large GPU idle: 80 pairs, 16 at a time, take a little less
+ * than half of what they take in turn (60 and 28 ms on an H200). As many waves as the longest task
+ * needs are gone through by all, so give tasks of like size.
+ *   Tasks run at the same time on the device: what one writes (workspace, scratch, report,
+ * coverage, a hierarchy that it builds or refits) no other may use. A task's scratch may lie in its
+ * own workspace; a hierarchy that none of them builds or refits may serve many. On the host about
+ * 15 kB a task and 2 to 4 kB a wave of it, or twice that, while it records. Where there is no such
+ * memory, tasks are recorded in turn. Timestamps: of one task, or of tasks in turn, as the
+ * functions above write them, with one null for all; of several one stage, "tasks". */
 void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,
                     const VkhTask* tasks, VkhProfile* profile);
 

@@ -61,7 +61,7 @@ struct Workspace {
   Slice<uint32_t> survivors;         // kUseFilter
   Slice<gpu::Point> centroids;       // kUseFilter
   Slice<float> u3_bounds;            // kUsePaperU3
-  SortStreams sort;                  // kUseSort
+  SortStreams sort;                  // kUseSort; else values[0] alone is something
   uint32_t capacity = 0;
 
   Slice<gpu::Dispatch> dispatch(uint32_t which) const {
@@ -78,7 +78,7 @@ VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count);
 VkDeviceSize scratch_size(uint32_t face_count);
 // `switches`: of the context, for some have streams of their own.
 VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
-                            uint32_t switches = 0);
+                            uint32_t switches);
 
 // Candidates in each half of the frontier that fit `bytes`, at most what the device's bindings
 // reach; 0 if not even the fixed streams fit.

@@ -17,12 +17,12 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data,
                                           void* count) {
-  ++*static_cast<uint32_t*>(count);
+  ++*static_cast<std::atomic<uint32_t>*>(count);
   std::fprintf(stderr, "validation: %s\n", data->pMessage);
   return VK_FALSE;
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messenger_info(uint32_t* count) {
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<uint32_t>* count) {
   VkDebugUtilsMessengerCreateInfoEXT info{};
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
   info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |

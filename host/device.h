@@ -1,6 +1,7 @@
 // A Vulkan instance, device and queue: our own, or somebody else's that we may use.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -83,8 +84,8 @@ class Device {
   bool owned_ = true;
   bool has_timestamps_ = true;
   double timestamp_period_ns_ = 1;
-  std::unique_ptr<uint32_t> messages_ =
-      std::make_unique<uint32_t>(0);  // the messenger keeps its address
+  // The messenger keeps its address, and calls from any thread.
+  std::unique_ptr<std::atomic<uint32_t>> messages_ = std::make_unique<std::atomic<uint32_t>>(0);
 };
 
 /// Every Vulkan device of this machine, usable or not, in the order of preference.

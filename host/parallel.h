@@ -10,9 +10,8 @@
 
 namespace vkh {
 
-/// Calls work(0) to work(count - 1), in any order and several at once; fewer threads, or none but
-/// this one, where there are no more to be had. Throws what one of them threw, after all have
-/// ended.
+/// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
+/// there are any to be had. Throws what one of them threw, after all have ended.
 template <class F>
 void for_each_index(size_t count, const F& work) {
   constexpr size_t kMostThreads = 8;
@@ -21,12 +20,12 @@ void for_each_index(size_t count, const F& work) {
   const auto some = [&] {
     for (size_t i = next++; i < count; i = next++) work(i);
   };
-  std::vector<std::future<void>> others;
+  std::vector<std::future<void>> shares = {};
+  shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
   for (size_t i = 1; i < std::min(cores, count); ++i)
-    others.push_back(std::async(std::launch::async | std::launch::deferred, some));
-  others.push_back(std::async(std::launch::deferred, some));
-  for (std::future<void>& other : others) other.wait();
-  for (std::future<void>& other : others) other.get();
+    shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
+  for (std::future<void>& share : shares) share.wait();
+  for (std::future<void>& share : shares) share.get();
 }
 
 }  // namespace vkh

@@ -72,8 +72,17 @@ VkhContext Runner::context_for(uint32_t switches) {
   return context;
 }
 
-// Seats are kept, for their buffers.
+// Seats are kept, for their buffers, unless there is no memory beside those of an earlier run.
 void Runner::seat(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
+  try {
+    take_seats(inputs, outputs);
+  } catch (const DeviceError&) {
+    seats_.clear();
+    take_seats(inputs, outputs);
+  }
+}
+
+void Runner::take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
   while (seats_.size() < std::max<size_t>(inputs.size(), 1))
     seats_.push_back(std::make_unique<Seat>(device_));
   for_each_index(inputs.size(),

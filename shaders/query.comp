@@ -1,9 +1,13 @@
-// What: the closest triangle of B to each of some points; every walk but the paper's (wave_packet)
-// is here, for it is most of the code that a driver compiles. push.asked says which points:
+// What: the closest triangle of B to each of some points: all that a run asks for but the witness's
+// after a GPU's plan has moved the base (wave_plan), and the paper's packets (wave_packet). One
+// kernel, for a walk is most of the code that a driver compiles. push.asked says which points:
 //   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
 // negative distance means skip. Out: their nearest and distance; control.maximum[kMaxLower].
-//   A's vertices, in plain floats, at the start of a run (lib/seed.glsl).
-//   the same once more to 48 bits above the base, which follows from the maximum of the first.
+//   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
+// where push.warm (lib/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
+// control.maximum[kMaxVertex].
+//   the same once more, or the witness alone where the base has moved, to 48 bits above the base,
+// which follows from the maximum of the first. Out: the same; control.maximum[kMaxLower].
 // An invocation walks for a point of its own, or, where there are few, all of a workgroup for one
 // (lib/group_walk.glsl).
 #version 460
@@ -47,6 +51,7 @@ uint asked_count() {
 // has few walks, and does not know which.
 bool are_few(uint count) {
   bool few_vertices = push.asked == kAskVertices && push.vertex_count <= kGroupWalkVertices;
+  // Points as walks_in_groups has it, by which the dispatch was sized.
   return kSpread && (asks_for_points() ? count <= kGroupWalkQueries : few_vertices);
 }
 

@@ -39,6 +39,12 @@ struct Pairs {
   size_t size() const { return pairs.size(); }
 };
 
+/// So that nothing is right that the tasks have not written.
+void spoil(ApiPair& pair, bool with_hierarchy) {
+  pair.spoil_report();
+  if (with_hierarchy) pair.spoil_hierarchy();
+}
+
 void run_tasks(ApiPair& any, const std::vector<VkhTask>& tasks, VkhProfile* profile = nullptr) {
   any.commands().submit_and_wait(any.commands().record([&](VkCommandBuffer c) {
     if (profile != nullptr)
@@ -88,12 +94,13 @@ TEST_CASE("tasks side by side give the reports that the pairs have alone, bit fo
     tasks.push_back(pairs[i].task(kWaves));
   }
   for (int again = 0; again < 3; ++again) {
-    for (size_t i = 0; i < pairs.size(); ++i)
-      pairs[i].problem().b.faceCount = 0;  // the task's to set
+    for (size_t i = 0; i < pairs.size(); ++i) spoil(pairs[i], true);
     run_tasks(pairs[0], tasks);
     for (size_t i = 0; i < pairs.size(); ++i) {
       CAPTURE(i);
       CHECK(is_same(pairs[i].read(), alone[i]));
+      CHECK(pairs[i].problem().b.faceCount == tasks[i].mesh->faceCount);
+      CHECK(pairs[i].problem().b.vertexCount == tasks[i].mesh->vertexCount);
     }
   }
 }
@@ -110,8 +117,10 @@ TEST_CASE("tasks have the parts that they are given: no build, no begin, no repo
     go_on.back().mesh = nullptr;
     go_on.back().begin = VK_FALSE;
   }
+  for (size_t i = 0; i < pairs.size(); ++i) spoil(pairs[i], true);
   run_tasks(pairs[0], start);
   for (uint32_t round = 0; round < kWaves; ++round) {
+    for (size_t i = 0; i < pairs.size(); ++i) spoil(pairs[i], false);
     run_tasks(pairs[0], go_on);
     for (size_t i = 0; i < pairs.size(); ++i) {
       const uint32_t waves = 1 + (round + 1) * go_on[i].waves;
@@ -128,21 +137,30 @@ TEST_CASE("tasks that share a hierarchy, and tasks that refit theirs") {
   VkhTask tasks[] = {first.task(kWaves), second.task(kWaves)};
   for (VkhTask& task : tasks) task.mesh = nullptr;
   second.problem().b = first.problem().b;
+  spoil(first, false);
+  spoil(second, false);
   run_tasks(first, {tasks[0], tasks[1]});
   CHECK(is_same(first.read(), of_first));
   CHECK(is_same(second.read(), of_second));
 
-  b.move(scaled(height_field(24, 3), 1));  // twice as large
-  const VkhReport refitted = first.run([&](VkCommandBuffer c) {
+  const Mesh small = height_field(24, 3);
+  const auto build = [&](VkCommandBuffer c) { first.build(c); };
+  const auto refit_and_run = [&](VkCommandBuffer c) {
     first.refit(c);
     first.begin(c);
     first.advance(c, kWaves);
     first.report(c);
-  });
+  };
+  b.move(scaled(small, 1));  // twice as large
+  const VkhReport refitted = first.run(refit_and_run);
   CHECK(!is_same(refitted, of_first));
+  b.move(small);
+  first.run(build);
+  b.move(scaled(small, 1));
   VkhTask refit = first.task(kWaves);
   refit.scratch = nullptr;
   ApiPair third(other, a, kTolerance);
+  spoil(first, false);
   run_tasks(first, {refit, third.task(kWaves)});
   CHECK(is_same(first.read(), refitted));
   check_true(third.read(), other, a);
@@ -153,6 +171,7 @@ TEST_CASE("one task is what the functions record, several are one stage, none is
   const VkhReport alone = run_alone(pairs[1]);
   QueryPool pool;
   VkhProfile of_one = pool.profile();
+  spoil(pairs[1], true);
   run_tasks(pairs[0], {pairs[1].task(kWaves)}, &of_one);
   CHECK(is_same(pairs[1].read(), alone));
   CHECK(of_one.count > kWaves);

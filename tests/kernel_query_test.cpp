@@ -131,8 +131,8 @@ struct Mode {
   bool packet = false;  ///< by wave_packet
 };
 
-Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32_t count,
-                     Mode mode) {
+Query run_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32_t count,
+                Mode mode) {
   Query q;
   q.control = blank_control();
   q.control.two_float = mode.two_float ? 1 : 0;
@@ -178,12 +178,12 @@ Query run_wave_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, u
   return q;
 }
 
-void check_wave_query(KernelBench& bench, const Mesh& mesh, uint32_t count, Mode mode) {
+void check_query(KernelBench& bench, const Mesh& mesh, uint32_t count, Mode mode) {
   CAPTURE(count);
   CAPTURE(mode.two_float);
   const Hierarchy h = build_hierarchy(bench, mesh).hierarchy;
   const auto sorted = bench.get(h.triangles);
-  const Query q = run_wave_query(bench, mesh, h, count, mode);
+  const Query q = run_query(bench, mesh, h, count, mode);
   float largest = 0;
   for (size_t i = 0; i < count; ++i) {
     gpu::Point p = q.after[i];
@@ -287,8 +287,8 @@ TEST_CASE("query finds the nearest triangle, new points and centroids alike") {
       CAPTURE(name);
       CAPTURE(mesh.faces.size());
       KernelBench bench;
-      check_wave_query(bench, mesh, 600, {.centroids = false, .two_float = two_float});
-      check_wave_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
+      check_query(bench, mesh, 600, {.centroids = false, .two_float = two_float});
+      check_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
     }
   }
 }
@@ -299,21 +299,21 @@ TEST_CASE("wave_packet finds what query finds, three points at a time") {
       CAPTURE(name);
       CAPTURE(mesh.faces.size());
       KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
-      check_wave_query(bench, mesh, 600, {.two_float = two_float, .packet = true});
+      check_query(bench, mesh, 600, {.two_float = two_float, .packet = true});
     }
   }
   const Mesh mesh = stored(soup(50, 100), false);
   KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
   for (const uint32_t parents : {0u, 1u, 2u, 63u, 64u, 65u, 683u})
-    check_wave_query(bench, mesh, 3 * parents, {.packet = true});
+    check_query(bench, mesh, 3 * parents, {.packet = true});
 }
 
 TEST_CASE("query at awkward sizes") {
   const Mesh mesh = stored(soup(50, 100), false);
   KernelBench bench;
   for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 2047u, 2048u, 2049u}) {
-    check_wave_query(bench, mesh, count, {.centroids = true});
-    check_wave_query(bench, mesh, count / 3 * 3, {});
+    check_query(bench, mesh, count, {.centroids = true});
+    check_query(bench, mesh, count / 3 * 3, {});
   }
 }
 

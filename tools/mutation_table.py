@@ -38,6 +38,9 @@ def counts(name, file, text, tests, nth=1, steps=None):
     return row(name, file, plain, [text.replace("{" + number + "}", f"{v!r}f") for v in lower], tests, nth)
 
 
+INSIDE = "both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp))"
+INSIDE_BUT_V = "both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp)"
+
 ROWS = [
     # two_float.h
     row("kUlp2", TWO, "5.6843419e-14f", [f"{2.0 ** -e!r}f" for e in (45, 46, 47, 48, 50)], ON_TWO),
@@ -102,8 +105,8 @@ ROWS = [
     # triangle.h
     counts("closest_point's guard under 1", TRIANGLE, "1.0f - {4.0f} * kUlp", ON_TRIANGLE, steps=[3.0, 2.0, 1.0, 0.0]),
     row("closest_point's clamp", TRIANGLE, "clamp(t, 0.0f, 1.0f)", ["clamp(t, 0.0f, 1.0000005f)"], ON_TRIANGLE),
-    row("closest_point's inside", TRIANGLE, "v >= 0.0f && w >= 0.0f", ["w >= 0.0f"], ON_TRIANGLE),
-    row("closest_point's altitude", TRIANGLE, "hh > kSmallSquare && ", [""], ON_TRIANGLE),
+    row("closest_point's inside", TRIANGLE, INSIDE, [INSIDE_BUT_V], ON_TRIANGLE),
+    row("closest_point's altitude", TRIANGLE, "both(has_inside, in_halves)", ["in_halves"], ON_TRIANGLE),
     counts("Surface::slack, reach", TRIANGLE, "{8.0f} * from.reach", ON_TRIANGLE),
     counts("Surface::slack, radius", TRIANGLE, "{28.0f} * radius_up(s.at)", ON_TRIANGLE),
     counts("Surface::slack, its rounding", TRIANGLE, "radius_up(s.at)), {4.0f})", ON_TRIANGLE),
@@ -122,7 +125,7 @@ ROWS = [
         ["round_up(d + 0.1f * s.slack, 5.0f)", "round_up(d, 5.0f)"], ON_TRIANGLE),
     counts("a coarse distance's own ulps", TRIANGLE, "d + s.slack, {5.0f})", ON_TRIANGLE),
     row("plain_distance2's clamp", TRIANGLE, "clamp(x, 0.0f, 1.0f)", ["clamp(x, 0.0f, 1.00001f)"], ON_TRIANGLE),
-    row("plain_distance2's inside", TRIANGLE, "v >= 0.0f && w >= 0.0f", ["w >= 0.0f"], ON_TRIANGLE, nth=2),
+    row("plain_distance2's inside", TRIANGLE, INSIDE, [INSIDE_BUT_V], ON_TRIANGLE, nth=2),
     counts("plain_distance2's guard under 1", TRIANGLE, "1.0f - {4.0f} * kUlp", ON_TRIANGLE, nth=2, steps=[2.0, 0.0]),
     row("radius_up's corners", TRIANGLE, "max(dot(t.b, t.b), dot(t.c, t.c))", ["dot(t.b, t.b)"], ON_TRIANGLE),
     counts("enclosing_radius_up", TRIANGLE, "round_up(r, {6.0f})", ON_TRIANGLE),

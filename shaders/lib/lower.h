@@ -39,7 +39,7 @@ VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool to_both) {
 // that its own rounding does not matter.
 VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool to_both) {
   Two3 r = two(offset);
-  for (uint k = 0u; k < 2u; ++k) {
+  for (uint k = 0u; k < 2u; ++k) {  // a loop for the same reason as fine_distance_down's
     vec3 correction = orthogonal_correction(r, u, v, to_both);
     if (k == 0u) {
       r.hi = r.hi - correction;

@@ -165,6 +165,15 @@ void ApiPair::report(VkCommandBuffer commands, uint32_t slot) {
   record_host_barrier(commands);
 }
 
+void ApiPair::spoil_report() {
+  std::memset(reports_.mapped() + report_offset(0), kGarbage, sizeof(VkhReport));
+}
+
+void ApiPair::spoil_hierarchy() {
+  std::memset(hierarchy_.mapped(), kGarbage, problem_.b.memory.size);
+  problem_.b.faceCount = problem_.b.vertexCount = 0;
+}
+
 VkhTask ApiPair::task(uint32_t waves) {
   return {.mesh = &b_.view(),
           .scratch = &scratch_view_,

@@ -66,6 +66,9 @@ class ApiPair {
   /// Writes report `slot` (0..3), and makes it visible to the host.
   void report(VkCommandBuffer commands, uint32_t slot = 0);
   VkhReport read(uint32_t slot = 0) const;
+  /// Garbage there, as at first, and no counts.
+  void spoil_report();
+  void spoil_hierarchy();
   /// Build, begin, `waves` and report 0, to be changed as a test likes; refers to this pair.
   VkhTask task(uint32_t waves);
   VkBuffer report_buffer() const { return reports_.handle(); }
