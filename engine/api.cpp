@@ -60,8 +60,16 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
 }
 
-void record_begin(Recorder& rec, const VkhContext_T& context, const VkhProblem& problem) {
-  const Problem p = view_problem(context, problem);
+// Its counts are known once it is built: before anything reads them.
+void record_hierarchy(Recorder& rec, const VkhMesh& mesh, VkhHierarchy& hierarchy,
+                      const VkhMemory& scratch) {
+  hierarchy.faceCount = mesh.faceCount;
+  hierarchy.vertexCount = mesh.vertexCount;
+  record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy));
+}
+
+// `p`: a view of `problem`.
+void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
   // Without twoFloat, B is measured by its high parts alone: A must be, too.
   VkhMesh a = problem.a;
   if (problem.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
@@ -79,19 +87,15 @@ Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
   return {buffer, offset, sizeof(VkhReport)};
 }
 
-// B's hierarchy is known once it is built: before anything reads its counts.
 void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task) {
   VkhProblem& problem = *task.problem;
   if (task.mesh != nullptr && task.scratch != nullptr) {
-    problem.b.faceCount = task.mesh->faceCount;
-    problem.b.vertexCount = task.mesh->vertexCount;
-    record_build(rec, *task.mesh, view_scratch(*task.scratch, task.mesh->faceCount),
-                 view_hierarchy(problem.b));
+    record_hierarchy(rec, *task.mesh, problem.b, *task.scratch);
   } else if (task.mesh != nullptr) {
     record_refit(rec, *task.mesh, view_hierarchy(problem.b));
   }
-  if (task.begin != VK_FALSE) record_begin(rec, context, problem);
   const Problem p = view_problem(context, problem);
+  if (task.begin != VK_FALSE) record_begin(rec, problem, p);
   record_waves(rec, p, task.waves);
   if (task.reportBuffer != VK_NULL_HANDLE)
     record_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
@@ -183,11 +187,8 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
 
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {
-  hierarchy->faceCount = mesh->faceCount;
-  hierarchy->vertexCount = mesh->vertexCount;
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_build(rec, *mesh, vkh::view_scratch(*scratch, mesh->faceCount),
-                    vkh::view_hierarchy(*hierarchy));
+  vkh::record_hierarchy(rec, *mesh, *hierarchy, *scratch);
 }
 
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
@@ -199,7 +200,7 @@ void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                  VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_begin(rec, *context, *problem);
+  vkh::record_begin(rec, *problem, vkh::view_problem(*context, *problem));
 }
 
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,

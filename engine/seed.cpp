@@ -3,26 +3,6 @@
 
 namespace vkh {
 
-k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points) {
-  return {.control = p.ws.control,
-          .nodes = as<gpu::uvec4>(p.b.nodes),
-          .triangles = as<gpu::uvec4>(p.b.triangles),
-          .triangle_lows = p.b.triangle_lows,
-          .boxes = p.b.pyramid,
-          .points = points,
-          .vertices = p.ws.vertices,
-          .faces = p.ws.faces,
-          .vertex_nearest = p.ws.vertex_nearest,
-          .vertex_distance = as<uint32_t>(p.ws.vertex_distance)};
-}
-
-gpu::QueryPush ask_vertices(const Problem& p, uint32_t asked, uint32_t vertex_count, bool warm) {
-  return {.asked = asked,
-          .triangle_count = p.b.face_count,
-          .vertex_count = vertex_count,
-          .warm = warm ? 1u : 0u};
-}
-
 void record_seed(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("seed");
   const Workspace& ws = p.ws;
@@ -55,7 +35,7 @@ void record_seed(Recorder& rec, const Problem& p) {
                         {.face_count = p.face_count, .triangle_count = p.b.face_count},
                         Items{p.face_count});
   const k::Query::Args args = query_args(p, p.ws.points);
-  const auto ask = [&](uint32_t asked) { return ask_vertices(p, asked, p.vertex_count, p.warm); };
+  const auto ask = [&](uint32_t asked) { return query_push(p, asked, p.vertex_count, p.warm); };
   rec.run<k::Query>(args, ask(gpu::kAskVertices),
                     Items{in_groups ? items * gpu::kQueryGroup : items});
   rec.run<k::Query>(args, ask(gpu::kAskVerticesAgain), Items{items});

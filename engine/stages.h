@@ -46,8 +46,9 @@ struct Problem {
 void record_seed(Recorder& rec, const Problem& p);
 // What `query` works on; `points`: of a wave.
 k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points);
-// A's vertices, or no more than the witness.
-gpu::QueryPush ask_vertices(const Problem& p, uint32_t asked, uint32_t vertex_count, bool warm);
+// What it is asked, kAsk*; of A's vertices so many and, where `warm`, the last run's witness.
+gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count = 0,
+                          bool warm = false);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);

@@ -30,9 +30,7 @@ void record_subdivide(Recorder& rec, const Problem& p) {
 
 void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& points, uint32_t asked,
                   uint32_t dispatch) {
-  const gpu::QueryPush push{
-      .asked = asked, .triangle_count = p.b.face_count, .vertex_count = 0, .warm = 0};
-  rec.run_indirect<k::Query>(query_args(p, points), push, p.ws.dispatch(dispatch));
+  rec.run_indirect<k::Query>(query_args(p, points), query_push(p, asked), p.ws.dispatch(dispatch));
   rec.stage("query");
 }
 
@@ -114,7 +112,7 @@ void record_bound(Recorder& rec, const Problem& p) {
 // Nothing, unless the plan has moved the base: then the witness is measured above the new one.
 void record_witness(Recorder& rec, const Problem& p) {
   rec.run_indirect<k::Query>(query_args(p, p.ws.points),
-                             ask_vertices(p, gpu::kAskVerticesAgain, 0, true),
+                             query_push(p, gpu::kAskVerticesAgain, 0, true),
                              p.ws.dispatch(gpu::kDispatchWitness));
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <optional>
-#include <thread>
+
+#include "host/parallel.h"
 
 namespace vkh {
 namespace {
@@ -92,29 +92,24 @@ Stored store_range(const Frame& frame, const Mesh& mesh, size_t begin, size_t en
 
 // Vertices that are worth a thread: 0.3 ms.
 constexpr size_t kVerticesOfThread = 1 << 16;
-constexpr size_t kMostThreads = 8;
 
 StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
   const size_t count = mesh.vertices.size();
   StoredMesh out;
   out.high.resize(3 * count);
   out.low.resize(3 * count);
-  const size_t cores = std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
-  const size_t parts = std::clamp<size_t>(count / kVerticesOfThread, 1, cores);
-  const auto work = [&, parts](size_t part) {
-    return store_range(frame, mesh, count * part / parts, count * (part + 1) / parts, only_high,
-                       out);
-  };
-  std::vector<std::future<Stored>> others;
-  for (size_t part = 1; part < parts; ++part)
-    others.push_back(std::async(std::launch::async | std::launch::deferred, work, part));
-  Stored all = work(0);
-  for (std::future<Stored>& other : others) {
-    const Stored stored = other.get();
-    all = {std::max(all.worst, stored.worst), all.has_low || stored.has_low};
+  const size_t parts = std::max<size_t>(count / kVerticesOfThread, 1);
+  std::vector<Stored> stored(parts);
+  for_each_index(parts, [&](size_t part) {
+    stored[part] =
+        store_range(frame, mesh, count * part / parts, count * (part + 1) / parts, only_high, out);
+  });
+  double worst = 0;
+  for (const Stored& s : stored) {
+    worst = std::max(worst, s.worst);
+    out.has_low = out.has_low || s.has_low;
   }
-  out.has_low = all.has_low;
-  out.displacement = all.worst * (1 + 0x1p-50);
+  out.displacement = worst * (1 + 0x1p-50);
   return out;
 }
 

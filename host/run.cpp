@@ -73,20 +73,20 @@ VkhContext Runner::context_for(uint32_t switches) {
 }
 
 // Seats are kept, for their buffers, unless there is no memory beside those of an earlier run.
-void Runner::seat(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
+void Runner::seat(size_t count, const std::function<void()>& take) {
+  const bool has_kept = !seats_.empty();
+  const auto add = [&] {
+    while (seats_.size() < count) seats_.push_back(std::make_unique<Seat>(device_));
+  };
   try {
-    take_seats(inputs, outputs);
+    add();
+    take();
   } catch (const DeviceError&) {
     seats_.clear();
-    take_seats(inputs, outputs);
+    if (!has_kept) throw;
+    add();
+    take();
   }
-}
-
-void Runner::take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
-  while (seats_.size() < std::max<size_t>(inputs.size(), 1))
-    seats_.push_back(std::make_unique<Seat>(device_));
-  for_each_index(inputs.size(),
-                 [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i]); });
 }
 
 VkCommandBuffer Runner::begin() {
@@ -106,9 +106,8 @@ void Runner::stamp(VkCommandBuffer commands, const char* name) {
 ResidentMesh Runner::build(const MeshData& b) {
   // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
   context_ = context_for(default_switches(device_));
-  std::vector<RunOutput> none;
-  seat({}, none);
-  ResidentMesh resident = seats_[0]->take_resident(context_, b);
+  ResidentMesh resident;
+  seat(1, [&] { resident = seats_[0]->take_resident(context_, b); });
   VkhHierarchy hierarchy{{resident.hierarchy.handle(), 0, resident.hierarchy.size()}, 0, 0};
   const VkCommandBuffer commands = begin();
   seats_[0]->record_upload(commands);
@@ -183,7 +182,10 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   context_ = context_for(inputs[0].switches);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();
-  seat(inputs, outputs);
+  seat(inputs.size(), [&] {
+    for_each_index(inputs.size(),
+                   [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i]); });
+  });
   for (RunOutput& output : outputs) output.upload_ms = now_ms() - start;
   const auto is_over = [&](size_t i) {
     const VkhReport& r = outputs[i].report;

@@ -31,8 +31,7 @@ class Runner {
  private:
   struct Round;
   VkhContext context_for(uint32_t switches);
-  void seat(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
-  void take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
+  void seat(size_t count, const std::function<void()>& take);
   VkCommandBuffer begin();
   VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }
   void stamp(VkCommandBuffer commands, const char* name);

@@ -51,8 +51,8 @@ uint asked_count() {
 // has few walks, and does not know which.
 bool are_few(uint count) {
   bool few_vertices = push.asked == kAskVertices && push.vertex_count <= kGroupWalkVertices;
-  // Points as walks_in_groups has it, by which the dispatch was sized.
-  return kSpread && (asks_for_points() ? count <= kGroupWalkQueries : few_vertices);
+  // kSpread once more: optimisers then leave the group's walk out.
+  return kSpread && (asks_for_points() ? walks_in_groups(count) : few_vertices);
 }
 
 Item item_at(uint i, bool mine) {
@@ -79,7 +79,7 @@ void main() {
     if (plain) item.distance = sqrt(found.distance2);  // uncertified: steers
   }
   if (asks_for_points()) {
-    if (item.asked) answer_point(i, item);
+    if (item.asked) answer_point(i, item.nearest, item.distance);
   } else if (item.exists) {
     answer_vertex(i, item);
   }

@@ -22,9 +22,9 @@ layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_
 
 float answer(uint i, Query q, Nearest found) {
   found = measured(q, found, control.witness.distance);
-  points[i].nearest = found.triangle;
-  points[i].distance = max(found.above, 0.0);
-  return points[i].distance;
+  float distance = max(found.above, 0.0);
+  answer_point(i, found.triangle, distance);
+  return distance;
 }
 
 float ask(uint parent) {

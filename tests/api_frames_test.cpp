@@ -16,14 +16,9 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-struct Pair {
-  std::string name;
-  Mesh a, b;
-};
-
 /// Pairs that need several waves at this tolerance.
 constexpr float kTolerance = 1e-6f;
-std::vector<Pair> pairs() {
+std::vector<NamedPair> pairs() {
   return {{"spheres", icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})},
           {"twin", height_field(24, 1), height_field(24, 3)},
           {"soups", scaled(soup(1, 60), -1), scaled(soup(2, 80), -1)}};
@@ -38,7 +33,7 @@ void check_nested(const VkhReport& now, const VkhReport& before) {
 }  // namespace
 
 TEST_CASE("two waves a frame: every report is true, they nest, and the run ends") {
-  for (const Pair& pair : pairs()) {
+  for (const NamedPair& pair : pairs()) {
     CAPTURE(pair.name);
     ApiMesh a(pair.a), b(pair.b);
     const Interval exact = reference_hausdorff(a.mesh(), b.mesh(), 1e-9);
@@ -67,7 +62,7 @@ TEST_CASE("two waves a frame: every report is true, they nest, and the run ends"
 }
 
 TEST_CASE("reports between waves of one submission") {
-  for (const Pair& pair : pairs()) {
+  for (const NamedPair& pair : pairs()) {
     CAPTURE(pair.name);
     ApiMesh a(pair.a), b(pair.b);
     ApiPair on(a, b, kTolerance);
@@ -88,7 +83,7 @@ TEST_CASE("reports between waves of one submission") {
 }
 
 TEST_CASE("a recorded run gives the same report each time it is submitted") {
-  for (const Pair& pair : pairs()) {
+  for (const NamedPair& pair : pairs()) {
     CAPTURE(pair.name);
     ApiMesh a(pair.a), b(pair.b);
     ApiPair on(a, b, kTolerance);

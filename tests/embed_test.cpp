@@ -25,17 +25,6 @@ std::string text(const Report& r) {
          std::to_string(r.upper) + "]";
 }
 
-void check_same(const Report& r, const Report& other) {
-  CAPTURE(text(r));
-  CAPTURE(text(other));
-  CHECK(r.lower == other.lower);
-  CHECK(r.upper == other.upper);
-  CHECK(r.status == other.status);
-  CHECK(r.candidates == other.candidates);
-  CHECK(r.witness_a.face == other.witness_a.face);
-  CHECK(r.witness_b.face == other.witness_b.face);
-}
-
 struct Kind {
   std::string name;
   Mesh mesh;

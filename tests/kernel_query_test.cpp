@@ -167,11 +167,8 @@ Query run_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32
     p.ws.vertex_nearest = bench.put(std::vector<uint32_t>(1));
     p.ws.vertex_distance = bench.put(std::vector<float>(1));
     p.b = h;
-    const gpu::QueryPush push{.asked = mode.centroids ? gpu::kAskCentroids : gpu::kAskPoints,
-                              .triangle_count = h.face_count,
-                              .vertex_count = 0,
-                              .warm = 0};
-    rec.run<k::Query>(query_args(p, points), push, Groups{count + 3});
+    const uint32_t asked = mode.centroids ? gpu::kAskCentroids : gpu::kAskPoints;
+    rec.run<k::Query>(query_args(p, points), query_push(p, asked), Groups{count + 3});
   });
   q.after = bench.get(points);
   q.control = bench.get(control)[0];

@@ -56,14 +56,6 @@ void check_closes(const SolveOptions& options) {
   }
 }
 
-void check_same(const Report& r, const Report& other) {
-  CHECK(r.lower == other.lower);
-  CHECK(r.upper == other.upper);
-  CHECK(r.candidates == other.candidates);
-  CHECK(r.queries == other.queries);
-  CHECK(r.waves == other.waves);
-}
-
 /// Where room is short: the reserve and little more, and bounds that leave more open.
 SolveOptions in_least_memory(std::vector<std::string> enabled,
                              std::vector<std::string> disabled = {}) {

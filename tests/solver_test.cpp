@@ -71,13 +71,8 @@ void check_meets(const Report& r, const Report& other) {
   CHECK(interval(r).meets(interval(other)));
 }
 
-struct Pair {
-  std::string name;
-  Mesh a, b;
-};
-
 /// Pairs of every kind that close at 1e-6.
-std::vector<Pair> pairs() {
+std::vector<NamedPair> pairs() {
   return {{"spheres", icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})},
           {"V", v_lid(), v_sheet()},
           {"twin", height_field(24, 1), height_field(24, 3)},
@@ -316,14 +311,7 @@ TEST_CASE("a run again is the same run, bit by bit") {
     CAPTURE(name);
     const Report first = distance(a, b);
     for (int repeat = 0; repeat < 3; ++repeat) {
-      const Report again = distance(a, b);
-      CHECK(again.lower == first.lower);
-      CHECK(again.upper == first.upper);
-      CHECK(again.waves == first.waves);
-      CHECK(again.candidates == first.candidates);
-      CHECK(again.witness_a.face == first.witness_a.face);
-      CHECK(again.witness_a.point == first.witness_a.point);
-      CHECK(again.witness_b.face == first.witness_b.face);
+      check_same(distance(a, b), first);
     }
   }
 }

@@ -20,9 +20,9 @@ Item point_item(uint i, bool mine) {
   return Item(asked, asked, points[i].nearest, 0.0, query_at(i));
 }
 
-void answer_point(uint i, Item item) {
-  points[i].nearest = item.nearest;
-  points[i].distance = item.distance;
+void answer_point(uint i, uint nearest, float distance) {
+  points[i].nearest = nearest;
+  points[i].distance = distance;
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string>
 #include <utility>
 
 #include "host/mesh.h"
@@ -91,5 +92,10 @@ Mesh in_float32(const Mesh& mesh);
 std::pair<glm::dvec3, glm::dvec3> bounding_box(const Mesh& mesh);  ///< lo, hi
 double diagonal(const Mesh& mesh);
 std::array<glm::dvec3, 3> corners(const Mesh& mesh, uint32_t face);
+
+struct NamedPair {
+  std::string name;
+  Mesh a, b;
+};
 
 }  // namespace vkh::test

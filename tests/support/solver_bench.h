@@ -1,6 +1,8 @@
 // The solver on the device that all tests of a program share, and its answers as intervals.
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <string>
 #include <utility>
 
@@ -25,6 +27,19 @@ struct ReferencePair {
 inline ReferencePair with_reference(std::string name, Mesh a, Mesh b) {
   const Interval exact = reference_hausdorff(a, b, 1e-9);
   return {std::move(name), std::move(a), std::move(b), exact};
+}
+
+/// Two runs that must be one run: bit by bit what they found, and what they did.
+inline void check_same(const Report& r, const Report& other) {
+  CHECK(r.status == other.status);
+  CHECK(r.lower == other.lower);
+  CHECK(r.upper == other.upper);
+  CHECK(r.waves == other.waves);
+  CHECK(r.candidates == other.candidates);
+  CHECK(r.queries == other.queries);
+  CHECK(r.witness_a.face == other.witness_a.face);
+  CHECK(r.witness_a.point == other.witness_a.point);
+  CHECK(r.witness_b.face == other.witness_b.face);
 }
 
 inline Interval interval(const Report& r) { return {r.lower, r.upper}; }

@@ -55,7 +55,7 @@ struct Tally {
        : status == Status::kTime   ? timed_out
        : status == Status::kMemory ? out_of_memory
                                    : otherwise_open);
-    gpu_ms += o.last().times.hierarchy_ms + o.last().times.solve_ms;
+    gpu_ms += bench::gpu_ms(o.last());
   }
 };
 
@@ -176,9 +176,9 @@ int main(int argc, char** argv) {
   Arguments args;
   args.common.time_limit_s = 60;
   app.add_option("manifest", args.manifest)->required();
-  app.add_option("--presets", args.presets,
-                 "default, paper, baseline-gpu; +x, -x, paper-x, x@64MiB")
-      ->delimiter(',');
+  CLI::Option* presets = app.add_option("--presets", args.presets,
+                                        "default, paper, baseline-gpu; +x, -x, paper-x, x@64MiB")
+                             ->delimiter(',');
   app.add_option("--filter", args.choice.filter);
   app.add_option("--max-faces", args.choice.max_faces);
   app.add_option("--repeat", args.repeat)->check(CLI::PositiveNumber);
@@ -189,7 +189,9 @@ int main(int argc, char** argv) {
   app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
   app.add_option("--memory", args.memory);
   app.add_option("--time", args.common.time_limit_s);
-  app.add_option("--together", args.together, "pairs side by side, and each alone");
+  app.add_option("--together", args.together, "pairs side by side, and each alone")
+      ->check(CLI::PositiveNumber)
+      ->excludes(presets);
   app.add_option("--sort-from", args.common.sort_from, "smaller frontiers are not sorted");
   CLI11_PARSE(app, argc, argv);
   try {

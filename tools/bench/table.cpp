@@ -14,8 +14,7 @@ template <class F>
 double median_of(const std::vector<Report>& reports, F value) {
   std::vector<double> values;
   for (const Report& r : reports) values.push_back(value(r));
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  return median(values);
 }
 
 double stage_ms(const Report& r, const std::string& name) {
@@ -30,6 +29,13 @@ double median_time(const std::vector<Report>& reports, double Times::*member) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double gpu_ms(const Report& report) { return report.times.hierarchy_ms + report.times.solve_ms; }
 
 bool Outcome::repeats() const {
   const auto is_same = [&](const Report& r) {

@@ -23,6 +23,11 @@ struct Outcome {
   bool repeats() const;
 };
 
+/// Of as many as there are, the middle one; of an even number the larger of the two.
+double median(std::vector<double> values);
+/// From the uploaded meshes to the report.
+double gpu_ms(const Report& report);
+
 /// Whether there can be one distance in all the intervals.
 bool intervals_meet(const std::vector<Outcome>& outcomes);
 

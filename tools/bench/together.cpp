@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host/mesh_io.h"
+#include "tools/bench/table.h"
 
 namespace vkh::bench {
 namespace {
@@ -22,13 +23,6 @@ struct Cost {
     wall_ms.push_back(wall);
   }
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-double gpu_ms(const Report& r) { return r.times.hierarchy_ms + r.times.solve_ms; }
 
 // Of several side by side, the last to end has all submissions in its time.
 double longest_gpu_ms(const std::vector<Report>& reports) {
