@@ -24,6 +24,12 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
+// Whether the last workgroup of wave_bound plans the next wave, not wave_plan: kPlansInBound in
+// shaders/lib/dispatch.glsl.
+constexpr bool plans_in_bound(uint32_t switches) {
+  return (switches & gpu::kUseGroupWalk) != 0 && (switches & gpu::kUseFilter) == 0;
+}
+
 // Creates every kernel's pipeline in `context`; `switches` becomes specialisation constant 0. On
 // failure what was created stays in the context, for destroy_kernels.
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches);

@@ -46,9 +46,10 @@ struct Problem {
 void record_seed(Recorder& rec, const Problem& p);
 // What `query` works on; `points`: of a wave.
 k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points);
-// What it is asked, kAsk*; of A's vertices so many and, where `warm`, the last run's witness.
+// What it is asked, kAsk*; of A's vertices so many and, where `warm`, the witness there is: a wave
+// asks for that alone where the base has moved.
 gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count = 0,
-                          bool warm = false);
+                          bool warm = true);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);

@@ -34,10 +34,10 @@ void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& poin
   rec.stage("query");
 }
 
-// The new points: packets, unless the wave has few and a workgroup walks for each; the plan knows.
+// The new points, where the base has moved the witness in their place: packets, unless the wave has
+// few and a workgroup walks for each; the plan knows.
 void record_query_points(Recorder& rec, const Problem& p) {
-  const bool packets = (p.switches & gpu::kUsePacket) != 0;
-  if (packets) {
+  if ((p.switches & gpu::kUsePacket) != 0) {
     rec.run_indirect<k::WavePacket>({.control = p.ws.control,
                                      .nodes = as<gpu::uvec4>(p.b.nodes),
                                      .triangles = as<gpu::uvec4>(p.b.triangles),
@@ -46,8 +46,7 @@ void record_query_points(Recorder& rec, const Problem& p) {
                                     {}, p.ws.dispatch(gpu::kDispatchPacket));
     rec.stage("query");
   }
-  if (!packets || (p.switches & gpu::kUseGroupWalk) != 0)
-    record_query(rec, p, p.ws.points, gpu::kAskPoints, gpu::kDispatchQueryPoints);
+  record_query(rec, p, p.ws.points, gpu::kAskPoints, gpu::kDispatchQueryPoints);
 }
 
 void record_filter(Recorder& rec, const Problem& p) {
@@ -104,16 +103,10 @@ void record_bound(Recorder& rec, const Problem& p) {
                                   .areas = areas_of(p),
                                   .face_shared = ws.face_shared,
                                   .u3_bounds = ws.u3_bounds,
-                                  .centroid_nearest = ws.centroid_nearest},
+                                  .centroid_nearest = ws.centroid_nearest,
+                                  .dispatches = ws.dispatches},
                                  {}, ws.dispatch(gpu::kDispatchBound));
   rec.stage("bound");
-}
-
-// Nothing, unless the plan has moved the base: then the witness is measured above the new one.
-void record_witness(Recorder& rec, const Problem& p) {
-  rec.run_indirect<k::Query>(query_args(p, p.ws.points),
-                             query_push(p, gpu::kAskVerticesAgain, 0, true),
-                             p.ws.dispatch(gpu::kDispatchWitness));
 }
 
 void record_plan(Recorder& rec, const Problem& p) {
@@ -121,19 +114,9 @@ void record_plan(Recorder& rec, const Problem& p) {
   rec.run<k::WavePlan>({.control = ws.control,
                         .dispatches = ws.dispatches,
                         .frontier = ws.frontier,
-                        .splits = ws.splits,
-                        .points = ws.points,
-                        .survivors = ws.survivors,
-                        .centroids = ws.centroids,
                         .vertices = ws.vertices,
-                        .faces = ws.faces,
-                        .vertex_nearest = ws.vertex_nearest,
-                        .nodes = as<gpu::uvec4>(p.b.nodes),
-                        .triangles = as<gpu::uvec4>(p.b.triangles),
-                        .triangle_lows = p.b.triangle_lows},
+                        .faces = ws.faces},
                        {}, Groups{1});
-  // With kUseGroupWalk the plan does it.
-  if ((p.switches & gpu::kUseGroupWalk) == 0) record_witness(rec, p);
   rec.stage("plan");
 }
 
@@ -143,7 +126,7 @@ void record_bounds(Recorder& rec, const Problem& p) {
   if ((p.switches & gpu::kUseCentroid) != 0)
     record_query(rec, p, p.ws.centroids, gpu::kAskCentroids, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
-  record_plan(rec, p);
+  if (!plans_in_bound(p.switches)) record_plan(rec, p);
 }
 
 }  // namespace

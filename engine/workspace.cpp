@@ -62,7 +62,7 @@ struct Room {
 
 void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face_count, Room room) {
   const uint32_t capacity = room.capacity;
-  // Refined candidates of a wave: wave_plan keeps deferred + 4 parents <= capacity; split twice, 20
+  // Refined candidates of a wave: the plan keeps deferred + 4 parents <= capacity; split twice, 20
   // parents.
   const uint64_t parents = capacity / 4 + 1;
   take(w.control, 1);

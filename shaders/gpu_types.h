@@ -132,8 +132,7 @@ VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
 VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
 VKH_CONST uint kDispatchSortDigits = 8u;  // digits
 VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
-VKH_CONST uint kDispatchWitness = 10u;    // the witness again, where the base has moved
-VKH_CONST uint kDispatchCount = 11u;
+VKH_CONST uint kDispatchCount = 10u;
 
 // Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
 // time, kSortRounds keys each, or down to kFewestSortRounds (SortPush).
@@ -163,7 +162,10 @@ VKH_CONST uint kSortFrom = 1u << 14;
 // kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places.
 VKH_CONST uint kReserve = 64u;
 
-VKH_CONST uint kPlanGroup = 256u;  // invocations of wave_plan: one plans, all select
+VKH_CONST uint kSelectDigits = 256u;  // of a key, where a plan selects: 8 bits
+
+// The distance of a witness that is to be measured again.
+VKH_CONST float kUnmeasured = 3.0e38f;
 
 // wave_subdivide: invocations of a candidate where kUseGroupWalk is on, and where it is split
 // twice.
@@ -178,10 +180,8 @@ VKH_CONST uint kTwiceParents = 8192u;
 VKH_CONST uint kFewestChildren = 8u;
 VKH_CONST uint kBoundGroups = 640u;  // workgroups that are worth having before they take more
 
-// A sample that may become the witness (lib/witness.glsl): a new point's index, or a survivor's
-// whose centroid it is, with this bit.
-VKH_CONST uint kCentroidSample = 0x80000000u;
-VKH_CONST uint kMaxOffers = 64u;  // of a wave; where there are more, all its samples are looked at
+VKH_CONST uint kMaxOffers =
+    64u;  // samples of a wave that may become the witness (lib/witness.glsl)
 
 VKH_CONST uint kMaxWaveRecords = 64u;
 
@@ -286,6 +286,14 @@ struct Witness {
   uint nearest;    // triangle of B
 };
 
+// A sample that may become the witness, in words, for atomics.
+struct Offer {
+  uint key;
+  uint x, y, z;  // Witness::position, as bits
+  uint root, j, k;
+  uint nearest;
+};
+
 struct Control {
   uint count[5];     // kCount*
   uint maximum[6];   // kMax*
@@ -303,12 +311,15 @@ struct Control {
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is
   uint twice;           // this wave splits its candidates twice
+  uint measuring;       // this wave measures its witness above a new base, and nothing else
   uint lost;            // candidates that could neither be refined nor wait
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
-  // The wave's samples that were at the new lower bound when they were looked at: how many, and the
-  // first of them.
+  uint groups_done;     // of wave_bound, where it plans; 0 between dispatches
+  // The wave's samples that are at a new lower bound: the smallest of their keys, and those that
+  // had it when they came.
+  uint offer_key;
   uint offer_count;
-  uint offers[64];  // kMaxOffers
+  Offer offers[64];  // kMaxOffers
   float cull_tolerance;
   float known_lower;  // candidates near it are closed as if it were a sample's distance
   float base;         // distances of the run are kept as what they are above it

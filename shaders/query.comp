@@ -1,6 +1,6 @@
-// What: the closest triangle of B to each of some points: all that a run asks for but the witness's
-// after a GPU's plan has moved the base (wave_plan), and the paper's packets (wave_packet). One
-// kernel, for a walk is most of the code that a driver compiles. push.asked says which points:
+// What: the closest triangle of B to each of some points: all that a run asks for but the paper's
+// packets (wave_packet). One kernel, for a walk is most of the code that a driver compiles.
+// push.asked says which points:
 //   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
 // negative distance means skip. Out: their nearest and distance; control.maximum[kMaxLower].
 //   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
@@ -39,46 +39,53 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 #include "shaders/lib/seed.glsl"
 #include "shaders/lib/stream.glsl"
 
-bool asks_for_points() { return push.asked <= kAskCentroids; }
+// A wave whose plan has moved the base asks for its witness alone.
+uint what_is_asked() {
+  bool again = push.asked == kAskPoints && control.measuring != 0u;
+  return again ? kAskVerticesAgain : push.asked;
+}
 
-uint asked_count() {
-  if (push.asked == kAskPoints) return point_count();
-  if (push.asked == kAskCentroids) return control.count[kCountSurvivors];
+bool are_points(uint asks) { return asks <= kAskCentroids; }
+
+uint asked_count(uint asks) {
+  if (asks == kAskPoints) return point_count();
+  if (asks == kAskCentroids) return control.count[kCountSurvivors];
   return seed_count();
 }
 
 // All of a workgroup for one point, or an invocation for each. The second pass over the vertices
 // has few walks, and does not know which.
-bool are_few(uint count) {
-  bool few_vertices = push.asked == kAskVertices && push.vertex_count <= kGroupWalkVertices;
+bool are_few(uint asks, uint count) {
+  bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupWalkVertices;
   // kSpread once more: optimisers then leave the group's walk out.
-  return kSpread && (asks_for_points() ? walks_in_groups(count) : few_vertices);
+  return kSpread && (are_points(asks) ? walks_in_groups(count) : few_vertices);
 }
 
-Item item_at(uint i, bool mine) {
-  if (asks_for_points()) return point_item(mine ? i : 0u, mine);
-  return push.asked == kAskVertices ? first_item(i, mine) : known_item(i, mine);
+Item item_at(uint asks, uint i, bool mine) {
+  if (are_points(asks)) return point_item(mine ? i : 0u, mine);
+  return asks == kAskVertices ? first_item(i, mine) : known_item(i, mine);
 }
 
 void main() {
-  uint count = asked_count();
-  bool by_group = are_few(count);
+  uint asks = what_is_asked();
+  uint count = asked_count(asks);
+  bool by_group = are_few(asks, count);
   uint lane = gl_LocalInvocationID.x;
   uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   bool mine = i < count && (!by_group || lane == 0u);
-  Item item = item_at(i, mine);
+  Item item = item_at(asks, i, mine);
   Nearest found = find_nearest(item.query, item.nearest, item.asked, by_group);
-  bool plain = push.asked == kAskVertices;
+  bool plain = asks == kAskVertices;
   if (item.asked) {
     // A wave looks for samples farther than the witness. Not kMaxLower: others raise it meanwhile.
-    float than = asks_for_points() ? control.witness.distance : -1.0;
+    float than = are_points(asks) ? control.witness.distance : -1.0;
     if (!plain) found = measured(item.query, found, than);
     item.nearest = found.triangle;
     item.distance = max(found.above, 0.0);
     // In plain floats it steers; the second pass measures what matters.
     if (plain) item.distance = sqrt(found.distance2);  // uncertified: steers
   }
-  if (asks_for_points()) {
+  if (are_points(asks)) {
     if (item.asked) answer_point(i, item.nearest, item.distance);
   } else if (item.exists) {
     answer_vertex(i, item);

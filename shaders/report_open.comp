@@ -1,5 +1,5 @@
 // What: for --verify: adds the area of every candidate that is still in the frontier to the open
-// half of `areas`, one item a candidate; what wave_plan closed as a whole, deferred or spilled is
+// half of `areas`, one item a candidate; what the plan closed as a whole, deferred or spilled is
 // among them. In: frontier; areas[face_count, 2 face_count) cleared. Out: those.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -92,7 +92,7 @@ void write_report() {
   report.status = control.status;
   report.wave = is_running() ? control.wave - 1u : control.wave;  // one is planned
   report.witness = w;
-  report.witness.distance = control.base + w.distance;
+  report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
   report.witness_face = triangles[w.nearest].face;
   report.remaining = remaining();
   report.candidate_total = control.candidate_total;

@@ -28,7 +28,10 @@ void begin() {
   control.sorted = 0u;
   control.lost = 0u;
   control.twice = 0u;
+  control.measuring = 0u;
   control.seed_witness = kNone;
+  control.groups_done = 0u;
+  control.offer_key = kNone;
   control.offer_count = 0u;
   control.cull_tolerance = push.cull_tolerance;
   control.known_lower = push.known_lower;

@@ -52,8 +52,8 @@ void plan_first_wave() {
   float base = base_of_run();
   control.base = base;
   control.tight = is_tight(base) ? 1u : 0u;
-  // Where the tolerance is so small that the base is to be moved before anything is closed,
-  // wave_plan moves it, and admits the faces; the first wave's dispatches are empty then.
+  // Where the tolerance is so small that the base is to be moved before anything is closed, the
+  // first wave has no children, and its end plans: a base, and then the faces.
   bool base_is_right = !needs_sharp(uintBitsToFloat(control.maximum[kMaxLower]));
   uint roots = base_is_right ? roots_to_admit(0u, control.capacity) : 0u;
   control.roots = roots;

@@ -3,7 +3,8 @@
 // What is still open enters the next frontier. In: the refined candidates, their splits and queried
 // points; the admitted faces of A; survivors and centroids. Out: frontier's writing half; every
 // closed child's u is kept (kMaxDropped), every open one's too (kMaxNext); samples are offered as
-// witnesses.
+// witnesses. Where kPlansInBound, the last workgroup to end plans the next wave (lib/plan.glsl):
+// control; dispatches.
 //
 // A workgroup bounds some children together (lib/bound_group.glsl): an invocation loads one of them
 // and has its last word; all share out the distances and then the cuts of pairs. So a wave of few
@@ -17,7 +18,7 @@
 layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 1) coherent buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 4) readonly buffer Triangles { uvec4 triangles[]; };
@@ -31,6 +32,7 @@ layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
 layout(scalar, binding = 13) readonly buffer U3Bounds { float u3_bounds[]; };
 layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; };
+layout(scalar, binding = 15) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/candidate.glsl"
@@ -43,6 +45,13 @@ layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; }
 #include "shaders/lib/bound_group.glsl"
 #include "shaders/lib/bound_tally.glsl"
 #include "shaders/lib/bound_u4.glsl"
+#define groups_done control.groups_done  // not a binding more: devices have 16
+#include "shaders/lib/last_group.glsl"
+#include "shaders/lib/schedule.glsl"
+
+// Nobody reads the corners' distances after the cuts, and shared memory is scarce.
+#define plan_words corner_bits
+#include "shaders/lib/plan.glsl"
 
 // Whether wave_filter has gone over the children.
 const bool kFiltered = (kSwitches & kUseFilter) != 0u;
@@ -76,14 +85,6 @@ uint centre_of(uint i) {
   return centroids[i].nearest;
 }
 
-void offer(uint i) {
-  if (kFiltered) {
-    offer_sample(i | kCentroidSample);
-  } else {
-    offer_point(i);
-  }
-}
-
 void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;
@@ -104,11 +105,9 @@ void main() {
   float threshold = cull_threshold(tolerant);
   float enough = kSpread && tolerant ? kEnough * effective_tolerance() : 0.0;
   begin_group();
+  offer_samples();
   uint code = kNone;
-  if (lane < children && i < total) {
-    offer(i);
-    code = code_of(i);
-  }
+  if (lane < children && i < total) code = code_of(i);
   bool mine = code != kNone;
   bool bounded = false;
   Child c;
@@ -144,4 +143,5 @@ void main() {
   }
   if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
   write(mine, c, centre, v, threshold);
+  if (kPlansInBound && is_last_group()) plan_wave();
 }

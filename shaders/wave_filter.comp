@@ -2,7 +2,7 @@
 // every child: exact case, u1, u2, ha with the triangles already known. In: the refined candidates,
 // their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
 // its centroid as a query that starts from the best single triangle. Every closed child's u is kept
-// (kMaxDropped). Also offers the new points that may become the witness.
+// (kMaxDropped).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -33,7 +33,6 @@ layout(scalar, binding = 13) readonly buffer CentroidNearest { uint centroid_nea
 #include "shaders/lib/coverage.glsl"
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/stream.glsl"
-#include "shaders/lib/witness.glsl"
 
 const uint kKnowers = kGroupSize;
 #include "shaders/lib/known.glsl"
@@ -94,7 +93,6 @@ void main() {
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));
   if (mine) {
-    offer_point(code);
     Child c = load_child(code);
     Root root = load_root(c.root);
     bool shared_face = is_root(code) && face_shared[c.root] != 0u;

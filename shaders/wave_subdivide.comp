@@ -1,7 +1,7 @@
 // What: chooses each refined candidate's split and writes its new points as queries: three, or,
 // where the wave splits twice, three of its own and three of each child (lib/generations.glsl).
 // Midpoints, or double longest-edge bisection where the candidate is thin (paper.md §4.1); always 1
-// -> 4. Candidates that there is no room to refine (wave_plan's selection) are copied to the next
+// -> 4. Candidates that there is no room to refine (lib/select.glsl) are copied to the next
 // frontier. In: the frontier's reading half. Out: splits; points[points_each() i + k], started from
 // the best triangle known to the candidate; deferred candidates and kMaxNext. A candidate that the
 // risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.

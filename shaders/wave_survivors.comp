@@ -16,6 +16,6 @@ void main() {
   bool running = control.status == kStatusRunning;
   uint survivors = running ? control.count[kCountSurvivors] : 0u;
   dispatches[kDispatchQueryCentroids] = groups_for_queries(survivors);
-  dispatches[kDispatchBound] = groups_for_children(survivors);
+  dispatches[kDispatchBound] = running ? groups_for_children(survivors) : groups_of(0u);
   dispatches[kDispatchBisect] = groups_for(survivors);
 }

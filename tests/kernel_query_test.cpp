@@ -123,6 +123,7 @@ gpu::Control blank_control() {
   std::memset(static_cast<void*>(&control), 0xa5, sizeof(control));
   control.maximum[gpu::kMaxLower] = 0;
   control.base = 0;
+  control.measuring = 0;
   return control;
 }
 

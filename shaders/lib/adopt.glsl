@@ -1,55 +1,32 @@
-// A whole workgroup adopts the wave's witness. Include after lib/witness.glsl; kAdoptGroup is the
-// workgroup's size.
+// A workgroup adopts the wave's witness. Include after `control` is declared and
+// lib/plan_words.glsl is included.
 #ifndef VKH_SHADERS_LIB_ADOPT_GLSL
 #define VKH_SHADERS_LIB_ADOPT_GLSL
 
-shared uint smallest_key;
-shared uint chosen_sample;
-shared Witness chosen;
-
-// Where the list of offers did not hold them all, every sample of the wave is looked at.
-uint samples_at_hand() {
-  if (control.offer_count <= kMaxOffers) return control.offer_count;
-  return point_count() + control.count[kCountSurvivors];
-}
-
-uint sample_at_hand(uint i) {
-  if (control.offer_count <= kMaxOffers) return control.offers[i];
-  uint points_asked = point_count();
-  return i < points_asked ? i : (i - points_asked) | kCentroidSample;
-}
-
-// First the smallest key, then a sample that has it: several with the same key are one to the
-// report, and the first to come is taken. One loop for both, since what it calls is long.
-void choose_sample(uint count) {
-  for (uint turn = 0u; turn < 2u; ++turn) {
-    for (uint i = gl_LocalInvocationID.x; i < count; i += kAdoptGroup) {
-      uint s = sample_at_hand(i);
-      if (!is_new_lower(distance_of_sample(s))) continue;
-      Witness w = witness_at(s);
-      if (turn == 0u) {
-        atomicMin(smallest_key, key_of_witness(w));
-      } else if (key_of_witness(w) == smallest_key &&
-                 atomicCompSwap(chosen_sample, kNone, s) == kNone) {
-        chosen = w;
-      }
-    }
-    barrier();
-  }
-}
-
-// Called by every invocation; control is changed by the first one alone.
+// Called by every invocation; control is changed by the first one alone. Offers come in by atomics,
+// as they were written: maybe by other workgroups of this dispatch.
 void adopt_witness() {
-  bool first = gl_LocalInvocationID.x == 0u;
-  if (first) {
-    smallest_key = kNone;
-    chosen_sample = kNone;
+  uint lane = gl_LocalInvocationID.x;
+  uint count = min(atomicOr(control.offer_count, 0u), kMaxOffers);  // <= kGroupSize
+  uint key = atomicOr(control.offer_key, 0u);
+  if (lane < count && atomicOr(control.offers[lane].key, 0u) == key) {
+    plan_words[kWordAdopted] = atomicOr(control.offers[lane].x, 0u);
+    plan_words[kWordAdopted + 1u] = atomicOr(control.offers[lane].y, 0u);
+    plan_words[kWordAdopted + 2u] = atomicOr(control.offers[lane].z, 0u);
+    plan_words[kWordAdopted + 3u] = atomicOr(control.offers[lane].root, 0u);
+    plan_words[kWordAdopted + 4u] = atomicOr(control.offers[lane].j, 0u);
+    plan_words[kWordAdopted + 5u] = atomicOr(control.offers[lane].k, 0u);
+    plan_words[kWordAdopted + 6u] = atomicOr(control.offers[lane].nearest, 0u);
   }
   barrier();
-  choose_sample(samples_at_hand());
-  if (!first) return;
-  if (chosen_sample != kNone) control.witness = chosen;
+  if (lane > 0u || count == 0u) return;
+  vec3 position = uintBitsToFloat(uvec3(plan_words[kWordAdopted], plan_words[kWordAdopted + 1u],
+                                        plan_words[kWordAdopted + 2u]));
+  control.witness = Witness(position, uintBitsToFloat(control.maximum[kMaxLower]),
+                            plan_words[kWordAdopted + 3u], plan_words[kWordAdopted + 4u],
+                            plan_words[kWordAdopted + 5u], plan_words[kWordAdopted + 6u]);
   control.offer_count = 0u;
+  control.offer_key = kNone;
 }
 
 #endif

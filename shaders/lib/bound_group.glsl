@@ -23,8 +23,8 @@ const uint kHeldSlack = 13u;
 const uint kHeldWords = 14u;
 
 shared float held[kHeldWords][kMostChildren];
-shared uint upper_bits[kMostChildren];  // u so far
-shared float corner_distance[kMostChildren * kMostKnown * 3u];
+shared uint upper_bits[kMostChildren];                     // u so far
+shared uint corner_bits[kMostChildren * kMostKnown * 3u];  // of distances
 // First what is to be measured, kMostKnown * child + k for triangle k of a child; then pairs,
 // (child * kMaxKnown + i) * kMaxKnown + j and, where they are measured in parts, the bits of each
 // one's u3: then the children are half as many at most.
@@ -79,7 +79,7 @@ Surface surface_of(uint child, uint k, float enough) {
 
 vec3 distances_of(uint child, uint k) {
   uint at = 3u * (child * kMostKnown + k);
-  return vec3(corner_distance[at], corner_distance[at + 1u], corner_distance[at + 2u]);
+  return uintBitsToFloat(uvec3(corner_bits[at], corner_bits[at + 1u], corner_bits[at + 2u]));
 }
 
 // Of a child whose known triangles are there already.
@@ -107,7 +107,7 @@ void measure_corners(bool fine, float enough) {
       Two3 p = two(vec3(0.0));
       if (corner == 1u) p = two(held_vector(kHeldB, child));
       if (corner == 2u) p = two(held_vector(kHeldC, child));
-      corner_distance[3u * at + corner] = surface_distance_up(p, s);
+      corner_bits[3u * at + corner] = floatBitsToUint(surface_distance_up(p, s));
     }
   }
 }

@@ -16,6 +16,9 @@ Dispatch groups_for(uint items) {
 // Whether a small wave gets more invocations for each query and child.
 const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
 
+// Whether the last workgroup of wave_bound plans the next wave, not wave_plan: a dispatch less.
+const bool kPlansInBound = (kSwitches & (kUseGroupWalk | kUseFilter)) == kUseGroupWalk;
+
 bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQueries; }
 
 // Of query.
@@ -44,10 +47,10 @@ uint children_a_group(uint total) {
   return children;
 }
 
-// Of wave_bound.
+// Of wave_bound, whose last workgroup plans: one is there even where no child is.
 Dispatch groups_for_children(uint total) {
   uint children = children_a_group(total);
-  return groups_of((total + children - 1u) / children);  // uncertified: integers
+  return groups_of(max((total + children - 1u) / children, 1u));  // uncertified: integers
 }
 
 #endif

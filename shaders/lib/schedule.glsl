@@ -54,6 +54,7 @@ uint status_decided() {
 void write_query_sizes(uint parents) {
   bool packets = (kSwitches & kUsePacket) != 0u && !walks_in_groups(3u * parents);
   uint queries = packets ? 0u : points_each() * parents;
+  if (control.measuring != 0u) queries = 1u;
   dispatches[kDispatchQueryPoints] = groups_for_queries(queries);
   dispatches[kDispatchPacket] = groups_for(packets ? parents : 0u);
 }

@@ -1,27 +1,20 @@
 // The selection of the candidates that a wave refines where there is no room for all: those with
 // the smallest keys (lib/candidate.glsl), by digits of 8 bits from the top. A boundary that leaves
 // at least half of the room used will do. Include after `control` and `frontier` are declared and
-// lib/candidate.glsl is included; the workgroup has kPlanGroup invocations.
+// lib/candidate.glsl and lib/plan_words.glsl are included; the workgroup has kGroupSize
+// invocations.
 #ifndef VKH_SHADERS_LIB_SELECT_GLSL
 #define VKH_SHADERS_LIB_SELECT_GLSL
-
-shared uint histogram[256];
-shared Key prefix;    // of the keys that are still undecided
-shared uint decided;  // digits of it
-shared uint before;   // keys under it
-shared bool selecting;
-shared uint read_from;           // where the half of the frontier that the wave reads starts
-shared bool largest_first;       // control.select_largest
-shared uint room_for;            // candidates that can be refined
-shared uint held_in_short_room;  // candidates, where not all can be refined
 
 uint digit_of(Key k, uint d) {
   return ((d < 4u ? k.first : k.second) >> (24u - 8u * (d & 3u))) & 255u;
 }
 
-bool has_prefix(Key k) {
+Key prefix() { return Key(plan_words[kWordPrefix], plan_words[kWordPrefix + 1u]); }
+
+bool has_prefix(Key k, uint decided) {
   for (uint d = 0u; d < decided; ++d) {
-    if (digit_of(k, d) != digit_of(prefix, d)) return false;
+    if (digit_of(k, d) != digit_of(prefix(), d)) return false;
   }
   return true;
 }
@@ -35,54 +28,68 @@ void with_digit(inout Key k, uint d, uint value) {
   }
 }
 
-void count_digits(uint held) {
+void count_digits() {
   uint lane = gl_LocalInvocationID.x;
-  histogram[lane] = 0u;
+  for (uint i = lane; i < kSelectDigits; i += kGroupSize) plan_words[i] = 0u;
   barrier();
-  for (uint i = lane; i < held; i += kPlanGroup) {
-    Key k = key_of(frontier[read_from + i], largest_first);
-    if (has_prefix(k)) atomicAdd(histogram[digit_of(k, decided)], 1u);
+  uint decided = plan_words[kWordDecided];
+  for (uint i = lane; i < plan_words[kWordHeld]; i += kGroupSize) {
+    Key k = key_of(frontier[plan_words[kWordReadFrom] + i], plan_words[kWordLargest] != 0u);
+    if (has_prefix(k, decided)) atomicAdd(plan_words[digit_of(k, decided)], 1u);
   }
   barrier();
 }
 
-// Goes on with the first digit whose keys do not all fit `room`, or stops under it.
-void narrow(uint room) {
+// Goes on with the first digit whose keys do not all fit the room, or stops under it.
+void narrow() {
+  uint room = plan_words[kWordRoom];
+  uint before = plan_words[kWordBefore];
+  uint decided = plan_words[kWordDecided];
+  Key last = prefix();
   uint digit = 0u;
-  while (digit < 255u && before + histogram[digit] <= room) {
-    before += histogram[digit];
+  while (digit < kSelectDigits - 1u && before + plan_words[digit] <= room) {
+    before += plan_words[digit];
     ++digit;
   }
-  with_digit(prefix, decided, digit);
+  with_digit(last, decided, digit);
   ++decided;
-  bool all_fit = before + histogram[digit] <= room;
-  if (all_fit) before += histogram[digit];
-  selecting = !all_fit && 2u * before < room + 1u && decided < 8u;
-  if (selecting) return;
+  bool all_fit = before + plan_words[digit] <= room;
+  if (all_fit) before += plan_words[digit];
+  bool goes_on = !all_fit && 2u * before < room + 1u && decided < 8u;
+  plan_words[kWordSelecting] = goes_on ? 1u : 0u;
+  plan_words[kWordPrefix] = last.first;
+  plan_words[kWordPrefix + 1u] = last.second;
+  plan_words[kWordBefore] = before;
+  plan_words[kWordDecided] = decided;
+  if (goes_on) return;
   // Keys under the prefix were counted: the largest of them, or the prefix itself if it was, too.
-  for (uint d = decided; d < 8u; ++d) with_digit(prefix, d, all_fit ? 255u : 0u);
-  control.select_key = prefix.first;
-  control.select_tie = prefix.second;
+  for (uint d = decided; d < 8u; ++d) with_digit(last, d, all_fit ? 255u : 0u);
+  control.select_key = last.first;
+  control.select_tie = last.second;
   if (!all_fit && before > 0u) {
-    control.select_tie = prefix.second - 1u;
-    if (prefix.second == 0u) control.select_key = prefix.first - 1u;
+    control.select_tie = last.second - 1u;
+    if (last.second == 0u) control.select_key = last.first - 1u;
   }
   uint refined = max(before, 1u);
-  control.deferred += room_for - refined;
+  control.deferred += room - refined;
   control.parents = refined;
 }
 
-void select_smallest(uint held) {
-  if (gl_LocalInvocationID.x == 0u) {
-    prefix = Key(0u, 0u);
-    decided = 0u;
-    before = 0u;
-    selecting = true;
+// Called by every invocation, after the first has set kWordHeld, kWordRoom, kWordReadFrom and
+// kWordLargest.
+void select_smallest() {
+  bool first = gl_LocalInvocationID.x == 0u;
+  if (first) {
+    plan_words[kWordPrefix] = 0u;
+    plan_words[kWordPrefix + 1u] = 0u;
+    plan_words[kWordDecided] = 0u;
+    plan_words[kWordBefore] = 0u;
+    plan_words[kWordSelecting] = 1u;
   }
   barrier();
-  while (selecting) {
-    count_digits(held);
-    if (gl_LocalInvocationID.x == 0u) narrow(room_for);
+  while (plan_words[kWordSelecting] != 0u) {
+    count_digits();
+    if (first) narrow();
     barrier();
   }
 }

@@ -1,17 +1,21 @@
 // Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an order
 // that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
 // that the report says of a witness, so that two samples with one key are one to the report.
-// Samples at what was the lower bound when they were looked at are offered (wave_filter,
-// wave_bound); a workgroup then adopts one (wave_plan), before the wave's streams are
-// overwritten. Include after `control`, `frontier`, `splits`, `points`, `survivors` and `centroids`
-// are declared and lib/child.glsl is included.
+// wave_bound, by when all are measured, offers them; the plan adopts one (lib/adopt.glsl). Include
+// after `control`, `frontier`, `splits`, `points`, `survivors` and `centroids` are declared and
+// lib/child.glsl is included.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
 #include "shaders/lib/hash.h"
 
+// Samples of the wave: its new points, then survivors' centroids.
+uint sample_count() { return query_count(); }
+
 float distance_of_sample(uint s) {
-  if ((s & kCentroidSample) != 0u) return centroids[s & ~kCentroidSample].distance;
+  uint points_asked = point_count();
+  if ((kSwitches & kUseCentroid) != 0u && s >= points_asked)
+    return centroids[s - points_asked].distance;
   return points[s].distance;
 }
 
@@ -20,27 +24,14 @@ bool is_new_lower(float distance) {
          distance > control.witness.distance;
 }
 
-void offer_sample(uint s) {
-  if (!is_new_lower(distance_of_sample(s))) return;
-  uint slot = atomicAdd(control.offer_count, 1u);
-  if (slot < kMaxOffers) control.offers[slot] = s;
-}
-
-// A child's share in offering the new points: of a candidate's children all but the last have one.
-void offer_point(uint code) {
-  uint which = code % children_each();
-  if (!is_root(code) && which < points_each())
-    offer_sample(points_each() * parent_of(code) + which);
-}
-
 Witness witness_from(Point asked, uint root, uvec2 at) {
   return Witness(asked.position, asked.distance, root, at.x, at.y, asked.nearest);
 }
 
 // A sample as the witness that it would be.
 Witness witness_at(uint s) {
-  if ((s & kCentroidSample) != 0u) {
-    uint c = s & ~kCentroidSample;
+  if ((kSwitches & kUseCentroid) != 0u && s >= point_count()) {
+    uint c = s - point_count();
     Child child = load_child(survivors[c]);
     return witness_from(centroids[c], child.root, centroid_of(child.at));
   }
@@ -56,7 +47,34 @@ Witness witness_at(uint s) {
 }
 
 uint key_of_witness(Witness w) {
-  return mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest);
+  uint key = mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest);
+  return min(key, kNone - 1u);
+}
+
+// Kept where its key is the smallest so far: some 20 are kept of a million in whatever order, and
+// the smallest of all is among them.
+void offer(Witness w) {
+  uint key = key_of_witness(w);
+  if (key >= atomicMin(control.offer_key, key)) return;
+  uint slot = atomicAdd(control.offer_count, 1u);
+  if (slot >= kMaxOffers) return;
+  uvec3 at = floatBitsToUint(w.position);
+  atomicExchange(control.offers[slot].key, key);
+  atomicExchange(control.offers[slot].x, at.x);
+  atomicExchange(control.offers[slot].y, at.y);
+  atomicExchange(control.offers[slot].z, at.z);
+  atomicExchange(control.offers[slot].root, w.root);
+  atomicExchange(control.offers[slot].j, w.j);
+  atomicExchange(control.offers[slot].k, w.k);
+  atomicExchange(control.offers[slot].nearest, w.nearest);
+}
+
+// The invocations of a dispatch go over all samples; as a rule there are more of them.
+void offer_samples() {
+  uint step = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kGroupSize;
+  for (uint s = item_index(); s < sample_count(); s += step) {
+    if (is_new_lower(distance_of_sample(s))) offer(witness_at(s));
+  }
 }
 
 #endif
