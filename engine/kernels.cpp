@@ -107,7 +107,8 @@ bool is_needed(uint32_t kernel, uint32_t switches) {
   if (kernel == kIndexOfWaveSort) return (switches & gpu::kUseSort) != 0;
   if (kernel == kIndexOfWaveBisect) return (switches & gpu::kUsePaperU3) != 0;
   if (kernel == kIndexOfWaveFilter) return (switches & gpu::kUseFilter) != 0;
-  if (kernel == kIndexOfWavePlan) return !plans_in_bound(switches);
+  if (kernel == kIndexOfWavePlan) return !is_fused(switches);
+  if (kernel == kIndexOfWaveSubdivide) return !is_fused(switches);
   if (kernel == kIndexOfReportOpen) return (switches & gpu::kUseCoverage) != 0;
   return true;
 }

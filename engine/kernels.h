@@ -24,10 +24,10 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
-// Whether the last workgroup of wave_bound plans the next wave, not wave_plan: kPlansInBound in
-// shaders/lib/dispatch.glsl.
-constexpr bool plans_in_bound(uint32_t switches) {
-  return (switches & gpu::kUseGroupWalk) != 0 && (switches & gpu::kUseFilter) == 0;
+// Whether a wave is two dispatches: kFused in shaders/lib/dispatch.glsl.
+constexpr bool is_fused(uint32_t switches) {
+  constexpr uint32_t apart = gpu::kUseFilter | gpu::kUsePacket | gpu::kUseSort;
+  return (switches & (gpu::kUseGroupWalk | apart)) == gpu::kUseGroupWalk;
 }
 
 // Creates every kernel's pipeline in `context`; `switches` becomes specialisation constant 0. On

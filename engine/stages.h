@@ -43,6 +43,8 @@ struct Problem {
       {};  // of each face of A, closed; then of each, open. No buffer: not recorded
 };
 
+// Where --verify adds up what is closed and open.
+Slice<gpu::Area> areas_of(const Problem& p);
 void record_seed(Recorder& rec, const Problem& p);
 // What `query` works on; `points`: of a wave.
 k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points);

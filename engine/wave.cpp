@@ -5,11 +5,6 @@
 namespace vkh {
 namespace {
 
-// Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
-Slice<gpu::Area> areas_of(const Problem& p) {
-  return p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused);
-}
-
 void record_subdivide(Recorder& rec, const Problem& p) {
   const Workspace& ws = p.ws;
   rec.run_indirect<k::WaveSubdivide>({.control = ws.control,
@@ -126,7 +121,7 @@ void record_bounds(Recorder& rec, const Problem& p) {
   if ((p.switches & gpu::kUseCentroid) != 0)
     record_query(rec, p, p.ws.centroids, gpu::kAskCentroids, gpu::kDispatchQueryCentroids);
   record_bound(rec, p);
-  if (!plans_in_bound(p.switches)) record_plan(rec, p);
+  if (!is_fused(p.switches)) record_plan(rec, p);
 }
 
 }  // namespace
@@ -139,7 +134,7 @@ void record_first_wave(Recorder& rec, const Problem& p) {
 void record_wave(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("wave");
   if ((p.switches & gpu::kUseSort) != 0) record_wave_sort(rec, p);
-  record_subdivide(rec, p);
+  if (!is_fused(p.switches)) record_subdivide(rec, p);
   record_query_points(rec, p);
   record_bounds(rec, p);
 }

@@ -11,10 +11,10 @@ namespace {
 
 // Waves of the first submission: enough for most pairs on a GPU; on a CPU one wave can take
 // seconds.
-constexpr uint32_t kFirstWaves = 6;
+constexpr uint32_t kFirstWaves = 8;
 constexpr uint32_t kFirstWavesOnCpu = 2;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
-// H200 17 us, another report 22: so the second submission is short, and long runs get longer ones.
+// H200 8 us, another report 22: so the second submission is short, and long runs get longer ones.
 constexpr double kSubmissionMs = 100;
 constexpr uint32_t kSecondWaves = 2;
 constexpr uint32_t kMostWaves = 8;

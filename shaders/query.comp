@@ -2,7 +2,8 @@
 // packets (wave_packet). One kernel, for a walk is most of the code that a driver compiles.
 // push.asked says which points:
 //   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
-// negative distance means skip. Out: their nearest and distance; control.maximum[kMaxLower].
+// negative distance means skip; or, where kFused, the frontier, whose candidates are split here
+// (lib/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; splits.
 //   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
 // where push.warm (lib/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
 // control.maximum[kMaxVertex].
@@ -28,16 +29,23 @@ layout(scalar, binding = 6) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 7) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 8) buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 9) buffer VertexDistance { uint vertex_distance[]; };
+layout(scalar, binding = 10) buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 11) writeonly buffer Splits { Split splits[]; };
+layout(scalar, binding = 12) buffer Areas { Area areas[]; };
+layout(scalar, binding = 13) readonly buffer Order { uint order[]; };
+layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; };
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/lib/bvh.glsl"
-#include "shaders/lib/base.glsl"
-#include "shaders/lib/generations.glsl"
+#include "shaders/lib/candidate.glsl"
+#include "shaders/lib/centroid.glsl"
+#include "shaders/lib/coverage.glsl"
 #include "shaders/lib/dispatch.glsl"
 #include "shaders/lib/group_walk.glsl"
 #include "shaders/lib/query.glsl"
 #include "shaders/lib/seed.glsl"
 #include "shaders/lib/stream.glsl"
+#include "shaders/lib/split.glsl"
 
 // A wave whose plan has moved the base asks for its witness alone.
 uint what_is_asked() {
@@ -56,6 +64,7 @@ uint asked_count(uint asks) {
 // All of a workgroup for one point, or an invocation for each. The second pass over the vertices
 // has few walks, and does not know which.
 bool are_few(uint asks, uint count) {
+  if (kFused && asks == kAskPoints) return splits_in_groups();
   bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupWalkVertices;
   // kSpread once more: optimisers then leave the group's walk out.
   return kSpread && (are_points(asks) ? walks_in_groups(count) : few_vertices);
@@ -66,6 +75,34 @@ Item item_at(uint asks, uint i, bool mine) {
   return asks == kAskVertices ? first_item(i, mine) : known_item(i, mine);
 }
 
+// Of a fused query: splits a candidate, and takes a new point of it. A workgroup has all those of
+// some candidates, or one, which all its invocations walk for: then every workgroup of a candidate
+// works out its split, and the one of the first point keeps it. `i`: which point of the wave it is.
+Item new_item(bool by_group, out uint i) {
+  uint each = points_each();
+  uint lane = gl_LocalInvocationID.x;
+  uint group = by_group ? 0u : lane / each;  // uncertified: integers
+  uint item = workgroup_index() * candidates_a_group() + group;
+  uint k = lane % each;
+  bool first = k == 0u;
+  if (!by_group && group >= candidates_a_group()) item = kNone;
+  if (by_group) {
+    item = workgroup_index() / each;  // uncertified: integers
+    k = workgroup_index() % each;
+    first = k == 0u && lane == 0u;
+    // For the splits of all its children.
+    if (k == 0u && lane < each) k = lane;
+  }
+  Refined r = refine(item, by_group ? lane == 0u : first, group);
+  bool mine = r.place != kNone;
+  NewPoint n = NewPoint(two(vec3(0.0)), kNone, false);
+  if (mine) n = new_point(k, r, group);
+  keep_split(r, first, group);
+  i = each * r.place + k;
+  mine = mine && (!by_group || lane == 0u);
+  return Item(mine, mine && n.asked, n.start, -1.0, Query(n.p, control.base, control.tight != 0u));
+}
+
 void main() {
   uint asks = what_is_asked();
   uint count = asked_count(asks);
@@ -73,7 +110,12 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   bool mine = i < count && (!by_group || lane == 0u);
-  Item item = item_at(asks, i, mine);
+  Item item;
+  if (kFused && asks == kAskPoints) {
+    item = new_item(by_group, i);
+  } else {
+    item = item_at(asks, i, mine);
+  }
   Nearest found = find_nearest(item.query, item.nearest, item.asked, by_group);
   bool plain = asks == kAskVertices;
   if (item.asked) {
@@ -86,7 +128,7 @@ void main() {
     if (plain) item.distance = sqrt(found.distance2);  // uncertified: steers
   }
   if (are_points(asks)) {
-    if (item.asked) answer_point(i, item.nearest, item.distance);
+    if (item.exists) answer_point(i, item.nearest, item.distance);
   } else if (item.exists) {
     answer_vertex(i, item);
   }

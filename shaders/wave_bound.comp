@@ -3,7 +3,7 @@
 // What is still open enters the next frontier. In: the refined candidates, their splits and queried
 // points; the admitted faces of A; survivors and centroids. Out: frontier's writing half; every
 // closed child's u is kept (kMaxDropped), every open one's too (kMaxNext); samples are offered as
-// witnesses. Where kPlansInBound, the last workgroup to end plans the next wave (lib/plan.glsl):
+// witnesses. Where kFused, the last workgroup to end plans the next wave (lib/plan.glsl):
 // control; dispatches.
 //
 // A workgroup bounds some children together (lib/bound_group.glsl): an invocation loads one of them
@@ -102,8 +102,8 @@ void main() {
   bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
   bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
-  float threshold = cull_threshold(tolerant);
-  float enough = kSpread && tolerant ? kEnough * effective_tolerance() : 0.0;
+  float threshold = cull_threshold(raised_lower(), tolerant);
+  float enough = kSpread && tolerant ? kEnough * effective_tolerance(raised_lower()) : 0.0;
   begin_group();
   offer_samples();
   uint code = kNone;
@@ -143,5 +143,5 @@ void main() {
   }
   if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
   write(mine, c, centre, v, threshold);
-  if (kPlansInBound && is_last_group()) plan_wave();
+  if (kFused && is_last_group()) plan_wave();
 }

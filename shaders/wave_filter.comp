@@ -89,7 +89,7 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
 void main() {
   uint code = item_index();
   bool mine = code < child_count() && is_child(code);
-  float threshold = cull_threshold((kSwitches & kUseToleranceCull) != 0u);
+  float threshold = cull_threshold(raised_lower(), (kSwitches & kUseToleranceCull) != 0u);
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));
   if (mine) {

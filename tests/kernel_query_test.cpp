@@ -110,6 +110,8 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
 
 // --- a wave's queries ---
 
+// Points are there, as wave_subdivide leaves them: `query` does not make them itself.
+constexpr uint32_t kApart = VKH_SWITCH_ALL | VKH_SWITCH_SORT;
 constexpr uint32_t kSkipped = 5;  // every so many-th point is not to be queried
 
 struct Query {
@@ -167,6 +169,10 @@ Query run_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32
     p.ws.faces = bench.put(std::vector<gpu::uvec3>(1));
     p.ws.vertex_nearest = bench.put(std::vector<uint32_t>(1));
     p.ws.vertex_distance = bench.put(std::vector<float>(1));
+    p.ws.frontier = bench.put(std::vector<gpu::Candidate>(1));
+    p.ws.splits = bench.put(std::vector<gpu::Split>(1));
+    p.ws.unused = bench.put(std::vector<uint32_t>(1));
+    p.ws.sort.values[0] = p.ws.centroid_nearest = p.ws.unused;
     p.b = h;
     const uint32_t asked = mode.centroids ? gpu::kAskCentroids : gpu::kAskPoints;
     rec.run<k::Query>(query_args(p, points), query_push(p, asked), Groups{count + 3});
@@ -284,7 +290,7 @@ TEST_CASE("query finds the nearest triangle, new points and centroids alike") {
     for (const auto& [name, mesh] : targets(two_float)) {
       CAPTURE(name);
       CAPTURE(mesh.faces.size());
-      KernelBench bench;
+      KernelBench bench(kApart);
       check_query(bench, mesh, 600, {.centroids = false, .two_float = two_float});
       check_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
     }
@@ -308,7 +314,7 @@ TEST_CASE("wave_packet finds what query finds, three points at a time") {
 
 TEST_CASE("query at awkward sizes") {
   const Mesh mesh = stored(soup(50, 100), false);
-  KernelBench bench;
+  KernelBench bench(kApart);
   for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 2047u, 2048u, 2049u}) {
     check_query(bench, mesh, count, {.centroids = true});
     check_query(bench, mesh, count / 3 * 3, {});

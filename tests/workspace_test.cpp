@@ -241,6 +241,23 @@ TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same ru
   }
 }
 
+/// A wave is then two dispatches: `query` splits, wave_bound plans. A frontier that may be sorted
+/// takes four, though it is not sorted here.
+TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are the same") {
+  for (const ReferencePair& pair : pairs()) {
+    for (const uint64_t bytes : {0ull, 1ull}) {  // the recommended capacity, and the smallest
+      CAPTURE(bytes);
+      SolveOptions options = with_memory(bytes);
+      options.enabled = {"group_walk", "two_levels"};
+      options.disabled = {"centroid", "parent_samples"};
+      const Report two = check_true(pair, options);
+      options.enabled.push_back("sort");
+      options.sort_from = ~0u;
+      check_same(two, check_true(pair, options));
+    }
+  }
+}
+
 TEST_CASE("progress tells of intervals that are true and shrink") {
   // Little memory: many waves, so that there are many submissions.
   for (const ReferencePair& pair : pairs()) {

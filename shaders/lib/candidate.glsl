@@ -23,20 +23,22 @@ float rebased(float upper) {
 // A candidate's u, of the frontier being read.
 float upper_of(Candidate c) { return rebased(c.upper); }
 
-// What candidates are closed against, above the base: the best sample's distance, or a known one
-// that is larger.
-float reached() {
-  return max(uintBitsToFloat(control.maximum[kMaxLower]), control.known_lower - control.base);
-}
+// The best sample's distance, above the base: once the wave's new points are measured; and until
+// the wave's end, while they are.
+float raised_lower() { return uintBitsToFloat(control.maximum[kMaxLower]); }
+float adopted_lower() { return control.witness.distance; }
+
+// What candidates are closed against: the best sample's distance, or a known one that is larger.
+float reached(float lower) { return max(lower, control.known_lower - control.base); }
 
 // How far above the lower bound a candidate may be closed. Of the tolerance, 32 ulp of the
 // distances that samples are known by are kept for the certificate of the lower bound: of what they
 // are above the base and, where they are compared in plain floats, of the base too; 64 kUlp2 of it
 // otherwise. Asking for less would refine the rounding of distances; where only what is above the
 // base is too coarse, a quarter is asked for all the same: the next plan moves the base.
-float effective_tolerance() {
+float effective_tolerance(float lower) {
   float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
-  float above_noise = 32.0 * kUlp * reached();
+  float above_noise = 32.0 * kUlp * reached(lower);
   float left = max(control.cull_tolerance - noise - above_noise, 0.25 * control.cull_tolerance);
   return max(left, noise);
 }
@@ -44,8 +46,8 @@ float effective_tolerance() {
 // Candidates with u <= this are closed: they can never widen the interval beyond the tolerance.
 // `tolerant` is the switch kUseToleranceCull; without it only what is under the lower bound is
 // closed.
-float cull_threshold(bool tolerant) {
-  return tolerant ? reached() + effective_tolerance() : reached();
+float cull_threshold(float lower, bool tolerant) {
+  return tolerant ? reached(lower) + effective_tolerance(lower) : reached(lower);
 }
 
 // How a candidate's surfaces are measured.

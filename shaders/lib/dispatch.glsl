@@ -16,15 +16,30 @@ Dispatch groups_for(uint items) {
 // Whether a small wave gets more invocations for each query and child.
 const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
 
-// Whether the last workgroup of wave_bound plans the next wave, not wave_plan: a dispatch less.
-const bool kPlansInBound = (kSwitches & (kUseGroupWalk | kUseFilter)) == kUseGroupWalk;
+// Whether a wave is two dispatches: `query` splits the candidates whose new points it asks for, and
+// the last workgroup of wave_bound plans the next wave. Else wave_subdivide and wave_plan do.
+const bool kFused =
+    (kSwitches & (kUseGroupWalk | kUseFilter | kUsePacket | kUseSort)) == kUseGroupWalk;
 
 bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQueries; }
 
-// Of query.
+// Of query, for points that are there.
 Dispatch groups_for_queries(uint queries) {
   if (walks_in_groups(queries)) return groups_of(queries);
   return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers
+}
+
+// Whether a workgroup of a fused query has one new point, and not all those of some candidates.
+bool splits_in_groups() { return control.deferred == 0u && walks_in_groups(point_count()); }
+
+// Candidates whose new points a workgroup of a fused query has.
+uint candidates_a_group() { return kQueryGroup / points_each(); }  // uncertified: integers
+
+// Of a fused query, for `held` candidates, refined or deferred.
+Dispatch groups_for_splits(uint held) {
+  if (splits_in_groups()) return groups_of(held * points_each());
+  uint candidates = candidates_a_group();
+  return groups_of((held + candidates - 1u) / candidates);  // uncertified: integers
 }
 
 // Of wave_subdivide: invocations of a candidate. Each new point has one where a wave is a chain of

@@ -106,7 +106,7 @@ void share_room() {
 // All that is left is within the tolerance: what culling would find out with one more wave.
 bool within_tolerance() {
   return control.root_cursor == control.face_count && control.count[kCountFrontier] > 0u &&
-         uintBitsToFloat(control.maximum[kMaxFrontier]) <= cull_threshold(true);
+         uintBitsToFloat(control.maximum[kMaxFrontier]) <= cull_threshold(raised_lower(), true);
 }
 
 void end_if_done() {
@@ -135,7 +135,7 @@ void write_sizes() {
   uint parents = running ? control.parents : 0u;
   uint held = running ? parents + control.deferred : 0u;
   dispatches[kDispatchSubdivide] = groups_for(held * split_lanes());
-  write_query_sizes(parents);
+  write_query_sizes(parents, held);
   write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
   uint children = running ? child_count() : 0u;
   dispatches[kDispatchFilter] = groups_for(children);

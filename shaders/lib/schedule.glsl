@@ -51,11 +51,12 @@ uint status_decided() {
   return control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
 }
 
-void write_query_sizes(uint parents) {
+void write_query_sizes(uint parents, uint held) {
   bool packets = (kSwitches & kUsePacket) != 0u && !walks_in_groups(3u * parents);
   uint queries = packets ? 0u : points_each() * parents;
   if (control.measuring != 0u) queries = 1u;
-  dispatches[kDispatchQueryPoints] = groups_for_queries(queries);
+  bool splits = kFused && control.measuring == 0u;
+  dispatches[kDispatchQueryPoints] = splits ? groups_for_splits(held) : groups_for_queries(queries);
   dispatches[kDispatchPacket] = groups_for(packets ? parents : 0u);
 }
 

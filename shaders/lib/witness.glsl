@@ -25,7 +25,8 @@ bool is_new_lower(float distance) {
 }
 
 Witness witness_from(Point asked, uint root, uvec2 at) {
-  return Witness(asked.position, asked.distance, root, at.x, at.y, asked.nearest);
+  vec3 position = place(load_root(root), at).hi;
+  return Witness(position, asked.distance, root, at.x, at.y, asked.nearest);
 }
 
 // A sample as the witness that it would be.
