@@ -64,6 +64,11 @@ struct Key {
 };
 
 // `largest`: the wave's order, control.select_largest.
+uint first_of_key(float upper, bool largest) {
+  uint u = floatBitsToUint(upper);
+  return largest ? ~u : u;
+}
+
 Key key_of(Candidate c, bool largest) {
   Bary3 t = unpack_corners(c.corners);
   vec2 ab = vec2(ivec2(t.b) - ivec2(t.a));
@@ -72,8 +77,7 @@ Key key_of(Candidate c, bool largest) {
   uint exponent = (floatBitsToUint(max(abs(ab.x * ac.y - ab.y * ac.x), 1.0)) >> 23) - 127u;
   uint hash = mixed(mixed(mixed(mixed(mixed(0u, c.root), c.corners.x), c.corners.y), c.corners.z),
                     c.corners.w);
-  uint u = floatBitsToUint(c.upper);
-  return Key(largest ? ~u : u, (exponent << 26) | (hash >> 6));
+  return Key(first_of_key(c.upper, largest), (exponent << 26) | (hash >> 6));
 }
 
 bool not_after(Key k, Key than) {

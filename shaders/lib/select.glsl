@@ -6,6 +6,8 @@
 #ifndef VKH_SHADERS_LIB_SELECT_GLSL
 #define VKH_SHADERS_LIB_SELECT_GLSL
 
+const uint kAtOnce = 8u;  // candidates of an invocation that are loaded together
+
 uint digit_of(Key k, uint d) {
   return ((d < 4u ? k.first : k.second) >> (24u - 8u * (d & 3u))) & 255u;
 }
@@ -28,14 +30,45 @@ void with_digit(inout Key k, uint d, uint value) {
   }
 }
 
+// By the first word of a key, u: it alone is loaded, of some candidates at once, for one workgroup
+// goes over all there are.
+void count_first_digits(uint decided) {
+  uint shift = 24u - 8u * decided;
+  uint held = plan_words[kWordHeld];
+  bool largest = plan_words[kWordLargest] != 0u;
+  for (uint start = gl_LocalInvocationID.x; start < held; start += kAtOnce * kGroupSize) {
+    uint first[kAtOnce];
+    for (uint n = 0u; n < kAtOnce; ++n) {
+      uint i = min(start + n * kGroupSize, held - 1u);
+      first[n] = first_of_key(frontier[plan_words[kWordReadFrom] + i].upper, largest);
+    }
+    for (uint n = 0u; n < kAtOnce; ++n) {
+      bool counts = start + n * kGroupSize < held && has_prefix(Key(first[n], 0u), decided);
+      if (counts) atomicAdd(plan_words[(first[n] >> shift) & 255u], 1u);
+    }
+  }
+}
+
+// Those whose u is the same: few.
+void count_last_digits(uint decided) {
+  bool largest = plan_words[kWordLargest] != 0u;
+  for (uint i = gl_LocalInvocationID.x; i < plan_words[kWordHeld]; i += kGroupSize) {
+    Candidate c = frontier[plan_words[kWordReadFrom] + i];
+    if (!has_prefix(Key(first_of_key(c.upper, largest), 0u), 4u)) continue;
+    Key k = key_of(c, largest);
+    if (has_prefix(k, decided)) atomicAdd(plan_words[digit_of(k, decided)], 1u);
+  }
+}
+
 void count_digits() {
   uint lane = gl_LocalInvocationID.x;
   for (uint i = lane; i < kSelectDigits; i += kGroupSize) plan_words[i] = 0u;
   barrier();
   uint decided = plan_words[kWordDecided];
-  for (uint i = lane; i < plan_words[kWordHeld]; i += kGroupSize) {
-    Key k = key_of(frontier[plan_words[kWordReadFrom] + i], plan_words[kWordLargest] != 0u);
-    if (has_prefix(k, decided)) atomicAdd(plan_words[digit_of(k, decided)], 1u);
+  if (decided < 4u) {
+    count_first_digits(decided);
+  } else {
+    count_last_digits(decided);
   }
   barrier();
 }
