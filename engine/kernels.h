@@ -26,8 +26,7 @@ VKH_KERNELS(VKH_INDEX)
 
 // Whether a wave is two dispatches: kFused in shaders/lib/dispatch.glsl.
 constexpr bool is_fused(uint32_t switches) {
-  constexpr uint32_t apart = gpu::kUseFilter | gpu::kUsePacket | gpu::kUseSort;
-  return (switches & (gpu::kUseGroupWalk | apart)) == gpu::kUseGroupWalk;
+  return (switches & (gpu::kUseGroupWalk | gpu::kUseApart)) == gpu::kUseGroupWalk;
 }
 
 // Creates every kernel's pipeline in `context`; `switches` becomes specialisation constant 0. On

@@ -296,9 +296,10 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
 
 /* Records `waves` waves: each refines what is undecided and narrows the interval. A wave after the
  * end costs a few empty dispatches, so more than are needed may be recorded: a frame's budget is a
- * number of waves. A command buffer of waves alone, submitted again, goes on where the run stands;
- * one that starts with vkhCmdBegin does the run again. Reads the hierarchy, reads and writes the
- * workspace. */
+ * number of waves. A wave after the lower bound has risen far above what distances are kept above
+ * (VkhReport::base) measures the witness anew and refines nothing. A command buffer of waves alone,
+ * submitted again, goes on where the run stands; one that starts with vkhCmdBegin does the run
+ * again. Reads the hierarchy, reads and writes the workspace. */
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                    uint32_t waves, VkhProfile* profile);
 

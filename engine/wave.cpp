@@ -29,8 +29,9 @@ void record_query(Recorder& rec, const Problem& p, const Slice<gpu::Point>& poin
   rec.stage("query");
 }
 
-// The new points, where the base has moved the witness in their place: packets, unless the wave has
-// few and a workgroup walks for each; the plan knows.
+// The new points, where the base has moved the witness in their place, and where the wave is fused
+// the splits before them. Packets, unless the wave has few and a workgroup walks for each; the plan
+// knows.
 void record_query_points(Recorder& rec, const Problem& p) {
   if ((p.switches & gpu::kUsePacket) != 0) {
     rec.run_indirect<k::WavePacket>({.control = p.ws.control,

@@ -85,6 +85,8 @@ VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refin
 VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
 VKH_CONST uint kUseTwoLevels = 65536u;     // few candidates are split twice in a wave
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
+// Any of them: a wave is more than two dispatches (kFused in lib/dispatch.glsl).
+VKH_CONST uint kUseApart = kUseFilter | kUsePacket | kUseSort;
 // The method of ours: without what the paper has in another place.
 VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u + 65536u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
@@ -262,8 +264,8 @@ struct Split {
 // One closest-point query: in, a position and triangles to start from; out, the closest triangle
 // found.
 struct Point {
-  vec3 position;
-  uint nearest;  // in: start triangle or kNone; out: closest triangle
+  vec3 position;  // and its low part: not of the points of a fused query
+  uint nearest;   // in: start triangle or kNone; out: closest triangle
   vec3 position_lo;
   float distance;  // above Control::base, at least 0; negative: not to be queried
 };
@@ -448,7 +450,8 @@ struct FacesPush {
   uint triangle_count;  // of B
 };
 
-// query: which points. Of A's vertices and, where `warm`, the last run's witness behind them.
+// query: which points. Of A's vertices and, where `warm`, the witness there is behind them: the
+// last run's, or, after a plan that has moved the base, this one's.
 struct QueryPush {
   uint asked;           // kAsk*
   uint triangle_count;  // of B

@@ -3,7 +3,8 @@
 // push.asked says which points:
 //   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
 // negative distance means skip; or, where kFused, the frontier, whose candidates are split here
-// (lib/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; splits.
+// (lib/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; and
+// of a split all that wave_subdivide writes but the points' positions.
 //   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
 // where push.warm (lib/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
 // control.maximum[kMaxVertex].
@@ -32,6 +33,7 @@ layout(scalar, binding = 9) buffer VertexDistance { uint vertex_distance[]; };
 layout(scalar, binding = 10) buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 11) writeonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 12) buffer Areas { Area areas[]; };
+// Of lib/split.glsl; not touched here, where nothing is sorted and no centroid known.
 layout(scalar, binding = 13) readonly buffer Order { uint order[]; };
 layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; };
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };

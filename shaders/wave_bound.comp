@@ -49,7 +49,8 @@ layout(scalar, binding = 15) writeonly buffer Dispatches { Dispatch dispatches[]
 #include "shaders/lib/last_group.glsl"
 #include "shaders/lib/schedule.glsl"
 
-// Nobody reads the corners' distances after the cuts, and shared memory is scarce.
+// Nobody reads the corners' distances after the cuts, and shared memory is scarce. At least 576
+// words; kPlanWords is 272.
 #define plan_words corner_bits
 #include "shaders/lib/plan.glsl"
 

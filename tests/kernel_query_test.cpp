@@ -110,8 +110,6 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
 
 // --- a wave's queries ---
 
-// Points are there, as wave_subdivide leaves them: `query` does not make them itself.
-constexpr uint32_t kApart = VKH_SWITCH_ALL | VKH_SWITCH_SORT;
 constexpr uint32_t kSkipped = 5;  // every so many-th point is not to be queried
 
 struct Query {
@@ -290,7 +288,7 @@ TEST_CASE("query finds the nearest triangle, new points and centroids alike") {
     for (const auto& [name, mesh] : targets(two_float)) {
       CAPTURE(name);
       CAPTURE(mesh.faces.size());
-      KernelBench bench(kApart);
+      KernelBench bench;
       check_query(bench, mesh, 600, {.centroids = false, .two_float = two_float});
       check_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
     }
@@ -314,7 +312,7 @@ TEST_CASE("wave_packet finds what query finds, three points at a time") {
 
 TEST_CASE("query at awkward sizes") {
   const Mesh mesh = stored(soup(50, 100), false);
-  KernelBench bench(kApart);
+  KernelBench bench;
   for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 65u, 255u, 256u, 257u, 2047u, 2048u, 2049u}) {
     check_query(bench, mesh, count, {.centroids = true});
     check_query(bench, mesh, count / 3 * 3, {});

@@ -241,20 +241,49 @@ TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same ru
   }
 }
 
+namespace {
+
+bool has_stage(const Report& r, const std::string& name) {
+  return std::any_of(r.stages.begin(), r.stages.end(),
+                     [&](const StageStats& s) { return s.name == name; });
+}
+
+}  // namespace
+
 /// A wave is then two dispatches: `query` splits, wave_bound plans. A frontier that may be sorted
 /// takes four, though it is not sorted here.
 TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are the same") {
   for (const ReferencePair& pair : pairs()) {
     for (const uint64_t bytes : {0ull, 1ull}) {  // the recommended capacity, and the smallest
-      CAPTURE(bytes);
-      SolveOptions options = with_memory(bytes);
-      options.enabled = {"group_walk", "two_levels"};
-      options.disabled = {"centroid", "parent_samples"};
-      const Report two = check_true(pair, options);
-      options.enabled.push_back("sort");
-      options.sort_from = ~0u;
-      check_same(two, check_true(pair, options));
+      for (const double tolerance : {1e-6, 1e-8}) {
+        CAPTURE(bytes);
+        CAPTURE(tolerance);
+        SolveOptions options = with_memory(bytes);
+        options.tolerance = tolerance;
+        options.wave_limit = 400;
+        options.enabled = {"group_walk", "two_levels"};
+        options.disabled = {"centroid", "parent_samples"};
+        const Report two = check_true(pair, options);
+        CHECK(!has_stage(two, "subdivide"));
+        CHECK(!has_stage(two, "plan"));
+        options.enabled.push_back("sort");
+        options.sort_from = ~0u;
+        const Report four = check_true(pair, options);
+        CHECK(has_stage(four, "subdivide"));
+        CHECK(has_stage(four, "plan"));
+        check_same(two, four);
+      }
     }
+  }
+}
+
+/// Where nothing may wait, a frontier that does not fit is lost as a whole.
+TEST_CASE("with a GPU's switches, what is lost to memory keeps its bound") {
+  for (const ReferencePair& pair : pairs()) {
+    SolveOptions options = with_memory(1);
+    options.enabled = {"group_walk", "two_levels"};
+    options.disabled = {"centroid", "parent_samples", "defer"};
+    check_true(pair, options);
   }
 }
 

@@ -7,6 +7,8 @@
 // as they were written: maybe by other workgroups of this dispatch.
 void adopt_witness() {
   uint lane = gl_LocalInvocationID.x;
+  if (lane == 0u) plan_words[kWordAdopted + 3u] = kNone;
+  barrier();
   uint count = min(atomicOr(control.offer_count, 0u), kMaxOffers);  // <= kGroupSize
   uint key = atomicOr(control.offer_key, 0u);
   if (lane < count && atomicOr(control.offers[lane].key, 0u) == key) {
@@ -20,13 +22,15 @@ void adopt_witness() {
   }
   barrier();
   if (lane > 0u || count == 0u) return;
+  control.offer_count = 0u;
+  control.offer_key = kNone;
+  // Where the list had no place for it, the old witness stays, and is one.
+  if (plan_words[kWordAdopted + 3u] == kNone) return;
   vec3 position = uintBitsToFloat(uvec3(plan_words[kWordAdopted], plan_words[kWordAdopted + 1u],
                                         plan_words[kWordAdopted + 2u]));
   control.witness = Witness(position, uintBitsToFloat(control.maximum[kMaxLower]),
                             plan_words[kWordAdopted + 3u], plan_words[kWordAdopted + 4u],
                             plan_words[kWordAdopted + 5u], plan_words[kWordAdopted + 6u]);
-  control.offer_count = 0u;
-  control.offer_key = kNone;
 }
 
 #endif

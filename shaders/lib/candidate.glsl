@@ -23,8 +23,8 @@ float rebased(float upper) {
 // A candidate's u, of the frontier being read.
 float upper_of(Candidate c) { return rebased(c.upper); }
 
-// The best sample's distance, above the base: once the wave's new points are measured; and until
-// the wave's end, while they are.
+// The best sample's distance, above the base: with this wave's samples, complete once its queries
+// have ended; and as it was when the wave began, which stays until the plan.
 float raised_lower() { return uintBitsToFloat(control.maximum[kMaxLower]); }
 float adopted_lower() { return control.witness.distance; }
 

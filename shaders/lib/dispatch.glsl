@@ -18,8 +18,7 @@ const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
 
 // Whether a wave is two dispatches: `query` splits the candidates whose new points it asks for, and
 // the last workgroup of wave_bound plans the next wave. Else wave_subdivide and wave_plan do.
-const bool kFused =
-    (kSwitches & (kUseGroupWalk | kUseFilter | kUsePacket | kUseSort)) == kUseGroupWalk;
+const bool kFused = (kSwitches & (kUseGroupWalk | kUseApart)) == kUseGroupWalk;
 
 bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQueries; }
 
@@ -62,10 +61,12 @@ uint children_a_group(uint total) {
   return children;
 }
 
-// Of wave_bound, whose last workgroup plans: one is there even where no child is.
+// Of wave_bound, whose last workgroup plans: one is there even where no child is. Where a filter
+// has left few of them, there are enough to go over the wave's samples (lib/witness.glsl).
 Dispatch groups_for_children(uint total) {
   uint children = children_a_group(total);
-  return groups_of(max((total + children - 1u) / children, 1u));  // uncertified: integers
+  uint groups = max((total + children - 1u) / children, 1u);          // uncertified: integers
+  return groups_of(max(groups, point_count() / (16u * kGroupSize)));  // uncertified: integers
 }
 
 #endif

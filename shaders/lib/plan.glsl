@@ -5,7 +5,7 @@
 // it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
 // dispatches only. Invariant: deferred + 4 parents + roots <= capacity, or 16 parents where they
 // are split twice, and their new points fit the stream of points; so no stream of the wave can
-// overflow. Include after lib/witness.glsl, lib/dispatch.glsl, lib/schedule.glsl and what these
+// overflow. Include after lib/candidate.glsl, lib/dispatch.glsl, lib/schedule.glsl and what these
 // need, and after `plan_words` (lib/plan_words.glsl) is declared.
 #ifndef VKH_SHADERS_LIB_PLAN_GLSL
 #define VKH_SHADERS_LIB_PLAN_GLSL
@@ -37,8 +37,9 @@ void close_wave(WaveEnd end) {
   uint w = (control.wave - 1u) % kMaxWaveRecords;
   uint candidates = child_count();
   uint queries = query_count();
-  float upper =
-      uintBitsToFloat(max(end.largest_open, max(end.largest_dropped, control.maximum[kMaxLower])));
+  // A wave that measured its witness left the frontier as it was.
+  uint open = control.measuring != 0u ? control.maximum[kMaxFrontier] : end.largest_open;
+  float upper = uintBitsToFloat(max(open, max(end.largest_dropped, control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(
       control.parents, candidates, queries, control.count[kCountSurvivors], control.deferred,
       control.base + uintBitsToFloat(control.maximum[kMaxLower]), control.base + upper);
@@ -125,6 +126,8 @@ void end_if_done() {
 }
 
 void refine_nothing() {
+  control.sorted = 0u;
+  control.twice = 0u;
   control.parents = 0u;
   control.deferred = 0u;
   control.roots = 0u;

@@ -10,7 +10,8 @@
 
 #include "shaders/lib/root.glsl"
 
-bool is_old_witness(uint i) { return i == push.vertex_count && push.warm != 0u; }
+// The last run's, or this one's where it is measured again.
+bool is_witness(uint i) { return i == push.vertex_count && push.warm != 0u; }
 
 uint seed_count() { return push.vertex_count + (push.warm != 0u ? 1u : 0u); }
 
@@ -47,16 +48,16 @@ Item first_item(uint i, bool mine) {
   Item item = no_item();
   if (!mine) return item;
   uint state = i < push.vertex_count ? vertex_distance[i] : 0u;
-  item.asked = state == kVertexUsed || is_old_witness(i);
+  item.asked = state == kVertexUsed || is_witness(i);
   item.exists = item.asked;
   if (!item.asked) {
     settle(i, state);
     return item;
   }
-  if (is_old_witness(i)) clamp_witness();
+  if (is_witness(i)) clamp_witness();
   item.nearest = start_of(i);
   item.query.p = seed_point(i);
-  if (is_old_witness(i)) control.witness.position = item.query.p.hi;
+  if (is_witness(i)) control.witness.position = item.query.p.hi;
   return item;
 }
 
@@ -65,7 +66,7 @@ Item known_item(uint i, bool mine) {
   Item item = no_item();
   float base = max(base_of_run(), control.base);  // 0 before the first plan
   bool is_vertex = i < push.vertex_count && vertex_nearest[i] != kNone;
-  item.exists = mine && (is_vertex || is_old_witness(i));
+  item.exists = mine && (is_vertex || is_witness(i));
   if (!item.exists) return item;
   item.nearest = is_vertex ? vertex_nearest[i] : control.witness.nearest;
   float distance = is_vertex ? uintBitsToFloat(vertex_distance[i]) : control.witness.distance;

@@ -1,9 +1,9 @@
 // Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an order
 // that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
-// that the report says of a witness, so that two samples with one key are one to the report.
-// wave_bound, by when all are measured, offers them; the plan adopts one (lib/adopt.glsl). Include
-// after `control`, `frontier`, `splits`, `points`, `survivors` and `centroids` are declared and
-// lib/child.glsl is included.
+// that the report says of a witness, so that two samples with one key are one to the report, but
+// for one chance in 2^32 a pair of them. wave_bound, by when all are measured, offers them; the
+// plan adopts one (lib/adopt.glsl). Include after `control`, `frontier`, `splits`, `points`,
+// `survivors` and `centroids` are declared and lib/child.glsl is included.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
@@ -70,7 +70,7 @@ void offer(Witness w) {
   atomicExchange(control.offers[slot].nearest, w.nearest);
 }
 
-// The invocations of a dispatch go over all samples; as a rule there are more of them.
+// The invocations of a dispatch go over all samples (groups_for_children).
 void offer_samples() {
   uint step = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kGroupSize;
   for (uint s = item_index(); s < sample_count(); s += step) {
