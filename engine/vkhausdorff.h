@@ -365,9 +365,9 @@ typedef struct VkhTask {
 
 /* Records the tasks side by side: what each does is what the functions above would do one after the
  * other, and so is every bit of its report, but one barrier stands for the same step of all. A pair
- * of some 10,000 faces leaves most of a large GPU idle: 80 pairs, 16 at a time, take a little less
- * than half of what they take in turn (60 and 28 ms on an H200). As many waves as the longest task
- * needs are gone through by all, so give tasks of like size.
+ * of some 10,000 faces leaves most of a large GPU idle: 80 pairs, 16 at a time, take half of what
+ * they take in turn (58 and 30 ms on an H200). As many waves as the longest task needs are gone
+ * through by all, so give tasks of like size.
  *   Tasks run at the same time on the device: what one writes (workspace, scratch, report,
  * coverage, a hierarchy that it builds or refits) no other may use. A task's scratch may lie in its
  * own workspace; a hierarchy that none of them builds or refits may serve many. On the host about
