@@ -14,7 +14,8 @@ namespace {
 constexpr uint32_t kFirstWaves = 8;
 constexpr uint32_t kFirstWavesOnCpu = 2;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
-// H200 8 us, another report 22: so the second submission is short, and long runs get longer ones.
+// H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
+// get longer ones.
 constexpr double kSubmissionMs = 100;
 constexpr uint32_t kSecondWaves = 2;
 constexpr uint32_t kMostWaves = 8;
