@@ -9,6 +9,8 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools VKH_EMBED_DIR)
 set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
 set(VKH_RUN_EMBED ${Python3_EXECUTABLE} -B ${VKH_EMBED})  # -B: leave no __pycache__ in the sources
+# Every float operation is decorated before anything else looks at it; embedding asserts that all of them still are.
+set(VKH_RUN_ORDER ${Python3_EXECUTABLE} -B ${VKH_EMBED_DIR}/float_order.py)
 
 function(vkh_add_shaders target)
   set(out ${CMAKE_BINARY_DIR}/generated/kernels)
@@ -75,9 +77,10 @@ function(vkh_add_kernel name shader out)
     OUTPUT ${spv}
     COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR} --depfile ${spv}.d
             -o ${spv} ${shader}
+    COMMAND ${VKH_RUN_ORDER} ${spv}
     COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
     ${flatten}
-    DEPENDS ${shader}
+    DEPENDS ${shader} ${VKH_EMBED_DIR}/float_order.py ${VKH_EMBED_DIR}/spirv_module.py
     DEPFILE ${spv}.d
     COMMENT "Compiling ${name}.comp"
     VERBATIM)
@@ -86,7 +89,8 @@ function(vkh_add_kernel name shader out)
     OUTPUT ${out}/${name}.cpp
     BYPRODUCTS ${out}/${name}.h
     COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
-    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED_DIR}/kernel_templates.py
+    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED_DIR}/float_order.py
+            ${VKH_EMBED_DIR}/kernel_templates.py
     COMMENT "Embedding ${name}"
     VERBATIM)
 endfunction()

@@ -127,7 +127,7 @@ void main() {
     item.nearest = found.triangle;
     item.distance = max(found.above, 0.0);
     // In plain floats it steers; the second pass measures what matters.
-    if (plain) item.distance = sqrt(found.distance2);  // uncertified: steers
+    if (plain) item.distance = root(found.distance2);  // uncertified: steers
   }
   if (are_points(asks)) {
     if (item.exists) answer_point(i, item.nearest, item.distance);

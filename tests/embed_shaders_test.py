@@ -13,6 +13,7 @@ from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parent.parent / "tools"
 EMBED = TOOLS / "embed_shaders.py"
+ORDER = TOOLS / "float_order.py"
 sys.path.insert(0, str(TOOLS))
 
 import spirv_module  # noqa: E402: found only now
@@ -24,6 +25,10 @@ layout(local_size_x = 64) in;
 struct Item { float a; uint b; };
 """
 KEYS = "layout(scalar, set = 0, binding = 0) buffer KeysBlock { uint keys[]; };"
+FLOATS = """#extension GL_KHR_shader_subgroup_arithmetic : require
+layout(scalar, set = 0, binding = 0) buffer XBlock { float x[]; };
+layout(scalar, set = 0, binding = 1) buffer VBlock { vec3 v[]; };
+"""
 MAIN = "void main() { %s }"
 
 # What is wrong: (declarations, main's body, what the message must say).
@@ -106,13 +111,15 @@ class EmbedShaders(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.dir = Path(self.folder.name)
 
-    def embed(self, declarations, body="", head=HEAD, flags=(), variants=()):
-        """Compiles and embeds try_it.comp; the result of embed_shaders.py."""
+    def embed(self, declarations, body="", head=HEAD, flags=(), variants=(), order=False):
+        """Compiles, decorates if `order`, and embeds try_it.comp: embed_shaders.py's result."""
         source, spv = self.dir / "try_it.comp", self.dir / "try_it.spv"
         source.write_text(head + declarations + MAIN % body)
         glslang = ["glslangValidator", "--quiet", "--target-env", "vulkan1.2", *flags]
         compiled = subprocess.run([*glslang, "-o", spv, source], capture_output=True, text=True)
         self.assertEqual(compiled.returncode, 0, compiled.stdout)
+        if order:
+            subprocess.run([sys.executable, "-B", ORDER, spv], check=True)
         command = [sys.executable, "-B", EMBED, "kernel", spv, self.dir, *variants]
         return subprocess.run(command, capture_output=True, text=True)
 
@@ -197,6 +204,47 @@ class EmbedShaders(unittest.TestCase):
                 self.assertEqual(loop_controls(given), [c & 1 for c in controls or []])
                 self.assertEqual([loop_controls(words) for words in for_cpu],
                                  [controls] if controls else [])
+
+    def test_a_float_operation_that_may_be_rearranged_stops_the_build(self):
+        """What glslang leaves undecorated; once decorated, it passes."""
+        for body, name in [("x[0] = x[1] + x[2];", "OpFAdd"), ("x[0] = x[1] - x[2];", "OpFSub"),
+                           ("x[0] = x[1] * x[2];", "OpFMul"), ("x[0] = x[1] / x[2];", "OpFDiv"),
+                           ("x[0] = -x[1];", "OpFNegate"),
+                           ("v[0] = x[0] * v[1];", "OpVectorTimesScalar"),
+                           ("v[0] = v[1] + v[2];", "OpFAdd")]:
+            with self.subTest(body):
+                result = self.embed(FLOATS, body)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertRegex(result.stderr, f"{name} %[0-9]+ is not decorated NoContraction")
+                self.header(FLOATS, body, order=True)
+
+    def test_a_float_operation_of_no_fixed_order_stops_the_build(self):
+        """Whatever is a sum of products inside, or a sum over a subgroup."""
+        for body in ["x[0] = dot(v[0], v[1]);", "v[0] = cross(v[1], v[2]);", "x[0] = length(v[0]);",
+                     "x[0] = distance(v[0], v[1]);", "v[0] = normalize(v[1]);",
+                     "x[0] = fma(x[1], x[2], x[3]);", "x[0] = mix(x[1], x[2], x[3]);",
+                     "x[0] = mod(x[1], x[2]);", "x[0] = subgroupAdd(x[1]);",
+                     "x[0] = exp2(x[1]);", "v[0] = mat3(v[0], v[1], v[2]) * v[3];"]:
+            with self.subTest(body):
+                result = self.embed(FLOATS, body, order=True)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertIn("whose order is not fixed", result.stderr)
+
+    def test_moved_and_chosen_floats_need_no_decoration(self):
+        self.header(FLOATS, "uint i = gl_LocalInvocationID.x; v[0] = abs(v[1]).zyx;"
+                            "x[0] = max(x[1], clamp(x[2], x[3], 1.0)); x[1] = sqrt(x[2]);"
+                            "x[3] = uintBitsToFloat(7u); x[4] = float(i);"
+                            "x[5] = mix(x[6], x[7], i > 3u); x[6] = subgroupMax(x[7]);")
+
+    def test_every_variant_that_is_embedded_is_looked_at(self):
+        body, spv = "x[0] = x[1] + x[2];", self.dir / "try_it.spv"
+        self.embed(FLOATS, body)
+        loose = self.dir / "loose.spv"
+        loose.write_bytes(spv.read_bytes())
+        for variants in [(loose, spv), (spv, loose)]:
+            with self.subTest(variants):
+                result = self.embed(FLOATS, body, variants=variants, order=True)
+                self.assertIn("OpFAdd", result.stderr)
 
     def test_an_equal_header_keeps_its_time(self):
         self.header(KEYS, "keys[0] = 1;")

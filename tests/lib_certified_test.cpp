@@ -73,7 +73,7 @@ void check_norms(const Device& device, Random& random, Tally& tally) {
   } const got = device.run([&]() -> decltype(got) {
     const math::vec3 hi = math::given(v.hi);
     return {math::wide(math::norm_up(hi)), math::wide(math::norm_down(hi)),
-            math::wide(math::length_up(math::dot(hi, hi))),
+            math::wide(math::length_up(math::dot3(hi, hi))),
             math::wide(math::sharp_norm_up(math::given(v)))};
   });
   const Rational square = square_of(fixed_vector(v.hi));

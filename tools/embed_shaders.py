@@ -10,6 +10,7 @@
 The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... without a gap, storage
 buffers only, one member a block, and that member's name is the argument's name in C++. Push
 constants are one struct in a block of their own, 128 bytes at most. Everything is layout(scalar).
+Float operations have one order, which no driver may change (float_order.py).
 """
 
 import struct
@@ -18,6 +19,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
+import float_order
 import spirv_module as spirv
 from kernel_templates import HEADER, SOURCE
 
@@ -313,20 +315,18 @@ def write_if_changed(path, text):
         path.write_text(text)
 
 
-def read_words(spv):
-    data = spv.read_bytes()
-    return struct.unpack(f"<{len(data) // 4}I", data)
-
-
 def embed_kernel(spv, out_dir, flat=None, cpu=None):
-    words = read_words(spv)
+    words = spirv.read_words(spv)
     try:
         kernel = reflect(spv.stem, words)
     except (ContractError, ValueError) as error:
         sys.exit(f"shaders/{spv.stem}.comp: {error}")
+    flat_words = spirv.read_words(flat) if flat else words
+    cpu_words = spirv.with_loops_kept(spirv.read_words(cpu)) if cpu else flat_words
+    for embedded in (flat_words, cpu_words):
+        if breach := float_order.breach(embedded):
+            sys.exit(f"shaders/{spv.stem}.comp: {breach}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
-    flat_words = read_words(flat) if flat else words
-    cpu_words = spirv.with_loops_kept(read_words(cpu)) if cpu else flat_words
     # Always: it is the output by which a Makefile knows that this ran.
     text = source_text(kernel, flat_words, cpu_words if cpu_words != flat_words else None)
     (out_dir / f"{kernel.name}.cpp").write_text(text)

@@ -9,7 +9,10 @@ OP_TYPE_BOOL, OP_TYPE_INT, OP_TYPE_FLOAT, OP_TYPE_VECTOR = 20, 21, 22, 23
 OP_TYPE_ARRAY, OP_TYPE_RUNTIME_ARRAY, OP_TYPE_STRUCT, OP_TYPE_POINTER = 28, 29, 30, 32
 OP_CONSTANT, OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT, OP_SPEC_CONSTANT_COMPOSITE = 43, 44, 50, 51
 OP_VARIABLE, OP_DECORATE, OP_MEMBER_DECORATE, OP_LOOP_MERGE = 59, 71, 72, 246
+OP_TYPE_MATRIX = 24
 TYPES = range(19, 40)
+# Of these the first operand is what they are about, not the type of a result.
+DECLARATIONS = {OP_NAME, OP_MEMBER_NAME, OP_DECORATE, OP_MEMBER_DECORATE, *TYPES}
 MODE_LOCAL_SIZE, MODE_LOCAL_SIZE_ID = 17, 38
 ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 6, 11, 24, 33, 34, 35
 BUILT_IN_WORKGROUP_SIZE = 25
@@ -20,6 +23,11 @@ INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # what t
 
 def literal_string(words):
     return struct.pack(f"<{len(words)}I", *words).split(b"\0", 1)[0].decode()
+
+
+def read_words(path):
+    data = path.read_bytes()
+    return struct.unpack(f"<{len(data) // 4}I", data)
 
 
 def instructions(words):

@@ -91,7 +91,7 @@ void hold(uint child, Child c) {
   hold_vector(kHeldOriginLow, child, placed.origin.lo);
   held[kHeldReach][child] = placed.reach;
   held[kHeldSlack][child] = placed.slack;
-  upper_bits[child] = floatBitsToUint(c.upper);
+  upper_bits[child] = bits_of(c.upper);
   uint first = atomicAdd(measure_count, known_count[child]);
   for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;
 }
@@ -131,7 +131,7 @@ Verdict bound_singly(uint child, float threshold) {
             : ha <= threshold        ? kCullHa
                                      : kCullLowerRaised;
   float upper = min(uintBitsToFloat(upper_bits[child]), min(ha, min(u1, u2)));
-  upper_bits[child] = floatBitsToUint(upper);
+  upper_bits[child] = bits_of(upper);
   return Verdict(upper, by);
 }
 
@@ -177,7 +177,7 @@ void measure_cuts(bool fine, float enough) {
       Two3 p = cut_point(t, cut, part & 1u, di - dj);
       u3 = max(u3, surface_distance_up(p, s));
     }
-    uint bits = floatBitsToUint(kept_bound(u3, held[kHeldSlack][child]));
+    uint bits = bits_of(kept_bound(u3, held[kHeldSlack][child]));
     if (fine) {
       atomicMax(listed[kPairBits + n / step], bits);  // uncertified: integers
     } else {

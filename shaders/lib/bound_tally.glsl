@@ -30,7 +30,7 @@ uint tally_count(uint word, bool counts) {
 // For value >= 0.
 void tally_raise(uint word, float value) {
   float highest = subgroupMax(value);
-  if (subgroupElect()) atomicMax(known_triangle[word], floatBitsToUint(highest));
+  if (subgroupElect()) atomicMax(known_triangle[word], bits_of(highest));
 }
 
 // An invocation a word.

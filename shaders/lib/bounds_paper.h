@@ -17,7 +17,7 @@ VKH_FN bool share_corner(Corners s, Corners r, VKH_OUT(vec3) at) {
   for (uint i = 0u; i < 3u; ++i) {
     for (uint j = 0u; j < 3u; ++j) {
       vec3 from = place_of_corner(s, i) - place_of_corner(r, j);
-      if (dot(from, from) > 0.0f) continue;
+      if (dot3(from, from) > 0.0f) continue;
       at = place_of_corner(s, i);
       return true;
     }
@@ -26,18 +26,18 @@ VKH_FN bool share_corner(Corners s, Corners r, VKH_OUT(vec3) at) {
 }
 
 // The plane through `at` that halves the angle between the planes of S and R and has S on the side
-// where dot(p - at, normal) < 0, as far as one of the two such planes has.
+// where dot3(p - at, normal) < 0, as far as one of the two such planes has.
 VKH_FN vec3 bisector_normal(Corners s, Corners r, vec3 at) {
-  vec3 n = cross(s.b - s.a, s.c - s.a);
-  vec3 m = cross(r.b - r.a, r.c - r.a);
+  vec3 n = cross3(s.b - s.a, s.c - s.a);
+  vec3 m = cross3(r.b - r.a, r.c - r.a);
   vec3 p = norm_up(m) * n;
   vec3 q = norm_up(n) * m;
   // Three times the centres, from `at`.
   vec3 to_s = (s.a - at) + (s.b - at) + (s.c - at);
   vec3 to_r = (r.a - at) + (r.b - at) + (r.c - at);
   vec3 normal = p + q;
-  if (dot(normal, to_s) * dot(normal, to_r) >= 0.0f) normal = p - q;
-  return dot(normal, to_s) > dot(normal, to_r) ? -normal : normal;
+  if (dot3(normal, to_s) * dot3(normal, to_r) >= 0.0f) normal = p - q;
+  return dot3(normal, to_s) > dot3(normal, to_r) ? -normal : normal;
 }
 
 // Case 1 (eq. 9): the corners with side < 0 and what is next to them against S, the others against
@@ -52,7 +52,7 @@ VKH_FN float bound_split(Patch t, Surface s, vec3 ds, Surface r, vec3 dr, vec3 s
 
 VKH_FN float bound_bisector(Patch t, Surface s, vec3 ds, Surface r, vec3 dr, vec3 at) {
   vec3 n = bisector_normal(s.at, r.at, at);
-  vec3 side = vec3(dot(t.at.a - at, n), dot(t.at.b - at, n), dot(t.at.c - at, n));
+  vec3 side = vec3(dot3(t.at.a - at, n), dot3(t.at.b - at, n), dot3(t.at.c - at, n));
   return bound_split(t, s, ds, r, dr, side);
 }
 

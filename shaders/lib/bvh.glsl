@@ -23,7 +23,7 @@ Corners local_triangle(uint i, vec3 origin) {
 
 float box_distance2(vec3 p, vec3 lo, vec3 hi) {
   vec3 d = max(max(lo - p, p - hi), vec3(0.0));
-  return dot(d, d);
+  return dot3(d, d);
 }
 
 struct Nearest {
@@ -51,7 +51,7 @@ void try_triangle(vec3 p, uint i, inout Nearest best) {
 // Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
 // of A is equally far from several: a tight walk compares those next to the best to 48 bits.
 float reach_of(Nearest best) {
-  float d = 1.000001 * sqrt(best.distance2) + 5.0e-7;  // uncertified: steers
+  float d = 1.000001 * root(best.distance2) + 5.0e-7;  // uncertified: steers
   return d * d;
 }
 
@@ -117,7 +117,7 @@ Nearest measured(Query q, Nearest best, float than) {
   if (best.triangle == kNone) return best;
   if (!q.tight) {
     // As plain floats have it, where that is surely under it: most samples are.
-    best.above = sqrt(best.distance2) - q.base;  // uncertified: steers
+    best.above = root(best.distance2) - q.base;  // uncertified: steers
     if (best.above < than - kPlainDoubt) return best;
   }
   float next = next_to_surface(q.tight) - q.base;

@@ -65,7 +65,7 @@ struct Key {
 
 // `largest`: the wave's order, control.select_largest.
 uint first_of_key(float upper, bool largest) {
-  uint u = floatBitsToUint(upper);
+  uint u = bits_of(upper);
   return largest ? ~u : u;
 }
 

@@ -4,10 +4,11 @@
 // Instructions"), not one device's behaviour:
 //   + - *         correctly rounded, in a direction that is not defined: |fl(x) - x| <= kUlp |x|
 //   /             2.5 ulp for divisors in [2^-126, 2^126]
-//   inversesqrt   2 ulp; sqrt(x) is 1 / inversesqrt(x), so 4.5 ulp and a rounding: under 6 ulp
-//   results below 2^-126 may be flushed to zero
-// One ulp is at most kUlp times the value. A product and a sum may be contracted to one rounding;
-// no bound here needs them not to be, and none needs them to be.
+//   inversesqrt   2 ulp; sqrt(x) is 1 / inversesqrt(x), so 4.5 ulp and a rounding: under 6 ulp,
+//                 for x that is not flushed to 0; see root()
+//   results below 2^-126 may be flushed to zero, and a zero may have either sign
+// One ulp is at most kUlp times the value. The build decorates every operation, so that drivers
+// neither regroup sums nor contract a product and a sum (tools/float_order.py).
 #ifndef VKH_SHADERS_LIB_CERTIFIED_H
 #define VKH_SHADERS_LIB_CERTIFIED_H
 
@@ -37,21 +38,30 @@ VKH_FN float round_down(float x, float n) {
   return max(x * (1.0f - (n + 2.0f) * kUlp) - kTiny, 0.0f);
 }
 
+VKH_CONST float kLeastNormal = 1.1754944e-38f;  // 2^-126
+
+// sqrt(x) for x >= 0, but 2^-63 where x may be flushed: 1 / inversesqrt(0) is outside of the table.
+// So much more is under kTiny, which every use adds or takes off.
+VKH_FN float root(float x) { return sqrt(max(x, kLeastNormal)); }
+
+// The bits of x >= 0, which order as floats do. A zero may have either sign: it is taken off.
+VKH_FN uint bits_of(float x) { return floatBitsToUint(x) & 0x7fffffffu; }
+
 // >= sqrt(x) for x >= 0 that is itself >= the square that is meant (see dot_up).
-VKH_FN float sqrt_up(float x) { return round_up(sqrt(x), 6.0f); }
+VKH_FN float sqrt_up(float x) { return round_up(root(x), 6.0f); }
 
 // <= sqrt(x), likewise.
-VKH_FN float sqrt_down(float x) { return round_down(sqrt(x), 6.0f); }
+VKH_FN float sqrt_down(float x) { return round_down(root(x), 6.0f); }
 
 // >= |v|. Three products and two sums: 3 ulp on the square, so under 2 on the root, whose own error
 // sqrt_up covers.
-VKH_FN float norm_up(vec3 v) { return round_up(sqrt(dot(v, v)), 8.0f); }
+VKH_FN float norm_up(vec3 v) { return round_up(root(dot3(v, v)), 8.0f); }
 
 // >= the length whose square is `square`, a dot product of a vector with itself.
-VKH_FN float length_up(float square) { return round_up(sqrt(square), 8.0f); }
+VKH_FN float length_up(float square) { return round_up(root(square), 8.0f); }
 
 // <= |v|.
-VKH_FN float norm_down(vec3 v) { return round_down(sqrt(dot(v, v)), 8.0f); }
+VKH_FN float norm_down(vec3 v) { return round_down(root(dot3(v, v)), 8.0f); }
 
 // A float above x and one below it, for x >= 0: the neighbours where x is normal; around 0, where
 // results may be flushed, kTiny above and 0 below.
@@ -75,7 +85,7 @@ VKH_FN float ratio(float a, float b) {
 VKH_FN float sharp_norm_up(Two3 v) {
   Two x = two_dot(v, v);
   if (!(x.hi > 1e-30f)) return round_up(norm_up(v.hi) + norm_up(v.lo), 1.0f);
-  float s = sqrt(x.hi);
+  float s = root(x.hi);
   Two square = two_product(s, s);
   float e = ((x.hi - square.hi) - square.lo) + x.lo;
   return next_up(next_up(s + 0.5f * ratio(e, s)));
@@ -93,7 +103,7 @@ VKH_FN float lowered(float x) { return x - (4.0f * kUlp * abs(x) + kTiny); }
 VKH_FN float sharp_norm_above_up(Two3 v, float base) {
   Two x = two_dot(v, v);
   if (!(x.hi > 1e-30f)) return raised(round_up(norm_up(v.hi) + norm_up(v.lo), 2.0f) - base);
-  float s = sqrt(x.hi);
+  float s = root(x.hi);
   Two square = two_product(s, s);
   float e = ((x.hi - square.hi) - square.lo) + x.lo;
   Two t = two_sum(s, -base);
@@ -106,7 +116,7 @@ VKH_FN float sharp_norm_above_up(Two3 v, float base) {
 // of q + base.
 VKH_FN float quotient_above_down(Two reach, float off, Two3 r, float base) {
   Two square = two_dot(r, r);
-  float l = sqrt(square.hi);
+  float l = root(square.hi);
   if (!(reach.hi > 0.0f) || l < 0.5f) return lowered(-base);
   Two back = two_product(l, l);
   float e = ((square.hi - back.hi) - back.lo) + square.lo;

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -24,8 +24,6 @@ inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
 inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
 using glm::abs;
 using glm::clamp;
-using glm::cross;
-using glm::dot;
 using glm::max;
 using glm::min;
 using glm::uvec2;
@@ -33,9 +31,6 @@ using glm::uvec3;
 using glm::uvec4;
 using glm::vec3;
 using namespace vkh::gpu;
-using glm::uvec3;
-using glm::uvec4;
-using glm::vec3;
 }  // namespace vkh::lib
 #else
 #include "shaders/gpu_types.h"

@@ -37,14 +37,14 @@ uint level_total() {
 
 float farthest_distance2(vec3 p, vec3 lo, vec3 hi) {
   vec3 d = max(abs(p - lo), abs(p - hi));
-  return dot(d, d);
+  return dot3(d, d);
 }
 
 // How far a box may be and still matter: (d + 1e-6)^2, for coordinates of order 1. Whatever the
 // other invocations have found by now, every triangle that plain floats may take for as near as the
 // nearest is tried, so that the result does not depend on their order.
 float group_reach() {
-  float d = 1.000001 * sqrt(uintBitsToFloat(nearest_bits)) + 1.0e-6;  // uncertified: steers
+  float d = 1.000001 * root(uintBitsToFloat(nearest_bits)) + 1.0e-6;  // uncertified: steers
   return d * d;
 }
 
@@ -67,7 +67,7 @@ void descend(Query q, Level below, uint side) {
     uint slot = atomicAdd(level_count[1u - side], 1u);
     if (slot < kGroupWalkBoxes) level_boxes[1u - side][slot] = child;
     float within = 1.000002 * farthest_distance2(q.p.hi, b.lo, b.hi);
-    atomicMin(nearest_bits, floatBitsToUint(within));
+    atomicMin(nearest_bits, bits_of(within));
   }
   barrier();
 }
@@ -84,7 +84,7 @@ Nearest try_runs(Query q, uint side) {
     }
     // What others have found spares ties; which ones it spares does not change the result.
     if (q.tight) {
-      atomicMin(nearest_bits, floatBitsToUint(best.distance2));
+      atomicMin(nearest_bits, bits_of(best.distance2));
       best.distance2 = uintBitsToFloat(nearest_bits);
       measure_tied(q, best);
     }
@@ -139,7 +139,7 @@ Nearest find_nearest(Query q, uint start, bool asked, bool by_group) {
     if (first) {
       query_of_group = q;
       group_asked = asked;
-      nearest_bits = floatBitsToUint(best.distance2);
+      nearest_bits = bits_of(best.distance2);
       level_count[0] = 1u;
       level_boxes[0][0] = 0u;
     }

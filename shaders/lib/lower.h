@@ -13,7 +13,7 @@ VKH_LIB_BEGIN
 // The bound in plain floats, p at the origin: off by 3 ulp of |s| |r| and an ulp of |s| for its own
 // rounding. Good to 1e-6 of S's size.
 VKH_FN float coarse_distance_down(Surface s, vec3 r) {
-  float farthest = min(dot(-s.at.a, r), min(dot(-s.at.b, r), dot(-s.at.c, r)));
+  float farthest = min(dot3(-s.at.a, r), min(dot3(-s.at.b, r), dot3(-s.at.c, r)));
   float off = round_up(4.25f * kUlp * radius_up(s.at) * norm_up(r) + s.slack * norm_up(r), 8.0f);
   float reach = round_down(farthest, 1.0f) - off;
   float length = norm_up(r);
@@ -23,14 +23,14 @@ VKH_FN float coarse_distance_down(Surface s, vec3 r) {
 
 // What must be taken from r so that it is orthogonal to u, and to v too where `to_both`.
 VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool to_both) {
-  float uu = dot(u.hi, u.hi);
+  float uu = dot3(u.hi, u.hi);
   float x = rounded(two_dot(r, u));
   vec3 correction = ratio(x, uu) * u.hi;
   if (to_both) {
-    float along = ratio(dot(v.hi, u.hi), uu);
+    float along = ratio(dot3(v.hi, u.hi), uu);
     vec3 h = v.hi - along * u.hi;
     float y = rounded(two_dot(r, v)) - along * x;
-    correction = correction + ratio(y, dot(h, h)) * h;
+    correction = correction + ratio(y, dot3(h, h)) * h;
   }
   return correction;
 }

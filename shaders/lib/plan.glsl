@@ -56,7 +56,7 @@ void flip(WaveEnd end) {
 }
 
 void rebase_maximum(uint which) {
-  control.maximum[which] = floatBitsToUint(rebased(uintBitsToFloat(control.maximum[which])));
+  control.maximum[which] = bits_of(rebased(uintBitsToFloat(control.maximum[which])));
 }
 
 // The lower bound has risen so far above the base that an ulp of what it is above it matters: moves

@@ -79,7 +79,7 @@ Item known_item(uint i, bool mine) {
 void answer_vertex(uint i, Item item) {
   if (i < push.vertex_count) {
     vertex_nearest[i] = item.nearest;
-    vertex_distance[i] = floatBitsToUint(item.distance);
+    vertex_distance[i] = bits_of(item.distance);
   } else {
     control.witness.nearest = item.nearest;
     control.witness.distance = item.distance;

@@ -137,8 +137,8 @@ uint shared_place_of(uint item, bool held, bool first, Refined r, uint group) {
 // A's.
 bool is_noise(Bary3 corners, Root root, float upper) {
   Corners t = plain_corners(root, corners);
-  float size2 = max(dot(t.b, t.b), dot(t.c, t.c));
-  float root_size2 = max(dot(root.ab.hi, root.ab.hi), dot(root.ac.hi, root.ac.hi));
+  float size2 = max(dot3(t.b, t.b), dot3(t.c, t.c));
+  float root_size2 = max(dot3(root.ab.hi, root.ab.hi), dot3(root.ac.hi, root.ac.hi));
   float left = upper - adopted_lower();
   float tiny = 0.0625 * effective_tolerance(adopted_lower());
   return size2 < tiny * tiny ||

@@ -20,7 +20,7 @@ uint stream_append(uint which, bool keep) {
 void raise(uint which, float value) {
   float highest = subgroupMax(value);
   if (subgroupElect() && highest > 0.0) {
-    atomicMax(control.maximum[which], floatBitsToUint(highest));
+    atomicMax(control.maximum[which], bits_of(highest));
   }
 }
 

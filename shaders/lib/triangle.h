@@ -42,8 +42,8 @@ VKH_FN Closest closest_on_edge(vec3 from_start, vec3 edge, float t, uint feature
   c.w = 0.0f;
   c.feature = feature;
   c.offset = from_start - c.v * edge;
-  c.distance2 = dot(c.offset, c.offset);
-  c.rank = dot(c.offset - normal, c.offset - normal);
+  c.distance2 = dot3(c.offset, c.offset);
+  c.rank = dot3(c.offset - normal, c.offset - normal);
   return c;
 }
 
@@ -59,29 +59,29 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
   vec3 bc = t.c - t.b;
   vec3 ap = p - t.a;
   vec3 bp = p - t.b;
-  float ee = dot(ab, ab);
-  float s = ratio(dot(ac, ab), ee);
+  float ee = dot3(ab, ab);
+  float s = ratio(dot3(ac, ab), ee);
   vec3 h = ac - s * ab;
-  float hh = dot(h, h);
-  float x = ratio(dot(ap, ab), ee);
+  float hh = dot3(h, h);
+  float x = ratio(dot3(ap, ab), ee);
   float w =
-      ratio(dot(ap - x * ab, h), hh);  // not ap: h is only orthogonal to ab up to an ulp of ac
+      ratio(dot3(ap - x * ab, h), hh);  // not ap: h is only orthogonal to ab up to an ulp of ac
   float v = x - w * s;
 
   bool has_inside = hh > kSmallSquare;
   vec3 normal = choose(has_inside, (ap - v * ab) - w * ac, vec3(0.0f, 0.0f, 0.0f));
 
   Closest best = closest_on_edge(ap, ab, x, kEdgeAb, normal);
-  float along_ac = ratio(dot(ap, ac), dot(ac, ac));
+  float along_ac = ratio(dot3(ap, ac), dot3(ac, ac));
   best = closer(best, closest_on_edge(ap, ac, along_ac, kEdgeAc, normal));
-  float along_bc = ratio(dot(bp, bc), dot(bc, bc));
+  float along_bc = ratio(dot3(bp, bc), dot3(bc, bc));
   best = closer(best, closest_on_edge(bp, bc, along_bc, kEdgeBc, normal));
   // 4 kUlp under 1, so that v + w <= 1 holds for the exact sum too.
   bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp));
   if (both(has_inside, in_halves)) {
     Closest inner;
     inner.offset = normal;
-    inner.distance2 = dot(inner.offset, inner.offset);
+    inner.distance2 = dot3(inner.offset, inner.offset);
     inner.rank = 0.0f;
     inner.feature = kInside;
     inner.v = v;
@@ -103,26 +103,26 @@ VKH_FN float plain_distance2(vec3 p, Corners t) {
   vec3 bc = t.c - t.b;
   vec3 ap = p - t.a;
   vec3 bp = p - t.b;
-  float per_ab = ratio(1.0f, dot(ab, ab));
-  float s = per_ab * dot(ac, ab);
+  float per_ab = ratio(1.0f, dot3(ab, ab));
+  float s = per_ab * dot3(ac, ab);
   vec3 h = ac - s * ab;
-  float hh = dot(h, h);
-  float x = per_ab * dot(ap, ab);
-  float w = ratio(dot(ap - x * ab, h), hh);
+  float hh = dot3(h, h);
+  float x = per_ab * dot3(ap, ab);
+  float w = ratio(dot3(ap - x * ab, h), hh);
   float v = x - w * s;
   vec3 normal = (ap - v * ab) - w * ac;
   bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp));
   bool inside = both(hh > kSmallSquare, in_halves);
   vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;
-  vec3 to_ac = ap - clamp(ratio(dot(ap, ac), dot(ac, ac)), 0.0f, 1.0f) * ac;
-  vec3 to_bc = bp - clamp(ratio(dot(bp, bc), dot(bc, bc)), 0.0f, 1.0f) * bc;
-  float at_edges = min(dot(to_ab, to_ab), min(dot(to_ac, to_ac), dot(to_bc, to_bc)));
-  return choose(inside, dot(normal, normal), at_edges);
+  vec3 to_ac = ap - clamp(ratio(dot3(ap, ac), dot3(ac, ac)), 0.0f, 1.0f) * ac;
+  vec3 to_bc = bp - clamp(ratio(dot3(bp, bc), dot3(bc, bc)), 0.0f, 1.0f) * bc;
+  float at_edges = min(dot3(to_ab, to_ab), min(dot3(to_ac, to_ac), dot3(to_bc, to_bc)));
+  return choose(inside, dot3(normal, normal), at_edges);
 }
 
 // Largest distance of a corner from the local origin.
 VKH_FN float radius_up(Corners t) {
-  return length_up(max(dot(t.a, t.a), max(dot(t.b, t.b), dot(t.c, t.c))));
+  return length_up(max(dot3(t.a, t.a), max(dot3(t.b, t.b), dot3(t.c, t.c))));
 }
 
 // Where a surface is measured from, and how precisely.
@@ -207,7 +207,7 @@ VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
 
 // >= d(p, S) - base, for p taken as it is and the point of S that `c` names.
 VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
-  if (s.plain) return sqrt(c.distance2) - s.base;  // uncertified: as View::plain says
+  if (s.plain) return root(c.distance2) - s.base;  // uncertified: as View::plain says
   Two3 offset = offset_from(p, s, c);
   if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
   return raised(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base);
@@ -227,9 +227,9 @@ VKH_FN float quality(Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
   vec3 bc = t.c - t.b;
-  vec3 n = cross(ab, ac);
-  float longest2 = max(dot(ab, ab), max(dot(ac, ac), dot(bc, bc)));
-  return sqrt(ratio(dot(n, n), longest2 * longest2));  // uncertified: steers subdivision only
+  vec3 n = cross3(ab, ac);
+  float longest2 = max(dot3(ab, ab), max(dot3(ac, ac), dot3(bc, bc)));
+  return root(ratio(dot3(n, n), longest2 * longest2));  // uncertified: steers subdivision only
 }
 
 // Of a triangle's corners, the one opposite its longest edge; the first on a tie.
@@ -237,9 +237,9 @@ VKH_FN uint opposite_longest(Corners t) {
   vec3 ea = t.c - t.b;
   vec3 eb = t.a - t.c;
   vec3 ec = t.b - t.a;
-  float la = dot(ea, ea);
-  float lb = dot(eb, eb);
-  float lc = dot(ec, ec);
+  float la = dot3(ea, ea);
+  float lb = dot3(eb, eb);
+  float lc = dot3(ec, ec);
   if (la >= lb && la >= lc) return 0u;
   return lb >= lc ? 1u : 2u;
 }
@@ -249,9 +249,9 @@ VKH_FN uint opposite_longest(Corners t) {
 VKH_FN float enclosing_radius_up(Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
-  float bb = dot(ab, ab);
-  float cc = dot(ac, ac);
-  float bc = dot(ab, ac);
+  float bb = dot3(ab, ab);
+  float cc = dot3(ac, ac);
+  float bc = dot3(ab, ac);
   // Circumcentre a + v ab + w ac; it lies inside where t is acute.
   float det = 2.0f * (bb * cc - bc * bc);
   float v = ratio(cc * (bb - bc), det);

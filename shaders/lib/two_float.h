@@ -8,7 +8,7 @@
 #ifndef VKH_SHADERS_LIB_TWO_FLOAT_H
 #define VKH_SHADERS_LIB_TWO_FLOAT_H
 
-#include "shaders/lib/glsl.h"
+#include "shaders/lib/dot.h"
 
 VKH_LIB_BEGIN
 
@@ -103,7 +103,7 @@ VKH_FN Two two_dot(Two3 a, Two3 b) {
   Two z = two_product(a.hi.z, b.hi.z);
   Two s = two_sum(x.hi, y.hi);
   Two t = two_sum(s.hi, z.hi);
-  float low = ((x.lo + y.lo) + (z.lo + s.lo)) + (t.lo + (dot(a.hi, b.lo) + dot(a.lo, b.hi)));
+  float low = ((x.lo + y.lo) + (z.lo + s.lo)) + (t.lo + (dot3(a.hi, b.lo) + dot3(a.lo, b.hi)));
   return two_sum(t.hi, low);
 }
 

@@ -25,7 +25,14 @@
 #define VKH_LIB_END }
 #define VKH_FN inline
 #define VKH_OUT(type) type&
+#define VKH_MODEL_JOIN_(a, b) a##b
+#define VKH_MODEL_JOIN(a, b) VKH_MODEL_JOIN_(a, b)
+// From its line to the end of the block, as `precise` reaches all that its variable is made of.
+#ifdef VKH_MODEL_REGROUPS
+#define VKH_PRECISE const vkh::model::PreciseBlock VKH_MODEL_JOIN(precise_block_, __LINE__);
+#else
 #define VKH_PRECISE
+#endif
 
 namespace vkh::model {
 
@@ -73,11 +80,25 @@ struct Whim {
 };
 inline Whim whim;
 
+/// Which operations are decorated: all, as the build has it, or what is `precise` in the headers.
+enum class Decorations { kAll, kPrecise };
+inline Decorations decorations = Decorations::kAll;
+inline int precise_blocks = 0;
+struct PreciseBlock {
+  PreciseBlock() { ++precise_blocks; }
+  ~PreciseBlock() { --precise_blocks; }
+  PreciseBlock(const PreciseBlock&) = delete;
+};
+inline bool may_rearrange() { return decorations == Decorations::kPrecise && precise_blocks == 0; }
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// What is small may be flushed; a zero may lose its sign.
 inline float flushed(float x) {
-  const bool small = std::abs(x) < std::numeric_limits<float>::min();
-  if (!small || !whim.flush || (whim.direction == Direction::kAny && (whim.draw() >> 63))) return x;
+  if (std::abs(x) >= std::numeric_limits<float>::min()) return x;
+  const bool any = whim.direction == Direction::kAny;
+  if (x == 0.0f) return any && (whim.draw() >> 63) != 0 ? -x : x;
+  if (!whim.flush || (any && (whim.draw() >> 63) != 0)) return x;
   return std::copysign(0.0f, x);
 }
 
@@ -107,6 +128,87 @@ inline float within(double value, double ulps) {
   return flushed(out);
 }
 
+/// A root that the table does not cover: 1 / inversesqrt(x) where x is 0 or may be flushed to it.
+inline float uncovered_root() {
+  constexpr float kAnything[] = {0.0f, kInfinity, std::numeric_limits<float>::quiet_NaN(), 1.0f};
+  return kAnything[whim.draw() >> 62];
+}
+
+inline float sum_of(float a, float b) {
+  const double x = static_cast<double>(a), y = static_cast<double>(b), s = x + y;
+  const double from_y = s - x;
+  return to_one_side(s, (x - (s - from_y)) + (y - from_y));
+}
+inline float product_of(float a, float b) {
+  return to_one_side(static_cast<double>(a) * static_cast<double>(b), 0.0);
+}
+
+/// What a sum may be rearranged from; nothing unless operations may be.
+#ifdef VKH_MODEL_REGROUPS
+class Terms {
+ public:
+  Terms() = default;
+  /// The terms of both, their values where they have none; none at all if they are too many.
+  Terms(const Terms& a, float value_a, const Terms& b, float value_b) {
+    if (!may_rearrange()) return;
+    add(a, value_a);
+    add(b, value_b);
+    if (count_ > kMost) count_ = 0;
+  }
+  uint32_t count() const { return count_; }
+  Terms negated() const { return times(-1.0f); }
+  Terms times(float factor) const {
+    Terms out;
+    for (uint32_t i = 0; i < count_ && may_rearrange(); ++i)
+      out.term_[out.count_++] = factor == -1.0f ? -term_[i] : product_of(factor, term_[i]);
+    return out;
+  }
+  /// In an order of the whim's choice, opposite terms first or not.
+  float sum() const {
+    Terms left = *this;
+    if (whim.upward(0.0)) left.cancel();
+    float s = left.count_ > 0 ? left.take() : 0.0f;
+    while (left.count_ > 0) s = sum_of(s, left.take());
+    return s;
+  }
+
+ private:
+  static constexpr uint32_t kMost = 8;
+  void add(const Terms& from, float value) {
+    if (from.count_ == 0) term_[count_++] = value;
+    for (uint32_t i = 0; i < from.count_; ++i) term_[count_++] = from.term_[i];
+  }
+  float take() {
+    uint32_t at = 0;
+    while (at + 1 < count_ && whim.upward(0.0)) ++at;
+    const float taken = term_[at];
+    term_[at] = term_[--count_];
+    return taken;
+  }
+  void cancel() {
+    for (uint32_t i = 0; i < count_; ++i) {
+      for (uint32_t j = i + 1; j < count_; ++j) {
+        if (term_[i] != -term_[j]) continue;
+        term_[j] = term_[--count_];
+        term_[i--] = term_[--count_];
+        break;
+      }
+    }
+  }
+  std::array<float, 2 * kMost> term_{};
+  uint32_t count_ = 0;
+};
+#else
+struct Terms {
+  Terms() = default;
+  Terms(const Terms&, float, const Terms&, float) {}
+  static uint32_t count() { return 0; }
+  Terms negated() const { return {}; }
+  Terms times(float) const { return {}; }
+  static float sum() { return 0.0f; }
+};
+#endif
+
 class Real {
  public:
   constexpr Real() = default;
@@ -115,29 +217,36 @@ class Real {
   constexpr explicit Real(uint x) : value_(static_cast<float>(x)) {}
   constexpr explicit operator float() const { return value_; }
 
-  friend Real operator+(Real a, Real b) {
-    const double x = a.wide(), y = b.wide(), s = x + y;
-    const double from_y = s - x;
-    return to_one_side(s, (x - (s - from_y)) + (y - from_y));
+  friend Real operator+(const Real& a, const Real& b) {
+    const Terms terms(a.terms_, a.value_, b.terms_, b.value_);
+    if (terms.count() == 0) return sum_of(a.value_, b.value_);
+    return {terms.sum(), terms};
   }
-  friend Real operator-(Real a, Real b) { return a + -b; }
-  friend Real operator*(Real a, Real b) { return to_one_side(a.wide() * b.wide(), 0.0); }
-  friend Real operator/(Real a, Real b) { return within(a.wide() / b.wide(), 2.5); }
-  friend Real operator-(Real a) { return -a.value_; }
-  friend bool operator<(Real a, Real b) { return a.value_ < b.value_; }
-  friend bool operator>(Real a, Real b) { return a.value_ > b.value_; }
-  friend bool operator<=(Real a, Real b) { return a.value_ <= b.value_; }
-  friend bool operator>=(Real a, Real b) { return a.value_ >= b.value_; }
-  friend Real sqrt(Real x) {
-    if (x.value_ == 0.0f) return 0.0f;
+  friend Real operator-(const Real& a, const Real& b) { return a + -b; }
+  friend Real operator*(const Real& a, const Real& b) {
+    const bool first = a.terms_.count() > 0;
+    const Terms terms = first ? a.terms_.times(b.value_) : b.terms_.times(a.value_);
+    if (terms.count() == 0) return product_of(a.value_, b.value_);
+    return {terms.sum(), terms};
+  }
+  friend Real operator/(const Real& a, const Real& b) { return within(a.wide() / b.wide(), 2.5); }
+  friend Real operator-(const Real& a) { return {-a.value_, a.terms_.negated()}; }
+  friend bool operator<(const Real& a, const Real& b) { return a.value_ < b.value_; }
+  friend bool operator>(const Real& a, const Real& b) { return a.value_ > b.value_; }
+  friend bool operator<=(const Real& a, const Real& b) { return a.value_ <= b.value_; }
+  friend bool operator>=(const Real& a, const Real& b) { return a.value_ >= b.value_; }
+  friend Real sqrt(const Real& x) {
+    if (x.value_ < std::numeric_limits<float>::min()) return uncovered_root();
     const float inverse = within(1.0 / std::sqrt(x.wide()), 2.0);
     return within(1.0 / static_cast<double>(inverse), 2.5);
   }
-  friend uint floatBitsToUint(Real x) { return std::bit_cast<uint>(x.value_); }
+  friend uint floatBitsToUint(const Real& x) { return std::bit_cast<uint>(x.value_); }
 
  private:
+  Real(float value, const Terms& terms) : value_(value), terms_(terms) {}
   double wide() const { return static_cast<double>(value_); }
   float value_ = 0.0f;
+  [[no_unique_address]] Terms terms_;
 };
 
 inline Real uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
@@ -156,9 +265,5 @@ struct vec3 {
   friend vec3 operator*(Real s, vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
   friend vec3 operator*(vec3 a, Real s) { return s * a; }
 };
-inline Real dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline vec3 cross(vec3 a, vec3 b) {
-  return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
-}
 
 }  // namespace vkh::model
