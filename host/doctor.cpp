@@ -48,7 +48,7 @@ bool self_check(std::ostream& out, Device& device) {
 /// What the certificate takes for granted about arithmetic, measured.
 bool check_arithmetic(std::ostream& out, const Device& device) {
   const SelfTestResult r = run_self_test(device);
-  out << "arithmetic  " << r.items << " hard inputs: ";
+  out << "arithmetic  " << r.items << " hard inputs, " << r.composed << " composed expressions: ";
   if (!r.fault.empty()) {
     out << "FAILED: " << r.fault << '\n';
     return false;

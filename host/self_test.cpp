@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t kItems = 1u << 18;
 constexpr uint32_t kRounds = 4;
+constexpr uint32_t kComposed = kItems / 16;  // judged in 113 bits, which takes longer
 
 class SelfTestKernel {
  public:
@@ -45,7 +46,7 @@ class SelfTestKernel {
   }
 
  private:
-  static constexpr uint32_t kBuffers = 3;
+  static constexpr uint32_t kBuffers = 5;
   static_assert(sizeof(k::SelfTest::kBindings) == kBuffers * sizeof(Binding));
 
   // What was made before a step that throws stays: the program ends with it.
@@ -134,11 +135,16 @@ SelfTestResult run_self_test(const Device& device) {
     const Buffer questions = shared_buffer(device, asked.data(), asked.size());
     const Buffer answers = shared_buffer<gpu::SelfTestAnswer>(device, nullptr, kItems);
     const Buffer totals = shared_buffer(device, &before, 1);
+    const std::vector<gpu::SelfTestOperands> given = composed_questions(round, kComposed);
+    const Buffer operands = shared_buffer(device, given.data(), given.size());
+    const Buffer results = shared_buffer<gpu::SelfTestComposed>(device, nullptr, kComposed);
     const VkCommandBuffer commands = submitter.begin();
     kernel.record(commands,
                   {.questions = whole<gpu::SelfTestQuestion>(questions),
                    .answers = whole<gpu::SelfTestAnswer>(answers),
-                   .totals = whole<gpu::SelfTestTotals>(totals)},
+                   .totals = whole<gpu::SelfTestTotals>(totals),
+                   .operands = whole<gpu::SelfTestOperands>(operands),
+                   .results = whole<gpu::SelfTestComposed>(results)},
                   kItems);
     host_barrier(device, commands);
     submitter.submit_and_wait({});
@@ -146,6 +152,8 @@ SelfTestResult run_self_test(const Device& device) {
     std::memcpy(&after, totals.mapped(), sizeof after);
     const auto* read = reinterpret_cast<const gpu::SelfTestAnswer*>(answers.mapped());
     judge_self_test(asked, {read, kItems}, after, result);
+    const auto* found = reinterpret_cast<const gpu::SelfTestComposed*>(results.mapped());
+    judge_composed(given, {found, kComposed}, result);
   }
   return result;
 }

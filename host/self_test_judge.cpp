@@ -14,43 +14,10 @@ namespace {
 using Question = gpu::SelfTestQuestion;
 using Answer = gpu::SelfTestAnswer;
 
-constexpr double kUlp = 0x1p-23;
 constexpr double kHalfUlp2 = 0x1p-45;  // of the operands: what two_sum and two_product may lose
 constexpr double kLeastNormal = 0x1p-126;
 constexpr double kQuotientUlps = 2.5;
 constexpr double kRootUlps = 6;
-
-uint64_t draw(uint64_t& state) {  // splitmix64
-  uint64_t z = (state += 0x9e3779b97f4a7c15u);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-float hard_float(uint64_t& state, int lo, int hi) {
-  const uint64_t bits = draw(state);
-  uint32_t mantissa = static_cast<uint32_t>(bits) & 0x7fffffu;
-  switch (bits >> 32 & 7u) {
-    case 0:
-      mantissa = 0;
-      break;
-    case 1:
-      mantissa = 0x7fffff;
-      break;
-    case 2:
-      mantissa = (mantissa & ~0xfffu) | 0x800u;
-      break;
-    case 3:
-      mantissa &= 7u;
-      break;
-    default:
-      break;
-  }
-  const int exponent =
-      lo + static_cast<int>((bits >> 36 & 0xffffu) % static_cast<uint32_t>(hi - lo + 1));
-  const auto biased = static_cast<uint32_t>(127 + exponent);
-  return std::bit_cast<float>(static_cast<uint32_t>(bits >> 63) << 31 | biased << 23 | mantissa);
-}
 
 double wide(float x) { return static_cast<double>(x); }
 
@@ -205,6 +172,38 @@ std::string totals_fault(std::span<const Question> questions, const gpu::SelfTes
 }
 
 }  // namespace
+
+uint64_t draw(uint64_t& state) {
+  uint64_t z = (state += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+float hard_float(uint64_t& state, int lo, int hi) {
+  const uint64_t bits = draw(state);
+  uint32_t mantissa = static_cast<uint32_t>(bits) & 0x7fffffu;
+  switch (bits >> 32 & 7u) {
+    case 0:
+      mantissa = 0;
+      break;
+    case 1:
+      mantissa = 0x7fffff;
+      break;
+    case 2:
+      mantissa = (mantissa & ~0xfffu) | 0x800u;
+      break;
+    case 3:
+      mantissa &= 7u;
+      break;
+    default:
+      break;
+  }
+  const int exponent =
+      lo + static_cast<int>((bits >> 36 & 0xffffu) % static_cast<uint32_t>(hi - lo + 1));
+  const auto biased = static_cast<uint32_t>(127 + exponent);
+  return std::bit_cast<float>(static_cast<uint32_t>(bits >> 63) << 31 | biased << 23 | mantissa);
+}
 
 std::vector<Question> self_test_questions(uint64_t seed, uint32_t count) {
   std::vector<Question> questions(count);

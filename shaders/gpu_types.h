@@ -390,6 +390,24 @@ struct SelfTestAnswer {
   uint rank;      // and of them those before this one
 };
 
+// What composed expressions are asked of (lib/composed.h): two-floats, 2^-30 <= |x| and the bases
+// near the length of u and the quotient of reach by the length of scaled(w), or 0.
+struct SelfTestOperands {
+  vec3 u_hi, u_lo, v_hi, v_lo, w_hi, w_lo;
+  float x, y;
+  float reach_hi, reach_lo;  // > 0
+  float norm_base, quotient_base;
+};
+
+struct SelfTestComposed {
+  vec3 difference_hi, difference_lo;    // u - v
+  vec3 combination_hi, combination_lo;  // u + x v + y w
+  float dot_hi, dot_lo;                 // u . v
+  vec3 coarse;                          // u - v in one float
+  float norm, norm_above;               // >= |u|, and >= |u| - norm_base
+  float quotient, quotient_above;  // <= reach_hi / |x|, and <= reach / |scaled(w)| - quotient_base
+};
+
 struct SelfTestTotals {
   uint highest, lowest;  // |a| of all, as bits
   uint items, subgroups;

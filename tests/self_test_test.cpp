@@ -8,8 +8,8 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/support/composed.h"
 #include "tests/support/kernel_bench.h"
-#include "tests/support/lib_device.h"
 
 using namespace vkh;
 using namespace vkh::test;
@@ -83,6 +83,17 @@ void check_fault(const Answers& good, const char* named,
   CHECK(fault.find(named) != std::string::npos);
 }
 
+/// What a device would answer on composed expressions in this arithmetic.
+std::string composed_fault(const Cpu& device, uint32_t count) {
+  const std::vector<gpu::SelfTestOperands> questions = composed_questions(7, count);
+  std::vector<gpu::SelfTestComposed> answers;
+  for (const gpu::SelfTestOperands& q : questions)
+    answers.push_back(device.run([&] { return answer_composed(q); }));
+  SelfTestResult result;
+  judge_composed(questions, answers, result);
+  return result.fault;
+}
+
 float stepped(float x, int ulps) {
   for (; ulps > 0; --ulps) x = std::nextafter(x, INFINITY);
   for (; ulps < 0; ++ulps) x = std::nextafter(x, -INFINITY);
@@ -96,6 +107,7 @@ TEST_CASE("the judge accepts every arithmetic that Vulkan allows") {
     const Cpu device(i);
     CAPTURE(device.name());
     CHECK(fault_of(answered(device)) == "");
+    CHECK(composed_fault(device, 5000) == "");
   }
 }
 
@@ -144,6 +156,7 @@ TEST_CASE("the device at hand keeps its promises") {
   const SelfTestResult result = run_self_test(test_device());
   CHECK(result.fault == "");
   CHECK(result.items >= 1'000'000);
+  CHECK(result.composed >= 50'000);
   CHECK(result.largest_subgroup >= 1);
   CHECK(result.worst_quotient_ulp <= 2.5);
 }

@@ -14,7 +14,7 @@ namespace vkh::test {
 
 /// The device of this test program, made once, with the validation layer if VKH_VALIDATION is set
 /// and not empty. VKH_TEST_DEVICE selects another than the best one.
-Device& test_device();
+vkh::Device& test_device();
 
 /// What the layer has said so far; 0 if no device was made. Any message fails the program
 /// (main.cpp).
