@@ -55,7 +55,7 @@ Parse parser_by_extension(const std::string& name) {
 
 Parse parser_by_content(std::string_view bytes) {
   if (is_exact_binary_stl(bytes)) return parse_stl;
-  TextScanner scanner(bytes.substr(0, 4096), "", '#');
+  TextScanner scanner(bytes.substr(0, 4096), "", '#', MixedLineEnds::kIgnored);
   scanner.next_full_line();
   const std::string_view word = scanner.word();
   if (word == "ply") return parse_ply;
@@ -68,7 +68,7 @@ Parse parser_by_content(std::string_view bytes) {
 bool looks_like_obj(std::string_view bytes) {
   constexpr std::array<std::string_view, 10> kKeywords = {"v", "vt", "vn",     "f",      "o",
                                                           "g", "s",  "mtllib", "usemtl", "l"};
-  TextScanner scanner(bytes.substr(0, 4096), "", '#');
+  TextScanner scanner(bytes.substr(0, 4096), "", '#', MixedLineEnds::kIgnored);
   scanner.next_full_line();
   return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
 }
@@ -127,6 +127,18 @@ Mesh read_mesh(const std::filesystem::path& path) {
 
 std::string counted(uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
+  std::string first;
+  while (scanner.next_full_line()) {
+    if (first.empty()) first = scanner.place();
+    double number = 0;
+    if (parse_number(scanner.word(), number)) {
+      scanner.fail("a row more than announced", "as many rows as the header says");
+    }
+  }
+  if (!first.empty()) notes.push_back("what follows the last row ignored, from " + first);
 }
 
 void MeshBuilder::add_face(std::span<const uint32_t> corners) {

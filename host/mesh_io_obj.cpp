@@ -6,7 +6,8 @@
 // and f line and reads the coordinates itself, and hands on a plain v or f line; tinyobjloader
 // parses the faces and says what it saw. Materials, normals, textures and groups are no geometry
 // and are not handed on.
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <istream>
 #include <streambuf>
 
@@ -21,13 +22,43 @@ namespace {
 
 constexpr const char* kIndexForms = "a vertex index such as 7, 7/1, 7//1 or 7/1/1";
 
+// Every keyword of the format, so that no face is lost in silence. v and f are read. What moves no
+// point of a surface is skipped: names, groups, display, materials, texture coordinates, normals,
+// tinyobj's bone weights and tags (vw, t), and the words that only describe a curve or a free-form
+// surface. What is no triangle mesh is noted: points, lines and curves; free-form surfaces, which
+// we do not read; files and commands that are called. Any other word is refused: F, fo (the first
+// versions' f), V, a keyword misspelt or glued to something, text.
+enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kUnknown };
+
+Line kind_of(std::string_view keyword) {
+  static constexpr std::array<std::string_view, 34> kSkipped = {
+      "",       "vn",   "vt",   "g",        "s",        "o",   "usemtl",     "mtllib",    "vp",
+      "vw",     "t",    "mg",   "usemap",   "maplib",   "lod", "shadow_obj", "trace_obj", "end",
+      "cstype", "deg",  "bmat", "c_interp", "d_interp", "sp",  "step",       "parm",      "trim",
+      "hole",   "scrv", "con",  "ctech",    "stech",    "res", "bevel"};
+  static constexpr std::array<std::string_view, 6> kElements = {"p",     "l",   "curv",
+                                                                "curv2", "cdc", "cdp"};
+  static constexpr std::array<std::string_view, 3> kSurfaces = {"surf", "bsp", "bzp"};
+  const auto is_in = [&](const auto& words) {
+    return std::find(words.begin(), words.end(), keyword) != words.end();
+  };
+  if (keyword == "v") return Line::kVertex;
+  if (keyword == "f") return Line::kFace;
+  if (is_in(kSkipped)) return Line::kSkipped;
+  if (is_in(kElements)) return Line::kElement;
+  if (is_in(kSurfaces)) return Line::kSurface;
+  return keyword == "call" || keyword == "csh" ? Line::kCall : Line::kUnknown;
+}
+
 class ObjSource : public std::streambuf {
  public:
   ObjSource(std::string_view text, std::string_view name) : scanner_(text, name, '#') {}
 
   std::vector<glm::dvec3> vertices;
-  uint64_t ignored_elements = 0;  ///< points, lines, curves and surfaces
-  uint64_t empty_faces = 0;       ///< f without corners, about which tinyobjloader is silent
+  uint64_t ignored_elements = 0;  ///< points, lines and curves
+  uint64_t ignored_surfaces = 0;
+  uint64_t ignored_calls = 0;
+  uint64_t empty_faces = 0;  ///< f without corners, about which tinyobjloader is silent
 
   const TextScanner& scanner() const { return scanner_; }
 
@@ -37,14 +68,16 @@ class ObjSource : public std::streambuf {
   int_type underflow() override {
     while (scanner_.next_line()) {
       const std::string_view keyword = scanner_.word();
-      if (keyword == "v") {
+      const Line line = kind_of(keyword);
+      if (line == Line::kVertex) {
         read_vertex();
-      } else if (keyword == "f") {
+      } else if (line == Line::kFace) {
         check_face();
       } else {
-        ignored_elements += is_other_element(keyword) ? 1 : 0;
+        skip(line, keyword);
         continue;
       }
+      skipped_is_continued_ = false;
       setg(line_.data(), line_.data(), line_.data() + line_.size());
       return traits_type::to_int_type(line_[0]);
     }
@@ -52,9 +85,23 @@ class ObjSource : public std::streambuf {
   }
 
  private:
-  static bool is_other_element(std::string_view keyword) {
-    return keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" ||
-           keyword == "surf";
+  void skip(Line line, std::string_view keyword) {
+    if (line == Line::kUnknown && !is_skipped_too(keyword)) {
+      scanner_.fail(quoted(keyword) + " begins the line",
+                    "a keyword of OBJ, such as v, f, vn or usemtl");
+    }
+    ignored_elements += line == Line::kElement ? 1 : 0;
+    ignored_surfaces += line == Line::kSurface ? 1 : 0;
+    ignored_calls += line == Line::kCall ? 1 : 0;
+    skipped_is_continued_ = !keyword.empty() && scanner_.is_continued();
+  }
+
+  // Of the lines that begin with no keyword: what continues a skipped line, as those of long curves
+  // and group lists do, but not F or fo; and the Ctrl-Z by which DOS programs end a text. A line
+  // with a keyword is never taken for a continuation: 'usemtl C:\red\' does not swallow a face.
+  bool is_skipped_too(std::string_view keyword) {
+    if (skipped_is_continued_) return keyword != "F" && keyword != "V" && keyword != "fo";
+    return keyword == "\x1a" && scanner_.word().empty() && scanner_.bytes_left() == 0;
   }
 
   // x y z, then perhaps a weight or a colour: checked to be numbers, not used.
@@ -106,6 +153,7 @@ class ObjSource : public std::streambuf {
 
   TextScanner scanner_;
   std::string line_;
+  bool skipped_is_continued_ = false;
 };
 
 // What tinyobjloader calls back.
@@ -166,6 +214,21 @@ class FaceReader {
   std::string greatest_place_;
 };
 
+void note_ignored(const ObjSource& lines, std::vector<std::string>& notes) {
+  if (lines.ignored_elements > 0) {
+    notes.push_back(counted(lines.ignored_elements, "line") +
+                    " with points, polylines or curves ignored");
+  }
+  if (lines.ignored_surfaces > 0) {
+    notes.push_back(counted(lines.ignored_surfaces, "free-form surface") +
+                    " not read: only the faces are measured");
+  }
+  if (lines.ignored_calls > 0) {
+    notes.push_back(counted(lines.ignored_calls, "call") +
+                    " of other files or commands not followed");
+  }
+}
+
 }  // namespace
 
 Mesh parse_obj(const MeshSource& source) {
@@ -186,10 +249,7 @@ Mesh parse_obj(const MeshSource& source) {
   reader.check_end();
   builder.vertices = std::move(lines.vertices);
   for (; lines.empty_faces > 0; --lines.empty_faces) builder.add_face({});
-  if (lines.ignored_elements > 0) {
-    builder.notes.push_back(counted(lines.ignored_elements, "line") +
-                            " with points, polylines, curves or surfaces ignored");
-  }
+  note_ignored(lines, builder.notes);
   return std::move(builder).finish(lines.scanner().place());
 }
 

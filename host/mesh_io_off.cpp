@@ -31,6 +31,9 @@ Counts read_counts(TextScanner& scanner) {
   const Counts counts{.vertices = read_count(scanner, "vertex count"),
                       .faces = read_count(scanner, "face count")};
   read_count(scanner, "edge count");
+  if (const auto word = scanner.word(); !word.empty()) {
+    scanner.fail(quoted(word) + " after the counts", "the end of the line");
+  }
   // The shortest vertex is "0 0 0\n" and the shortest face "0\n"; the last line may lack its end.
   const uint64_t room = scanner.bytes_left() + 1;
   if (counts.vertices > room / 6 || counts.faces > (room - 6 * counts.vertices) / 2) {
@@ -68,6 +71,27 @@ void next_element(TextScanner& scanner, const char* what, uint64_t number, uint6
                std::to_string(count) + " of them");
 }
 
+// What follows a position is its colour, normal or texture, alike in all rows. A row of another
+// length is a face that a wrong count makes a vertex, and with as wrong a count of faces it would
+// be lost in silence.
+void read_vertices(TextScanner& scanner, const Counts& counts, MeshBuilder& builder) {
+  builder.vertices.resize(counts.vertices);
+  uint64_t words_of_first = 0;
+  for (uint64_t v = 0; v < counts.vertices; ++v) {
+    next_element(scanner, "vertex", v, counts.vertices);
+    for (int axis = 0; axis < 3; ++axis) {
+      builder.vertices[v][axis] = scanner.number<double>("coordinate");
+    }
+    uint64_t words = 3;
+    while (!scanner.word().empty()) ++words;
+    if (v == 0) words_of_first = words;
+    if (words != words_of_first) {
+      scanner.fail(std::to_string(words) + " words in vertex " + std::to_string(v),
+                   std::to_string(words_of_first) + ", as in the first");
+    }
+  }
+}
+
 uint32_t read_index(TextScanner& scanner, uint64_t vertex_count) {
   const auto index = scanner.number<int64_t>("vertex index");
   if (index < 0 || static_cast<uint64_t>(index) >= vertex_count) {
@@ -84,13 +108,7 @@ Mesh parse_off(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name, '#');
   MeshBuilder builder(source);
   const Counts counts = read_header(scanner);
-  builder.vertices.resize(counts.vertices);
-  for (uint64_t v = 0; v < counts.vertices; ++v) {
-    next_element(scanner, "vertex", v, counts.vertices);
-    for (int axis = 0; axis < 3; ++axis) {
-      builder.vertices[v][axis] = scanner.number<double>("coordinate");
-    }
-  }
+  read_vertices(scanner, counts, builder);
   std::vector<uint32_t> corners;
   for (uint64_t f = 0; f < counts.faces; ++f) {
     next_element(scanner, "face", f, counts.faces);
@@ -101,9 +119,7 @@ Mesh parse_off(const MeshSource& source) {
     builder.add_face(corners);
   }
   const std::string place = scanner.place();
-  if (scanner.next_full_line()) {
-    builder.notes.push_back("what follows the last face ignored, from " + scanner.place());
-  }
+  note_rest(scanner, builder.notes);
   return std::move(builder).finish(place);
 }
 

@@ -1,9 +1,11 @@
 // PLY, ASCII and binary of both byte orders: any scalar types, any further properties, lists and
-// elements, in any order. A float column of an ASCII file is read as float, so that it equals the
-// same mesh stored in binary.
+// elements, in any order. ASCII coordinates are correctly rounded doubles whatever their column's
+// float type, so that they equal the same text in any other format; binary floats are widened. What
+// is read of an integer column has to be of its type. Columns that are not read are not checked.
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "host/mesh_readers.h"
@@ -15,9 +17,12 @@ namespace {
 
 using namespace ply;
 
-/// A row's place for errors, such as "face 11".
+/// A row's place for errors, such as "face 11", or "row 11 of 'camera'".
 std::string row_place(const Element& element, uint64_t row) {
-  return element.name + " " + std::to_string(row);
+  if (element.name == "vertex" || element.name == "face") {
+    return element.name + " " + std::to_string(row);
+  }
+  return "row " + std::to_string(row) + " of " + quoted(element.name);
 }
 
 // The two bodies give one row's values after another. In ASCII, a row is a line.
@@ -35,10 +40,24 @@ class AsciiBody {
       scanner_.fail(quoted(word) + " after the line's last property", "the end of the line");
     }
   }
-  int64_t integer(Scalar) { return scanner_.number<int64_t>("integer"); }
+  int64_t integer(Scalar type) {
+    const auto value = scanner_.number<int64_t>("integer");
+    const auto [least, greatest] = range_of(type);
+    if (value < least || value > greatest) {
+      fail(std::to_string(value) + " does not fit its column's type",
+           std::to_string(least) + " to " + std::to_string(greatest));
+    }
+    return value;
+  }
+  // A float column is kept as written. What its type cannot hold at all contradicts the header.
   double real(Scalar type) {
-    if (type == Scalar::kFloat) return static_cast<double>(scanner_.number<float>("coordinate"));
-    return scanner_.number<double>("coordinate");
+    constexpr double kBeyondFloat = 0x1.ffffffp127;  // rounds to infinity
+    if (is_integer(type)) return static_cast<double>(integer(type));
+    const auto value = scanner_.number<double>("coordinate");
+    if (type == Scalar::kFloat && std::abs(value) >= kBeyondFloat) {
+      fail("a coordinate beyond its column's type, float", "less than 3.5e38, or type double");
+    }
+    return value;
   }
   void skip(Scalar, uint64_t count) {
     for (; count > 0; --count) {
@@ -51,7 +70,9 @@ class AsciiBody {
     scanner_.fail(what, expected);
   }
   std::string place() const { return scanner_.place(); }
-  bool has_litter() { return scanner_.next_full_line(); }
+  void read_rest(std::vector<std::string>& notes) { note_rest(scanner_, notes); }
+
+  static constexpr bool kRowsAreLines = true;
 
  private:
   TextScanner& scanner_;
@@ -79,10 +100,22 @@ class BinaryBody {
     reject(source_.name, row_place(*element_, row_) + ", " + place(), what, expected);
   }
   std::string place() const { return "byte " + std::to_string(at_); }
-  bool has_litter() const {
-    return source_.bytes.find_first_not_of(std::string_view("\0 \t\r\n", 5), at_) !=
-           std::string_view::npos;
+  // Blank bytes are padding, a few others litter; what has room for a triangle or a vertex may be
+  // one, from counts that differ from the rows.
+  void read_rest(std::vector<std::string>& notes) const {
+    const uint64_t rest = source_.bytes.size() - at_;
+    if (source_.bytes.find_first_not_of(std::string_view("\0 \t\r\n", 5), at_) ==
+        std::string_view::npos) {
+      return;
+    }
+    if (element_ && rest >= least_row_of_three(*element_)) {
+      reject(source_.name, place(), counted(rest, "byte") + " after the last element",
+             "fewer than a row, or as many rows as the header says");
+    }
+    notes.push_back(counted(rest, "byte") + " after the last element ignored");
   }
+
+  static constexpr bool kRowsAreLines = false;
 
  private:
   template <class Result>
@@ -150,10 +183,11 @@ class BodyReader {
       : header_(header), source_(source), body_(scanner, source), builder_(source) {
     vertex_ = &only_element(header, source, "vertex");
     face_ = &only_element(header, source, "face");
-    axes_ = {only_property(*vertex_, source, {"x"}, false),
-             only_property(*vertex_, source, {"y"}, false),
-             only_property(*vertex_, source, {"z"}, false)};
-    corners_property_ = only_property(*face_, source, {"vertex_indices", "vertex_index"}, true);
+    const auto axis = [&](std::string_view name) {
+      return only_property(*vertex_, source, {&name, 1}, false);
+    };
+    axes_ = {axis("x"), axis("y"), axis("z")};
+    corners_property_ = only_property(*face_, source, kCornerLists, true);
     if (vertex_->count >= UINT32_MAX) {
       reject(source.name, vertex_->place, "too many vertices", "fewer than 2^32 - 1");
     }
@@ -170,9 +204,7 @@ class BodyReader {
       }
     }
     const std::string place = body_.place();
-    if (body_.has_litter()) {
-      builder_.notes.push_back("what follows the last element ignored, from " + place);
-    }
+    body_.read_rest(builder_.notes);
     return std::move(builder_).finish(place);
   }
 
@@ -213,7 +245,12 @@ class BodyReader {
 
   void read_corners(const Property& list) {
     corners_.clear();
-    for (uint64_t left = read_list_count(body_, list); left > 0; --left) {
+    const uint64_t count = read_list_count(body_, list);
+    // One vertex too many or too few announced, and the zeros of an index are read as a count.
+    if (count == 0 && !Body::kRowsAreLines) {
+      body_.fail("a face of no corners", "at least one, or other counts in the header");
+    }
+    for (uint64_t left = count; left > 0; --left) {
       const int64_t index = body_.integer(list.type);
       if (index < 0 || static_cast<uint64_t>(index) >= vertex_->count) {
         body_.fail("index " + std::to_string(index) + " of " + std::to_string(vertex_->count) +

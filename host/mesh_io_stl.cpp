@@ -1,7 +1,10 @@
 // STL, binary and ASCII. It stores three positions a triangle and no vertices: those of equal bits
 // (after -0 became +0) are made one vertex.
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "host/hash_index.h"
 #include "host/mesh_readers.h"
@@ -48,9 +51,12 @@ class VertexMerger {
 
 std::string byte_place(uint64_t byte) { return "byte " + std::to_string(byte); }
 
-// A file that holds whole triangles beyond its count contradicts itself: measuring only those
-// counted would certify a part of the model. Other trailing bytes are exporters' litter.
-void check_size(const MeshSource& source, MeshBuilder& builder) {
+glm::dvec3 load_position(const char* at) {
+  return {load<float>(at), load<float>(at + 4), load<float>(at + 8)};
+}
+
+// The count of the header, which the file's size has to allow.
+uint64_t checked_count(const MeshSource& source) {
   const size_t size = source.bytes.size();
   if (size < kHeaderBytes) {
     reject(source.name, byte_place(size), "the file ends inside a binary STL's header",
@@ -65,24 +71,48 @@ void check_size(const MeshSource& source, MeshBuilder& builder) {
            std::to_string(kHeaderBytes + count * kTriangleBytes) + " bytes, not " +
                std::to_string(size));
   }
-  const uint64_t extra = size - kHeaderBytes - count * kTriangleBytes;
-  if (extra > 0) {
-    builder.notes.push_back(counted(extra, "byte") + " after the last triangle ignored");
-  }
-}
-
-glm::dvec3 load_position(const char* at) {
-  return {load<float>(at), load<float>(at + 4), load<float>(at + 8)};
-}
-
-Mesh parse_binary(const MeshSource& source) {
-  MeshBuilder builder(source);
-  check_size(source, builder);
-  const uint64_t count = announced_triangles(source.bytes);
   if (count > UINT32_MAX / 3) {
     reject(source.name, byte_place(80), std::to_string(count) + " triangles announced",
            "at most 1431655765");
   }
+  return count;
+}
+
+// Three different corners, none of them a million times farther out than the mesh; text and
+// padding hardly ever look so.
+bool looks_like_triangle(const char* at, double mesh_size) {
+  constexpr double kFar = 0x1p20;
+  std::array<glm::dvec3, 3> corners{};
+  for (size_t i = 0; i < 3; ++i) {
+    corners[i] = load_position(at + 12 * (i + 1));
+    const glm::dvec3 p = glm::abs(corners[i]);
+    if (!(std::max({p.x, p.y, p.z}) <= kFar * mesh_size)) return false;
+  }
+  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+}
+
+// Exporters leave litter behind the last triangle. If it holds another one, with or without stray
+// bytes before it, then the count is wrong: measuring only those counted would certify a part of
+// the model.
+void check_rest(const MeshSource& source, MeshBuilder& builder, uint64_t end) {
+  const uint64_t rest = source.bytes.size() - end;
+  if (rest == 0) return;
+  double mesh_size = 0;
+  for (const glm::dvec3& v : builder.vertices) {
+    const glm::dvec3 p = glm::abs(v);
+    mesh_size = std::max({mesh_size, p.x, p.y, p.z});
+  }
+  for (uint64_t at = end; at + kTriangleBytes <= source.bytes.size(); ++at) {
+    if (!looks_like_triangle(source.bytes.data() + at, mesh_size)) continue;
+    reject(source.name, byte_place(at), "a triangle after the last one announced",
+           "as many triangles as byte 80 says");
+  }
+  builder.notes.push_back(counted(rest, "byte") + " after the last triangle ignored");
+}
+
+Mesh parse_binary(const MeshSource& source) {
+  MeshBuilder builder(source);
+  const uint64_t count = checked_count(source);
   VertexMerger merger(builder.vertices, count);
   builder.faces.reserve(count);
   for (uint64_t t = 0; t < count; ++t) {
@@ -99,6 +129,7 @@ Mesh parse_binary(const MeshSource& source) {
     }
     builder.faces.push_back(face);
   }
+  check_rest(source, builder, kHeaderBytes + count * kTriangleBytes);
   return std::move(builder).finish(byte_place(kHeaderBytes));
 }
 
@@ -118,15 +149,22 @@ class AsciiReader {
   Mesh read() && {
     expect({"solid"});
     do {
-      scanner_.skip_line();  // the solid's name
+      skip_name();
       read_solid();
-      scanner_.skip_line();  // its name again
+      skip_name();
     } while (another_solid());
     return std::move(builder_).finish(scanner_.place());
   }
 
  private:
   static constexpr const char* kFacetOrEnd = "'facet' or 'endsolid'";
+
+  // To the end of the line. A name is any words, but a file without line ends would hide in it.
+  void skip_name() {
+    for (auto word = scanner_.word(); !word.empty(); word = scanner_.word()) {
+      if (is_word(word, "endfacet")) fail_word(word, "a facet to begin on a line of its own");
+    }
+  }
 
   void read_solid() {
     for (;;) {

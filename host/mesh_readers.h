@@ -14,6 +14,8 @@
 
 namespace vkh {
 
+class TextScanner;
+
 struct MeshSource {
   std::string name;        ///< starts every error line; its extension decides where content cannot
   std::string_view bytes;  ///< the whole file
@@ -33,6 +35,11 @@ bool is_exact_binary_stl(std::string_view bytes);
 
 /// "1 face", "2 faces": for notes and errors.
 std::string counted(uint64_t count, const std::string& noun);
+
+/// Reads what follows the last row that a text announced, and notes it. A line that begins with a
+/// number is a row more than announced and is refused: measuring only those counted would certify a
+/// part of the model.
+void note_rest(TextScanner& scanner, std::vector<std::string>& notes);
 
 /// Collects a file's vertices and faces.
 class MeshBuilder {

@@ -43,33 +43,56 @@ Element read_element(TextScanner& scanner) {
 }
 
 Encoding read_encoding(TextScanner& scanner) {
+  constexpr std::array<std::string_view, 3> kNames = {"ascii", "binary_little_endian",
+                                                      "binary_big_endian"};
   const std::string_view word = scanner.word();
-  if (word == "ascii") return Encoding::kAscii;
-  if (word == "binary_little_endian") return Encoding::kLittle;
-  if (word == "binary_big_endian") return Encoding::kBig;
-  scanner.fail(quoted(word) + " as format", "ascii, binary_little_endian or binary_big_endian");
+  const auto* found = std::find(kNames.begin(), kNames.end(), word);
+  if (found == kNames.end()) {
+    scanner.fail(quoted(word) + " as format", "ascii, binary_little_endian or binary_big_endian");
+  }
+  if (const auto version = scanner.word(); version != "1.0") {
+    scanner.fail((version.empty() ? "no" : quoted(version) + " as") + std::string(" version"),
+                 "1.0, the only one");
+  }
+  return static_cast<Encoding>(found - kNames.begin());
+}
+
+// A word too many is a header that we do not understand.
+void expect_line_end(TextScanner& scanner) {
+  if (const auto word = scanner.word(); !word.empty()) {
+    scanner.fail(quoted(word) + " after a header's line", "its end");
+  }
+}
+
+// One line after the first; false at end_header.
+bool parse_line(TextScanner& scanner, Header& header, bool& has_format) {
+  const std::string_view word = scanner.word();
+  if (word == "comment" || word == "obj_info") return true;
+  if (word == "format") {
+    if (has_format) scanner.fail("a second format line", "one");
+    header.encoding = read_encoding(scanner);
+    has_format = true;
+  } else if (word == "element") {
+    header.elements.push_back(read_element(scanner));
+  } else if (word == "property" && !header.elements.empty()) {
+    header.elements.back().properties.push_back(read_property(scanner));
+  } else if (word != "end_header") {
+    scanner.fail(quoted(word), "format, comment, element, property or end_header");
+  }
+  expect_line_end(scanner);
+  return word != "end_header";
 }
 
 Header parse_header(TextScanner& scanner) {
   scanner.next_line();
   if (const auto word = scanner.word(); word != "ply") scanner.fail(quoted(word), "ply");
+  expect_line_end(scanner);
   Header header;
-  std::optional<Encoding> encoding;
+  bool has_format = false;
   while (scanner.next_line()) {
-    const std::string_view word = scanner.word();
-    if (word == "format") {
-      encoding = read_encoding(scanner);
-    } else if (word == "element") {
-      header.elements.push_back(read_element(scanner));
-    } else if (word == "property" && !header.elements.empty()) {
-      header.elements.back().properties.push_back(read_property(scanner));
-    } else if (word == "end_header") {
-      if (!encoding) scanner.fail("a header without a format line", "one");
-      header.encoding = *encoding;
-      return header;
-    } else if (word != "comment" && word != "obj_info") {
-      scanner.fail(quoted(word), "format, comment, element, property or end_header");
-    }
+    if (parse_line(scanner, header, has_format)) continue;
+    if (!has_format) scanner.fail("a header without a format line", "one");
+    return header;
   }
   scanner.fail("the file ends inside the header", "end_header");
 }
@@ -105,6 +128,26 @@ void check_sizes(const Header& header, const MeshSource& source, uint64_t body_b
   }
 }
 
+bool is_corner_list(const Property& property) {
+  return property.list_count &&
+         std::find(kCornerLists.begin(), kCornerLists.end(), property.name) != kCornerLists.end();
+}
+
+// Triangle strips (of Stanford's scans) and the like: measuring only the faces beside them would
+// certify a part of the model. Edges have corners, but no area.
+void check_no_other_faces(const Header& header, const MeshSource& source) {
+  for (const Element& element : header.elements) {
+    if (element.count == 0 || element.name == "face" || element.name == "edge") continue;
+    if (element.name != "tristrips" &&
+        std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
+      continue;
+    }
+    reject(source.name, element.place,
+           "element " + quoted(element.name) + " lists corners, which are not read",
+           "all faces in element 'face'");
+  }
+}
+
 }  // namespace
 
 uint64_t size_of(Scalar type) {
@@ -112,9 +155,19 @@ uint64_t size_of(Scalar type) {
   return kSizes[static_cast<size_t>(type)];
 }
 
+uint64_t least_row_of_three(const Element& element) {
+  uint64_t bytes = 0;
+  for (const Property& property : element.properties) {
+    bytes += size_of(property.list_count.value_or(property.type));
+    if (is_corner_list(property)) bytes += 3 * size_of(property.type);
+  }
+  return bytes;
+}
+
 Header read_header(TextScanner& scanner, const MeshSource& source) {
   Header header = parse_header(scanner);
   header.end_place = scanner.place();
+  check_no_other_faces(header, source);
   check_sizes(header, source, scanner.bytes_left());
   return header;
 }
@@ -133,7 +186,7 @@ const Element& only_element(const Header& header, const MeshSource& source,
 }
 
 size_t only_property(const Element& element, const MeshSource& source,
-                     std::initializer_list<std::string_view> names, bool list) {
+                     std::span<const std::string_view> names, bool list) {
   std::optional<size_t> only;
   for (size_t i = 0; i < element.properties.size(); ++i) {
     const Property& property = element.properties[i];
@@ -148,7 +201,7 @@ size_t only_property(const Element& element, const MeshSource& source,
   }
   if (!only) {
     reject(source.name, element.place, "element " + quoted(element.name) + " has no such property",
-           quoted(*names.begin()));
+           quoted(names.front()));
   }
   return *only;
 }

@@ -1,9 +1,12 @@
 // The header of a PLY file: what its body holds, checked against the file's size.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/mesh_readers.h"
@@ -33,11 +36,26 @@ struct Header {
   std::string end_place;  ///< the line of end_header
 };
 
+/// What writers call the list of a face's corners.
+inline constexpr std::array<std::string_view, 2> kCornerLists = {"vertex_indices", "vertex_index"};
+
 inline bool is_integer(Scalar type) { return type < Scalar::kFloat; }
 uint64_t size_of(Scalar type);
+/// The least and greatest value of an integer type.
+inline std::array<int64_t, 2> range_of(Scalar type) {
+  static constexpr std::array<std::array<int64_t, 2>, 6> kRanges = {{{INT8_MIN, INT8_MAX},
+                                                                     {0, UINT8_MAX},
+                                                                     {INT16_MIN, INT16_MAX},
+                                                                     {0, UINT16_MAX},
+                                                                     {INT32_MIN, INT32_MAX},
+                                                                     {0, UINT32_MAX}}};
+  return kRanges[static_cast<size_t>(type)];
+}
+/// The fewest bytes of one row in a binary body; a list of corners has three, others are empty.
+uint64_t least_row_of_three(const Element& element);
 
 /// Reads to the end of the end_header line. No element announces more rows than the file has bytes
-/// for, and none has rows of no bytes.
+/// for, none has rows of no bytes, and none but 'face' holds faces.
 Header read_header(TextScanner& scanner, const MeshSource& source);
 
 /// The element of that name; rejects none and several.
@@ -46,6 +64,6 @@ const Element& only_element(const Header& header, const MeshSource& source,
 /// The number of the property of one of those names; rejects none, several and, where `list`, any
 /// that is not a list of integers, otherwise any list.
 size_t only_property(const Element& element, const MeshSource& source,
-                     std::initializer_list<std::string_view> names, bool list);
+                     std::span<const std::string_view> names, bool list);
 
 }  // namespace vkh::ply

@@ -1,6 +1,7 @@
 #include "host/text_scanner.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 namespace vkh {
@@ -8,12 +9,13 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// Lines end in LF or CR LF; only a file whose first line ends in a CR alone ends them so
-// throughout (old Macintosh exports). Deciding once keeps a binary body's first LF out of it.
+// Lines end in LF or CR LF (or CR CR LF); only a file whose first line ends in a CR alone ends them
+// so throughout (old Macintosh exports). Deciding once keeps a binary body's first LF out of it.
 char line_terminator(std::string_view text) {
   const size_t end = text.find_first_of("\r\n");
-  if (end == std::string_view::npos || text[end] == '\n') return '\n';
-  return end + 1 < text.size() && text[end + 1] == '\n' ? '\n' : '\r';
+  if (end == std::string_view::npos) return '\n';
+  const size_t after = text.find_first_not_of('\r', end);
+  return after != std::string_view::npos && text[after] == '\n' ? '\n' : '\r';
 }
 
 }  // namespace
@@ -42,8 +44,31 @@ std::string quoted(std::string_view word) {
   return out + (word.size() > kLongest ? "...'" : "'");
 }
 
-TextScanner::TextScanner(std::string_view text, std::string_view name, char comment)
-    : text_(text), name_(name), comment_(comment), terminator_(line_terminator(text)) {}
+// By the decade of its first digit: what is no double is far from 1 on one side or the other.
+bool is_tiny_decimal(std::string_view word) {
+  constexpr int64_t kFar = int64_t{1} << 62;  // beyond the digits of any file
+  const size_t e = std::min(word.find_first_of("eE"), word.size());
+  const size_t point = std::min(word.find('.'), e);
+  const size_t first = std::min(word.find_first_of("123456789"), e);
+  std::string_view power = word.substr(std::min(e + 1, word.size()));
+  if (power.starts_with('+')) power.remove_prefix(1);
+  int64_t exponent = 0;
+  if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec ==
+      std::errc::result_out_of_range) {
+    exponent = power.starts_with('-') ? -kFar : kFar;
+  }
+  const auto decade = static_cast<int64_t>(point) - static_cast<int64_t>(first);
+  return std::clamp(exponent, -kFar, kFar) + decade < 0;
+}
+
+TextScanner::TextScanner(std::string_view text, std::string_view name, char comment,
+                         MixedLineEnds mixed)
+    : text_(text), name_(name), comment_(comment), terminator_(line_terminator(text)) {
+  // Searched for once, so that the lines of most texts need not be.
+  other_terminator_ = terminator_ == '\n' ? '\r' : '\n';
+  checks_line_ends_ =
+      mixed == MixedLineEnds::kRefused && text.find(other_terminator_) != std::string_view::npos;
+}
 
 std::string_view TextScanner::physical_line() {
   const char* begin = text_.data() + next_;
@@ -51,7 +76,37 @@ std::string_view TextScanner::physical_line() {
   const size_t size = end ? static_cast<size_t>(end - begin) : bytes_left();
   next_ += size + (end ? 1 : 0);
   ++lines_taken_;
-  return {begin, size};
+  const std::string_view line(begin, size);
+  if (checks_line_ends_) check_line_end(line);
+  return line;
+}
+
+// At the end of a line, the other terminator is blank space: CR LF, or CR CR LF.
+void TextScanner::check_line_end(std::string_view line) const {
+  const size_t at = line.find(other_terminator_);
+  if (at == std::string_view::npos) return;
+  if (std::all_of(line.begin() + static_cast<std::ptrdiff_t>(at), line.end(), is_space)) return;
+  reject(name_, "line " + std::to_string(lines_taken_),
+         other_terminator_ == '\r' ? "a carriage return inside the line"
+                                   : "a line feed inside the line",
+         "lines that all end alike");
+}
+
+// Cuts the backslash off that continues a line, and any comment, and what is blank before them.
+bool TextScanner::cut_continuation(std::string_view& line) const {
+  const auto trim = [&line] {
+    while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+  };
+  trim();
+  if (line.empty() || line.back() != '\\') return false;
+  for (size_t at = line.find(comment_); at < line.size(); at = line.find(comment_, at + 1)) {
+    if (at > 0 && !is_space(line[at - 1])) continue;
+    line = line.substr(0, at);
+    trim();
+    return false;
+  }
+  line.remove_suffix(1);
+  return true;
 }
 
 bool TextScanner::next_line() {
@@ -75,19 +130,22 @@ bool TextScanner::next_full_line() {
   return false;
 }
 
+bool TextScanner::is_continued() const {
+  std::string_view line = line_;
+  return cut_continuation(line);
+}
+
 void TextScanner::join_continued_lines() {
-  const auto continued = [](std::string_view& line) {
-    while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
-    if (line.empty() || line.back() != '\\') return false;
-    line.remove_suffix(1);
-    return true;
-  };
   std::string_view part = line_;
-  if (!continued(part)) return;
+  if (!cut_continuation(part)) return;
   joined_.assign(part);
   for (bool more = true; more && next_ < text_.size();) {
+    const bool in_word = !joined_.empty() && !is_space(joined_.back());
     part = physical_line();
-    more = continued(part);
+    if (in_word && !part.empty() && !is_space(part.front())) {
+      fail("a backslash splits a word", "a blank before it");
+    }
+    more = cut_continuation(part);
     joined_.append(" ").append(part);
   }
   line_ = joined_;

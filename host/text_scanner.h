@@ -3,7 +3,6 @@
 #pragma once
 
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -21,9 +20,12 @@ namespace vkh {
 /// A word of a file for an error line: quoted, at most 32 bytes, unprintable bytes as \xNN.
 std::string quoted(std::string_view word);
 
+/// Of a decimal that is no double: true if it lies below the least one, not beyond the largest.
+bool is_tiny_decimal(std::string_view word);
+
 /// Reads all of `word` as a decimal number of type T, correctly rounded; false if any of it is
-/// left over (1/3, 1,5, 0x1p3), if it is nan or inf, or if it does not fit T. The leading plus that
-/// from_chars refuses is accepted.
+/// left over (1/3, 1,5, 0x1p3), if it is nan or inf, or if it is too large for T. What lies below
+/// the least double is a zero of its sign. The leading plus that from_chars refuses is accepted.
 template <class T>
 bool parse_number(std::string_view word, T& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -32,27 +34,34 @@ bool parse_number(std::string_view word, T& value) {
   if (word.size() == sign || word[sign] > '9') return false;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size()) return false;
-  if constexpr (std::is_same_v<T, float>) {
-    // Writers print doubles into float columns: a tiny one rounds to zero, a huge one is an error.
-    double wide = 0;
-    if (error == std::errc::result_out_of_range && parse_number(word, wide)) {
-      value = static_cast<float>(wide);
-      return std::abs(wide) < 1;
+  if constexpr (std::is_same_v<T, double>) {
+    if (error == std::errc::result_out_of_range && is_tiny_decimal(word)) {
+      value = sign == 1 ? -0.0 : 0.0;
+      return true;
     }
   }
   return error == std::errc();
 }
 
+/// What to do with a line of text that holds the other terminator in its midst: a carriage return
+/// among lines that end in LF, or the reverse. What stands behind it is a line of its own to some
+/// readers, and part of a comment or a name to others.
+enum class MixedLineEnds { kRefused, kIgnored };
+
 class TextScanner {
  public:
   /// `comment` ends a line's words wherever it begins one; '\0' for formats without comments.
-  TextScanner(std::string_view text, std::string_view name, char comment = '\0');
+  TextScanner(std::string_view text, std::string_view name, char comment = '\0',
+              MixedLineEnds mixed = MixedLineEnds::kRefused);
 
   /// Goes to the next line; false at the end of the text.
   bool next_line();
   /// Goes to the next line that holds a word.
   bool next_full_line();
-  /// Where the current line ends in a backslash, appends the lines that continue it.
+  /// True where the current line ends in a backslash that no comment holds.
+  bool is_continued() const;
+  /// Appends the lines that continue the current one. A backslash may not split a word: '2\' and
+  /// '4' are one number to some readers and two to others.
   void join_continued_lines();
 
   /// The next word of the current line, empty at its end.
@@ -81,12 +90,16 @@ class TextScanner {
 
  private:
   std::string_view physical_line();
+  void check_line_end(std::string_view line) const;
+  bool cut_continuation(std::string_view& line) const;
   [[noreturn]] void fail_number(std::string_view word, const char* what, bool integer) const;
 
   std::string_view text_;
   std::string_view name_;
   char comment_;
   char terminator_;
+  char other_terminator_;
+  bool checks_line_ends_;
   std::string_view line_;
   std::string joined_;
   size_t cursor_ = 0;

@@ -1,8 +1,8 @@
-// Every file of the shared collection of bad files does what its manifest's line says.
-#define DOCTEST_CONFIG_IMPLEMENT
+// Every file of the corpus that tests/malformed writes does what its case says, read in process
+// and, a few, by the program. Likewise the files of the shared collection, where that is there.
 #include <doctest/doctest.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,12 +14,52 @@
 #include "host/error.h"
 #include "host/mesh_io.h"
 #include "tests/support/error_line.h"
+#include "tests/support/program.h"
 
 namespace {
 
 using vkh::InputError;
 using vkh::Mesh;
 using vkh::test::check_error_line;
+
+/// One case of the corpus.
+struct Case {
+  std::filesystem::path path;
+  std::string expected;  ///< R, or A and the count of faces
+  std::string says;      ///< stands in the refusal or in a note
+};
+
+// Written by tests/malformed/write.py, which CTest runs before this test.
+std::vector<Case> corpus() {
+  const char* folder = std::getenv("VKH_MALFORMED");
+  REQUIRE_MESSAGE(folder,
+                  "VKH_MALFORMED has to name the folder that tests/malformed/write.py wrote");
+  std::ifstream manifest(std::filesystem::path(folder) / "manifest.tsv");
+  std::vector<Case> cases;
+  std::string name, expected, says;
+  while (std::getline(manifest, name, '\t') && std::getline(manifest, expected, '\t') &&
+         std::getline(manifest, says)) {
+    cases.push_back({std::filesystem::path(folder) / name, expected, says});
+  }
+  return cases;
+}
+
+void check_case(const Case& file) {
+  CAPTURE(file.path);
+  std::string outcome = "R", said;
+  try {
+    const Mesh mesh = vkh::read_mesh(file.path);
+    outcome = "A" + std::to_string(mesh.faces.size());
+    for (const std::string& note : mesh.notes) said += note + "\n";
+  } catch (const InputError& error) {
+    said = error.what();
+    check_error_line(said, file.path.string());
+    CHECK(said.size() < file.path.string().size() + 200);
+  }
+  CAPTURE(said);
+  CHECK(outcome == file.expected);
+  CHECK(said.find(file.says) != std::string::npos);
+}
 
 std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -73,8 +113,35 @@ std::filesystem::path shared_folder() {
 
 }  // namespace
 
-TEST_CASE("every file of the bad-file manifest does what its line says") {
+TEST_CASE("every malformed file is refused or read whole, as its case says") {
+  const std::vector<Case> cases = corpus();
+  CHECK(cases.size() > 600);
+  for (const Case& file : cases) check_case(file);
+}
+
+// A refusal by the program: exit code 4, and one line that names the file. One file in twelve.
+TEST_CASE("the program refuses malformed files in one line") {
+  const std::vector<Case> cases = corpus();
+  size_t refused = 0;
+  for (size_t i = 0; i < cases.size(); i += 12) {
+    if (cases[i].expected != "R") continue;
+    CAPTURE(cases[i].path);
+    const auto outcome = vkh::test::run({"distance", cases[i].path.string(), "no_such_file.obj"});
+    CHECK(outcome.exit_code == 4);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find(cases[i].path.string() + ": ") != std::string::npos);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    ++refused;
+  }
+  CHECK(refused > 20);
+}
+
+TEST_CASE("every file of the shared collection does what its line of the manifest says") {
   const auto folder = shared_folder() / "bad";
+  if (!std::filesystem::exists(folder)) {
+    MESSAGE("not tested: no folder " << folder);
+    return;
+  }
   std::ifstream manifest(folder / "manifest.csv");
   REQUIRE(manifest);
   std::string line;
@@ -90,12 +157,4 @@ TEST_CASE("every file of the bad-file manifest does what its line says") {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     CHECK(listed.count(entry.path().filename().string()) == 1);
   }
-}
-
-int main(int argc, char** argv) {
-  if (!std::filesystem::exists(shared_folder() / "bad")) {
-    std::printf("skipped: no folder %s\n", (shared_folder() / "bad").c_str());
-    return 77;  // what CTest takes for skipped
-  }
-  return doctest::Context(argc, argv).run();
 }

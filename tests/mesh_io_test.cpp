@@ -260,7 +260,7 @@ TEST_CASE("OBJ: what is no surface is noted") {
   CHECK(mesh.counts.polygons == 1);
   CHECK(has_note(mesh, "1 polygon fanned"));
   CHECK(has_note(mesh, "2 faces of fewer than three corners"));
-  CHECK(has_note(mesh, "2 lines with points"));
+  CHECK(has_note(mesh, "2 lines with points, polylines or curves ignored"));
   CHECK(mesh.notes.size() == 3);
 }
 
@@ -273,7 +273,7 @@ TEST_CASE("PLY: types, lists and elements in any order") {
       "1 nan 4 0 1 2 3 -1\n\n0 3 3 1 0 7\n9\n0 0.1 1 0.1\n2 5 6 1e-60 2 2\n0 0 3 3\n0 -1 4 4\n",
       "a.ply");
   CHECK(mesh.faces == Faces{{0, 1, 2}, {0, 2, 3}, {3, 1, 0}});
-  CHECK(mesh.vertices == Vertices{{1, 0.1, 0.1f}, {2, 2, 0}, {3, 3, 0}, {4, 4, -1}});
+  CHECK(mesh.vertices == Vertices{{1, 0.1, 0.1}, {2, 2, 1e-60}, {3, 3, 0}, {4, 4, -1}});
   CHECK(mesh.counts.polygons == 1);
 }
 
@@ -283,7 +283,7 @@ TEST_CASE("PLY: rows must hold what the header says") {
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const std::string good = head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   CHECK(parse(good, "a.ply").notes.empty());
-  CHECK(has_note(parse(good + "litter\n", "a.ply"), "ignored, from line 13"));
+  CHECK(has_note(parse(good + "litter\n", "a.ply"), "ignored, from line 14"));
   const auto place = [&](const std::string& body) {
     return error_of(head + body, "a.ply").substr(0, 14);
   };
@@ -341,14 +341,16 @@ TEST_CASE("STL: binary is told by its size, text by its words") {
 }
 
 TEST_CASE("OFF: variants") {
-  const std::string body = "3 1 0\n0 0 0 0 0 1\n1 0 0 9 9 9\n0 1 0 x\n3 0 1 2 0.5\n";
+  const std::string body = "3 1 0\n0 0 0 0 0 1\n1 0 0 9 9 9\n0 1 0 x y z\n3 0 1 2 0.5\n";
   for (const std::string word : {"OFF", "COFF", "NOFF", "STOFF", "CNOFF", "STCNOFF"}) {
     CHECK(parse(word + "\n" + body, "pipe").faces == Faces{{0, 1, 2}});
   }
   for (const std::string word : {"4OFF", "nOFF", "XOFF", "OFF BINARY"}) {
     check_error_line(error_of(word + "\n" + body, "a.off"), "a.off");
   }
-  CHECK(has_note(parse("OFF " + body + "3 2 1 0\n", "a.off"), "ignored, from line 6"));
+  CHECK(has_note(parse("OFF " + body + "end\n", "a.off"), "ignored, from line 6"));
+  CHECK(error_of("OFF " + body + "end\n3 2 1 0\n", "a.off")
+            .starts_with("a.off: line 7: a row more than announced"));
   check_error_line(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n", "a.off"), "a.off");
 }
 

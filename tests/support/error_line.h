@@ -9,7 +9,7 @@
 namespace vkh::test {
 
 inline bool names_a_place(const std::string& rest) {
-  for (const std::string word : {"line ", "byte ", "face ", "vertex ", "triangle "}) {
+  for (const std::string word : {"line ", "byte ", "face ", "vertex ", "triangle ", "row "}) {
     if (rest.starts_with(word) && rest.size() > word.size() && std::isdigit(rest[word.size()])) {
       return true;
     }
