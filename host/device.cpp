@@ -294,7 +294,7 @@ void Device::adopt(const AdoptedDevice& adopted) {
   device_ = adopted.device;
   queue_ = adopted.queue;
   queue_family_ = adopted.queue_family;
-  queue_mutex_ = adopted.queue_mutex;
+  if (adopted.queue_mutex != nullptr) queue_mutex_ = adopted.queue_mutex;
   load_device(vk_, device_);
   read_limits();
 }

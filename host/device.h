@@ -22,7 +22,8 @@ struct DeviceRequest {
 /// Handles of the caller's, who keeps and destroys them, after the Device and all that was made
 /// with it. The device: created with the extensions that vkhGetRequiredExtensions names and with
 /// scalarBlockLayout and synchronization2 enabled. The queue: of a family with compute; nobody else
-/// may use it while a call of Solver runs, unless all submit under `queue_mutex`.
+/// may use it while a call of Solver runs, unless all submit under `queue_mutex`: another Device
+/// that adopted it is somebody else.
 struct AdoptedDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;  ///< Vulkan 1.2 or later
@@ -30,10 +31,10 @@ struct AdoptedDevice {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queue_family = 0;
-  std::mutex* queue_mutex = nullptr;  ///< may be null; held around every vkQueueSubmit
+  std::mutex* queue_mutex = nullptr;  ///< held around every vkQueueSubmit; null: the Device's own
 };
 
-/// One compute queue and what it belongs to.
+/// One compute queue and what it belongs to. Solvers of one Device may run on as many threads.
 class Device {
  public:
   /// Owns instance, device and queue. Throws DeviceError if nothing usable matches, with each
@@ -55,7 +56,7 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   VkPhysicalDevice physical() const { return physical_; }
-  std::mutex* queue_mutex() const { return queue_mutex_; }  ///< may be null
+  std::mutex& queue_mutex() const { return *queue_mutex_; }
   /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.
   bool has_timestamps() const { return has_timestamps_; }
   double timestamp_period_ns() const { return timestamp_period_ns_; }
@@ -80,7 +81,8 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queue_family_ = 0;
-  std::mutex* queue_mutex_ = nullptr;
+  mutable std::mutex own_mutex_;
+  std::mutex* queue_mutex_ = &own_mutex_;
   bool owned_ = true;
   bool has_timestamps_ = true;
   double timestamp_period_ns_ = 1;

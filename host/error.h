@@ -18,6 +18,11 @@ struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An answer that is there and a file, pipe or disk that does not take it.
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A command line or option that makes no sense.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -12,8 +12,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -24,6 +22,7 @@
 #include "host/error.h"
 #include "host/mesh_io.h"
 #include "host/options.h"
+#include "host/output_file.h"
 #include "host/pipeline_cache.h"
 #include "host/report_print.h"
 #include "host/session.h"
@@ -38,8 +37,11 @@ enum ExitCode {
   kExitNotClosed = 3,
   kExitBadInput = 4,
   kExitDevice = 5,
-  kExitInternal = 70,  ///< a bug of ours; sysexits.h's EX_SOFTWARE
+  kExitNotWritten = 6,  ///< the answer was given and an output could not be written
+  kExitInternal = 70,   ///< a bug of ours; sysexits.h's EX_SOFTWARE
 };
+
+constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone --json
 
 /// As typed.
 struct Arguments {
@@ -47,8 +49,8 @@ struct Arguments {
   std::string tolerance = "1e-6", device, memory, time, waves;
   std::vector<std::string> enabled, disabled;
   std::string preset;
-  bool json = false, verbose = false, symmetric = false, verify = false, no_cache = false;
-  std::string json_file;  ///< empty: JSON goes to stdout
+  bool verbose = false, symmetric = false, verify = false, no_cache = false;
+  std::string json;  ///< empty: none; or kStandardOutput; or a file
 };
 
 /// Understood, before any file or device is touched.
@@ -127,14 +129,6 @@ Request understand(const Arguments& arguments) {
   options.enabled = arguments.enabled;
   options.coverage = arguments.verify;
   options.disabled = arguments.disabled;
-  for (const std::string& input : {arguments.file_a, arguments.file_b}) {
-    std::error_code none;
-    if (arguments.json_file.empty() || input.empty()) continue;
-    if (input == arguments.json_file ||
-        std::filesystem::equivalent(input, arguments.json_file, none)) {
-      throw UsageError("--json '" + arguments.json_file + "' would overwrite an input mesh");
-    }
-  }
   return request;
 }
 
@@ -179,35 +173,37 @@ Answer answer_for(const Arguments& arguments, const Request& request, const Mesh
   return answer;
 }
 
-void check_written(std::ostream& out, const std::string& where) {
-  if (!out.flush()) throw UsageError("cannot write the answer to " + where);
+int complain(std::string message, ExitCode code) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fprintf(stderr, "vkhausdorff: %s\n", message.c_str());
+  return code;
 }
 
-void print(const Arguments& arguments, const Answer& answer) {
-  // The file first: whoever reads standard output may close it early, and that ends the program.
-  if (!arguments.json_file.empty()) {
-    std::ofstream file(arguments.json_file);
-    file << to_json(answer) << '\n';
-    check_written(file, arguments.json_file);
-  }
-  if (arguments.json && arguments.json_file.empty()) {
-    std::cout << to_json(answer) << '\n';
+void check_printed() {
+  if (!std::cout.flush()) throw OutputError("cannot write the answer to standard output");
+}
 
+/// Whether every output was written. The answer is printed whatever becomes of a file, and after
+/// it: whoever reads standard output may close it early, and that ends the program.
+bool print(const Arguments& arguments, const Answer& answer, const OutputFile* json_file) {
+  std::string not_written;
+  try {
+    if (json_file != nullptr) json_file->write(to_json(answer) + '\n');
+  } catch (const OutputError& error) {
+    not_written = error.what();
+  }
+  if (arguments.json == kStandardOutput) {
+    std::cout << to_json(answer) << '\n';
   } else {
     print_table(std::cout, answer, arguments.verbose);
   }
-  check_written(std::cout, "standard output");
-}
-
-/// An answer that took an hour must not meet a folder that is not there.
-void check_writable(const std::string& path) {
-  if (path.empty()) return;
-  std::error_code none;
-  const bool existed = std::filesystem::exists(path, none);
-  if (!std::ofstream(path, std::ios::app)) {
-    throw UsageError("--json '" + path + "': cannot be opened for writing");
+  if (not_written.empty()) {
+    check_printed();
+    return true;
   }
-  if (!existed) std::filesystem::remove(path, none);
+  std::cout.flush();
+  complain(not_written, kExitNotWritten);
+  return false;
 }
 
 /// After the answer is printed: whoever asked wants to see what was refuted.
@@ -228,7 +224,9 @@ template <typename Load>
 int run_pair(const Arguments& arguments, Load load) {
   std::signal(SIGINT, on_interrupt);
   const Request request = understand(arguments);
-  check_writable(arguments.json_file);
+  std::optional<OutputFile> json_file;
+  if (!arguments.json.empty() && arguments.json != kStandardOutput)
+    json_file.emplace("--json", arguments.json, std::vector{arguments.file_a, arguments.file_b});
   const auto start = Clock::now();
   auto opening = begin_now([selector = arguments.device, options = request.options,
                             cache = arguments.no_cache ? "" : user_cache_folder()] {
@@ -243,8 +241,9 @@ int run_pair(const Arguments& arguments, Load load) {
     report->times.load_ms = load_ms;
     report->times.setup_ms = session.setup_ms;
   }
-  print(arguments, answer);
+  const bool is_written = print(arguments, answer, json_file ? &*json_file : nullptr);
   check_verified(answer);
+  if (!is_written) return kExitNotWritten;
   return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
 }
 
@@ -260,7 +259,7 @@ int run_demo(const Arguments& arguments) { return run_pair(arguments, default_pa
 
 int run_doctor(const Arguments& arguments) {
   const bool passed = examine_devices(std::cout, arguments.device);
-  check_written(std::cout, "standard output");
+  check_printed();
   if (!passed) throw DeviceError("the self-check failed: do not trust this device or driver");
   return kExitClosed;
 }
@@ -284,15 +283,10 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--waves", arguments.waves, "End the search after so many waves [never]")
       ->type_name("N");
   command
-      .add_option_function<std::vector<std::string>>(
-          "--json",
-          [&arguments](const std::vector<std::string>& file) {
-            arguments.json = true;
-            arguments.json_file = file.empty() ? "" : file.front();
-          },
-          "Print one JSON object instead of the table, or beside it into FILE")
-      ->type_name("[FILE]")
-      ->expected(0, 1);
+      .add_flag("--json", arguments.json,
+                "Print one JSON object instead of the table; --json=FILE, without a space, writes "
+                "it beside the table")
+      ->type_name("[=FILE]");
   command.add_option("--preset", arguments.preset,
                      "Which parts of the method are on: default, what pays on the device; paper, "
                      "what the paper has; baseline-gpu, the paper's baseline [default]");
@@ -324,6 +318,11 @@ std::string usage_message(const CLI::ParseError& error, int argc, char** argv) {
       std::find(kCommands.begin(), kCommands.end(), std::string(argv[1])) == kCommands.end()) {
     return "unknown command '" + std::string(argv[1]) + "': expected distance, demo or doctor";
   }
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const bool stray = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (stray && std::find(words.begin(), words.end(), "--json") != words.end()) {
+    return std::string(error.what()) + "; JSON goes into a file by --json=FILE, without a space";
+  }
   return std::string(error.what()) + " (see vkhausdorff --help)";
 }
 
@@ -335,8 +334,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("vkhausdorff ") + program_version());
   app.footer(
       "Exit codes: 0 closed, 2 usage, 3 not closed within the budget (the interval is still "
-      "true), 4 bad input, 5 device or driver.");
+      "true), 4 bad input, 5 device or driver, 6 the answer was given and an output could not be "
+      "written.");
   app.require_subcommand(1);
+  if (std::find(argv, argv + argc, std::string_view("--json=")) != argv + argc)
+    throw UsageError("--json='': expected the name of a file, as in --json=answer.json");
   Arguments arguments;
   CLI::App* distance = app.add_subcommand("distance", "Distance of two mesh files");
   distance->add_option("A", arguments.file_a, "Mesh to start from (OBJ, STL, PLY, OFF)")
@@ -358,12 +360,6 @@ int run(int argc, char** argv) {
   return demo->parsed() ? run_demo(arguments) : run_doctor(arguments);
 }
 
-int complain(std::string message, ExitCode code) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::fprintf(stderr, "vkhausdorff: %s\n", message.c_str());
-  return code;
-}
-
 int run_and_catch(int argc, char** argv) {
   try {
     return run(argc, argv);
@@ -373,6 +369,8 @@ int run_and_catch(int argc, char** argv) {
     return complain(error.what(), kExitBadInput);
   } catch (const DeviceError& error) {
     return complain(error.what(), kExitDevice);
+  } catch (const OutputError& error) {
+    return complain(error.what(), kExitNotWritten);
   } catch (const std::bad_alloc&) {
     return complain("this machine has not enough memory for these meshes", kExitDevice);
   } catch (const std::exception& error) {

@@ -138,8 +138,7 @@ void Submitter::submit_and_wait(const std::function<void()>& waiting) {
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;
   {
-    std::unique_lock<std::mutex> lock;
-    if (device_.queue_mutex() != nullptr) lock = std::unique_lock(*device_.queue_mutex());
+    const std::lock_guard lock(device_.queue_mutex());
     check(vk.QueueSubmit(device_.queue(), 1, &submit, fence_), "submitting");
   }
   pending_ = true;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -85,7 +86,8 @@ void write_checked(const fs::path& path, const std::vector<char>& data) {
   std::error_code none;
   fs::create_directories(path.parent_path(), none);
   fs::path mine = path;
-  mine += "." + std::to_string(getpid());
+  static std::atomic<unsigned> count = 0;  // two Solvers may save at once
+  mine += "." + std::to_string(getpid()) + "-" + std::to_string(count++);
   std::ofstream out(mine, std::ios::binary);
   const FileHeader header{kMagic, data.size(), checksum_of(data)};
   out.write(reinterpret_cast<const char*>(&header), sizeof(header));

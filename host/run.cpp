@@ -62,6 +62,11 @@ Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
       submitter_(device),
       names_(Submitter::kTimestamps) {}
 
+void Runner::make_ready(uint32_t switches) {
+  const Turns::Turn turn(turns_);
+  context_for(switches);
+}
+
 VkhContext Runner::context_for(uint32_t switches) {
   const auto known = contexts_.find(switches);
   if (known != contexts_.end()) return known->second.get();
@@ -105,6 +110,7 @@ void Runner::stamp(VkCommandBuffer commands, const char* name) {
 }
 
 ResidentMesh Runner::build(const MeshData& b) {
+  const Turns::Turn turn(turns_);
   // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
   context_ = context_for(default_switches(device_));
   ResidentMesh resident;
@@ -180,6 +186,7 @@ void Runner::read_stages(const Round& round, std::vector<RunOutput>& outputs) {
 std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   std::vector<RunOutput> outputs(inputs.size());
   if (inputs.empty()) return outputs;
+  const Turns::Turn turn(turns_);
   context_ = context_for(inputs[0].switches);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();

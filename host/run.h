@@ -8,6 +8,7 @@
 
 #include "host/pipeline_cache.h"
 #include "host/seat.h"
+#include "host/turns.h"
 
 namespace vkh {
 
@@ -17,11 +18,11 @@ using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
 /// What is on unless somebody asks for something else; what pays depends on the kind of device.
 uint32_t default_switches(const Device& device);
 
-/// Keeps contexts and buffers between runs.
+/// Keeps contexts and buffers between runs. Threads take turns.
 class Runner {
  public:
   Runner(const Device& device, const std::filesystem::path& cache_folder);
-  void make_ready(uint32_t switches) { context_for(switches); }
+  void make_ready(uint32_t switches);
   ResidentMesh build(const MeshData& b);
   /// Runs all of them side by side (vkhCmdRunTasks), each until it is done. They have the same
   /// switches, `multiwave` and `stage_times`. Of several, the stages are one, "solve": of all, with
@@ -41,6 +42,7 @@ class Runner {
   void read_stages(const Round& round, std::vector<RunOutput>& outputs);
 
   const Device& device_;
+  Turns turns_;
   PipelineCache cache_;
   std::map<uint32_t, ContextHandle> contexts_;
   Submitter submitter_;

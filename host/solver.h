@@ -83,9 +83,10 @@ struct PairView {
   const Mesh& b;
 };
 
-/// Keeps pipelines and buffers of one device between runs. One thread at a time. Everything throws
-/// DeviceError if the device is lost or out of memory, and UsageError for an unknown switch or a
-/// tolerance that is not positive and finite.
+/// Keeps pipelines and buffers of one device between runs. Threads take turns; Solvers of their own
+/// on the same Device run at once. Everything throws DeviceError if the device is lost or out of
+/// memory, and UsageError for an unknown switch, a tolerance that is not positive and finite, or a
+/// call from a progress callback of the same Solver.
 class Solver {
  public:
   /// `cache_folder`: where pipelines are kept between processes, in files of their own for each

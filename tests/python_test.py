@@ -170,19 +170,37 @@ class Refusals(unittest.TestCase):
             vkh.distance(va, fa, vb, fb, **keywords)
 
     def test_vertices(self):
-        shape = r"A's vertices: an array of shape .*; expected an array of shape \(n, 3\) of float32 or float64"
+        shape = r"A's vertices: an array of shape .*; expected an array of shape \(n, 3\) of float32, float64 or integers"
         self.refused(shape, va=SQUARE[:, :2])
         self.refused(shape, va=SQUARE.ravel())
         self.refused(shape, va=SQUARE[None])
         self.refused(shape, va="abc")
         self.refused(shape, va=None)
-        kind = r"an array of {}; expected an array of shape \(n, 3\) of float32 or float64"
+        kind = r"an array of {}; expected an array of shape \(n, 3\) of float32, float64 or integers"
         self.refused("A's vertices: " + kind.format("float16"), va=SQUARE.astype(np.float16))
-        self.refused("B's vertices: " + kind.format("int64"), vb=SQUARE.astype(np.int64))
+        self.refused("B's vertices: " + kind.format("bool"), vb=SQUARE.astype(bool))
         self.refused("A's vertices: " + kind.format("complex128"), va=SQUARE.astype(complex))
         self.refused("A's vertices: " + kind.format("object"), va=SQUARE.astype(object))
         if np.dtype(np.longdouble).itemsize > 8:
             self.refused("A's vertices: " + kind.format("float128"), va=SQUARE.astype(np.longdouble))
+
+    def test_integer_vertices_are_exact_or_refused(self):
+        expected = vkh.distance(4 * SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES)
+        for kind in (np.int8, np.uint8, np.int32, np.uint64, ">i8"):
+            r = vkh.distance((4 * SQUARE).astype(kind), SQUARE_FACES, SQUARE.astype(kind).tolist(), SQUARE_FACES)
+            self.assertEqual((r.lower, r.upper), (expected.lower, expected.upper))
+        large = np.array([[0, 0, 0], [2**53, 0, 0], [0, -(2**53), 0]])
+        faces = np.array([[0, 1, 2]])
+        exact = vkh.distance(large, faces, large.astype(float), faces)
+        self.assertEqual(exact.lower, 0)
+        rule = "expected integers of at most 2\\^53, which float64 has exactly"
+        for value in (2**53 + 1, -(2**53) - 1, 2**63 - 1, -(2**63)):
+            vertices = large.copy()
+            vertices[2, 1] = value
+            self.refused(f"A's vertices: vertex 2 has {value}; {rule}", va=vertices, fa=faces)
+        huge = large[:2].astype(np.uint64)
+        huge[1, 2] = 2**64 - 1
+        self.refused(f"B's vertices: vertex 1 has {2**64 - 1}; {rule}", vb=huge, fb=faces)
 
     def test_coordinates(self):
         for bad in (np.nan, np.inf, -np.inf):
@@ -204,17 +222,73 @@ class Refusals(unittest.TestCase):
         huge[0, 0] = 2**63 + 1
         self.refused("face 0 has index 9223372036854775809; expected indices below 4", fa=huge)
 
-    def test_options(self):
-        for tol in (0.0, -1.0, float("nan"), float("inf"), "2 furlongs", ""):
-            with self.subTest(tol=tol):
-                self.refused("tol", tol=tol)
-        self.refused("time", time=-1.0)
-        self.refused("--memory", memory="lots")
+    def wrong(self, kind, expected, call):
+        """One line in the caller's words: no options of the program, nothing of pybind11's, no arrays."""
+        with self.assertRaises(kind) as caught:
+            call()
+        message = str(caught.exception)
+        self.assertIs(type(caught.exception), kind, message)
+        self.assertRegex(message, expected)
+        for stranger in ("--", "pybind11", "PYBIND11", "\n", "array(", "instance"):
+            self.assertNotIn(stranger, message)
+        self.assertLess(len(message), 200)
+
+    def test_scalars(self):
+        array = np.zeros((50, 3))
+        values = {
+            "tol": [0.0, -1.0, float("nan"), float("inf"), 10**400, "2 furlongs", "", "x", "1e-400", "\ud800"],
+            "time": [-1.0, float("nan"), -1],
+            "waves": [-1, 2**32, 2**70],
+            "memory": [0, -1, 2**64, "lots", "2 furlongs", ""],
+            "device": ["\ud800"],
+        }
+        types = {
+            "tol": [None, True, np.bool_(True), [1e-6], array, 1j, b"1"],
+            "symmetric": ["no", None, 1, array],
+            "time": ["5", True, [1], array, object()],
+            "waves": [1.5, "3", True, array, float("nan")],
+            "memory": [1.5, True, [1], array],
+            "device": [0, None, True, array, b"cpu"],
+            "preset": [None, 1, array],
+            "disable": ["u3", 3, None, [3], {"u3": 1}, array],
+            "enable": ["u3", 3, None, [None]],
+            "progress": [3, "print", array],
+        }
+        solver = vkh.Solver(SQUARE, SQUARE_FACES)
+        for kind, cases in ((ValueError, values), (TypeError, types)):
+            for name, wrong in cases.items():
+                for value in wrong:
+                    with self.subTest(name=name, value=value):
+                        keywords = {name: value}
+                        self.wrong(kind, f"^{name}[: ].*expected ",
+                                   lambda: vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, **keywords))
+                        if name == "device":
+                            self.wrong(kind, "^device: expected", lambda: vkh.Solver(SQUARE, SQUARE_FACES, **keywords))
+                        elif name != "symmetric":
+                            self.wrong(kind, f"^{name}[: ].*expected ",
+                                       lambda: solver.distance(SQUARE, SQUARE_FACES, **keywords))
+        right = dict(tol=np.float32(1e-3), time=np.int64(5), waves=np.uint8(200), memory=np.int32(1 << 20),
+                     symmetric=np.bool_(True), progress=None, disable={"u3"}, enable=(), preset="")
+        self.assertTrue(vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, **right).closed)
+        self.assertTrue(vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, 1, time=None, waves=None, memory=None).closed)
+        self.assertTrue(vkh.distance(va=SQUARE, fa=SQUARE_FACES, vb=SQUARE, fb=SQUARE_FACES, time=float("inf")).closed)
+
+    def test_calls(self):
+        four = (SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES)
+        self.wrong(TypeError, "needs va, fa, vb, fb; 'vb' is missing", lambda: vkh.distance(*four[:2]))
+        self.wrong(TypeError, "needs vb, fb; 'vb' is missing", lambda: vkh.Solver())
+        self.wrong(TypeError, "has no argument 'tolerance'; it takes va,", lambda: vkh.distance(*four, tolerance=1))
+        self.wrong(TypeError, "'va' was given twice", lambda: vkh.distance(*four, va=SQUARE))
+        self.wrong(TypeError, "by position and the rest by name; 7 were", lambda: vkh.distance(*four, 1e-6, False, "cpu"))
+        solver = vkh.Solver(*four[:2])
+        self.wrong(TypeError, "has no argument 'symmetric'", lambda: solver.distance(*four[:2], symmetric=True))
+        self.wrong(TypeError, "cannot create|No constructor", lambda: vkh.Result())
+        self.assertTrue(vkh.distance.__doc__.startswith("distance(va, fa, vb, fb, tol=1e-6"))
+
+    def test_names(self):
         self.refused("'u9'", disable=["u9"])
         self.refused("'u9'", enable=["u9"])
         self.refused("no preset is called 'pape'", preset="pape")
-        with self.assertRaises(TypeError):
-            vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, 1e-6, False, "cpu")  # by keyword alone
         with self.assertRaisesRegex(vkh.DeviceError, "no usable Vulkan device matches 'nonesuch'"):
             vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, device="nonesuch")
         self.assertTrue(issubclass(vkh.DeviceError, RuntimeError))

@@ -96,7 +96,6 @@ def our_command(args, pair):
     command = [args.program, "distance", str(pair.file_a), str(pair.file_b), "--tol", args.tol]
     if args.device:
         command += ["--device", args.device]
-    # --json last: it takes an optional file name.
     return command + shlex.split(args.extra) + ["--json"]
 
 

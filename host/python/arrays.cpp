@@ -1,8 +1,12 @@
 #include "host/python/arrays.h"
 
+#include <array>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <vector>
+
+#include "host/python/interpreter.h"
 
 namespace vkh::python {
 namespace {
@@ -36,35 +40,72 @@ py::array_t<T, py::array::c_style | py::array::forcecast> as(const py::array& ar
   return py::array_t<T, py::array::c_style | py::array::forcecast>(array);
 }
 
-std::vector<glm::dvec3> vertices_from(const std::string& name, const py::object& object) {
-  const std::string what = name + "'s vertices";
-  const std::string expected = "an array of shape (n, 3) of float32 or float64";
-  const py::array given = array_from(what, object, expected);
-  // Wider floats would be rounded, and what is certified would not be what was given.
-  const bool is_float = given.dtype().kind() == 'f' &&
-                        (given.dtype().itemsize() == 4 || given.dtype().itemsize() == 8);
-  if (!is_float) refuse(what, "an array of " + text_of(given.dtype()), expected);
+// The rows of an array, copied before they are looked at: another thread may write to it meanwhile,
+// even while this one has the GIL.
+template <class T>
+std::vector<std::array<T, 3>> rows_of(const py::array& given) {
+  const auto array = as<T>(given);
+  std::vector<std::array<T, 3>> rows(static_cast<size_t>(array.size()) / 3);
+  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(rows[0]));
+  return rows;
+}
+
+std::vector<glm::dvec3> floats_from(const py::array& given) {
   const auto array = as<double>(given);
   static_assert(sizeof(glm::dvec3) == 3 * sizeof(double));
-  std::vector<glm::dvec3> vertices(static_cast<size_t>(array.shape(0)));
+  std::vector<glm::dvec3> vertices(static_cast<size_t>(array.size()) / 3);
   if (!vertices.empty())
     std::memcpy(vertices.data(), array.data(), vertices.size() * sizeof(glm::dvec3));
   return vertices;
 }
 
+// Those that float64 has all of: others would be rounded, and what is certified would not be what
+// was given.
+template <class Integer>
+std::vector<glm::dvec3> integers_from(const std::string& what, const py::array& given) {
+  constexpr Integer kMost = Integer{1} << 53;
+  const std::vector<std::array<Integer, 3>> rows = rows_of<Integer>(given);
+  std::vector<glm::dvec3> vertices(rows.size());
+  for (size_t v = 0; v < rows.size(); ++v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Integer value = rows[v][static_cast<size_t>(axis)];
+      const bool is_small = value <= kMost && (std::is_unsigned_v<Integer> || value >= -kMost);
+      if (!is_small)
+        refuse(what, "vertex " + std::to_string(v) + " has " + std::to_string(value),
+               "integers of at most 2^53, which float64 has exactly");
+      vertices[v][axis] = static_cast<double>(value);
+    }
+  }
+  return vertices;
+}
+
+std::vector<glm::dvec3> vertices_from(const std::string& name, const py::object& object) {
+  const std::string what = name + "'s vertices";
+  const std::string expected = "an array of shape (n, 3) of float32, float64 or integers";
+  const py::array given = array_from(what, object, expected);
+  const char kind = given.dtype().kind();
+  if (kind == 'i') return integers_from<int64_t>(what, given);
+  if (kind == 'u') return integers_from<uint64_t>(what, given);
+  // Wider floats would be rounded, too.
+  const bool is_float =
+      kind == 'f' && (given.dtype().itemsize() == 4 || given.dtype().itemsize() == 8);
+  if (!is_float) refuse(what, "an array of " + text_of(given.dtype()), expected);
+  return floats_from(given);
+}
+
 template <class Integer>
 std::vector<glm::uvec3> indices_from(const std::string& what, const py::array& given,
                                      size_t vertex_count) {
-  const auto array = as<Integer>(given);
-  const Integer* index = array.data();
-  std::vector<glm::uvec3> faces(static_cast<size_t>(array.shape(0)));
+  const std::vector<std::array<Integer, 3>> rows = rows_of<Integer>(given);
+  std::vector<glm::uvec3> faces(rows.size());
   for (size_t f = 0; f < faces.size(); ++f) {
-    for (int corner = 0; corner < 3; ++corner, ++index) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Integer index = rows[f][static_cast<size_t>(corner)];
       // Compared as unsigned 64-bit numbers, so that negative ones are out of range, too.
-      if (static_cast<uint64_t>(*index) >= vertex_count)
-        refuse(what, "face " + std::to_string(f) + " has index " + std::to_string(*index),
+      if (static_cast<uint64_t>(index) >= vertex_count)
+        refuse(what, "face " + std::to_string(f) + " has index " + std::to_string(index),
                "indices below " + std::to_string(vertex_count));
-      faces[f][corner] = static_cast<uint32_t>(*index);
+      faces[f][corner] = static_cast<uint32_t>(index);
     }
   }
   return faces;
@@ -88,7 +129,7 @@ Mesh mesh_from(const std::string& name, const py::object& vertices, const py::ob
   if (points.size() >= std::numeric_limits<uint32_t>::max())
     refuse(name + "'s vertices", std::to_string(points.size()) + " of them", "fewer than 2^32 - 1");
   std::vector<glm::uvec3> corners = faces_from(name, faces, points.size());
-  const py::gil_scoped_release release;  // cleaning a large mesh takes a while
+  const WithoutGil outside;  // cleaning a large mesh takes a while
   return make_mesh(name, std::move(points), std::move(corners));
 }
 

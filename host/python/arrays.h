@@ -10,8 +10,9 @@
 
 namespace vkh::python {
 
-/// vertices: (n, 3) float32 or float64; faces: (m, 3) of any integer type. Copied: nothing of the
-/// arrays is kept. `name` is "A" or "B", for messages.
+/// vertices: (n, 3) float32, float64, or integers that float64 has exactly; faces: (m, 3) of any
+/// integer type. Copied: nothing of the arrays is kept. Within a Call. `name` is "A" or "B", for
+/// messages.
 Mesh mesh_from(const std::string& name, const pybind11::object& vertices,
                const pybind11::object& faces);
 

@@ -1,134 +1,15 @@
 // The Python module: vkhausdorff.distance and vkhausdorff.Solver.
 #include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
-
-#include <map>
-#include <memory>
 
 #include "host/decimal.h"
 #include "host/error.h"
-#include "host/options.h"
-#include "host/python/answer.h"
-#include "host/python/arrays.h"
-#include "host/python/session.h"
+#include "host/python/interpreter.h"
+#include "host/python/solver.h"
 
 namespace vkh::python {
 namespace {
 
 namespace py = pybind11;
-using py::literals::operator""_a;
-
-/// What a run may cost and how narrow it has to be; the keywords of both functions.
-struct Limits {
-  py::object tol, time, waves, memory, disable, progress, enable;
-  std::string preset;
-};
-
-// A string says more than a number can: "0.1%", "0.01abs"; the program's rules hold.
-SolveOptions options_of(const Limits& limits) {
-  SolveOptions options;
-  if (py::isinstance<py::str>(limits.tol)) {
-    const Tolerance tolerance = parse_tolerance(py::cast<std::string>(limits.tol));
-    options.tolerance = tolerance.value;
-    options.tolerance_is_absolute = tolerance.is_absolute;
-  } else {
-    options.tolerance = py::cast<double>(limits.tol);
-  }
-  if (!limits.time.is_none()) {
-    options.time_limit_s = py::cast<double>(limits.time);
-    if (!(options.time_limit_s >= 0)) throw UsageError("time must be 0 or more seconds");
-  }
-  if (!limits.waves.is_none()) options.wave_limit = py::cast<uint32_t>(limits.waves);
-  if (py::isinstance<py::str>(limits.memory)) {
-    options.memory_bytes = parse_memory(py::cast<std::string>(limits.memory));
-  } else if (!limits.memory.is_none()) {
-    options.memory_bytes = py::cast<uint64_t>(limits.memory);
-  }
-  options.preset = limits.preset;
-  options.enabled = py::cast<std::vector<std::string>>(limits.enable);
-  options.disabled = py::cast<std::vector<std::string>>(limits.disable);
-  listen_to(limits.progress, options);
-  return options;
-}
-
-/// One session a device, kept between calls of distance(): making one takes longer than most runs.
-std::map<std::string, std::unique_ptr<Session>>& sessions() {
-  static std::map<std::string, std::unique_ptr<Session>> kept;
-  return kept;
-}
-
-Session& session_for(const std::string& device) {
-  const auto known = sessions().find(device);
-  if (known != sessions().end()) return *known->second;
-  auto made = std::make_unique<Session>(device);  // without the GIL: another may be first
-  return *sessions().try_emplace(device, std::move(made)).first->second;
-}
-
-// KeyboardInterrupt that came too late to be heard by a run is raised after it.
-Answer answered(const std::function<Answer()>& answer) {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  return answer();
-}
-
-Answer distance(const py::object& va, const py::object& fa, const py::object& vb,
-                const py::object& fb, bool symmetric, const std::string& device,
-                const Limits& limits) {
-  const SolveOptions options = options_of(limits);
-  const Mesh a = mesh_from("A", va, fa);
-  const Mesh b = mesh_from("B", vb, fb);
-  Session& session = session_for(device);
-  if (symmetric) {
-    SymmetricReport both;
-    session.use([&](Solver& solver) { both = solver.symmetric(a, b, options); });
-    return answered([&] { return answer_of(both); });
-  }
-  Report report;
-  session.use([&](Solver& solver) { report = solver.distance(a, b, options); });
-  return answered([&] { return answer_of(report); });
-}
-
-/// Mesh B, prepared on a device of its own session.
-class PythonSolver {
- public:
-  PythonSolver(const py::object& vb, const py::object& fb, const std::string& device) {
-    Mesh b = mesh_from("B", vb, fb);
-    session_ = std::make_shared<Session>(device);
-    session_->use([&](Solver& solver) { prepared_.emplace(solver.prepare(std::move(b))); });
-  }
-
-  Answer distance(const py::object& va, const py::object& fa, const Limits& limits) {
-    check_open();
-    const SolveOptions options = options_of(limits);
-    const Mesh a = mesh_from("A", va, fa);
-    check_open();  // another thread may have closed it meanwhile
-    const std::shared_ptr<Session> session = session_;
-    Report report;
-    session->use([&](Solver& solver) {
-      if (!prepared_) throw py::value_error(kClosed);
-      report = solver.distance(a, *prepared_, options);
-    });
-    return answered([&] { return answer_of(report); });
-  }
-
-  /// Waits for a run of another thread.
-  void close() {
-    const std::shared_ptr<Session> session = std::move(session_);
-    if (session == nullptr) return;
-    session->use([&](Solver&) { prepared_.reset(); });
-  }
-  ~PythonSolver() { close(); }
-  PythonSolver(const PythonSolver&) = delete;
-  PythonSolver& operator=(const PythonSolver&) = delete;
-
- private:
-  static constexpr const char* kClosed = "this Solver is closed";
-  void check_open() const {
-    if (session_ == nullptr) throw py::value_error(kClosed);
-  }
-
-  std::shared_ptr<Session> session_;  // shared with the calls in flight on other threads
-  std::optional<PreparedMesh> prepared_;
-};
 
 std::string text_of(const Answer& r) {
   std::string text = "<vkhausdorff.Result [";
@@ -141,76 +22,90 @@ py::tuple point_of(const SurfacePoint& p) {
   return py::make_tuple(p.point.x, p.point.y, p.point.z);
 }
 
+// Python can make objects that no constructor has seen: Solver.__new__, or a subclass that uses
+// itself before super().__init__().
+template <class T>
+T& made(const py::object& object, const char* name) {
+  if (!py::isinstance<T>(object))
+    throw py::type_error("expected a vkhausdorff." + std::string(name) + ", not a value of type " +
+                         Py_TYPE(object.ptr())->tp_name);
+  auto* instance = reinterpret_cast<py::detail::instance*>(object.ptr());
+  if (!instance->get_value_and_holder().holder_constructed())
+    throw py::type_error("this " + std::string(name) + " was never made: " + name +
+                         ".__init__ was not called");
+  return py::cast<T&>(object);
+}
+
+template <class Get>
+auto of_result(Get get) {
+  return [get](const py::object& self) { return get(made<Answer>(self, "Result")); };
+}
+
 void define_result(py::module_& m) {
   py::class_<Answer>(m, "Result", "A certified interval and what proves its lower end.")
-      .def_readonly("lower", &Answer::lower, "lower <= distance, in exact arithmetic")
-      .def_readonly("upper", &Answer::upper, "distance <= upper, in exact arithmetic")
-      .def_property_readonly("closed", &Answer::closed, "whether upper - lower met the tolerance")
+      .def_property_readonly("lower", of_result([](const Answer& r) { return r.lower; }),
+                             "lower <= distance, in exact arithmetic")
+      .def_property_readonly("upper", of_result([](const Answer& r) { return r.upper; }),
+                             "distance <= upper, in exact arithmetic")
+      .def_property_readonly("closed", of_result([](const Answer& r) { return r.closed(); }),
+                             "whether upper - lower met the tolerance")
       .def_property_readonly(
-          "status", [](const Answer& r) { return status_name(r.status); },
+          "status", of_result([](const Answer& r) { return status_name(r.status); }),
           "why the run ended: closed, precision, time, waves, memory or cancelled")
       .def_property_readonly(
-          "witness_a", [](const Answer& r) { return point_of(r.witness_a); },
+          "witness_a", of_result([](const Answer& r) { return point_of(r.witness_a); }),
           "the point of A (x, y, z) that is farthest from B as far as found, proving lower; in a "
           "symmetric run the one that is closest to it if B has the farthest point")
-      .def_property_readonly(
-          "witness_b", [](const Answer& r) { return point_of(r.witness_b); },
-          "the closest point of B to it (x, y, z); in a symmetric run likewise")
-      .def_property_readonly(
-          "face_a", [](const Answer& r) { return r.witness_a.face; }, "row of fa with the witness")
-      .def_property_readonly(
-          "face_b", [](const Answer& r) { return r.witness_b.face; }, "row of fb with its partner")
-      .def_readonly("stats", &Answer::stats, "what the run was asked, did and cost")
-      .def("__repr__", text_of);
+      .def_property_readonly("witness_b",
+                             of_result([](const Answer& r) { return point_of(r.witness_b); }),
+                             "the closest point of B to it (x, y, z); in a symmetric run likewise")
+      .def_property_readonly("face_a", of_result([](const Answer& r) { return r.witness_a.face; }),
+                             "row of fa with the witness")
+      .def_property_readonly("face_b", of_result([](const Answer& r) { return r.witness_b.face; }),
+                             "row of fb with its partner")
+      .def_property_readonly("stats", of_result([](const Answer& r) { return r.stats; }),
+                             "what the run was asked, did and cost")
+      .def("__repr__", of_result(text_of));
 }
 
 void define_distance(py::module_& m) {
   m.def(
-      "distance",
-      [](const py::object& va, const py::object& fa, const py::object& vb, const py::object& fb,
-         const py::object& tol, bool symmetric, const std::string& device, const py::object& time,
-         const py::object& waves, const py::object& memory, const py::object& disable,
-         const py::object& progress, const py::object& enable, const std::string& preset) {
-        return distance(va, fa, vb, fb, symmetric, device,
-                        {tol, time, waves, memory, disable, progress, enable, preset});
-      },
-      "va"_a, "fa"_a, "vb"_a, "fb"_a, "tol"_a = 1e-6, "symmetric"_a = false, py::kw_only(),
-      "device"_a = "", "time"_a = py::none(), "waves"_a = py::none(), "memory"_a = py::none(),
-      "disable"_a = py::make_tuple(), "progress"_a = py::none(), "enable"_a = py::make_tuple(),
-      "preset"_a = "",
+      "distance", distance,
+      "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
+      "         memory=None, disable=(), progress=None, enable=(), preset='') -> Result\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval.\n\n"
-      "va, vb: (n, 3) float32 or float64; fa, fb: (m, 3) integers. tol: a fraction of the\n"
-      "diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'. time: seconds;\n"
-      "memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index or part of a name;\n"
-      "progress(wave, lower, upper): return False to cancel. preset: 'default', 'paper' or\n"
-      "'baseline-gpu'; enable, disable: switches by name, besides. The interval is true whatever "
-      "ended\n"
-      "the run. ValueError for bad input, DeviceError for the device. Ctrl-C ends a run.");
+      "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: a\n"
+      "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
+      "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as '0' or\n"
+      "part of a name; progress(wave, lower, upper): return False to cancel. preset: 'default',\n"
+      "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval is\n"
+      "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError for\n"
+      "the device. Ctrl-C ends a run.");
 }
 
 void define_solver(py::module_& m) {
   py::class_<PythonSolver>(m, "Solver",
-                           "Mesh B on the device, its hierarchy built once, for many A's:\n"
+                           "Solver(vb, fb, device=''): mesh B on the device, its hierarchy built\n"
+                           "once, for many A's:\n"
                            "with Solver(vb, fb) as s: r = s.distance(va, fa)")
-      .def(py::init<const py::object&, const py::object&, const std::string&>(), "vb"_a, "fb"_a,
-           "device"_a = "")
+      .def(py::init<const py::args&, const py::kwargs&>())
       .def(
           "distance",
-          [](PythonSolver& self, const py::object& va, const py::object& fa, const py::object& tol,
-             const py::object& time, const py::object& waves, const py::object& memory,
-             const py::object& disable, const py::object& progress, const py::object& enable,
-             const std::string& preset) {
-            return self.distance(va, fa,
-                                 {tol, time, waves, memory, disable, progress, enable, preset});
+          [](const py::object& self, const py::args& positional, const py::kwargs& named) {
+            return made<PythonSolver>(self, "Solver").distance(positional, named);
           },
-          "va"_a, "fa"_a, "tol"_a = 1e-6, py::kw_only(), "time"_a = py::none(),
-          "waves"_a = py::none(), "memory"_a = py::none(), "disable"_a = py::make_tuple(),
-          "progress"_a = py::none(), "enable"_a = py::make_tuple(), "preset"_a = "",
+          "distance(va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
+          "         progress=None, enable=(), preset='') -> Result\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
-      .def("close", &PythonSolver::close, "Frees the device; what is called later is a ValueError.")
+      .def(
+          "close", [](const py::object& self) { made<PythonSolver>(self, "Solver").close(); },
+          "close()\n\nFrees the device; what is called later is a ValueError. Waits for runs of "
+          "other threads.\nIn a run's own callback it waits for nothing: that run is the last.")
       .def("__enter__", [](py::object self) { return self; })
-      .def("__exit__", [](PythonSolver& self, const py::args&) { self.close(); });
+      .def("__exit__", [](const py::object& self, const py::args&) {
+        made<PythonSolver>(self, "Solver").close();
+      });
 }
 
 }  // namespace
@@ -231,9 +126,12 @@ PYBIND11_MODULE(vkhausdorff, m) {
       PyErr_SetString(PyExc_ValueError, error.what());
     }
   });
+  py::options quiet;
+  quiet.disable_function_signatures();  // (*args, **kwargs) says nothing: the texts have them
   define_result(m);
   define_distance(m);
   define_solver(m);
-  // Before the interpreter goes, and with it the threads of drivers.
-  py::module_::import("atexit").attr("register")(py::cpp_function([] { sessions().clear(); }));
+  watch_interpreter();
+  py::module_::import("atexit").attr("register")(
+      py::cpp_function([] { end_interpreter(free_devices); }));
 }

@@ -1,57 +1,126 @@
 #include "host/python/session.h"
 
+#include <optional>
+#include <set>
 #include <stdexcept>
+
+#include "host/device.h"
+#include "host/python/interpreter.h"
 
 namespace vkh::python {
 namespace {
 
 namespace py = pybind11;
 
-class Owner {
- public:
-  Owner(std::mutex& mutex, std::thread::id& owner) : mutex_(mutex), owner_(owner) {
-    set(std::this_thread::get_id());
-  }
-  ~Owner() { set({}); }
-  Owner(const Owner&) = delete;
-  Owner& operator=(const Owner&) = delete;
+// Never destroyed: see interpreter.cpp.
+std::set<Session*>& sessions_alive() {
+  static auto* alive = new std::set<Session*>;
+  return *alive;
+}
 
- private:
-  void set(std::thread::id id) {
-    const std::lock_guard lock(mutex_);
-    owner_ = id;
-  }
-  std::mutex& mutex_;
-  std::thread::id& owner_;
+struct Asked {
+  PyObject* progress;
+  const Progress* p;
 };
+
+Reply ask_python(void* data) {
+  const auto& [progress, p] = *static_cast<const Asked*>(data);
+  if (PyErr_CheckSignals() != 0) return Reply::kRaised;
+  if (progress == Py_None) return Reply::kGoOn;
+  PyObject* answer = PyObject_CallFunction(progress, "Idd", p->wave, p->lower, p->upper);
+  if (answer == nullptr) return Reply::kRaised;
+  const int wanted = answer == Py_None ? 1 : PyObject_IsTrue(answer);
+  Py_DECREF(answer);
+  if (wanted < 0) return Reply::kRaised;
+  return wanted == 1 ? Reply::kGoOn : Reply::kCancel;
+}
 
 }  // namespace
 
+struct Session::Parts {
+  explicit Parts(const std::string& selector)
+      : device(DeviceRequest{.selector = selector}), solver(device) {}
+  Device device;
+  Solver solver;
+  std::optional<PreparedMesh> b;
+};
+
+class Session::Turn {
+ public:
+  explicit Turn(Session& session) : owner_(session.owner_) {
+    const std::thread::id me = std::this_thread::get_id();
+    bool is_nested = false, is_closed = false;
+    change_when([&] { return owner_ == std::thread::id() || owner_ == me; },
+                [&] {
+                  is_nested = owner_ == me;
+                  is_closed = session.is_closed_;
+                  if (!is_nested && !is_closed) owner_ = me;
+                });
+    if (is_closed) throw py::value_error("this Solver is closed");
+    if (is_nested)
+      throw std::runtime_error("a progress callback started another run on the same device");
+  }
+  ~Turn() {
+    change_now([&] { owner_ = {}; });
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  std::thread::id& owner_;
+};
+
 Session::Session(const std::string& device) {
-  const py::gil_scoped_release release;
-  device_.emplace(DeviceRequest{.selector = device});
-  solver_.emplace(*device_);
+  mark_used();
+  const WithoutGil outside;
+  parts_ = std::make_unique<Parts>(device);
+  change_now([&] { sessions_alive().insert(this); });
+}
+
+Session::~Session() {
+  if (is_forked()) {
+    static_cast<void>(parts_.release());
+    return;
+  }
+  change_now([&] { sessions_alive().erase(this); });
+}
+
+void Session::prepare(Mesh b) {
+  use([&](Solver& solver) { parts_->b.emplace(solver.prepare(std::move(b))); });
 }
 
 void Session::use(const std::function<void(Solver&)>& work) {
-  const py::gil_scoped_release release;
-  {
-    const std::lock_guard lock(owner_mutex_);
-    if (owner_ == std::this_thread::get_id())
-      throw std::runtime_error("a progress callback started another run on the same device");
+  try {
+    const WithoutGil outside;
+    const Turn turn(*this);
+    work(parts_->solver);
+    if (is_ending()) throw Ended{};
+  } catch (const Raised&) {
+    throw py::error_already_set();
   }
-  const std::lock_guard lock(mutex_);
-  const Owner owner(owner_mutex_, owner_);
-  work(*solver_);
+}
+
+Report Session::distance(const Mesh& a, const SolveOptions& options) {
+  Report report;
+  use([&](Solver& solver) { report = solver.distance(a, *parts_->b, options); });
+  return report;
+}
+
+void Session::close() {
+  const WithoutGil outside;
+  const std::thread::id me = std::this_thread::get_id();
+  change_when([&] { return owner_ == std::thread::id() || owner_ == me; },
+              [&] { is_closed_ = true; });
+}
+
+void Session::free_all() {
+  for (Session* session : sessions_alive()) session->parts_.reset();
 }
 
 void listen_to(const py::object& progress, SolveOptions& options) {
   options.progress = [&progress](const Progress& p) {
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (progress.is_none()) return true;
-    const py::object wanted = progress(p.wave, p.lower, p.upper);
-    return wanted.is_none() || py::cast<bool>(wanted);
+    Asked asked{progress.ptr(), &p};
+    return ask(ask_python, &asked);
   };
 }
 

@@ -4,31 +4,45 @@
 #include <pybind11/pybind11.h>
 
 #include <functional>
-#include <mutex>
-#include <optional>
+#include <memory>
 #include <string>
 #include <thread>
 
-#include "host/device.h"
 #include "host/solver.h"
 
 namespace vkh::python {
 
+/// Made, used and closed within a Call. Freed by whoever has it last, or at the interpreter's end.
 class Session {
  public:
   explicit Session(const std::string& device);
+  /// Waits for nobody: who has a run in flight has a share of the session. In a forked process
+  /// nothing is freed: the device is the parent's.
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void prepare(Mesh b);
 
   /// Runs `work` without the GIL, one caller at a time. Between submissions of a run, what
   /// `listen_to` put into its options hears of signals. A RuntimeError, not a deadlock, if called
-  /// from within itself, by a progress callback.
+  /// from within itself, by a progress callback. A ValueError once closed.
   void use(const std::function<void(Solver&)>& work);
+  Report distance(const Mesh& a, const SolveOptions& options);  ///< from a to what was prepared
+
+  /// Waits for the run of another thread. In a callback of its own run it waits for nothing: that
+  /// run goes on, and is the last.
+  void close();
+
+  /// For the end of the interpreter: no Session has a device afterwards.
+  static void free_all();
 
  private:
-  std::mutex mutex_;
-  std::mutex owner_mutex_;
+  struct Parts;
+  class Turn;
+  std::unique_ptr<Parts> parts_;
   std::thread::id owner_;
-  std::optional<Device> device_;
-  std::optional<Solver> solver_;
+  bool is_closed_ = false;
 };
 
 /// Makes a run end with KeyboardInterrupt (or what else a signal's handler raises), and calls

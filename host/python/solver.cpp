@@ -1,0 +1,185 @@
+#include "host/python/solver.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "host/error.h"
+#include "host/options.h"
+#include "host/python/arrays.h"
+#include "host/python/interpreter.h"
+
+namespace vkh::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as '0' or part of a name";
+
+// The program's rules, in the words of Python: tol, not --tol.
+template <class Parse>
+auto parsed(Parse parse, const std::string& text) {
+  try {
+    return parse(text);
+  } catch (const UsageError& error) {
+    const std::string message = error.what();
+    throw UsageError(message.starts_with("--") ? message.substr(2) : message);
+  }
+}
+
+void read_tolerance(const Arguments& given, SolveOptions& options) {
+  constexpr const char* kExpected =
+      "a positive number, a fraction of A's diagonal, or a string such as '0.1%' or '0.01abs'";
+  const py::object* tol = given.find("tol");
+  if (tol == nullptr) return;
+  if (py::isinstance<py::str>(*tol)) {
+    const Tolerance tolerance = parsed(parse_tolerance, given.text("tol", kExpected));
+    options.tolerance = tolerance.value;
+    options.tolerance_is_absolute = tolerance.is_absolute;
+    return;
+  }
+  const std::optional<double> value = given.number("tol", kExpected);
+  if (!value) refuse_type("tol", kExpected, *tol);
+  if (!(*value > 0) || std::isinf(*value)) refuse_value("tol", kExpected, *tol);
+  options.tolerance = *value;
+}
+
+void read_memory(const Arguments& given, SolveOptions& options) {
+  constexpr const char* kExpected = "a number of bytes above 0, a string such as '2GiB', or None";
+  const py::object* memory = given.find("memory");
+  if (memory != nullptr && py::isinstance<py::str>(*memory)) {
+    options.memory_bytes = parsed(parse_memory, given.text("memory", kExpected));
+  } else if (const std::optional<uint64_t> bytes = given.whole("memory", kExpected)) {
+    if (*bytes == 0) refuse_value("memory", kExpected, *memory);
+    options.memory_bytes = *bytes;
+  }
+}
+
+void read_limits(const Arguments& given, SolveOptions& options) {
+  constexpr const char* kTime = "a number of seconds, 0 or more, or None";
+  constexpr const char* kWaves = "a whole number from 0 to 4294967295, or None";
+  if (const std::optional<double> time = given.number("time", kTime)) {
+    if (*time < 0) refuse_value("time", kTime, given.at("time"));
+    options.time_limit_s = *time;
+  }
+  if (const std::optional<uint64_t> waves = given.whole("waves", kWaves)) {
+    if (*waves > std::numeric_limits<uint32_t>::max())
+      refuse_value("waves", kWaves, given.at("waves"));
+    options.wave_limit = static_cast<uint32_t>(*waves);
+  }
+}
+
+/// What a run may cost and how narrow it has to be; the keywords of both functions.
+SolveOptions options_of(const Arguments& given) {
+  static const py::object* none = new py::none();
+  SolveOptions options;
+  read_tolerance(given, options);
+  read_limits(given, options);
+  read_memory(given, options);
+  options.preset = given.text("preset", "'default', 'paper' or 'baseline-gpu'");
+  options.enabled = given.texts("enable");
+  options.disabled = given.texts("disable");
+  const py::object* progress = given.find("progress");
+  if (progress != nullptr && !progress->is_none() && PyCallable_Check(progress->ptr()) == 0)
+    refuse_type("progress", "a function of wave, lower and upper, or None", *progress);
+  listen_to(progress != nullptr ? *progress : *none, options);
+  return options;
+}
+
+// One session a device, kept between calls of distance(): making one takes longer than most runs.
+// Never destroyed, but freed: see interpreter.cpp.
+std::map<std::string, std::unique_ptr<Session>>& sessions() {
+  static auto* kept = new std::map<std::string, std::unique_ptr<Session>>;
+  return *kept;
+}
+
+Session& session_for(const std::string& device) {
+  const auto known = sessions().find(device);
+  if (known != sessions().end()) return *known->second;
+  auto made = std::make_unique<Session>(device);  // without the GIL: another may be first
+  return *sessions().try_emplace(device, std::move(made)).first->second;
+}
+
+// KeyboardInterrupt that came too late to be heard by a run is raised after it.
+template <class Found>
+Answer answered(const Found& found) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  return answer_of(found);
+}
+
+}  // namespace
+
+Answer distance(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature =
+      new Signature{"distance",
+                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
+                     "memory", "disable", "progress", "enable", "preset"},
+                    4,
+                    6};
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  const SolveOptions options = options_of(given);
+  const bool is_symmetric = given.flag("symmetric");
+  const std::string device = given.text("device", kDevice);
+  const Mesh a = mesh_from("A", given.at("va"), given.at("fa"));
+  const Mesh b = mesh_from("B", given.at("vb"), given.at("fb"));
+  Session& session = session_for(device);
+  if (is_symmetric) {
+    SymmetricReport both;
+    session.use([&](Solver& solver) { both = solver.symmetric(a, b, options); });
+    return answered(both);
+  }
+  Report report;
+  session.use([&](Solver& solver) { report = solver.distance(a, b, options); });
+  return answered(report);
+}
+
+void free_devices() { Session::free_all(); }
+
+PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{"Solver", {"vb", "fb", "device"}, 2, 3};
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  const std::string device = given.text("device", kDevice);
+  Mesh b = mesh_from("B", given.at("vb"), given.at("fb"));
+  session_ = std::make_shared<Session>(device);
+  session_->prepare(std::move(b));
+}
+
+Answer PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{
+      "Solver.distance",
+      {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable", "preset"},
+      2,
+      3};
+  const Call call;
+  const std::shared_ptr<Session> session = session_;
+  if (session == nullptr) throw py::value_error("this Solver is closed");
+  const Arguments given(*signature, positional, named);
+  const SolveOptions options = options_of(given);
+  const Mesh a = mesh_from("A", given.at("va"), given.at("fa"));
+  return answered(session->distance(a, options));  // it may have been closed meanwhile
+}
+
+void PythonSolver::close() {
+  const Call call;
+  std::shared_ptr<Session> session = std::move(session_);
+  if (session == nullptr) return;
+  session->close();
+  const WithoutGil outside;
+  session.reset();  // unless a run in flight has it, too
+}
+
+// Nobody calls it any more: no run is in flight.
+PythonSolver::~PythonSolver() {
+  if (session_ == nullptr || is_forked()) return;
+  try {
+    const Call call;
+    const WithoutGil outside;
+    session_.reset();
+  } catch (const Ended&) {
+    session_.reset();
+  }
+}
+
+}  // namespace vkh::python

@@ -1,0 +1,32 @@
+// What Python calls: distance(), and the Solver that keeps B.
+#pragma once
+
+#include <memory>
+
+#include "host/python/answer.h"
+#include "host/python/arguments.h"
+#include "host/python/session.h"
+
+namespace vkh::python {
+
+Answer distance(const pybind11::args& positional, const pybind11::kwargs& named);
+
+/// Frees the devices that distance() keeps, and those of all Solvers.
+void free_devices();
+
+/// Mesh B, prepared on a device of its own session.
+class PythonSolver {
+ public:
+  PythonSolver(const pybind11::args& positional, const pybind11::kwargs& named);
+  ~PythonSolver();
+  PythonSolver(const PythonSolver&) = delete;
+  PythonSolver& operator=(const PythonSolver&) = delete;
+
+  Answer distance(const pybind11::args& positional, const pybind11::kwargs& named);
+  void close();
+
+ private:
+  std::shared_ptr<Session> session_;  // shared with the calls in flight on other threads
+};
+
+}  // namespace vkh::python
