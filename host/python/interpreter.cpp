@@ -1,6 +1,5 @@
 #include "host/python/interpreter.h"
 
-#include <cxxabi.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -164,16 +163,18 @@ bool ask(Reply (*question)(void*), void* about) {
     move_one(state().outside, state().inside);
   }
   Reply reply = Reply::kCancel;
+  PyGILState_STATE gil{};
   // Where the interpreter has ended, it ends a thread that wants the GIL by unwinding it: not
-  // through the driver and noexcept code.
+  // through the driver and noexcept code. Nothing else comes here: this is C. Not by reference to
+  // abi::__forced_unwind, of which there is no object.
   try {
-    const PyGILState_STATE gil = PyGILState_Ensure();
+    gil = PyGILState_Ensure();
     reply = question(about);
-    if (!g_forked) leave_python();
-    PyGILState_Release(gil);
-  } catch (abi::__forced_unwind&) {
+  } catch (...) {
     sleep_for_ever();
   }
+  if (!g_forked) leave_python();
+  PyGILState_Release(gil);
   check_not_forked();
   if (reply == Reply::kRaised) throw Raised{};
   return reply == Reply::kGoOn;
