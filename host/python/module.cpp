@@ -7,6 +7,7 @@
 
 #include "host/decimal.h"
 #include "host/error.h"
+#include "host/float_environment.h"
 #include "host/options.h"
 #include "host/python/answer.h"
 #include "host/python/arrays.h"
@@ -26,6 +27,7 @@ struct Limits {
 
 // A string says more than a number can: "0.1%", "0.01abs"; the program's rules hold.
 SolveOptions options_of(const Limits& limits) {
+  const FloatEnvironment ours;
   SolveOptions options;
   if (py::isinstance<py::str>(limits.tol)) {
     const Tolerance tolerance = parse_tolerance(py::cast<std::string>(limits.tol));
@@ -131,6 +133,7 @@ class PythonSolver {
 };
 
 std::string text_of(const Answer& r) {
+  const FloatEnvironment ours;
   std::string text = "<vkhausdorff.Result [";
   text += decimal(r.lower, 9, Rounding::kDown) + ", ";
   text += decimal(r.upper, 9, Rounding::kUp) + "] ";
