@@ -14,7 +14,6 @@ namespace {
 using Question = gpu::SelfTestQuestion;
 using Answer = gpu::SelfTestAnswer;
 
-constexpr double kUlp = 0x1p-23;
 constexpr double kHalfUlp2 = 0x1p-45;  // of the operands: what two_sum and two_product may lose
 constexpr double kLeastNormal = 0x1p-126;
 constexpr double kQuotientUlps = 2.5;
