@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdio>
-#include <ranges>
 #include <stdexcept>
 
 namespace example {
@@ -69,7 +68,8 @@ Gpu::Gpu(const GpuRequest& request) {
 
 Gpu::~Gpu() {
   if (device_ != VK_NULL_HANDLE) vkDeviceWaitIdle(device_);
-  for (const auto& destroy : std::views::reverse(kept_)) destroy();
+  // Not views::reverse: clang 14 cannot compile libstdc++ 12's.
+  for (auto destroy = kept_.rbegin(); destroy != kept_.rend(); ++destroy) (*destroy)();
 }
 
 void Gpu::create_instance(bool validation) {

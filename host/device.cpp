@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "host/error.h"
+#include "host/float_environment.h"
 
 namespace vkh {
 namespace {
@@ -188,7 +189,10 @@ uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
 
 }  // namespace
 
+// Threads that a driver starts inherit the environment that they are started in; and a driver that
+// was linked with -ffast-math changes it as it is loaded.
 Device::Device(const DeviceRequest& request) : Device(Empty{}) {
+  const FloatEnvironment ours;
   create_instance(request.validation);
   choose(request.selector);
   create_device();
@@ -311,6 +315,7 @@ VkhDeviceInfo Device::engine_info() const {
 }
 
 std::vector<DeviceDescription> list_devices() {
+  const FloatEnvironment ours;
   VulkanApi vk = load_vulkan();
   const VkInstance instance = make_instance(vk, nullptr, false);
   load_instance(vk, instance);

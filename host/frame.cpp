@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "host/parallel.h"
+#include "host/round_to_float.h"
+#include "host/rounding.h"
 
 namespace vkh {
 namespace {
@@ -39,15 +41,18 @@ struct Scale {
 double scaled(double x, int exponent) { return Scale(exponent)(x); }
 
 // Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly,
-// the rounding of the subtraction by its bound (2^-53 relative, taken twice over; scaling is exact
-// but for underflow, which the last term takes).
+// the rounding of the subtraction by its bound (2^-53 relative, taken twice over), unless it was
+// exact. Scaling is, but for underflow, which the last term takes: a normal result has not been
+// through one.
 double store(double given, double centre, const Scale& scale, float& high, float& low) {
-  const double exact = scale(given - centre);
-  high = static_cast<float>(exact);
-  low = static_cast<float>(exact - static_cast<double>(high));
+  const double offset = given - centre;
+  const double exact = scale(offset);
+  high = nearest_float(exact);
+  low = nearest_float(exact - static_cast<double>(high));
   const double left = std::abs((exact - static_cast<double>(high)) - static_cast<double>(low));
-  const double subtraction = centre == 0 ? 0 : std::abs(exact) * 0x1p-52;
-  return left + subtraction + (exact == 0 && given == centre ? 0 : 0x1p-1000);
+  const double subtraction = sum_error(given, -centre) == 0 ? 0 : std::abs(exact) * 0x1p-52;
+  const bool scaled_exactly = offset == 0 || std::abs(exact) >= std::numeric_limits<double>::min();
+  return left + subtraction + (scaled_exactly ? 0 : 0x1p-1000);
 }
 
 // Halved first only where the sum would overflow: a subnormal's half is rounded.
@@ -139,7 +144,8 @@ Box join(const Box& x, const Box& y) {
 
 double diagonal(const Box& box) {
   const glm::dvec3 extent = box.hi - box.lo;
-  return std::hypot(extent.x, extent.y, extent.z);
+  const double length = std::hypot(extent.x, extent.y, extent.z);  // nan of infinite extents
+  return std::isfinite(length) ? length : std::numeric_limits<double>::max();
 }
 
 double Frame::to_frame(double length) const { return scaled(length, exponent); }
@@ -161,10 +167,10 @@ double Frame::length_up(double frame_length) const {
 FileInterval Frame::to_files(double lower, double upper, double displacement,
                              double joint_diagonal) const {
   const double infinity = std::numeric_limits<double>::infinity();
-  const double moved = std::nextafter(displacement, infinity);
-  const double down = std::max(0.0, std::nextafter(lower - moved, -infinity));
-  const double up = std::nextafter(upper + moved, infinity);
-  // The joint diagonal is rounded to nearest: a little more is surely above it.
+  const double down = std::max(0.0, add_down(lower, -displacement));
+  const double up = add_up(upper, displacement);
+  // The joint diagonal is rounded to nearest, or the largest double: a little more is surely above
+  // it.
   const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
   return {length_down(down), std::min(length_up(up), farthest)};
 }

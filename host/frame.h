@@ -14,7 +14,8 @@ struct Box {
 };
 Box bounding_box(const Mesh& mesh);
 Box join(const Box& x, const Box& y);
-double diagonal(const Box& box);  ///< rounded to nearest
+/// Rounded to nearest; the largest double where it is longer.
+double diagonal(const Box& box);
 
 /// Distances in the files' units, rounded outward.
 struct FileInterval {

@@ -20,6 +20,7 @@
 #include "host/device.h"
 #include "host/doctor.h"
 #include "host/error.h"
+#include "host/float_environment.h"
 #include "host/mesh_io.h"
 #include "host/options.h"
 #include "host/output_file.h"
@@ -386,6 +387,7 @@ int run_and_catch(int argc, char** argv) {
 // Without exit handlers: after a bad file, a thread may still be at work on the other one or in the
 // driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
 int main(int argc, char** argv) {
+  const vkh::FloatEnvironment ours;
   const int code = vkh::run_and_catch(argc, argv);
   std::cout.flush();
   std::fflush(nullptr);

@@ -9,6 +9,7 @@
 #include <future>
 #include <system_error>
 
+#include "host/float_environment.h"
 #include "host/hash_index.h"
 #include "host/text_scanner.h"
 
@@ -146,6 +147,7 @@ void drop_unreferenced(Mesh& mesh) {
 }
 
 uint64_t count_degenerate(const Mesh& mesh) {
+  const FloatEnvironment ours;  // on a thread of its own
   return static_cast<uint64_t>(
       std::count_if(mesh.faces.begin(), mesh.faces.end(), [&](const glm::uvec3& f) {
         return is_degenerate(mesh.vertices[f.x], mesh.vertices[f.y], mesh.vertices[f.z]);
@@ -182,6 +184,7 @@ uint64_t count_duplicates(const Mesh& mesh) {
 }  // namespace
 
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces) {
+  const FloatEnvironment ours;
   Mesh mesh{.name = std::move(name),
             .vertices = std::move(vertices),
             .faces = std::move(faces),

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <fstream>
 
+#include "host/float_environment.h"
 #include "host/mesh_readers.h"
 #include "host/text_scanner.h"
 
@@ -110,6 +111,7 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& nam
 }  // namespace
 
 Mesh parse_mesh(const MeshSource& file) {
+  const FloatEnvironment ours;
   reject_known_strangers(file);
   const MeshSource source{.name = file.name, .bytes = without_byte_order_mark(file.bytes)};
   Parse parse = parser_by_content(source.bytes);

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "host/float_environment.h"
+
 namespace vkh {
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
@@ -18,6 +20,7 @@ void for_each_index(size_t count, const F& work) {
   const size_t cores = std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
   std::atomic<size_t> next = 0;
   const auto some = [&] {
+    const FloatEnvironment ours;  // a new thread's is not this one's everywhere
     for (size_t i = next++; i < count; i = next++) work(i);
   };
   std::vector<std::future<void>> shares = {};

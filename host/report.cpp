@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "host/decimal.h"
+#include "host/float_environment.h"
 #include "host/report_print.h"
+#include "host/rounding.h"
 
 // The build's version; the fallback is for compiling this file alone.
 #ifndef VKH_VERSION
@@ -180,6 +182,18 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   return json.text();
 }
 
+/// Of what keeps a symmetric interval open: the direction with the larger upper.
+Status open_status(const Report& r, const Report& back) {
+  // Pruned by the way there (not by what a caller knew besides), the way back decides nothing.
+  const bool pruned =
+      back.status == Status::kPruned && is_within(r.lower, back.upper, back.tolerance);
+  const bool back_closed = back.status == Status::kClosed || pruned;
+  const bool open_there = back_closed || (r.status != Status::kClosed && r.upper >= back.upper);
+  const Status status = (open_there ? r : back).status;
+  // Each closed, but to tolerances that differ.
+  return status == Status::kClosed ? Status::kPrecision : status;
+}
+
 }  // namespace
 
 const char* program_version() { return VKH_VERSION; }
@@ -224,22 +238,25 @@ const char* stop_reason(Status status) {
   return "unknown";
 }
 
+double gap_of(double lower, double upper, double diagonal_a) {
+  const FloatEnvironment ours;
+  const double width = width_up(lower, upper);
+  return diagonal_a > 0 ? divide_up(width, diagonal_a) : width;
+}
+
+double Report::gap() const { return gap_of(lower, upper, diagonal_a); }
+
 CertifiedInterval symmetric_interval(const Report& r, const Report& back) {
+  const FloatEnvironment ours;
   CertifiedInterval both;
   both.lower = std::max(r.lower, back.lower);
   both.upper = std::max(r.upper, back.upper);
-  const double width = both.upper - both.lower;
-  both.gap = r.diagonal_a > 0 ? width / r.diagonal_a : width;
-  // Two closed directions close the whole, and so does one that the other cannot reach. Otherwise
-  // the direction with the larger upper is what keeps the interval open.
+  both.gap = gap_of(both.lower, both.upper, r.diagonal_a);
+  // Two closed directions of one tolerance close the whole, and so does one that the other cannot
+  // reach: the width says so.
   const double tolerance = std::min(r.tolerance, back.tolerance);
-  const bool narrow = std::nextafter(width, std::numeric_limits<double>::infinity()) <= tolerance;
-  // Pruned by the way there (not by what a caller knew besides), the way back decides nothing.
-  const bool pruned = back.status == Status::kPruned && back.upper - r.lower <= back.tolerance;
-  const bool back_closed = back.status == Status::kClosed || pruned;
-  const bool all_closed = r.status == Status::kClosed && back_closed;
-  const bool open_there = back_closed || (r.status != Status::kClosed && r.upper >= back.upper);
-  both.status = narrow || all_closed ? Status::kClosed : (open_there ? r : back).status;
+  const bool closed = is_within(both.lower, both.upper, tolerance);
+  both.status = closed ? Status::kClosed : open_status(r, back);
   return both;
 }
 

@@ -14,7 +14,7 @@ namespace vkh {
 
 /// Why a run ended. Every status comes with a true interval; only kClosed promises its width.
 enum class Status {
-  kClosed,     ///< upper - lower <= tolerance
+  kClosed,     ///< upper - lower <= tolerance, in exact arithmetic
   kPrecision,  ///< what is left cannot be decided in this arithmetic; the interval is the honest,
                ///< wider one
   kTime,       ///< the time budget ended
@@ -93,9 +93,9 @@ struct CoverageCheck {
 struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
-  double diagonal_a = 0;        ///< of A's bounding box
-  double tolerance = 0;         ///< absolute, in the files' units
-  double known_lower = 0;       ///< SolveOptions::known_lower
+  double diagonal_a = 0;        ///< of A's bounding box, rounded to nearest
+  double tolerance = 0;    ///< in the files' units; of a fraction: times diagonal_a, rounded down
+  double known_lower = 0;  ///< SolveOptions::known_lower
   SurfacePoint witness_a, witness_b;
   MeshCounts mesh_a, mesh_b;
   DeviceDescription device;
@@ -111,12 +111,15 @@ struct Report {
   std::optional<WitnessCheck> witness_check;
   std::optional<CoverageCheck> coverage_check;
 
-  double gap() const { return diagonal_a > 0 ? (upper - lower) / diagonal_a : upper - lower; }
+  double gap() const;  ///< (upper - lower) / diag(A), rounded up
 };
+
+/// (upper - lower) / diagonal_a, or the width itself where that is 0; rounded up.
+double gap_of(double lower, double upper, double diagonal_a);
 
 struct CertifiedInterval {
   double lower = 0, upper = 0;
-  double gap = 0;  ///< (upper - lower) / diag(A)
+  double gap = 0;  ///< (upper - lower) / diag(A), rounded up
   Status status = Status::kClosed;
 };
 /// Of max(h(A,B), h(B,A)): [max of the lowers, max of the uppers].

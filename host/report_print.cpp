@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "host/decimal.h"
+#include "host/rounding.h"
 
 namespace vkh {
 namespace {
@@ -174,7 +175,7 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   row(out, "interval", bounds(whole.lower, whole.upper) + "  " + verdict(whole.status));
   row(out, "gap",
       decimal(whole.gap, 3, Rounding::kUp) + " of diag(A), " +
-          decimal(whole.upper - whole.lower, 3, Rounding::kUp) + " in the files' units");
+          decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " in the files' units");
   row(out, "tolerance", tolerance_text(answer));
   print_mesh(out, "A", answer.file_a, r.mesh_a);
   print_mesh(out, "B", answer.file_b, r.mesh_b);

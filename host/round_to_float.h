@@ -1,4 +1,4 @@
-// double -> float -> double that the compiler keeps.
+// double -> float, and back, that the compiler keeps.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,11 +7,13 @@ namespace vkh {
 
 /// The nearest float32. The store is volatile because GCC 12.2 at -O2 drops the rounding where two
 /// neighbours are converted together (`{double(float(x)), double(float(y))}`: its SLP vectoriser
-/// folds the pair of conversions into none); -fno-tree-slp-vectorize would keep it as well.
-inline double round_to_float(double x) {
+/// folds the pair of conversions into none), which would falsify x - float(x).
+inline float nearest_float(double x) {
   volatile float rounded = static_cast<float>(x);
-  return static_cast<double>(rounded);
+  return rounded;
 }
+
+inline double round_to_float(double x) { return static_cast<double>(nearest_float(x)); }
 
 inline glm::dvec3 round_to_float(const glm::dvec3& p) {
   return {round_to_float(p.x), round_to_float(p.y), round_to_float(p.z)};

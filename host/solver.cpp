@@ -5,11 +5,14 @@
 #include <cmath>
 #include <map>
 
-#include "host/closest.h"
 #include "host/error.h"
+#include "host/float_environment.h"
 #include "host/frame.h"
 #include "host/parallel.h"
+#include "host/rounding.h"
 #include "host/run.h"
+#include "host/run_report.h"
+#include "host/same_faces.h"
 #include "host/switches.h"
 #include "host/verify.h"
 
@@ -53,76 +56,41 @@ struct Pair {
 };
 
 FileInterval to_files(const VkhReport& r, const Pair& pair) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  // Sums of two floats: exact in double, or off by half an ulp, which nextafter covers.
-  const double lower =
-      std::nextafter(static_cast<double>(r.base) + static_cast<double>(r.lowerAbove), -infinity);
-  const double upper =
-      std::nextafter(static_cast<double>(r.base) + static_cast<double>(r.upperAbove), infinity);
+  const double base = static_cast<double>(r.base);
+  const double lower = add_down(base, static_cast<double>(r.lowerAbove));
+  const double upper = add_up(base, static_cast<double>(r.upperAbove));
   return pair.frame.to_files(lower, upper, pair.displacement, diagonal(pair.joint));
 }
 
+// Where the device found the stored meshes' h to be 0, and only what storing displaced is left: is
+// every face of A, as given, a face of B? Then h is 0, whatever the device did.
+bool is_surely_zero(const VkhReport& r, const Pair& pair) {
+  return r.base == 0 && r.upperAbove == 0 && pair.displacement > 0 && has_faces_of(pair.b, pair.a);
+}
+
 Status status_of(const VkhReport& r, const Report& out, Status ended) {
-  if (out.upper - out.lower <= out.tolerance) return Status::kClosed;
-  if (out.known_lower > 0 && out.upper - out.known_lower <= out.tolerance) return Status::kPruned;
+  if (is_within(out.lower, out.upper, out.tolerance)) return Status::kClosed;
+  if (out.known_lower > 0 && is_within(out.known_lower, out.upper, out.tolerance))
+    return Status::kPruned;
   if (r.status == VKH_STATUS_RUNNING && ended != Status::kClosed) return ended;
   return r.status == VKH_STATUS_MEMORY ? Status::kMemory : Status::kPrecision;
-}
-
-void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
-  out.waves = r.waves;
-  out.candidates = r.candidateTotal;
-  out.queries = r.queryTotal;
-  out.peak_frontier = r.peakFrontier;
-  const uint32_t* c = r.culled;
-  out.culled = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
-  const uint32_t first = r.waves > VKH_MAX_WAVE_RECORDS ? r.waves - VKH_MAX_WAVE_RECORDS : 0;
-  for (uint32_t w = first; w < r.waves; ++w) {
-    const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
-    out.wave_stats.push_back({w, rec.parents, rec.candidates, rec.queries, rec.survivors,
-                              rec.deferred, frame.length_down(static_cast<double>(rec.lower)),
-                              frame.length_up(static_cast<double>(rec.upper))});
-  }
-}
-
-void fill_stages(const RunOutput& run, Report& out) {
-  for (const StageTime& s : run.stages) {
-    auto at = std::find_if(out.stages.begin(), out.stages.end(),
-                           [&](const StageStats& x) { return x.name == s.name; });
-    if (at == out.stages.end())
-      at = out.stages.insert(out.stages.end(), StageStats{s.name, 0, 0, 0, 0});
-    at->gpu_ms += s.ms;
-    ++at->dispatches;
-    const bool building = at->name == "morton" || at->name == "sort" || at->name == "hierarchy";
-    (building ? out.times.hierarchy_ms : out.times.solve_ms) += s.ms;
-  }
-}
-
-void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out) {
-  if (r.witnessFaceA >= a.faces.size() || r.witnessFaceB >= b.faces.size()) return;
-  const double one = 1 << 20;
-  const double v = r.witnessBarycentric[0] / one;
-  const double w = r.witnessBarycentric[1] / one;
-  const glm::uvec3 fa = a.faces[r.witnessFaceA];
-  const glm::dvec3 p = (1 - v - w) * a.vertices[fa.x] + v * a.vertices[fa.y] + w * a.vertices[fa.z];
-  out.witness_a = {r.witnessFaceA, {1 - v - w, v, w}, p};
-  const glm::uvec3 fb = b.faces[r.witnessFaceB];
-  const ClosestPoint q = closest_point(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
-  out.witness_b = {r.witnessFaceB, q.barycentric, q.point};
 }
 
 }  // namespace
 
 struct Solver::Impl {
   Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
+  std::vector<Report> distances(std::span<const PairView> meshes, const SolveOptions& options);
   std::vector<Report> solve(const std::vector<Pair>& pairs, const SolveOptions& options,
                             Clock::time_point start);
   Device& device;
   Runner runner;
 };
 
-Solver::Solver(Device& device, const std::filesystem::path& cache_folder)
-    : impl_(std::make_unique<Impl>(device, cache_folder)) {}
+Solver::Solver(Device& device, const std::filesystem::path& cache_folder) {
+  const FloatEnvironment ours;
+  impl_ = std::make_unique<Impl>(device, cache_folder);
+}
 Solver::~Solver() = default;
 
 struct PreparedMesh::Impl {
@@ -152,7 +120,8 @@ struct Watch {
   Status ended = Status::kClosed;
 
   double tolerance() const {
-    return options.tolerance_is_absolute ? options.tolerance : options.tolerance * diagonal_a;
+    return options.tolerance_is_absolute ? options.tolerance
+                                         : multiply_down(options.tolerance, diagonal_a);
   }
 
   bool operator()(const VkhReport& r) {
@@ -171,12 +140,11 @@ struct Watch {
   }
 
   Progress progress_of(const VkhReport& r, const FileInterval& now) const {
-    const double gap = now.upper - now.lower;
     return {.wave = r.waves,
             .candidates = r.remaining,
             .lower = now.lower,
             .upper = now.upper,
-            .gap = diagonal_a > 0 ? gap / diagonal_a : gap,
+            .gap = gap_of(now.lower, now.upper, diagonal_a),
             .back = false,
             .pair = number};
   }
@@ -191,7 +159,7 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   out.known_lower = options.known_lower;
   const FileInterval bounds = to_files(run.report, pair);
   out.lower = bounds.lower;
-  out.upper = bounds.upper;
+  out.upper = is_surely_zero(run.report, pair) ? 0 : bounds.upper;
   out.status = status_of(run.report, out, watch.ended);
   out.mesh_a = pair.a.counts;
   out.mesh_b = pair.b.counts;
@@ -239,6 +207,15 @@ void check_options(const SolveOptions& options) {
   if (!(options.known_lower >= 0)) throw UsageError("the known lower bound must be 0 or more");
 }
 
+// What the caller listens with runs in the caller's own floating-point environment.
+SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
+  if (!options.progress) return options;
+  options.progress = [&ours, listen = std::move(options.progress)](const Progress& progress) {
+    return ours.outside([&] { return listen(progress); });
+  };
+  return options;
+}
+
 }  // namespace
 
 std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const SolveOptions& options,
@@ -277,13 +254,13 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const So
 }
 
 void Solver::make_ready(const SolveOptions& options) {
+  const FloatEnvironment ours;
   impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
-std::vector<Report> Solver::distances(std::span<const PairView> meshes,
-                                      const SolveOptions& options) {
+std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
+                                            const SolveOptions& options) {
   const auto start = Clock::now();
-  check_options(options);
   struct Framed {
     FramedPair pair;
     Box box_a, joint;
@@ -303,12 +280,19 @@ std::vector<Report> Solver::distances(std::span<const PairView> meshes,
                      .stored_a = f.a,
                      .stored_b = &f.b,
                      .resident = nullptr,
-                     .displacement = f.a.displacement + f.b.displacement,
+                     .displacement = add_up(f.a.displacement, f.b.displacement),
                      .has_low = f.a.has_low || f.b.has_low,
                      .box_a = framed[i].box_a,
                      .joint = framed[i].joint});
   }
-  return impl_->solve(pairs, options, start);
+  return solve(pairs, options, start);
+}
+
+std::vector<Report> Solver::distances(std::span<const PairView> meshes,
+                                      const SolveOptions& options) {
+  FloatEnvironment ours;
+  check_options(options);
+  return impl_->distances(meshes, heard_outside(options, ours));
 }
 
 Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
@@ -317,6 +301,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
 }
 
 PreparedMesh Solver::prepare(Mesh b) {
+  const FloatEnvironment ours;
   auto kept = std::make_unique<PreparedMesh::Impl>();
   kept->mesh = std::move(b);
   kept->box = bounding_box(kept->mesh);
@@ -332,12 +317,14 @@ PreparedMesh Solver::prepare(Mesh b) {
 // up to four times as far out costs two of the 48 bits. Farther ones would lose the tolerance, not
 // the truth, and get a frame around both. A point has no size to choose a frame by.
 bool PreparedMesh::serves(const Mesh& a) const {
+  const FloatEnvironment ours;
   const double reach = impl_->frame.reach(join(bounding_box(a), impl_->box));
   return reach >= 0.5 && reach <= 4;
 }
 
 Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options) {
   if (!b.serves(a)) return distance(a, b.mesh(), options);
+  FloatEnvironment ours;
   const auto start = Clock::now();
   check_options(options);
   const PreparedMesh::Impl& kept = *b.impl_;
@@ -349,11 +336,11 @@ Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions
                   .stored_a = stored,
                   .stored_b = nullptr,
                   .resident = &kept.resident,
-                  .displacement = stored.displacement + kept.displacement,
+                  .displacement = add_up(stored.displacement, kept.displacement),
                   .has_low = stored.has_low || kept.has_low,
                   .box_a = box_a,
                   .joint = join(box_a, kept.box)};
-  return std::move(impl_->solve({pair}, options, start)[0]);
+  return std::move(impl_->solve({pair}, heard_outside(options, ours), start)[0]);
 }
 
 namespace {
@@ -364,8 +351,7 @@ namespace {
 SolveOptions options_back(const SolveOptions& options, const Report& there, double elapsed_s) {
   constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
   SolveOptions back = options;
-  // A mesh that is one point has no diagonal, so the tolerance is 0, which is refused.
-  back.tolerance = std::max(there.tolerance, std::numeric_limits<double>::min());
+  back.tolerance = there.tolerance;  // 0 where A is one point
   back.tolerance_is_absolute = true;
   back.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
   back.known_lower = std::max(options.known_lower, there.lower);
@@ -380,10 +366,16 @@ SolveOptions options_back(const SolveOptions& options, const Report& there, doub
 }  // namespace
 
 SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+  FloatEnvironment ours;
   const auto start = Clock::now();
+  check_options(options);
+  const SolveOptions heard = heard_outside(options, ours);
+  const auto one = [&](const PairView& pair, const SolveOptions& of_it) {
+    return std::move(impl_->distances({&pair, 1}, of_it)[0]);
+  };
   SymmetricReport both;
-  both.a_to_b = distance(a, b, options);
-  both.b_to_a = distance(b, a, options_back(options, both.a_to_b, ms_since(start) / 1000));
+  both.a_to_b = one({a, b}, heard);
+  both.b_to_a = one({b, a}, options_back(heard, both.a_to_b, ms_since(start) / 1000));
   return both;
 }
 

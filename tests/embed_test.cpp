@@ -54,7 +54,8 @@ TEST_CASE("many A's against one prepared B: each interval holds the distance") {
         rounded ? in_float32(height_field(16, 1)) : translated(height_field(16, 1), {0.1, 0, 0});
     const PreparedMesh prepared = solver().prepare(b);
     for (const auto& [name, a] : many_a()) {
-      CAPTURE(name);
+      const auto& called = name;
+      CAPTURE(called);
       const Report r = solver().distance(a, prepared);
       const Report plain = solver().distance(a, b);
       CAPTURE(text(r));
@@ -236,7 +237,8 @@ TEST_CASE("symmetric: the larger direction, the other pruned by it, all of it tr
       {"soups", soup(1, 60), soup(2, 80)},
       {"V", v_lid(), v_sheet()}};
   for (const auto& [name, a, b] : pairs) {
-    CAPTURE(name);
+    const auto& called = name;
+    CAPTURE(called);
     const Report there = solver().distance(a, b);
     SolveOptions absolute;
     absolute.tolerance = there.tolerance;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/default_pair.h"
+#include "host/round_to_float.h"
 #include "tests/support/adversarial.h"
 #include "tests/support/arithmetic.h"
 #include "tests/support/exact.h"
@@ -47,7 +48,7 @@ MeshPair hard_pair_of_points(Random& random) {
   if (random.below(8) != 0) return {std::move(a), std::move(b)};
   // So much larger than A that A's coordinates underflow in the frame; and floats, so that the
   // frame's centre is 0 and displaces nothing by itself.
-  for (glm::dvec3& p : b.vertices) p = glm::dvec3(glm::vec3(random.in_cube(1.0)));
+  for (glm::dvec3& p : b.vertices) p = round_to_float(random.in_cube(1.0));
   return {scaled(a, -60), scaled(b, 1000)};
 }
 
@@ -66,6 +67,7 @@ Rational squared_displacement(const Frame& frame, const glm::dvec3& given, const
 void check_stored(const Frame& frame, const Mesh& mesh, const StoredMesh& stored_mesh,
                   Tally& tally) {
   const double displacement = stored_mesh.displacement;
+  bool exact = true;
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     const float* high = &stored_mesh.high[3 * v];
     const float* low = &stored_mesh.low[3 * v];
@@ -76,12 +78,17 @@ void check_stored(const Frame& frame, const Mesh& mesh, const StoredMesh& stored
     };
     tally.require(is_upper_bound(displacement, squared), "displaced by at most the displacement",
                   describe);
+    exact = exact && squared == 0;
     float largest = 0;
     for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(high[i]) + std::abs(low[i]));
     tally.require(largest <= 1.0f, "coordinates are at most 1", describe);
     if (displacement > 0x1p-200)
       tally.measure("displaced / displacement", sqrt_near(squared) / displacement, describe);
   }
+  // What would underflow in the frame may be exact, and is not told apart.
+  const bool claimed = !exact || displacement == 0.0 || displacement <= 0x1p-990;
+  tally.require(claimed, "exactly stored is not displaced", [&] { return hex(displacement); });
+  tally.count("exact with a centre", displacement == 0.0 && frame.centre != glm::dvec3(0));
 }
 
 void check_lengths(const Frame& frame, Random& random, Tally& tally) {
@@ -155,4 +162,16 @@ TEST_CASE("the frame's displacement covers every vertex; its lengths are rounded
   tally.conclude(4 * count);
   CHECK(tally.counted("with a centre") > count / 10);
   CHECK(tally.counted("displaced") > count / 10);
+  CHECK(tally.counted("exact with a centre") > count / 100);
+}
+
+TEST_CASE("a number that is rounded to float stays so beside another") {
+  Random random(20240802);
+  const auto lost = [](const glm::dvec2& p) {
+    return glm::dvec2{p.x - round_to_float(p.x), p.y - round_to_float(p.y)};
+  };
+  for (int i = 0; i < 1000; ++i) {
+    const glm::dvec2 p{1 + random.below(1u << 10) + 0x1p-40, 2 + random.below(1u << 10) + 0x1p-40};
+    CHECK(lost(p) == glm::dvec2(0x1p-40));
+  }
 }

@@ -286,8 +286,10 @@ void check_seed(KernelBench& bench, const Mesh& a, const Mesh& b, bool two_float
 TEST_CASE("query finds the nearest triangle, new points and centroids alike") {
   for (const bool two_float : {false, true}) {
     for (const auto& [name, mesh] : targets(two_float)) {
-      CAPTURE(name);
-      CAPTURE(mesh.faces.size());
+      const auto& called = name;
+      CAPTURE(called);
+      const size_t face_count = mesh.faces.size();
+      CAPTURE(face_count);
       KernelBench bench;
       check_query(bench, mesh, 600, {.centroids = false, .two_float = two_float});
       check_query(bench, mesh, 601, {.centroids = true, .two_float = two_float});
@@ -298,8 +300,10 @@ TEST_CASE("query finds the nearest triangle, new points and centroids alike") {
 TEST_CASE("wave_packet finds what query finds, three points at a time") {
   for (const bool two_float : {false, true}) {
     for (const auto& [name, mesh] : targets(two_float)) {
-      CAPTURE(name);
-      CAPTURE(mesh.faces.size());
+      const auto& called = name;
+      CAPTURE(called);
+      const size_t face_count = mesh.faces.size();
+      CAPTURE(face_count);
       KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
       check_query(bench, mesh, 600, {.two_float = two_float, .packet = true});
     }
@@ -322,8 +326,10 @@ TEST_CASE("query at awkward sizes") {
 TEST_CASE("the seed queries A's vertices and adopts the farthest") {
   for (const bool two_float : {false, true}) {
     for (const auto& [name, b] : targets(two_float)) {
-      CAPTURE(name);
-      CAPTURE(b.faces.size());
+      const auto& called = name;
+      CAPTURE(called);
+      const size_t face_count = b.faces.size();
+      CAPTURE(face_count);
       KernelBench bench;
       check_seed(bench, stored(soup(60, 100), two_float), b, two_float);
       check_seed(bench, b, b, two_float);

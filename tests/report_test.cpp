@@ -1,6 +1,7 @@
 // What needs no program to run: quantities as typed, the interval of two directions, odd reports.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -73,6 +74,42 @@ TEST_CASE("a pruned way back decides nothing, unless something else pruned it") 
   CHECK(both(closed, pruned).upper == 1.00999);
   CHECK(both(directed(Status::kTime, 1, 3), pruned).status == Status::kTime);
   CHECK(both(closed, directed(Status::kPruned, 0, 1.5)).status == Status::kPruned);
+}
+
+TEST_CASE("closed is a matter of exact arithmetic") {
+  using vkh::Status;
+  // The difference, rounded to nearest, is the tolerance; exactly, it is more.
+  vkh::Report r = directed(Status::kClosed, 0x1.84c946e07fefep-6, 0x1.190ddea00000ap-1);
+  r.tolerance = 0x1.0ce79468fc012p-1;
+  CHECK(r.upper - r.lower == r.tolerance);
+  CHECK(both(r, r).status == Status::kPrecision);
+  r.diagonal_a = 0x1.0ce79468fc012p-1;
+  CHECK(r.gap() > 1);
+  CHECK(both(r, r).gap > 1);
+  r.tolerance = std::nextafter(r.tolerance, 1);
+  CHECK(both(r, r).status == Status::kClosed);
+  // Pruned by the way there within one rounding of the tolerance: not closed either.
+  vkh::Report back = r;
+  back.status = Status::kPruned;
+  back.tolerance = r.tolerance = 0x1.0ce79468fc012p-1;
+  CHECK(both(r, back).status != Status::kClosed);
+}
+
+TEST_CASE("two closed directions of different tolerances close to the smaller one alone") {
+  using vkh::Status;
+  vkh::Report wide = directed(Status::kClosed, 1, 1.5);
+  wide.tolerance = 0.5;
+  CHECK(both(wide, directed(Status::kClosed, 0, 0.005)).status == Status::kPrecision);
+  CHECK(both(directed(Status::kClosed, 0, 0.005), wide).status == Status::kPrecision);
+}
+
+TEST_CASE("an interval that is a point, as it is printed") {
+  vkh::Answer answer;
+  answer.a_to_b = directed(vkh::Status::kClosed, 0, 0);
+  std::ostringstream table;
+  print_table(table, answer, false);
+  CHECK(table.str().find("[0, 0]  closed") != std::string::npos);
+  CHECK(json::parse(to_json(answer))["upper"] == 0);
 }
 
 TEST_CASE("an upper bound that is still infinite is null in JSON and inf in hex") {

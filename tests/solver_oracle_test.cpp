@@ -142,7 +142,8 @@ TEST_CASE("every kind far from the origin, tiny and huge") {
 
 TEST_CASE("decimated twins and remeshed surfaces") {
   for (const auto& [cells, stride] : {std::pair(12u, 2u), std::pair(24u, 3u), std::pair(30u, 6u)}) {
-    CAPTURE(cells);
+    const auto& cell_count = cells;
+    CAPTURE(cell_count);
     const Mesh fine = height_field(cells, 1);
     const Mesh coarse = height_field(cells, stride);
     check_pair(fine, coarse, cells);

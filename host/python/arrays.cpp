@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "host/float_environment.h"
 #include "host/python/interpreter.h"
 
 namespace vkh::python {
@@ -125,6 +126,7 @@ std::vector<glm::uvec3> faces_from(const std::string& name, const py::object& ob
 }  // namespace
 
 Mesh mesh_from(const std::string& name, const py::object& vertices, const py::object& faces) {
+  const FloatEnvironment ours;  // float32 to float64, too, may flush
   std::vector<glm::dvec3> points = vertices_from(name, vertices);
   if (points.size() >= std::numeric_limits<uint32_t>::max())
     refuse(name + "'s vertices", std::to_string(points.size()) + " of them", "fewer than 2^32 - 1");

@@ -3,6 +3,7 @@
 
 #include "host/decimal.h"
 #include "host/error.h"
+#include "host/float_environment.h"
 #include "host/python/interpreter.h"
 #include "host/python/solver.h"
 
@@ -12,6 +13,7 @@ namespace {
 namespace py = pybind11;
 
 std::string text_of(const Answer& r) {
+  const FloatEnvironment ours;
   std::string text = "<vkhausdorff.Result [";
   text += decimal(r.lower, 9, Rounding::kDown) + ", ";
   text += decimal(r.upper, 9, Rounding::kUp) + "] ";

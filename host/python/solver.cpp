@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host/error.h"
+#include "host/float_environment.h"
 #include "host/options.h"
 #include "host/python/arrays.h"
 #include "host/python/interpreter.h"
@@ -72,6 +73,7 @@ void read_limits(const Arguments& given, SolveOptions& options) {
 /// What a run may cost and how narrow it has to be; the keywords of both functions.
 SolveOptions options_of(const Arguments& given) {
   static const py::object* none = new py::none();
+  const FloatEnvironment ours;
   SolveOptions options;
   read_tolerance(given, options);
   read_limits(given, options);

@@ -117,8 +117,7 @@ void ApiCommands::submit_and_wait(VkCommandBuffer commands) {
   check(device.vk().ResetFences(device.handle(), 1, &fence_), "resetting a fence");
 }
 
-ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance)
-    : context_(shared_context()), a_(a), b_(b) {
+ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance) : context_(shared_context()), b_(b) {
   VkhHierarchyRequirements hierarchy{};
   check_engine(
       vkhGetHierarchyRequirements(context_, b.view().vertexCount, b.view().faceCount, &hierarchy));

@@ -86,7 +86,6 @@ class ApiPair {
  private:
   VkhContext context_;
   ApiCommands commands_;
-  ApiMesh& a_;
   ApiMesh& b_;
   Buffer hierarchy_, scratch_, workspace_, reports_;
   VkhMemory scratch_view_{};

@@ -1,0 +1,72 @@
+// The floating-point environment that the host's arithmetic is right in, whatever the caller's is.
+#pragma once
+
+#include <cfenv>
+#include <cfloat>
+#include <limits>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace vkh {
+
+#ifdef __FAST_MATH__
+#error "not with -ffast-math: the bounds rest on every operation as it is written"
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "a double operation is rounded to double, and once");
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559);
+
+/// While it lives, this thread rounds to nearest, flushes nothing to zero and traps nothing. Then
+/// everything is as the caller had it, its exception flags too. Libraries that are linked with
+/// -ffast-math leave threads that flush. It stands at every public boundary.
+class FloatEnvironment {
+ public:
+  FloatEnvironment() { enter(); }
+  ~FloatEnvironment() { leave(); }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+  /// Calls f, which is the caller's, in the caller's environment; what f makes of it is kept.
+  template <class F>
+  auto outside(const F& f) {
+    const Outside guard(*this);
+    return f();
+  }
+
+ private:
+  struct Outside {
+    explicit Outside(FloatEnvironment& environment) : inside(environment) { inside.leave(); }
+    ~Outside() { inside.enter(); }
+    Outside(const Outside&) = delete;
+    Outside& operator=(const Outside&) = delete;
+    FloatEnvironment& inside;
+  };
+
+  // C libraries differ in whether their default environment flushes, so that it is said here. On
+  // AArch64 the default is a control register of 0, which flushes nothing.
+  void enter() {
+    std::fegetenv(&callers_);
+#if defined(__SSE2__)
+    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+    callers_control_ = _mm_getcsr();
+    std::fesetenv(FE_DFL_ENV);
+    _mm_setcsr(_mm_getcsr() & ~(kFlushToZero | kDenormalsAreZero));
+#else
+    std::fesetenv(FE_DFL_ENV);
+#endif
+  }
+
+  void leave() {
+    std::fesetenv(&callers_);
+#if defined(__SSE2__)
+    _mm_setcsr(callers_control_);
+#endif
+  }
+
+  std::fenv_t callers_{};
+#if defined(__SSE2__)
+  unsigned callers_control_ = 0;
+#endif
+};
+
+}  // namespace vkh
