@@ -76,8 +76,8 @@ TEST_CASE("runs in odd environments: the same bits, and the environment unchange
       {tiny(0), tiny(2.5e-311)},
       {translated(soup(1, 40), {0.1, 0.2, 0.3}), soup(2, 30)},
       {scaled(soup(3, 20), -1030), scaled(soup(4, 20), -1030)}};
-  for (const auto& pair : pairs) {
-    const Mesh &a = pair.first, &b = pair.second;
+  for (const auto& meshes : pairs) {
+    const Mesh &a = meshes.first, &b = meshes.second;
     const Report normal = solver().distance(a, b);
     const SymmetricReport both = solver().symmetric(a, b);
     const PreparedMesh prepared = solver().prepare(b);
