@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 # Headers of host/ that a user of vkh::Solver includes. Among themselves they say "host/mesh.h", in a package that is
 # <vkhausdorff/mesh.h>; the engine's header is <vkhausdorff.h>.
-set(VKH_HOST_HEADERS device error mesh mesh_io report solver vulkan_api)
+set(VKH_HOST_HEADERS device device_description error mesh mesh_io report solve_options solver vulkan_api)
 set(VKH_INSTALLED_HEADERS ${CMAKE_CURRENT_BINARY_DIR}/generated/include/vkhausdorff)
 foreach(name IN LISTS VKH_HOST_HEADERS)
   set(from ${PROJECT_SOURCE_DIR}/host/${name}.h)

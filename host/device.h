@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/vkhausdorff.h"
-#include "host/report.h"
+#include "host/device_description.h"
 #include "host/vulkan_api.h"
 
 namespace vkh {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <ostream>
 
+#include "host/answer.h"
 #include "host/decimal.h"
 #include "host/default_pair.h"
 #include "host/device.h"
-#include "host/report_print.h"
 #include "host/self_test.h"
 #include "host/solver.h"
 #include "host/vulkan_api.h"

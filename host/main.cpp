@@ -15,6 +15,7 @@
 #include <iostream>
 #include <optional>
 
+#include "host/answer.h"
 #include "host/decimal.h"
 #include "host/default_pair.h"
 #include "host/device.h"
@@ -25,7 +26,6 @@
 #include "host/options.h"
 #include "host/output_file.h"
 #include "host/pipeline_cache.h"
-#include "host/report_print.h"
 #include "host/session.h"
 #include "host/verify.h"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/device_description.h"
 #include "host/mesh.h"
 
 namespace vkh {
@@ -55,15 +56,6 @@ struct WaveStats {
   uint32_t wave = 0;
   uint64_t parents = 0, candidates = 0, queries = 0, survivors = 0, deferred = 0;
   double lower = 0, upper = 0;  ///< heuristic while running, in the files' units
-};
-
-struct DeviceDescription {
-  uint32_t index = 0;
-  std::string name, driver, type;  ///< type: "discrete", "integrated", "virtual", "cpu", "other"
-  std::string api_version;
-  uint64_t memory_bytes = 0;  ///< largest device-local heap
-  bool usable = false;
-  std::string reason;  ///< why it is not usable; empty otherwise
 };
 
 struct Times {

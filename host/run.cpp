@@ -5,6 +5,7 @@
 
 #include "host/error.h"
 #include "host/parallel.h"
+#include "host/switches.h"
 
 namespace vkh {
 namespace {
@@ -50,11 +51,6 @@ struct Runner::Round {
   bool first;
   uint32_t waves;
 };
-
-uint32_t default_switches(const Device& device) {
-  const bool is_cpu = device.description().type == "cpu";
-  return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
-}
 
 Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
     : device_(device),

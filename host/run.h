@@ -15,9 +15,6 @@ namespace vkh {
 /// Pipelines for one set of switches; destroyed with the handle.
 using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
 
-/// What is on unless somebody asks for something else; what pays depends on the kind of device.
-uint32_t default_switches(const Device& device);
-
 /// Keeps contexts and buffers between runs. Threads take turns.
 class Runner {
  public:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/frame.h"
+#include "host/report.h"
 #include "host/run.h"
 
 namespace vkh {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "host/coverage.h"
 #include "host/error.h"
 #include "host/float_environment.h"
 #include "host/frame.h"
@@ -14,7 +15,6 @@
 #include "host/run_report.h"
 #include "host/same_faces.h"
 #include "host/switches.h"
-#include "host/verify.h"
 
 namespace vkh {
 namespace {

@@ -4,8 +4,6 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/error.h"
-#include "host/run.h"
-#include "host/solver.h"
 
 namespace vkh {
 namespace {
@@ -56,6 +54,11 @@ uint32_t preset_bits(const std::string& preset, const Device& device) {
 }
 
 }  // namespace
+
+uint32_t default_switches(const Device& device) {
+  const bool is_cpu = device.description().type == "cpu";
+  return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
+}
 
 std::vector<std::string> switch_names() {
   std::vector<std::string> names;

@@ -6,14 +6,17 @@
 #include <utility>
 #include <vector>
 
-namespace vkh {
+#include "host/device.h"
+#include "host/solve_options.h"
 
-class Device;
-struct SolveOptions;
+namespace vkh {
 
 /// Several waves a submission. No stage of the engine: host/run.cpp's, so its bit is not
 /// VkhSwitchBits'.
 constexpr uint32_t kSwitchMultiwave = 1u << 31;
+
+/// What is on unless somebody asks for something else; what pays depends on the kind of device.
+uint32_t default_switches(const Device& device);
 
 /// VkhSwitchBits that are on, and kSwitchMultiwave. Throws UsageError for a name that is none.
 uint32_t switches_of(const SolveOptions& options, const Device& device);

@@ -2,9 +2,6 @@
 // and from other formulas than the device's.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "host/mesh.h"
 #include "host/report.h"
 
@@ -17,9 +14,5 @@ namespace vkh {
 /// from the witness: min over its corners s of (p - s).r / |r| is true for any r, so that only this
 /// quotient needs care; r is the offset from the closest point found.
 WitnessCheck verify_witness(const Mesh& a, const Mesh& b, const Report& report);
-
-/// `areas`: of each face of A the closed part, then of each the open one, in units of 2^-40.
-/// `bounded`: whether the run claims an upper bound, for which no face may be waiting.
-CoverageCheck check_coverage(std::span<const uint64_t> areas, bool bounded);
 
 }  // namespace vkh

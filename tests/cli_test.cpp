@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "host/report_print.h"
+#include "host/answer.h"
 #include "host/solver.h"
 #include "tests/support/program.h"
 

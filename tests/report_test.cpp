@@ -8,7 +8,7 @@
 
 #include "host/error.h"
 #include "host/options.h"
-#include "host/report_print.h"
+#include "host/answer.h"
 
 namespace {
 

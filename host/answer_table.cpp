@@ -1,9 +1,8 @@
-#include "host/report_print.h"
-
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
 
+#include "host/answer.h"
 #include "host/decimal.h"
 #include "host/rounding.h"
 
