@@ -332,11 +332,15 @@ def embed_kernel(spv, out_dir, flat=None, cpu=None):
     (out_dir / f"{kernel.name}.cpp").write_text(text)
 
 
+SHADERS = Path(__file__).resolve().parent.parent / "shaders"
+
+
 def embed_index(out_dir, names):
     write_if_changed(out_dir / "all_kernels.h", index_text(names))
     write_if_changed(out_dir / "all_kernels.cpp", '#include "kernels/all_kernels.h"\n')
     for header in out_dir.glob("*.h"):  # of a shader that is gone: including it must not compile
-        if header.stem not in ("all_kernels", *names):
+        # The doctor's is in no list, and a Makefile does not make it again.
+        if header.stem not in ("all_kernels", *names) and not (SHADERS / f"{header.stem}.comp").exists():
             header.unlink()
 
 
