@@ -3,15 +3,17 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers of host/ that a user of vkh::Solver includes. Among themselves they say "host/mesh.h", in a package that is
+# Headers of host/ that a user of vkh::Solver includes. Among themselves they say "host/mesh/mesh.h", in a package that is
 # <vkhausdorff/mesh.h>; the engine's header is <vkhausdorff.h>.
-set(VKH_HOST_HEADERS device device_description error mesh mesh_io report solve_options solver vulkan_api)
+set(VKH_HOST_HEADERS base/error gpu/device gpu/device_description gpu/vulkan_api mesh/mesh read/mesh_io run/solve_options
+                     solve/report solve/solver)
 set(VKH_INSTALLED_HEADERS ${CMAKE_CURRENT_BINARY_DIR}/generated/include/vkhausdorff)
-foreach(name IN LISTS VKH_HOST_HEADERS)
-  set(from ${PROJECT_SOURCE_DIR}/host/${name}.h)
+foreach(header IN LISTS VKH_HOST_HEADERS)
+  get_filename_component(name ${header} NAME)
+  set(from ${PROJECT_SOURCE_DIR}/host/${header}.h)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${from})
   file(READ ${from} text)
-  string(REPLACE "#include \"host/" "#include \"vkhausdorff/" text "${text}")
+  string(REGEX REPLACE "#include \"host/[a-z]+/" "#include \"vkhausdorff/" text "${text}")
   string(REPLACE "#include \"engine/vkhausdorff.h\"" "#include \"vkhausdorff.h\"" text "${text}")
   file(CONFIGURE OUTPUT ${VKH_INSTALLED_HEADERS}/${name}.h CONTENT "${text}" @ONLY)
 endforeach()

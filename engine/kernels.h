@@ -24,7 +24,7 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
-// Whether a wave is two dispatches: kFused in shaders/lib/dispatch.glsl.
+// Whether a wave is two dispatches: kFused in shaders/candidate/dispatch.glsl.
 constexpr bool is_fused(uint32_t switches) {
   return (switches & (gpu::kUseGroupWalk | gpu::kUseApart)) == gpu::kUseGroupWalk;
 }

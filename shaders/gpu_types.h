@@ -85,11 +85,11 @@ VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refin
 VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
 VKH_CONST uint kUseTwoLevels = 65536u;     // few candidates are split twice in a wave
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
-// Any of them: a wave is more than two dispatches (kFused in lib/dispatch.glsl).
+// Any of them: a wave is more than two dispatches (kFused in candidate/dispatch.glsl).
 VKH_CONST uint kUseApart = kUseFilter | kUsePacket | kUseSort;
 // The method of ours: without what the paper has in another place.
 VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u + 65536u;
-VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (lib/coverage.glsl)
+VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (base/coverage.glsl)
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
 
@@ -183,7 +183,7 @@ VKH_CONST uint kFewestChildren = 8u;
 VKH_CONST uint kBoundGroups = 640u;  // workgroups that are worth having before they take more
 
 VKH_CONST uint kMaxOffers =
-    64u;  // samples of a wave that may become the witness (lib/witness.glsl)
+    64u;  // samples of a wave that may become the witness (wave/witness.glsl)
 
 VKH_CONST uint kMaxWaveRecords = 64u;
 
@@ -248,7 +248,7 @@ struct TriangleLow {
 
 // A sub-triangle of A that is still undecided: 36 bytes.
 struct Candidate {
-  uvec4 corners;  // three dyadic barycentric pairs, see lib/bary.h
+  uvec4 corners;  // three dyadic barycentric pairs, see math/bary.h
   uint root;      // face of A
   uvec3 nearest;  // closest triangle of B found for each corner
   float upper;    // u: h(candidate, B) <= Control::base + upper, rounding included
@@ -256,7 +256,7 @@ struct Candidate {
 
 // A refined candidate in its wave.
 struct Split {
-  uint code;    // lib/bary.h; kSplitNone where it ends here
+  uint code;    // math/bary.h; kSplitNone where it ends here
   uint inner;   // where it is split twice: the codes of its four children, 5 bits each; kInnerNone
   uint parent;  // its place in the half of the frontier being read
 };
@@ -308,7 +308,7 @@ struct Control {
   uint deferred;     // candidates that stay as they are in this wave
   uint parents;      // candidates that it refines
   uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
-  uint select_tie;   // lib/candidate.glsl
+  uint select_tie;   // candidate/candidate.glsl
   uint select_largest;  // in this wave the largest u come first
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is
@@ -344,7 +344,7 @@ struct Box {
   vec3 hi;
 };
 
-// The box that the middles of B's faces' boxes lie in: floats as ordered bits (lib/morton.h). Six
+// The box that the middles of B's faces' boxes lie in: floats as ordered bits (math/morton.h). Six
 // minima, so that one fill makes it empty.
 struct CentroidBox {
   uint lo[3];
@@ -373,7 +373,7 @@ struct Area {
   uint lo, hi;
 };
 
-// self_test: what a device is asked, and what it answers (host/self_test.cpp judges).
+// self_test: what a device is asked, and what it answers (host/check/self_test.cpp judges).
 struct SelfTestQuestion {
   float a, b;
   uint bits;  // of a normal float
@@ -390,8 +390,8 @@ struct SelfTestAnswer {
   uint rank;      // and of them those before this one
 };
 
-// What composed expressions are asked of (lib/composed.h): two-floats, 2^-30 <= |x| and the bases
-// near the length of u and the quotient of reach by the length of scaled(w), or 0.
+// What composed expressions are asked of (doctor/composed.h): two-floats, 2^-30 <= |x| and the
+// bases near the length of u and the quotient of reach by the length of scaled(w), or 0.
 struct SelfTestOperands {
   vec3 u_hi, u_lo, v_hi, v_lo, w_hi, w_lo;
   float x, y;

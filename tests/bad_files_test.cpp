@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "host/error.h"
-#include "host/mesh_io.h"
+#include "host/base/error.h"
+#include "host/read/mesh_io.h"
 #include "tests/support/error_line.h"
 #include "tests/support/program.h"
 

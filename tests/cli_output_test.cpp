@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "host/error.h"
-#include "host/output_file.h"
+#include "host/base/error.h"
+#include "host/base/output_file.h"
 #include "tests/support/program.h"
 
 namespace {

@@ -13,8 +13,8 @@
 #include <sstream>
 #include <thread>
 
-#include "host/answer.h"
-#include "host/solver.h"
+#include "host/answer/answer.h"
+#include "host/solve/solver.h"
 #include "tests/support/program.h"
 
 namespace {

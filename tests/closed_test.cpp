@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/rounding.h"
+#include "host/base/rounding.h"
 #include "tests/support/adversarial.h"
 #include "tests/support/arithmetic.h"
 #include "tests/support/exact.h"

@@ -1,5 +1,5 @@
 // Printed decimals against exact rationals: outward, and by less than one unit of the last digit.
-#include "host/decimal.h"
+#include "host/base/decimal.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // The generated pair of `vkhausdorff demo`: a closed part with CAD's thin triangles and its
 // simplified twin, the same to the last bit everywhere.
-#include "host/default_pair.h"
+#include "host/demo/default_pair.h"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/simplify.h"
+#include "host/demo/simplify.h"
 #include "tests/support/shapes.h"
 
 namespace {

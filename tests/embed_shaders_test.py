@@ -133,7 +133,7 @@ class EmbedShaders(unittest.TestCase):
             with self.subTest(what):
                 result = self.embed(declarations, body)
                 self.assertNotEqual(result.returncode, 0)
-                self.assertIn(f"shaders/try_it.comp: {message}", result.stderr)
+                self.assertIn(f"try_it.comp: {message}", result.stderr)
                 self.assertFalse((self.dir / "try_it.h").exists())
 
     def test_stripped_names_are_an_error(self):

@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "host/error.h"
-#include "host/frame.h"
+#include "host/base/error.h"
+#include "host/run/frame.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solver_bench.h"

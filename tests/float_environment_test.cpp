@@ -1,6 +1,6 @@
 // Whatever a calling thread has made of its floating-point environment, the answers are the same to
 // the last bit, and the caller finds that environment again, also within the callback.
-#include "host/float_environment.h"
+#include "host/base/float_environment.h"
 
 #include <cfenv>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/mesh_io.h"
+#include "host/read/mesh_io.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solver_bench.h"

@@ -1,14 +1,14 @@
-// host/frame.cpp against exact rationals: no vertex is displaced by more than the frame says, and
-// lengths come back rounded outward, subnormal and huge coordinates included.
-#include "host/frame.h"
+// host/run/frame.cpp against exact rationals: no vertex is displaced by more than the frame says,
+// and lengths come back rounded outward, subnormal and huge coordinates included.
+#include "host/run/frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
-#include "host/default_pair.h"
-#include "host/round_to_float.h"
+#include "host/mesh/round_to_float.h"
+#include "host/demo/default_pair.h"
 #include "tests/support/adversarial.h"
 #include "tests/support/arithmetic.h"
 #include "tests/support/exact.h"

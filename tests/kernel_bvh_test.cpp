@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "host/round_to_float.h"
+#include "host/mesh/round_to_float.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/shapes.h"
 #include "tests/support/vec3.h"
@@ -56,7 +56,7 @@ gpu::vec3 vertex(const Mesh& mesh, uint32_t v) {
 
 // --- Codes ---
 
-/// As lib/face_code.glsl has it: a sum and a product, correctly rounded everywhere.
+/// As base/face_code.glsl has it: a sum and a product, correctly rounded everywhere.
 float centre(const Mesh& mesh, const glm::uvec3& f, int axis) {
   const auto at = [&](uint32_t v) { return component(vertex(mesh, v), axis); };
   const auto [lo, hi] = std::minmax({at(f.x), at(f.y), at(f.z)});

@@ -13,8 +13,8 @@
 // After the others, and before what it readies for C++.
 #include "tests/support/lib_device.h"
 // The headers themselves.
-#include "shaders/lib/hash.h"
-#include "shaders/lib/morton.h"
+#include "shaders/math/hash.h"
+#include "shaders/math/morton.h"
 
 namespace {
 
@@ -47,7 +47,7 @@ math::Bary3 corners_of(const gpu::Candidate& c) {
   return math::unpack_corners({c.corners.x, c.corners.y, c.corners.z, c.corners.w});
 }
 
-/// Smallest u first; of equal ones the smallest in area, then by a hash (lib/candidate.glsl).
+/// Smallest u first; of equal ones the smallest in area, then by a hash (candidate/candidate.glsl).
 SelectionKey selection_key(const gpu::Candidate& c) {
   const math::Bary3 t = corners_of(c);
   const glm::i64vec2 ab = glm::i64vec2(t.b) - glm::i64vec2(t.a);

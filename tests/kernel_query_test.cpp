@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "host/round_to_float.h"
+#include "host/mesh/round_to_float.h"
 #include "tests/support/closest.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/shapes.h"

@@ -1,4 +1,4 @@
-// shaders/lib/bary.h against integers and exact arithmetic: corners survive packing, four children
+// shaders/math/bary.h against integers and exact arithmetic: corners survive packing, four children
 // cover their parent, and computed corners lie within the stated slack of the exact ones.
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-// shaders/lib/bounds.h against samples: no point of a patch T is farther from the surfaces than the
-// cascade's bounds say, in any arithmetic Vulkan allows. A sample decides in doubles where it can,
-// and else in exact arithmetic.
+// shaders/math/bounds.h against samples: no point of a patch T is farther from the surfaces than
+// the cascade's bounds say, in any arithmetic Vulkan allows. A sample decides in doubles where it
+// can, and else in exact arithmetic.
 #include <algorithm>
 #include <array>
 #include <cmath>

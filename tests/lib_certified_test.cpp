@@ -1,4 +1,4 @@
-// shaders/lib/certified.h against exact arithmetic: what is rounded up is never below, what is
+// shaders/math/certified.h against exact arithmetic: what is rounded up is never below, what is
 // rounded down never above, in any arithmetic that Vulkan allows.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// shaders/lib/lower.h against exact arithmetic: triangle_distance_down never exceeds the distance,
+// shaders/math/lower.h against exact arithmetic: triangle_distance_down never exceeds the distance,
 // in any arithmetic that Vulkan allows, and is seldom far below it.
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-#include "host/self_test.h"
+#include "host/check/self_test.h"
 #include "tests/support/climb.h"
 #include "tests/support/composed.h"
 

@@ -1,4 +1,4 @@
-// shaders/lib/triangle.h against exact arithmetic: closest points lie in their triangle, distances
+// shaders/math/triangle.h against exact arithmetic: closest points lie in their triangle, distances
 // and radii are never below the exact ones and seldom far above, in any arithmetic Vulkan allows.
 #include <algorithm>
 #include <cmath>

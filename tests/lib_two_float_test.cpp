@@ -1,4 +1,4 @@
-// shaders/lib/two_float.h against exact arithmetic: exact where + and - round to nearest, and
+// shaders/math/two_float.h against exact arithmetic: exact where + and - round to nearest, and
 // within the stated multiples of kUlp2 in every arithmetic that Vulkan allows.
 #include <algorithm>
 #include <bit>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/error.h"
-#include "host/mesh_readers.h"
+#include "host/base/error.h"
+#include "host/read/readers.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The mesh readers: the coordinates as given in every format, and errors that name their place.
-#include "host/mesh_io.h"
+#include "host/read/mesh_io.h"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <random>
 
-#include "host/error.h"
-#include "host/mesh_readers.h"
+#include "host/base/error.h"
+#include "host/read/readers.h"
 #include "tests/support/error_line.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // make_mesh: what it drops and refuses, and its counts against exact arithmetic.
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The file that pipelines are kept in: what was written comes back, and anything else is as good as
 // no file.
-#include "host/pipeline_cache.h"
+#include "host/gpu/pipeline_cache.h"
 
 #include <doctest/doctest.h>
 

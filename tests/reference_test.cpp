@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "host/mesh_io.h"
+#include "host/read/mesh_io.h"
 #include "tests/support/cgal_oracle.h"
 #include "tests/support/exact.h"
 #include "tests/support/reference_solver.h"

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/error.h"
-#include "host/options.h"
-#include "host/answer.h"
+#include "host/answer/answer.h"
+#include "host/answer/options.h"
+#include "host/base/error.h"
 
 namespace {
 

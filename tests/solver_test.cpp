@@ -1,6 +1,6 @@
 // Whole runs against closed forms and against themselves: what must not change the answer, and what
 // must change it by a known amount.
-#include "host/solver.h"
+#include "host/solve/solver.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "host/error.h"
-#include "host/rounding.h"
+#include "host/base/error.h"
+#include "host/base/rounding.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solver_bench.h"

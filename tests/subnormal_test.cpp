@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "host/solver.h"
-#include "host/verify.h"
+#include "host/check/verify.h"
+#include "host/solve/solver.h"
 #include "tests/support/exact.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/shapes.h"

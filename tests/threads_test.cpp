@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solver_bench.h"
 

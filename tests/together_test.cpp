@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/error.h"
-#include "host/solver.h"
+#include "host/base/error.h"
+#include "host/solve/solver.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solver_bench.h"

@@ -1,12 +1,12 @@
 // The host's check of the witness against exact arithmetic: it encloses d(p, B), accepts what is
 // true and refuses a lower bound that is too large by 1e-12 of the distance.
-#include "host/verify.h"
+#include "host/check/verify.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "host/solver.h"
+#include "host/solve/solver.h"
 #include "tests/support/arithmetic.h"
 #include "tests/support/exact.h"
 #include "tests/support/hard_pairs.h"

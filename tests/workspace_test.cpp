@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "tests/support/reference_solver.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solver_bench.h"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The house rules that a search can check; prints 'file:line: rule' for each breach and exits 1 if there is any.
-#   - sqrt length distance normalize inversesqrt and '/' in shaders/: only in lib/certified.h, or with
+#   - sqrt length distance normalize inversesqrt and '/' in shaders/: only in math/certified.h, or with
 #     '// uncertified: why' on the line or in the comment right above it. A '/' whose divisor is an unsigned literal or
 #     a 'const uint' passes, if nothing on its line is or looks like a float.
 #   - calls of vkCmdPipelineBarrier in engine/: only in engine/command.cpp.
@@ -141,7 +141,7 @@ check_format() {
 {
   check_certified
   check_barriers
-  check_length 250 shaders/*.comp
+  check_length 250 shaders/*/*.comp
   check_length 400 "${counted[@]}"
   check_format
 } >"$failures"

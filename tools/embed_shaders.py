@@ -320,12 +320,12 @@ def embed_kernel(spv, out_dir, flat=None, cpu=None):
     try:
         kernel = reflect(spv.stem, words)
     except (ContractError, ValueError) as error:
-        sys.exit(f"shaders/{spv.stem}.comp: {error}")
+        sys.exit(f"{spv.stem}.comp: {error}")
     flat_words = spirv.read_words(flat) if flat else words
     cpu_words = spirv.with_loops_kept(spirv.read_words(cpu)) if cpu else flat_words
     for embedded in (flat_words, cpu_words):
         if breach := float_order.breach(embedded):
-            sys.exit(f"shaders/{spv.stem}.comp: {breach}")
+            sys.exit(f"{spv.stem}.comp: {breach}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
     # Always: it is the output by which a Makefile knows that this ran.
     text = source_text(kernel, flat_words, cpu_words if cpu_words != flat_words else None)

@@ -4,14 +4,14 @@ A row: a name, the file, the text as it stands (the nth occurrence), what replac
 removed, and the tests that are asked, the cheapest first.
 """
 
-TWO = "shaders/lib/two_float.h"
-CERTIFIED = "shaders/lib/certified.h"
-TRIANGLE = "shaders/lib/triangle.h"
-BOUNDS = "shaders/lib/bounds.h"
-PAPER = "shaders/lib/bounds_paper.h"
-BARY = "shaders/lib/bary.h"
-LOWER = "shaders/lib/lower.h"
-FRAME = "host/frame.cpp"
+TWO = "shaders/math/two_float.h"
+CERTIFIED = "shaders/math/certified.h"
+TRIANGLE = "shaders/math/triangle.h"
+BOUNDS = "shaders/math/bounds.h"
+PAPER = "shaders/paper/bounds_paper.h"
+BARY = "shaders/math/bary.h"
+LOWER = "shaders/math/lower.h"
+FRAME = "host/run/frame.cpp"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
 ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
@@ -188,7 +188,7 @@ ROWS = [
     row("coarse_distance_down's rounding", LOWER, "lowered(quotient_down(reach, length) - s.base)",
         ["(quotient_down(reach, length) - s.base)", "reach * (1.0f / length) - s.base"], ON_LOWER),
 
-    # host/frame.cpp
+    # host/run/frame.cpp
     row("what two floats leave", FRAME, "return left + subtraction", ["return 0.5 * left + subtraction",
                                                                        "return subtraction"], ON_FRAME),
     row("the frame's subtraction", FRAME, "std::abs(exact) * 0x1p-52",

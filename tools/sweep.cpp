@@ -16,9 +16,9 @@
 #include <map>
 #include <thread>
 
-#include "host/decimal.h"
-#include "host/solver.h"
-#include "host/verify.h"
+#include "host/base/decimal.h"
+#include "host/check/verify.h"
+#include "host/solve/solver.h"
 #include "tests/support/hard_pairs.h"
 #include "tests/support/reference_solver.h"
 

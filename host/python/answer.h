@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "host/report.h"
+#include "host/solve/report.h"
 
 namespace vkh::python {
 

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/float_environment.h"
+#include "host/base/float_environment.h"
 #include "host/python/interpreter.h"
 
 namespace vkh::python {

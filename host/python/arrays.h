@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 
 namespace vkh::python {
 

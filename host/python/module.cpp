@@ -1,9 +1,9 @@
 // The Python module: vkhausdorff.distance and vkhausdorff.Solver.
 #include <pybind11/pybind11.h>
 
-#include "host/decimal.h"
-#include "host/error.h"
-#include "host/float_environment.h"
+#include "host/base/decimal.h"
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
 #include "host/python/interpreter.h"
 #include "host/python/solver.h"
 

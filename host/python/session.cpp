@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "host/device.h"
+#include "host/gpu/device.h"
 #include "host/python/interpreter.h"
 
 namespace vkh::python {

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "host/solver.h"
+#include "host/solve/solver.h"
 
 namespace vkh::python {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <map>
 
-#include "host/error.h"
-#include "host/float_environment.h"
-#include "host/options.h"
+#include "host/answer/options.h"
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
 #include "host/python/arrays.h"
 #include "host/python/interpreter.h"
 

@@ -2,14 +2,14 @@
 //
 // By hand, from the repository's root (CMake: VKH_FUZZ=ON with clang):
 //   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -I.
-//     tests/fuzz/mesh_fuzz.cpp host/mesh.cpp host/mesh_io.cpp host/mesh_io_*.cpp
-//     host/ply_header.cpp host/text_scanner.cpp -o mesh_fuzz
+//     tests/fuzz/mesh_fuzz.cpp host/mesh/mesh.cpp host/read/mesh_io.cpp host/mesh_io_*.cpp
+//     host/read/ply_header.cpp host/base/text_scanner.cpp -o mesh_fuzz
 //   ./mesh_fuzz -max_len=4096 -malloc_limit_mb=64 -max_total_time=120 corpus ../shared/bad
 #include <cmath>
 #include <cstdlib>
 
-#include "host/error.h"
-#include "host/mesh_readers.h"
+#include "host/base/error.h"
+#include "host/read/readers.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "host/round_to_float.h"
+#include "host/mesh/round_to_float.h"
 #include "tests/support/closest.h"
 
 namespace vkh::test {

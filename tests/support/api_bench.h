@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/vkhausdorff.h"
-#include "host/memory.h"
-#include "host/mesh.h"
+#include "host/gpu/memory.h"
+#include "host/mesh/mesh.h"
 #include "tests/support/reference_solver.h"
 
 namespace vkh::test {

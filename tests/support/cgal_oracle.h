@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 #include "tests/support/reference_solver.h"
 
 namespace vkh::test {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 
 namespace vkh::test {
 

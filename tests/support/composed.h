@@ -1,5 +1,5 @@
-// Composed expressions (shaders/lib/composed.h) as a device would answer the doctor on them, in the
-// arithmetic that lib_device.h was chosen with.
+// Composed expressions (shaders/doctor/composed.h) as a device would answer the doctor on them, in
+// the arithmetic that lib_device.h was chosen with.
 #pragma once
 
 #include "tests/support/lib_device.h"
@@ -7,7 +7,7 @@
 #ifdef VKH_TEST_VULKAN_MODEL
 #define float ::vkh::model::Real
 #endif
-#include "shaders/lib/composed.h"
+#include "shaders/doctor/composed.h"
 #undef float
 
 namespace vkh::test {

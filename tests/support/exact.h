@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 
 namespace vkh::test {
 

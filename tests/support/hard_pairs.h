@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/default_pair.h"
+#include "host/demo/default_pair.h"
 #include "tests/support/shapes.h"
 
 namespace vkh::test {

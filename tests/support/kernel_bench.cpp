@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/round_to_float.h"
+#include "host/mesh/round_to_float.h"
 
 namespace vkh::test {
 namespace {

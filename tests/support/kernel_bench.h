@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/stages.h"
-#include "host/memory.h"
-#include "host/mesh.h"
+#include "host/gpu/memory.h"
+#include "host/mesh/mesh.h"
 
 namespace vkh::test {
 

@@ -10,16 +10,16 @@
 #include "tests/support/vulkan_model.h"
 #define float ::vkh::model::Real
 #else
-#include "shaders/lib/glsl.h"
+#include "shaders/math/glsl.h"
 VKH_LIB_BEGIN
 using std::sqrt;  // or <cmath> offers double's alone
 VKH_LIB_END
 #endif
 
-#include "shaders/lib/bary.h"
-#include "shaders/lib/bounds.h"
-#include "shaders/lib/bounds_paper.h"
-#include "shaders/lib/lower.h"
+#include "shaders/math/bary.h"
+#include "shaders/math/bounds.h"
+#include "shaders/math/lower.h"
+#include "shaders/paper/bounds_paper.h"
 
 #undef float
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 #include "tests/support/closest.h"
 
 namespace vkh::test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "host/mesh.h"
+#include "host/mesh/mesh.h"
 
 namespace vkh::test {
 

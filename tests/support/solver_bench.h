@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "host/solver.h"
+#include "host/solve/solver.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/reference_solver.h"
 

@@ -2,11 +2,11 @@
 // compiled with in place of float: + - * round in a direction drawn anew for every operation, a
 // quotient is any float within 2.5 ulp, an inverse square root within 2 and a root its quotient,
 // and what is below 2^-126 may be 0. No device is as bad; a bound that holds here holds on all.
-// Stands in for shaders/lib/glsl.h, whose include guard it takes.
+// Stands in for shaders/math/glsl.h, whose include guard it takes.
 #pragma once
 
 #ifdef VKH_SHADERS_LIB_GLSL_H
-#error "include tests/support/vulkan_model.h before shaders/lib"
+#error "include tests/support/vulkan_model.h before shaders/math"
 #endif
 #define VKH_SHADERS_LIB_GLSL_H
 

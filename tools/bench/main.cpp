@@ -17,9 +17,9 @@
 #include <cstdio>
 #include <map>
 
-#include "host/mesh_io.h"
-#include "host/options.h"
-#include "host/solver.h"
+#include "host/answer/options.h"
+#include "host/read/mesh_io.h"
+#include "host/solve/solver.h"
 #include "tools/bench/manifest.h"
 #include "tools/bench/table.h"
 #include "tools/bench/together.h"

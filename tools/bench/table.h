@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/report.h"
+#include "host/solve/report.h"
 #include "tools/bench/manifest.h"
 
 namespace vkh::bench {

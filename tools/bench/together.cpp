@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <map>
 
-#include "host/mesh_io.h"
+#include "host/read/mesh_io.h"
 #include "tools/bench/table.h"
 
 namespace vkh::bench {

@@ -2,7 +2,7 @@
 // (Solver::distances), in turn; one CSV row a group.
 #pragma once
 
-#include "host/solver.h"
+#include "host/solve/solver.h"
 #include "tools/bench/manifest.h"
 
 namespace vkh::bench {

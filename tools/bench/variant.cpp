@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "host/options.h"
+#include "host/answer/options.h"
 
 namespace vkh::bench {
 namespace {

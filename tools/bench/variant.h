@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/solver.h"
+#include "host/solve/solver.h"
 
 namespace vkh::bench {
 

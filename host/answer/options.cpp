@@ -1,0 +1,116 @@
+#include "host/answer/options.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+struct Unit {
+  const char* name;
+  double factor;
+};
+
+struct Quantity {
+  double number = 0;
+  std::string unit;
+};
+
+[[noreturn]] void refuse(const char* option, const std::string& text, const char* expected) {
+  throw UsageError(std::string(option) + " '" + text + "': expected " + expected);
+}
+
+/// A positive, finite number and what follows it. from_chars, because a locale must not decide
+/// whether 0.5 is a number.
+bool split(const std::string& text, Quantity& out) {
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, out.number);
+  if (result.ec != std::errc() || !std::isfinite(out.number) || out.number <= 0) return false;
+  out.unit.assign(result.ptr, end);
+  out.unit.erase(0, out.unit.find_first_not_of(' '));
+  return true;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+template <size_t kCount>
+const Unit* find_unit(const std::array<Unit, kCount>& units, const std::string& name) {
+  for (const Unit& unit : units) {
+    if (name == unit.name) return &unit;
+  }
+  return nullptr;
+}
+
+constexpr std::array<Unit, 10> kMemoryUnits = {{{"", 1},
+                                                {"b", 1},
+                                                {"kib", 0x1p10},
+                                                {"mib", 0x1p20},
+                                                {"gib", 0x1p30},
+                                                {"tib", 0x1p40},
+                                                {"kb", 1e3},
+                                                {"mb", 1e6},
+                                                {"gb", 1e9},
+                                                {"tb", 1e12}}};
+
+constexpr std::array<Unit, 5> kTimeUnits = {
+    {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}};
+
+}  // namespace
+
+Tolerance parse_tolerance(const std::string& text) {
+  constexpr const char* kExpected =
+      "a positive number: a fraction of diag(A) such as 1e-6, percent of it such as 0.1%, or the "
+      "files' own units such as 0.01abs";
+  Quantity quantity;
+  if (!split(text, quantity)) refuse("--tol", text, kExpected);
+  if (quantity.unit == "abs") return {text, quantity.number, true};
+  if (quantity.unit == "%") quantity.number /= 100;
+  if ((quantity.unit != "%" && !quantity.unit.empty()) || quantity.number <= 0) {
+    refuse("--tol", text, kExpected);
+  }
+  return {text, quantity.number, false};
+}
+
+uint64_t parse_memory(const std::string& text) {
+  constexpr const char* kExpected =
+      "a size of at least one byte such as 2GiB, 512MiB, 1.5GB or a number of bytes";
+  Quantity quantity;
+  if (!split(text, quantity)) refuse("--memory", text, kExpected);
+  const Unit* unit = find_unit(kMemoryUnits, lower_case(quantity.unit));
+  if (unit == nullptr) refuse("--memory", text, kExpected);
+  const double bytes = std::floor(quantity.number * unit->factor);
+  if (bytes < 1 || bytes >= 0x1p63) refuse("--memory", text, kExpected);
+  return static_cast<uint64_t>(bytes);
+}
+
+uint32_t parse_waves(const std::string& text) {
+  uint32_t waves = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, waves);
+  if (result.ec != std::errc() || result.ptr != end) {
+    refuse("--waves", text, "a whole number of waves, 0 or more");
+  }
+  return waves;
+}
+
+double parse_time(const std::string& text) {
+  constexpr const char* kExpected =
+      "a time above zero such as 10s, 250ms, 2min, 1h or a number of seconds";
+  Quantity quantity;
+  if (!split(text, quantity)) refuse("--time", text, kExpected);
+  const Unit* unit = find_unit(kTimeUnits, quantity.unit);
+  if (unit == nullptr) refuse("--time", text, kExpected);
+  const double seconds = quantity.number * unit->factor;
+  if (!std::isfinite(seconds) || seconds <= 0) refuse("--time", text, kExpected);
+  return seconds;
+}
+
+}  // namespace vkh

@@ -1,0 +1,195 @@
+#include <cstdarg>
+#include <cstdio>
+#include <ostream>
+
+#include "host/answer/answer.h"
+#include "host/base/decimal.h"
+#include "host/base/rounding.h"
+
+namespace vkh {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...) {
+  va_list args;
+  va_start(args, format);
+  char buffer[512];
+  std::vsnprintf(buffer, sizeof buffer, format, args);
+  va_end(args);
+  return buffer;
+}
+
+using Count = unsigned long long;
+
+std::string counted(uint64_t n, const char* what) {
+  return printed("%llu ", static_cast<Count>(n)) + what + (n == 1 ? "" : "s");
+}
+
+std::string megabytes(uint64_t bytes) {
+  return printed("%.4g MiB", static_cast<double>(bytes) / 0x1p20);
+}
+
+// GCC 12 warns of an overlap in "literal" + temporary that is not there (its bug 105651), so
+// strings grow by append where it does.
+std::string bounds(double lower, double upper) {
+  const double gap = upper - lower;
+  std::string text = "[";
+  text += decimal(lower, digits_that_matter(lower, gap), Rounding::kDown);
+  text += ", ";
+  text += decimal(upper, digits_that_matter(upper, gap), Rounding::kUp);
+  return text + "]";
+}
+
+std::string verdict(Status status) {
+  if (status == Status::kPruned) return std::string("pruned: ") + stop_reason(status);
+  return std::string(status == Status::kClosed ? "closed" : "NOT CLOSED (") +
+         (status == Status::kClosed ? "" : std::string(status_name(status)) + ")") + ": " +
+         stop_reason(status);
+}
+
+std::string at(const SurfacePoint& p) {
+  return printed("face %llu at (%.9g, %.9g, %.9g)", static_cast<Count>(p.face), p.point.x,
+                 p.point.y, p.point.z);
+}
+
+void row(std::ostream& out, const char* label, const std::string& text) {
+  out << printed("  %-10s ", label) << text << '\n';
+}
+
+void print_mesh(std::ostream& out, const char* label, const std::string& file,
+                const MeshCounts& counts) {
+  std::string text = file + ": " + counted(counts.faces, "face") + ", " +
+                     printed("%llu", Count{counts.vertices}) +
+                     (counts.vertices == 1 ? " vertex" : " vertices");
+  const auto also = [&](uint64_t n, const char* what) {
+    if (n > 0) text += printed(", %llu %s", static_cast<Count>(n), what);
+  };
+  also(counts.unreferenced, "unreferenced (dropped)");
+  also(counts.degenerate, "degenerate (kept)");
+  also(counts.duplicate, "duplicate (kept)");
+  row(out, label, text);
+}
+
+std::string tolerance_text(const Answer& answer) {
+  const Report& r = answer.a_to_b;
+  const std::string diagonal = printed("%.9g", r.diagonal_a);
+  if (answer.tolerance.is_absolute) {
+    return printed("%.6g in the files' units, as asked; diag(A) = ", r.tolerance) + diagonal;
+  }
+  return answer.tolerance.requested + " of diag(A) = " + diagonal +
+         printed(": %.6g in the files' units", r.tolerance);
+}
+
+std::string device_text(const DeviceDescription& d) {
+  const std::string type = d.type == "cpu" ? "a CPU device, no GPU" : d.type;
+  return d.name + " (" + type + "), driver " + d.driver + ", Vulkan " + d.api_version;
+}
+
+std::string verified_text(const WitnessCheck& check) {
+  return "the witness is " + bounds(check.distance_lower, check.distance_upper) + " from " +
+         "the other mesh, by brute force: lower " + (check.holds ? "holds" : "DOES NOT HOLD");
+}
+
+std::string coverage_text(const CoverageCheck& c) {
+  return printed("%llu faces whole, ", static_cast<Count>(c.whole)) +
+         printed("%llu waiting, ", static_cast<Count>(c.waiting)) +
+         printed("%llu not accounted for: ", static_cast<Count>(c.wrong)) +
+         (c.holds ? "nothing is lost" : "SOMETHING IS LOST");
+}
+
+void print_direction(std::ostream& out, const Report& r, const char* a, const char* b) {
+  row(out, "witness", std::string(a) + " " + at(r.witness_a));
+  row(out, "", std::string(b) + " " + at(r.witness_b));
+  if (r.witness_check) row(out, "verified", verified_text(*r.witness_check));
+  if (r.coverage_check) row(out, "", coverage_text(*r.coverage_check));
+  const Times& t = r.times;
+  row(out, "work",
+      counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +
+          printed(" (at most %llu at once), ", static_cast<Count>(r.peak_frontier)) +
+          printed("%llu queries, workspace ", static_cast<Count>(r.queries)) +
+          megabytes(r.workspace_bytes));
+  row(out, "times",
+      printed("load %.4g, setup %.4g, upload %.4g, hierarchy %.4g, solve %.4g, wall %.4g ms",
+              t.load_ms, t.setup_ms, t.upload_ms, t.hierarchy_ms, t.solve_ms, t.wall_ms));
+}
+
+void print_stages(std::ostream& out, const std::vector<StageStats>& stages) {
+  if (stages.empty()) return;
+  out << printed("\n  %-24s %12s %12s %14s %14s\n", "stage", "GPU ms", "dispatches", "items in",
+                 "items out");
+  for (const StageStats& s : stages) {
+    out << "  " << s.name << std::string(s.name.size() < 24 ? 24 - s.name.size() : 0, ' ')
+        << printed(" %12.4f %12llu %14llu %14llu\n", s.gpu_ms, static_cast<Count>(s.dispatches),
+                   static_cast<Count>(s.items_in), static_cast<Count>(s.items_out));
+  }
+}
+
+void print_waves(std::ostream& out, const std::vector<WaveStats>& waves) {
+  if (waves.empty()) return;
+  out << printed("\n  %4s %12s %12s %12s %12s %12s  %-14s %-14s\n", "wave", "parents", "candidates",
+                 "queries", "survivors", "deferred", "lower (approx)", "upper (approx)");
+  for (const WaveStats& w : waves) {
+    out << printed("  %4u %12llu %12llu %12llu %12llu %12llu  %-14.9g %-14.9g\n", w.wave,
+                   static_cast<Count>(w.parents), static_cast<Count>(w.candidates),
+                   static_cast<Count>(w.queries), static_cast<Count>(w.survivors),
+                   static_cast<Count>(w.deferred), w.lower, w.upper);
+  }
+}
+
+void print_culled(std::ostream& out, const CullHistogram& c) {
+  out << "\n  candidates closed by\n";
+  const auto line = [&](const char* name, uint64_t n) {
+    out << printed("  %-14s %14llu\n", name, static_cast<Count>(n));
+  };
+  line("exact", c.exact);
+  line("u1", c.u1);
+  line("u2", c.u2);
+  line("ha", c.ha);
+  line("u3", c.u3);
+  line("u4", c.u4);
+  line("lower raised", c.lower_raised);
+  line("precision", c.precision);
+}
+
+void print_details(std::ostream& out, const Report& r) {
+  print_stages(out, r.stages);
+  print_waves(out, r.wave_stats);
+  print_culled(out, r.culled);
+}
+
+void print_switched_off(std::ostream& out, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  row(out, "off", text);
+}
+
+}  // namespace
+
+void print_table(std::ostream& out, const Answer& answer, bool verbose) {
+  const Report& r = answer.a_to_b;
+  const CertifiedInterval whole = interval_of(answer);
+  out << "vkhausdorff " << program_version() << ": "
+      << (answer.b_to_a ? "symmetric distance max(h(A,B), h(B,A))" : "directed distance h(A,B)")
+      << '\n';
+  row(out, "interval", bounds(whole.lower, whole.upper) + "  " + verdict(whole.status));
+  row(out, "gap",
+      decimal(whole.gap, 3, Rounding::kUp) + " of diag(A), " +
+          decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " in the files' units");
+  row(out, "tolerance", tolerance_text(answer));
+  print_mesh(out, "A", answer.file_a, r.mesh_a);
+  print_mesh(out, "B", answer.file_b, r.mesh_b);
+  for (const std::string& note : answer.notes) row(out, "note", note);
+  row(out, "device", device_text(r.device));
+  if (r.preset != "default") row(out, "preset", r.preset);
+  print_switched_off(out, r.switched_off);
+  if (answer.b_to_a) row(out, "h(A,B)", bounds(r.lower, r.upper) + "  " + verdict(r.status));
+  print_direction(out, r, "A", "B");
+  if (verbose) print_details(out, r);
+  if (!answer.b_to_a) return;
+  const Report& back = *answer.b_to_a;
+  row(out, "h(B,A)", bounds(back.lower, back.upper) + "  " + verdict(back.status));
+  print_direction(out, back, "B", "A");
+  if (verbose) print_details(out, back);
+}
+
+}  // namespace vkh

@@ -1,0 +1,97 @@
+#include "host/base/decimal.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace vkh {
+namespace {
+
+/// |value| = 0.d1d2d3... * 10^(exponent + 1), all digits there are.
+struct Digits {
+  std::string digits;
+  int exponent = 0;  ///< of the first digit
+};
+
+// The longest exact expansion of a double has 767 significant digits (the largest denormal), so
+// that asking to_chars for that many leaves nothing to round.
+Digits exact_digits(double magnitude) {
+  constexpr int kMostDigits = 767;
+  std::array<char, kMostDigits + 16> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), magnitude,
+                                    std::chars_format::scientific, kMostDigits - 1);
+  const std::string text(buffer.data(), result.ptr);
+  const size_t e = text.find('e');
+  return {text.substr(0, 1) + text.substr(2, e - 2), std::atoi(text.c_str() + e + 1)};
+}
+
+/// Adds one unit to the last digit; 999 becomes 1000 with one digit less than that: 100 and a
+/// larger exponent.
+void increment(Digits& number) {
+  size_t i = number.digits.size();
+  while (i > 0 && number.digits[i - 1] == '9') number.digits[--i] = '0';
+  if (i > 0) {
+    ++number.digits[i - 1];
+    return;
+  }
+  number.digits.front() = '1';
+  ++number.exponent;
+}
+
+void round_to(Digits& number, size_t digits, bool away_from_zero) {
+  if (digits >= number.digits.size()) return;
+  const bool inexact = number.digits.find_first_not_of('0', digits) != std::string::npos;
+  number.digits.resize(digits);
+  if (inexact && away_from_zero) increment(number);
+}
+
+std::string scientific(const Digits& number) {
+  std::string text = number.digits.substr(0, 1);
+  if (number.digits.size() > 1) text.append(1, '.').append(number.digits, 1);
+  return text.append(1, 'e').append(std::to_string(number.exponent));
+}
+
+std::string positional(const Digits& number) {
+  const std::string& d = number.digits;
+  if (number.exponent < 0) {
+    return "0." + std::string(static_cast<size_t>(-number.exponent - 1), '0') + d;
+  }
+  const size_t whole = static_cast<size_t>(number.exponent) + 1;
+  if (d.size() <= whole) return d + std::string(whole - d.size(), '0');
+  return d.substr(0, whole) + "." + d.substr(whole);
+}
+
+}  // namespace
+
+std::string decimal(double value, int digits, Rounding rounding) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+  if (value == 0) return "0";
+  const bool negative = value < 0;
+  Digits number = exact_digits(std::abs(value));
+  round_to(number, static_cast<size_t>(std::max(digits, 1)),
+           negative == (rounding == Rounding::kDown));
+  number.digits.erase(number.digits.find_last_not_of('0') + 1);
+  const bool readable = number.exponent >= -5 && number.exponent < kJsonDigits;
+  const std::string magnitude = readable ? positional(number) : scientific(number);
+  return negative ? std::string("-").append(magnitude) : magnitude;
+}
+
+std::string hex_float(double value) {
+  if (!std::isfinite(value)) return decimal(value, 1, Rounding::kDown);
+  std::array<char, 40> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(value),
+                                    std::chars_format::hex);
+  return (std::signbit(value) ? "-0x" : "0x") + std::string(buffer.data(), result.ptr);
+}
+
+int digits_that_matter(double value, double gap) {
+  if (!std::isfinite(value) || value == 0 || !std::isfinite(gap)) return 3;
+  if (gap <= 0) return kJsonDigits;
+  const double past_gap = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(gap));
+  return static_cast<int>(std::clamp(past_gap + 3, 3.0, static_cast<double>(kJsonDigits)));
+}
+
+}  // namespace vkh

@@ -1,0 +1,169 @@
+#include "host/base/output_file.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<struct stat> status_of(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return status;
+}
+
+bool is_same(const struct stat& x, const struct stat& y) {
+  return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+/// A dangling link's target is made, so realpath() will not do. Empty: links without end.
+std::string end_of_links(const std::string& path) {
+  constexpr int kMostLinks = 40;  // Linux's own limit
+  fs::path at = path;
+  std::error_code none;
+  for (int i = 0; i < kMostLinks; ++i) {
+    const fs::path target = fs::read_symlink(at, none);
+    if (none) return at.string();
+    at = at.parent_path() / target;  // target alone, if that is absolute
+  }
+  return {};
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// A reader that goes away must not end the program before the answer is printed.
+class NoBrokenPipe {
+ public:
+  NoBrokenPipe() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
+  ~NoBrokenPipe() { std::signal(SIGPIPE, before_); }
+  NoBrokenPipe(const NoBrokenPipe&) = delete;
+  NoBrokenPipe& operator=(const NoBrokenPipe&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+/// False, with errno, if it cannot be, or if a pipe's reader takes nothing for ten seconds.
+bool write_all(int file, std::string_view text) {
+  constexpr int kPatienceMs = 10'000;
+  const NoBrokenPipe guard;
+  while (!text.empty()) {
+    const ssize_t written = write(file, text.data(), text.size());
+    if (written >= 0) {
+      text.remove_prefix(static_cast<size_t>(written));
+    } else if (errno == EAGAIN) {
+      pollfd ready{file, POLLOUT, 0};
+      if (poll(&ready, 1, kPatienceMs) == 0) {
+        errno = ETIMEDOUT;
+        return false;
+      }
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A new file in `folder`, under a name that nobody has; -1 with errno.
+int create_beside(const std::string& folder, mode_t mode, std::string& name) {
+  constexpr int kMostTries = 1000;
+  for (int i = 0; i < kMostTries; ++i) {
+    name = folder + "/.vkhausdorff-" + std::to_string(getpid()) + "-" + std::to_string(i);
+    const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file >= 0 || errno != EEXIST) return file;
+  }
+  return -1;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs)
+    : option_(std::move(option)), path_(std::move(path)) {
+  if (path_.empty()) refuse("expected the name of a file");
+  const std::optional<struct stat> there = status_of(path_);
+  for (const std::string& input : inputs) {
+    const std::optional<struct stat> read = status_of(input);
+    if (there && read && is_same(*there, *read))
+      refuse("would overwrite the input '" + input + "'");
+  }
+  for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat status {};
+    if (!there || fstat(standard, &status) != 0 || !is_same(*there, status)) continue;
+    special_ = fcntl(standard, F_DUPFD_CLOEXEC, 0);
+    if (special_ < 0) refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
+    return;
+  }
+  if (there && S_ISDIR(there->st_mode)) refuse("is a folder");
+  if (there && !S_ISREG(there->st_mode)) {
+    open_special(there->st_mode);
+    return;
+  }
+  target_ = end_of_links(path_);
+  if (target_.empty()) refuse("links without end");
+  check_place();
+}
+
+OutputFile::~OutputFile() {
+  if (special_ >= 0) close(special_);
+}
+
+void OutputFile::refuse(const std::string& why) const {
+  throw UsageError(option_ + " '" + path_ + "': " + why);
+}
+
+// Kept open until it is written to: a pipe's reader would take its closing for the end.
+void OutputFile::open_special(unsigned mode) {
+  if (S_ISBLK(mode)) refuse("is a disk, not a file");
+  special_ = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (special_ >= 0) return;
+  if (errno == ENXIO && S_ISFIFO(mode)) refuse("a pipe that nobody reads: start its reader first");
+  refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
+}
+
+// An answer that took an hour must not meet a folder that is not there.
+void OutputFile::check_place() const {
+  const std::string folder = folder_of(target_);
+  if (fs::path(target_).filename().empty()) refuse("is a folder's name");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse("the folder '" + folder + "' cannot be written: " + std::strerror(errno));
+  if (access(target_.c_str(), W_OK) != 0 && errno != ENOENT)
+    refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
+}
+
+void OutputFile::write(std::string_view text) const {
+  if (special_ < 0) return replace(text);
+  if (!write_all(special_, text))
+    throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(errno));
+}
+
+void OutputFile::replace(std::string_view text) const {
+  std::string beside;
+  const std::optional<struct stat> older = status_of(target_);
+  const int file = create_beside(folder_of(target_), 0666, beside);
+  bool good = file >= 0;
+  if (good && older) good = fchmod(file, older->st_mode & 07777) == 0;
+  good = good && write_all(file, text);
+  int error = good ? 0 : errno;
+  if (file >= 0 && close(file) != 0 && good) error = errno;  // where a quota or NFS says it
+  if (error == 0 && rename(beside.c_str(), target_.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  if (file >= 0) unlink(beside.c_str());
+  throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(error));
+}
+
+}  // namespace vkh

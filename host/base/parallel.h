@@ -1,0 +1,34 @@
+// Independent pieces of work on a few threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <future>
+#include <thread>
+#include <vector>
+
+#include "host/base/float_environment.h"
+
+namespace vkh {
+
+/// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
+/// there are any to be had. Throws what one of them threw, after all have ended.
+template <class F>
+void for_each_index(size_t count, const F& work) {
+  constexpr size_t kMostThreads = 8;
+  const size_t cores = std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+  std::atomic<size_t> next = 0;
+  const auto some = [&] {
+    const FloatEnvironment ours;  // a new thread's is not this one's everywhere
+    for (size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::future<void>> shares = {};
+  shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
+  for (size_t i = 1; i < std::min(cores, count); ++i)
+    shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
+  for (std::future<void>& share : shares) share.wait();
+  for (std::future<void>& share : shares) share.get();
+}
+
+}  // namespace vkh

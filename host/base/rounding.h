@@ -1,0 +1,56 @@
+// Sums, products and quotients of doubles, rounded in a known direction. Exact results stay exact.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "host/base/quad.h"
+
+namespace vkh {
+
+/// What rounding to nearest took from a + b: exact, unless the sum overflows (Knuth's two-sum).
+inline double sum_error(double a, double b) {
+  const double sum = a + b;
+  const double from_b = sum - a;
+  return (a - (sum - from_b)) + (b - from_b);
+}
+
+/// The least double that is no smaller than a + b.
+inline double add_up(double a, double b) {
+  const double sum = a + b;
+  return sum_error(a, b) > 0 ? std::nextafter(sum, std::numeric_limits<double>::infinity()) : sum;
+}
+
+/// The largest double that is no larger than a + b.
+inline double add_down(double a, double b) {
+  const double sum = a + b;
+  return sum_error(a, b) < 0 ? std::nextafter(sum, -std::numeric_limits<double>::infinity()) : sum;
+}
+
+/// Of an interval: the least double that is no smaller. It is at most a double exactly where the
+/// exact width is.
+inline double width_up(double lower, double upper) { return add_up(upper, -lower); }
+
+/// Whether an interval is closed: upper - lower <= tolerance in exact arithmetic.
+inline bool is_within(double lower, double upper, double tolerance) {
+  return width_up(lower, upper) <= tolerance;
+}
+
+/// x * y of finite numbers, neither negative, rounded down. A product of two doubles is exact in
+/// 113 bits.
+inline double multiply_down(double x, double y) {
+  const Quad exact = quad(x) * quad(y);
+  const double product = static_cast<double>(exact);
+  return quad(product) > exact ? std::nextafter(product, 0.0) : product;
+}
+
+/// x / y of a number that is not negative by a positive one, rounded up.
+inline double divide_up(double x, double y) {
+  const double quotient = x / y;
+  if (!std::isfinite(quotient)) return quotient;
+  return quad(quotient) * quad(y) < quad(x)
+             ? std::nextafter(quotient, std::numeric_limits<double>::infinity())
+             : quotient;
+}
+
+}  // namespace vkh

@@ -1,0 +1,178 @@
+#include "host/base/text_scanner.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace vkh {
+namespace {
+
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+// Lines end in LF or CR LF (or CR CR LF); only a file whose first line ends in a CR alone ends them
+// so throughout (old Macintosh exports). Deciding once keeps a binary body's first LF out of it.
+char line_terminator(std::string_view text) {
+  const size_t end = text.find_first_of("\r\n");
+  if (end == std::string_view::npos) return '\n';
+  const size_t after = text.find_first_not_of('\r', end);
+  return after != std::string_view::npos && text[after] == '\n' ? '\n' : '\r';
+}
+
+}  // namespace
+
+void reject(std::string_view name, const std::string& place, const std::string& what,
+            const std::string& expected) {
+  std::string line(name);
+  line += ": " + place + ": " + what + "; expected " + expected;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
+  throw InputError(line);
+}
+
+std::string quoted(std::string_view word) {
+  constexpr size_t kLongest = 32;
+  constexpr const char* kHex = "0123456789abcdef";
+  std::string out = "'";
+  for (const char c : word.substr(0, kLongest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) {
+      out += c;
+    } else {
+      out += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};
+    }
+  }
+  return out + (word.size() > kLongest ? "...'" : "'");
+}
+
+// By the decade of its first digit: what is no double is far from 1 on one side or the other.
+bool is_tiny_decimal(std::string_view word) {
+  constexpr int64_t kFar = int64_t{1} << 62;  // beyond the digits of any file
+  const size_t e = std::min(word.find_first_of("eE"), word.size());
+  const size_t point = std::min(word.find('.'), e);
+  const size_t first = std::min(word.find_first_of("123456789"), e);
+  std::string_view power = word.substr(std::min(e + 1, word.size()));
+  if (power.starts_with('+')) power.remove_prefix(1);
+  int64_t exponent = 0;
+  if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec ==
+      std::errc::result_out_of_range) {
+    exponent = power.starts_with('-') ? -kFar : kFar;
+  }
+  const auto decade = static_cast<int64_t>(point) - static_cast<int64_t>(first);
+  return std::clamp(exponent, -kFar, kFar) + decade < 0;
+}
+
+TextScanner::TextScanner(std::string_view text, std::string_view name, char comment,
+                         MixedLineEnds mixed)
+    : text_(text), name_(name), comment_(comment), terminator_(line_terminator(text)) {
+  // Searched for once, so that the lines of most texts need not be.
+  other_terminator_ = terminator_ == '\n' ? '\r' : '\n';
+  checks_line_ends_ =
+      mixed == MixedLineEnds::kRefused && text.find(other_terminator_) != std::string_view::npos;
+}
+
+std::string_view TextScanner::physical_line() {
+  const char* begin = text_.data() + next_;
+  const auto* end = static_cast<const char*>(std::memchr(begin, terminator_, bytes_left()));
+  const size_t size = end ? static_cast<size_t>(end - begin) : bytes_left();
+  next_ += size + (end ? 1 : 0);
+  ++lines_taken_;
+  const std::string_view line(begin, size);
+  if (checks_line_ends_) check_line_end(line);
+  return line;
+}
+
+// At the end of a line, the other terminator is blank space: CR LF, or CR CR LF.
+void TextScanner::check_line_end(std::string_view line) const {
+  const size_t at = line.find(other_terminator_);
+  if (at == std::string_view::npos) return;
+  if (std::all_of(line.begin() + static_cast<std::ptrdiff_t>(at), line.end(), is_space)) return;
+  reject(name_, "line " + std::to_string(lines_taken_),
+         other_terminator_ == '\r' ? "a carriage return inside the line"
+                                   : "a line feed inside the line",
+         "lines that all end alike");
+}
+
+// Cuts the backslash off that continues a line, and any comment, and what is blank before them.
+bool TextScanner::cut_continuation(std::string_view& line) const {
+  const auto trim = [&line] {
+    while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+  };
+  trim();
+  if (line.empty() || line.back() != '\\') return false;
+  for (size_t at = line.find(comment_); at < line.size(); at = line.find(comment_, at + 1)) {
+    if (at > 0 && !is_space(line[at - 1])) continue;
+    line = line.substr(0, at);
+    trim();
+    return false;
+  }
+  line.remove_suffix(1);
+  return true;
+}
+
+bool TextScanner::next_line() {
+  if (next_ == text_.size()) {
+    skip_line();
+    return false;
+  }
+  line_number_ = lines_taken_ + 1;
+  line_ = physical_line();
+  cursor_ = 0;
+  return true;
+}
+
+bool TextScanner::next_full_line() {
+  while (next_line()) {
+    if (!word().empty()) {
+      cursor_ = 0;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool TextScanner::is_continued() const {
+  std::string_view line = line_;
+  return cut_continuation(line);
+}
+
+void TextScanner::join_continued_lines() {
+  std::string_view part = line_;
+  if (!cut_continuation(part)) return;
+  joined_.assign(part);
+  for (bool more = true; more && next_ < text_.size();) {
+    const bool in_word = !joined_.empty() && !is_space(joined_.back());
+    part = physical_line();
+    if (in_word && !part.empty() && !is_space(part.front())) {
+      fail("a backslash splits a word", "a blank before it");
+    }
+    more = cut_continuation(part);
+    joined_.append(" ").append(part);
+  }
+  line_ = joined_;
+}
+
+std::string_view TextScanner::word() {
+  while (cursor_ < line_.size() && is_space(line_[cursor_])) ++cursor_;
+  const size_t begin = cursor_;
+  if (comment_ != '\0' && begin < line_.size() && line_[begin] == comment_) skip_line();
+  while (cursor_ < line_.size() && !is_space(line_[cursor_])) ++cursor_;
+  const bool comment = comment_ != '\0' && begin < line_.size() && line_[begin] == comment_;
+  return comment ? std::string_view() : line_.substr(begin, cursor_ - begin);
+}
+
+std::string_view TextScanner::word_across_lines() {
+  std::string_view found = word();
+  while (found.empty() && next_line()) found = word();
+  return found;
+}
+
+void TextScanner::fail(const std::string& what, const std::string& expected) const {
+  reject(name_, place(), what, expected);
+}
+
+void TextScanner::fail_number(std::string_view word, const char* what, bool integer) const {
+  const std::string found = word.empty() ? "no " : quoted(word) + " as ";
+  fail(found + what, integer ? "a decimal integer" : "a finite decimal number such as -1.5e-3");
+}
+
+}  // namespace vkh

@@ -1,0 +1,111 @@
+// The readers' cursor over a file's bytes: lines, words and numbers, never past the end, and errors
+// that name the file and the line.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+
+#include "host/base/error.h"
+
+namespace vkh {
+
+/// Throws "name: place: what; expected so and so", on one line whatever the name holds.
+[[noreturn]] void reject(std::string_view name, const std::string& place, const std::string& what,
+                         const std::string& expected);
+
+/// A word of a file for an error line: quoted, at most 32 bytes, unprintable bytes as \xNN.
+std::string quoted(std::string_view word);
+
+/// Of a decimal that is no double: true if it lies below the least one, not beyond the largest.
+bool is_tiny_decimal(std::string_view word);
+
+/// Reads all of `word` as a decimal number of type T, correctly rounded; false if any of it is
+/// left over (1/3, 1,5, 0x1p3), if it is nan or inf, or if it is too large for T. What lies below
+/// the least double is a zero of its sign. The leading plus that from_chars refuses is accepted.
+template <class T>
+bool parse_number(std::string_view word, T& value) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const size_t sign = !word.empty() && word[0] == '-' ? 1 : 0;
+  // Without this, from_chars takes the words nan and inf.
+  if (word.size() == sign || word[sign] > '9') return false;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size()) return false;
+  if constexpr (std::is_same_v<T, double>) {
+    if (error == std::errc::result_out_of_range && is_tiny_decimal(word)) {
+      value = sign == 1 ? -0.0 : 0.0;
+      return true;
+    }
+  }
+  return error == std::errc();
+}
+
+/// What to do with a line of text that holds the other terminator in its midst: a carriage return
+/// among lines that end in LF, or the reverse. What stands behind it is a line of its own to some
+/// readers, and part of a comment or a name to others.
+enum class MixedLineEnds { kRefused, kIgnored };
+
+class TextScanner {
+ public:
+  /// `comment` ends a line's words wherever it begins one; '\0' for formats without comments.
+  TextScanner(std::string_view text, std::string_view name, char comment = '\0',
+              MixedLineEnds mixed = MixedLineEnds::kRefused);
+
+  /// Goes to the next line; false at the end of the text.
+  bool next_line();
+  /// Goes to the next line that holds a word.
+  bool next_full_line();
+  /// True where the current line ends in a backslash that no comment holds.
+  bool is_continued() const;
+  /// Appends the lines that continue the current one. A backslash may not split a word: '2\' and
+  /// '4' are one number to some readers and two to others.
+  void join_continued_lines();
+
+  /// The next word of the current line, empty at its end.
+  std::string_view word();
+  /// The next word of this line or a later one, empty at the end of the text.
+  std::string_view word_across_lines();
+  /// Skips what is left of the current line.
+  void skip_line() { cursor_ = line_.size(); }
+
+  /// Reads a number from the current line; fails if there is none. `what` names it in the error.
+  template <class T>
+  T number(const char* what) {
+    const std::string_view text = word();
+    T value{};
+    if (!parse_number(text, value)) fail_number(text, what, std::is_integral_v<T>);
+    return value;
+  }
+
+  size_t line_number() const { return line_number_; }
+  /// The byte after the current line and its terminator.
+  size_t offset() const { return next_; }
+  size_t bytes_left() const { return text_.size() - next_; }
+
+  std::string place() const { return "line " + std::to_string(line_number_); }
+  [[noreturn]] void fail(const std::string& what, const std::string& expected) const;
+
+ private:
+  std::string_view physical_line();
+  void check_line_end(std::string_view line) const;
+  bool cut_continuation(std::string_view& line) const;
+  [[noreturn]] void fail_number(std::string_view word, const char* what, bool integer) const;
+
+  std::string_view text_;
+  std::string_view name_;
+  char comment_;
+  char terminator_;
+  char other_terminator_;
+  bool checks_line_ends_;
+  std::string_view line_;
+  std::string joined_;
+  size_t cursor_ = 0;
+  size_t next_ = 0;
+  size_t line_number_ = 0;
+  size_t lines_taken_ = 0;
+};
+
+}  // namespace vkh

@@ -1,0 +1,47 @@
+// Whether a device keeps the promises that the certificate rests on (docs/certificate.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/gpu/device.h"
+#include "shaders/gpu_types.h"
+
+namespace vkh {
+
+/// What a device was seen to do. `fault` is empty where every promise was kept.
+struct SelfTestResult {
+  std::string fault;  ///< the first broken promise: what, of which numbers, by how much
+  uint64_t items = 0;
+  uint64_t composed = 0;          ///< composed expressions
+  bool rounds_to_nearest = true;  ///< + - * and so exact error-free transformations; not needed
+  bool flushes = false;           ///< some result under 2^-126 came out as 0; allowed
+  double worst_quotient_ulp = 0, worst_root_ulp = 0;  ///< 2.5 and 6 are allowed
+  uint32_t largest_subgroup = 0;
+};
+
+/// `count` questions, a multiple of gpu::kGroupSize, on which arithmetic goes wrong: mantissas of
+/// all ones or next to a tie, sums that cancel, products near 2^-126.
+std::vector<gpu::SelfTestQuestion> self_test_questions(uint64_t seed, uint32_t count);
+
+/// Compares answers with exact results. Adds to `result`; a fault that stands is kept.
+void judge_self_test(std::span<const gpu::SelfTestQuestion> questions,
+                     std::span<const gpu::SelfTestAnswer> answers,
+                     const gpu::SelfTestTotals& totals, SelfTestResult& result);
+
+/// Likewise for composed expressions: sums that a driver must not regroup.
+std::vector<gpu::SelfTestOperands> composed_questions(uint64_t seed, uint32_t count);
+void judge_composed(std::span<const gpu::SelfTestOperands> operands,
+                    std::span<const gpu::SelfTestComposed> results, SelfTestResult& result);
+
+/// A float of that range of binary exponents with a mantissa on which arithmetic goes wrong; draws
+/// from `state`.
+float hard_float(uint64_t& state, int lo, int hi);
+uint64_t draw(uint64_t& state);  ///< splitmix64
+
+/// Asks the device about a million questions. Throws DeviceError if it is lost.
+SelfTestResult run_self_test(const Device& device);
+
+}  // namespace vkh

@@ -1,0 +1,144 @@
+#include "host/check/verify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "host/base/quad.h"
+
+namespace vkh {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// What quads are off by: 2^-113 for each of a few operations on coordinates; taken 256 times over.
+const Quad kQuadUlp = quad(0x1p-105);
+// Of a length computed in quads and rounded to double: hypot is within 2 ulp, the rest is nothing.
+constexpr double kOutward = 0x1p-48;
+
+struct Triangle {
+  std::array<QuadVector, 3> corner;
+};
+
+// p minus the closest point of the segment from s to s + e.
+QuadVector from_segment(const QuadVector& p, const QuadVector& s, const QuadVector& e) {
+  const QuadVector r = p - s;
+  const Quad length2 = dot(e, e);
+  Quad t = length2 > 0 ? dot(r, e) / length2 : 0;
+  t = t < 0 ? 0 : t > 1 ? 1 : t;
+  return r - t * e;
+}
+
+// p minus a closest point of the triangle, but for rounding: only a direction.
+QuadVector offset_of(const QuadVector& p, const Triangle& t) {
+  const auto& [a, b, c] = t.corner;
+  QuadVector best = from_segment(p, a, b - a);
+  for (const QuadVector& other : {from_segment(p, b, c - b), from_segment(p, c, a - c)}) {
+    if (dot(other, other) < dot(best, best)) best = other;
+  }
+  const QuadVector n = cross(b - a, c - a);
+  const bool inside = dot(n, n) > 0 && dot(cross(b - a, p - a), n) >= 0 &&
+                      dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
+  return inside ? (dot(p - a, n) / dot(n, n)) * n : best;
+}
+
+double length(const QuadVector& r) {
+  return std::hypot(static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z));
+}
+
+// A positive distance, made smaller or larger by more than its rounding.
+double outward(double distance, double direction) {
+  const double moved = distance * (1 + direction * kOutward);
+  return std::max(std::nextafter(moved, direction * kInfinity), 0.0);
+}
+
+struct Enclosure {
+  double lower = 0, upper = 0;
+  bool beyond = false;  // d >= the bound asked about: decided in quads, where no double rounds
+};
+
+// d(p, t) and whether it is at least `bound`, for p known to within `scale` * kQuadUlp in each
+// coordinate.
+Enclosure distance_to(const QuadVector& p, const Triangle& t, Quad scale, double bound) {
+  const QuadVector r = offset_of(p, t);
+  const Quad size = magnitude(r);
+  const double upper = outward(length(r) + static_cast<double>(scale * kQuadUlp), 1);
+  if (!(size > 0)) return {0, upper, bound <= 0};
+  const QuadVector d = (1 / size) * r;  // so that nothing underflows
+  Quad reach = dot(p - t.corner[0], d);
+  for (const QuadVector& s : t.corner) {
+    const Quad along = dot(p - s, d);
+    reach = along < reach ? along : reach;
+  }
+  reach -= 16 * scale * kQuadUlp;  // |d| < 2, three coordinates, each off by less than 2 units
+  if (!(reach > 0)) return {0, upper, bound <= 0};
+  const bool beyond = quad(bound) * quad(bound) * dot(d, d) * (1 + kQuadUlp) <= reach * reach;
+  return {outward(static_cast<double>(reach) / length(d), -1), upper, beyond};
+}
+
+// The exact point: barycentrics are multiples of 2^-20, so that their products with doubles have 73
+// bits; the sum of three of them is rounded.
+QuadVector witness_of(const Mesh& a, const Report& r) {
+  const glm::uvec3 f = a.faces[r.witness_a.face];
+  const glm::dvec3 w = r.witness_a.barycentric;
+  return quad(w.x) * quad(a.vertices[f.x]) + quad(w.y) * quad(a.vertices[f.y]) +
+         quad(w.z) * quad(a.vertices[f.z]);
+}
+
+double largest(const Mesh& mesh) {
+  double out = 0;
+  for (const glm::dvec3& v : mesh.vertices) {
+    const glm::dvec3 m = glm::abs(v);
+    out = std::max({out, m.x, m.y, m.z});
+  }
+  return out;
+}
+
+// A lower bound of the distance from p to the box of three points; p is rounded to double.
+double box_distance_down(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t, double scale) {
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto [lo, hi] = std::minmax({t[0][i], t[1][i], t[2][i]});
+    most = std::max({most, lo - p[i], p[i] - hi});
+  }
+  return most * (1 - 0x1p-50) - scale * 0x1p-51;
+}
+
+bool is_exact_point(const glm::dvec3& weights) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double units = weights[i] * 0x1p20;
+    if (!(units >= 0 && units <= 0x1p20 && units == std::floor(units))) return false;
+    sum += units;
+  }
+  return sum == 0x1p20;
+}
+
+}  // namespace
+
+WitnessCheck verify_witness(const Mesh& a, const Mesh& b, const Report& report) {
+  WitnessCheck out;
+  const bool named =
+      report.witness_a.face < a.faces.size() && is_exact_point(report.witness_a.barycentric);
+  if (!named) return out;
+  const QuadVector p = witness_of(a, report);
+  const glm::dvec3 near(static_cast<double>(p.x), static_cast<double>(p.y),
+                        static_cast<double>(p.z));
+  const double scale = std::max(largest(a), largest(b));
+  out.distance_lower = out.distance_upper = kInfinity;
+  out.holds = true;
+  for (const glm::uvec3& f : b.faces) {
+    const std::array<glm::dvec3, 3> t = {b.vertices[f.x], b.vertices[f.y], b.vertices[f.z]};
+    // Such a face is farther than one that was measured: it decides nothing.
+    if (box_distance_down(near, t, scale) > out.distance_upper) continue;
+    const Enclosure d =
+        distance_to(p, {{quad(t[0]), quad(t[1]), quad(t[2])}}, quad(scale), report.lower);
+    out.holds = out.holds && d.beyond;
+    out.distance_lower = std::min(out.distance_lower, d.lower);
+    out.distance_upper = std::min(out.distance_upper, d.upper);
+  }
+  return out;
+}
+
+}  // namespace vkh

@@ -1,0 +1,328 @@
+#include "host/gpu/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+
+namespace vkh {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* count) {
+  ++*static_cast<std::atomic<uint32_t>*>(count);
+  std::fprintf(stderr, "validation: %s\n", data->pMessage);
+  return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<uint32_t>* count) {
+  VkDebugUtilsMessengerCreateInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                     VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = on_message;
+  info.pUserData = count;
+  return info;
+}
+
+bool has_layer(const VulkanApi& vk, const char* name) {
+  uint32_t count = 0;
+  vk.EnumerateInstanceLayerProperties(&count, nullptr);
+  std::vector<VkLayerProperties> layers(count);
+  vk.EnumerateInstanceLayerProperties(&count, layers.data());
+  return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& l) {
+    return std::strcmp(l.layerName, name) == 0;
+  });
+}
+
+VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation) {
+  VkApplicationInfo app{};
+  app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  app.pApplicationName = "vkhausdorff";
+  app.apiVersion = VK_API_VERSION_1_2;
+  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pNext = next;
+  info.pApplicationInfo = &app;
+  info.enabledLayerCount = validation ? 1 : 0;
+  info.ppEnabledLayerNames = &kValidationLayer;
+  info.enabledExtensionCount = validation ? 1 : 0;
+  info.ppEnabledExtensionNames = &extension;
+  VkInstance instance = VK_NULL_HANDLE;
+  check(vk.CreateInstance(&info, nullptr, &instance), "creating a Vulkan instance");
+  return instance;
+}
+
+const char* type_name(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
+  }
+}
+
+int rank_of(const DeviceDescription& d) {
+  constexpr std::array order{"discrete", "integrated", "virtual", "other", "cpu"};
+  const auto at = std::find(order.begin(), order.end(), d.type);
+  return static_cast<int>(at - order.begin());
+}
+
+std::string version_text(uint32_t v) {
+  return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) +
+         "." + std::to_string(VK_API_VERSION_PATCH(v));
+}
+
+uint64_t largest_local_heap(const VulkanApi& vk, VkPhysicalDevice physical) {
+  VkPhysicalDeviceMemoryProperties memory;
+  vk.GetPhysicalDeviceMemoryProperties(physical, &memory);
+  uint64_t largest = 0;
+  for (uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+    if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) {
+      largest = std::max<uint64_t>(largest, memory.memoryHeaps[i].size);
+    }
+  }
+  return largest;
+}
+
+DeviceDescription describe(const VulkanApi& vk, VkInstance instance, VkPhysicalDevice physical) {
+  VkPhysicalDeviceDriverProperties driver{};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &driver;
+  vk.GetPhysicalDeviceProperties2(physical, &properties);
+  DeviceDescription d;
+  d.name = properties.properties.deviceName;
+  d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+  d.type = type_name(properties.properties.deviceType);
+  d.api_version = version_text(properties.properties.apiVersion);
+  d.memory_bytes = largest_local_heap(vk, physical);
+  const VkhDeviceInfo info{vk.GetInstanceProcAddr, instance, physical, VK_NULL_HANDLE};
+  std::array<char, 512> reasons{};
+  d.usable = vkhQuerySupport(&info, reasons.data(), reasons.size()) == VKH_SUCCESS;
+  d.reason = reasons.data();
+  return d;
+}
+
+struct Choice {
+  VkPhysicalDevice physical;
+  DeviceDescription description;
+};
+
+// Usable or not, in the order of preference; `index` is the place in that order.
+std::vector<Choice> enumerate(const VulkanApi& vk, VkInstance instance) {
+  uint32_t count = 0;
+  check(vk.EnumeratePhysicalDevices(instance, &count, nullptr), "listing Vulkan devices");
+  std::vector<VkPhysicalDevice> physicals(count);
+  check(vk.EnumeratePhysicalDevices(instance, &count, physicals.data()), "listing Vulkan devices");
+  std::vector<Choice> choices;
+  for (VkPhysicalDevice p : physicals) choices.push_back({p, describe(vk, instance, p)});
+  std::stable_sort(choices.begin(), choices.end(), [](const Choice& x, const Choice& y) {
+    return rank_of(x.description) < rank_of(y.description);
+  });
+  for (uint32_t i = 0; i < choices.size(); ++i) choices[i].description.index = i;
+  return choices;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool matches(const DeviceDescription& d, const std::string& selector) {
+  if (selector.empty()) return true;
+  if (selector == "cpu") return d.type == "cpu";
+  if (selector == "gpu") return d.type != "cpu";
+  if (selector.find_first_not_of("0123456789") == std::string::npos)
+    return std::to_string(d.index) == selector;
+  return lower_case(d.name).find(lower_case(selector)) != std::string::npos;
+}
+
+std::string nothing_usable(const std::vector<Choice>& choices, const std::string& selector) {
+  std::string text = selector.empty() ? "no usable Vulkan device"
+                                      : "no usable Vulkan device matches '" + selector + "'";
+  if (choices.empty())
+    text += ": the loader found none; install a driver (mesa-vulkan-drivers has a CPU one)";
+  for (const Choice& c : choices) {
+    text += "; " + std::to_string(c.description.index) + " " + c.description.name + " (" +
+            c.description.type + "): ";
+    text += c.description.usable ? "usable, not asked for" : c.description.reason;
+  }
+  return text;
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
+                                                    VkPhysicalDevice physical) {
+  uint32_t count = 0;
+  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  return families;
+}
+
+uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, physical);
+  for (uint32_t i = 0; i < families.size(); ++i) {
+    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].timestampValidBits > 0)
+      return i;
+  }
+  throw DeviceError("the device has no compute queue with timestamps");
+}
+
+}  // namespace
+
+// Threads that a driver starts inherit the environment that they are started in; and a driver that
+// was linked with -ffast-math changes it as it is loaded.
+Device::Device(const DeviceRequest& request) : Device(Empty{}) {
+  const FloatEnvironment ours;
+  create_instance(request.validation);
+  choose(request.selector);
+  create_device();
+}
+
+Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }
+
+Device::Device(Empty) : vk_(load_vulkan()) {}
+
+Device::~Device() {
+  if (!owned_) return;
+  if (device_ != VK_NULL_HANDLE) {
+    vk_.DeviceWaitIdle(device_);
+    vk_.DestroyDevice(device_, nullptr);
+  }
+  if (messenger_ != VK_NULL_HANDLE) {
+    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vk_.GetInstanceProcAddr(
+        instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
+  }
+  if (instance_ != VK_NULL_HANDLE) vk_.DestroyInstance(instance_, nullptr);
+}
+
+void Device::create_instance(bool validation) {
+  if (validation && !has_layer(vk_, kValidationLayer)) {
+    throw DeviceError(
+        "the Khronos validation layer is not installed (package vulkan-validationlayers)");
+  }
+  const VkValidationFeatureEnableEXT synchronization =
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkValidationFeaturesEXT features{};
+  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = &synchronization;
+  VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages_.get());
+  messenger.pNext = &features;
+  instance_ = make_instance(vk_, validation ? &messenger : nullptr, validation);
+  load_instance(vk_, instance_);
+  if (!validation) return;
+  messenger.pNext = nullptr;
+  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vk_.GetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+  check(create(instance_, &messenger, nullptr, &messenger_), "creating the validation messenger");
+}
+
+void Device::choose(const std::string& selector) {
+  const std::vector<Choice> choices = enumerate(vk_, instance_);
+  for (const Choice& c : choices) {
+    if (!c.description.usable || !matches(c.description, selector)) continue;
+    physical_ = c.physical;
+    description_ = c.description;
+    return;
+  }
+  throw DeviceError(nothing_usable(choices, selector));
+}
+
+void Device::create_device() {
+  queue_family_ = compute_family(vk_, physical_);
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = queue_family_;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+  VkPhysicalDeviceSynchronization2Features synchronization{};
+  synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
+  synchronization.synchronization2 = VK_TRUE;
+  VkPhysicalDeviceScalarBlockLayoutFeatures scalar{};
+  scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
+  scalar.pNext = &synchronization;
+  scalar.scalarBlockLayout = VK_TRUE;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &scalar;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&info.enabledExtensionCount);
+  check(vk_.CreateDevice(physical_, &info, nullptr, &device_), "creating the device");
+  load_device(vk_, device_);
+  vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
+  read_limits();
+}
+
+void Device::adopt(const AdoptedDevice& adopted) {
+  const auto refuse = [](const std::string& why) {
+    throw DeviceError("the device that was handed over cannot be used: " + why);
+  };
+  if (adopted.get_instance_proc_addr == nullptr || adopted.instance == VK_NULL_HANDLE ||
+      adopted.physical == VK_NULL_HANDLE || adopted.device == VK_NULL_HANDLE ||
+      adopted.queue == VK_NULL_HANDLE)
+    refuse("a handle is null");
+  vk_.GetInstanceProcAddr = adopted.get_instance_proc_addr;
+  load_instance(vk_, adopted.instance);
+  if (vk_.GetPhysicalDeviceProperties2 == nullptr) refuse("Vulkan 1.2 is missing");
+  description_ = describe(vk_, adopted.instance, adopted.physical);
+  if (!description_.usable) refuse(description_.reason);
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, adopted.physical);
+  if (adopted.queue_family >= families.size() ||
+      (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
+    refuse("its queue family " + std::to_string(adopted.queue_family) + " has no compute");
+  has_timestamps_ = families[adopted.queue_family].timestampValidBits > 0;
+  instance_ = adopted.instance;
+  physical_ = adopted.physical;
+  device_ = adopted.device;
+  queue_ = adopted.queue;
+  queue_family_ = adopted.queue_family;
+  if (adopted.queue_mutex != nullptr) queue_mutex_ = adopted.queue_mutex;
+  load_device(vk_, device_);
+  read_limits();
+}
+
+void Device::read_limits() {
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  vk_.GetPhysicalDeviceProperties2(physical_, &properties);
+  timestamp_period_ns_ = static_cast<double>(properties.properties.limits.timestampPeriod);
+}
+
+VkhDeviceInfo Device::engine_info() const {
+  return {vk_.GetInstanceProcAddr, instance_, physical_, device_};
+}
+
+std::vector<DeviceDescription> list_devices() {
+  const FloatEnvironment ours;
+  VulkanApi vk = load_vulkan();
+  const VkInstance instance = make_instance(vk, nullptr, false);
+  load_instance(vk, instance);
+  std::vector<DeviceDescription> descriptions;
+  for (const Choice& c : enumerate(vk, instance)) descriptions.push_back(c.description);
+  vk.DestroyInstance(instance, nullptr);
+  return descriptions;
+}
+
+}  // namespace vkh

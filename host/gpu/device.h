@@ -1,0 +1,96 @@
+// A Vulkan instance, device and queue: our own, or somebody else's that we may use.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "engine/vkhausdorff.h"
+#include "host/gpu/device_description.h"
+#include "host/gpu/vulkan_api.h"
+
+namespace vkh {
+
+struct DeviceRequest {
+  std::string selector;  ///< "": best device; "gpu"; "cpu"; an index; or part of a name, any case
+  bool validation = false;  ///< load the Khronos validation layer, synchronization validation too,
+                            ///< and count messages
+};
+
+/// Handles of the caller's, who keeps and destroys them, after the Device and all that was made
+/// with it. The device: created with the extensions that vkhGetRequiredExtensions names and with
+/// scalarBlockLayout and synchronization2 enabled. The queue: of a family with compute; nobody else
+/// may use it while a call of Solver runs, unless all submit under `queue_mutex`: another Device
+/// that adopted it is somebody else.
+struct AdoptedDevice {
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;  ///< Vulkan 1.2 or later
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queue_family = 0;
+  std::mutex* queue_mutex = nullptr;  ///< held around every vkQueueSubmit; null: the Device's own
+};
+
+/// One compute queue and what it belongs to. Solvers of one Device may run on as many threads.
+class Device {
+ public:
+  /// Owns instance, device and queue. Throws DeviceError if nothing usable matches, with each
+  /// device's reason. Discrete before integrated before virtual before CPU.
+  explicit Device(const DeviceRequest& request = {});
+  /// Destroys nothing but its own objects. Throws DeviceError that names what is missing. What was
+  /// enabled at creation cannot be asked for and is the caller's to know.
+  explicit Device(const AdoptedDevice& adopted);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceDescription& description() const { return description_; }
+  /// Warnings and errors of the validation layer so far; the text of each went to stderr.
+  uint32_t validation_messages() const { return *messages_; }
+
+  const VulkanApi& vk() const { return vk_; }
+  VkDevice handle() const { return device_; }
+  VkQueue queue() const { return queue_; }
+  uint32_t queue_family() const { return queue_family_; }
+  VkPhysicalDevice physical() const { return physical_; }
+  std::mutex& queue_mutex() const { return *queue_mutex_; }
+  /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.
+  bool has_timestamps() const { return has_timestamps_; }
+  double timestamp_period_ns() const { return timestamp_period_ns_; }
+  /// For the engine's C API.
+  VkhDeviceInfo engine_info() const;
+
+ private:
+  struct Empty {};
+  /// Delegated to, so that what was created is destroyed if a later step throws.
+  explicit Device(Empty);
+  void create_instance(bool validation);
+  void choose(const std::string& selector);
+  void create_device();
+  void adopt(const AdoptedDevice& adopted);
+  void read_limits();
+
+  VulkanApi vk_;
+  DeviceDescription description_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  uint32_t queue_family_ = 0;
+  mutable std::mutex own_mutex_;
+  std::mutex* queue_mutex_ = &own_mutex_;
+  bool owned_ = true;
+  bool has_timestamps_ = true;
+  double timestamp_period_ns_ = 1;
+  // The messenger keeps its address, and calls from any thread.
+  std::unique_ptr<std::atomic<uint32_t>> messages_ = std::make_unique<std::atomic<uint32_t>>(0);
+};
+
+/// Every Vulkan device of this machine, usable or not, in the order of preference.
+std::vector<DeviceDescription> list_devices();
+
+}  // namespace vkh

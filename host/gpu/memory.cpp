@@ -1,0 +1,171 @@
+#include "host/gpu/memory.h"
+
+#include <string>
+
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+VkMemoryPropertyFlags wanted(Placement placement) {
+  constexpr VkMemoryPropertyFlags visible =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  switch (placement) {
+    case Placement::kDevice:
+      return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    case Placement::kUpload:
+      return visible;
+    case Placement::kReadback:
+      return visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  }
+  return 0;
+}
+
+uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement) {
+  VkPhysicalDeviceMemoryProperties memory;
+  device.vk().GetPhysicalDeviceMemoryProperties(device.physical(), &memory);
+  // Cached memory is a wish, the rest a must.
+  for (const VkMemoryPropertyFlags flags :
+       {wanted(placement),
+        wanted(placement) & ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT}}) {
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+      if ((allowed & (1u << i)) != 0 && (memory.memoryTypes[i].propertyFlags & flags) == flags)
+        return i;
+    }
+  }
+  throw DeviceError("the device has no fitting memory type");
+}
+
+}  // namespace
+
+// Delegating, here and below: what was created is destroyed if a later step throws.
+Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+               Placement placement)
+    : Buffer() {
+  device_ = &device;
+  size_ = size;
+  const VulkanApi& vk = device.vk();
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = size;
+  info.usage = usage;
+  check(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), "creating a buffer");
+  VkMemoryRequirements requirements;
+  vk.GetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
+  VkMemoryAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocate.allocationSize = requirements.size;
+  allocate.memoryTypeIndex = memory_type(device, requirements.memoryTypeBits, placement);
+  const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
+  check(result, ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
+  check(vk.BindBufferMemory(device.handle(), buffer_, memory_, 0), "binding a buffer");
+  if (placement != Placement::kDevice) {
+    check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
+  }
+}
+
+Buffer::~Buffer() {
+  if (device_ == nullptr) return;
+  device_->vk().DestroyBuffer(device_->handle(), buffer_, nullptr);
+  device_->vk().FreeMemory(device_->handle(), memory_, nullptr);
+}
+
+void Buffer::swap(Buffer& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(memory_, other.memory_);
+  std::swap(size_, other.size_);
+  std::swap(mapped_, other.mapped_);
+}
+
+void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+          Placement placement) {
+  if (buffer.size() >= size) return;
+  buffer = Buffer();  // free first: the two need not fit at the same time
+  buffer = Buffer(device, size, usage, placement);
+}
+
+Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {
+  const VulkanApi& vk = device.vk();
+  VkCommandPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool.queueFamilyIndex = device.queue_family();
+  check(vk.CreateCommandPool(device.handle(), &pool, nullptr, &pool_), "creating a command pool");
+  VkCommandBufferAllocateInfo commands{};
+  commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  commands.commandPool = pool_;
+  commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  commands.commandBufferCount = 1;
+  check(vk.AllocateCommandBuffers(device.handle(), &commands, &commands_),
+        "allocating a command buffer");
+  VkFenceCreateInfo fence{};
+  fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  check(vk.CreateFence(device.handle(), &fence, nullptr, &fence_), "creating a fence");
+  if (!device.has_timestamps()) return;
+  VkQueryPoolCreateInfo queries{};
+  queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+  queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  queries.queryCount = kTimestamps;
+  check(vk.CreateQueryPool(device.handle(), &queries, nullptr, &timestamps_),
+        "creating a query pool");
+}
+
+Submitter::~Submitter() {
+  const VulkanApi& vk = device_.vk();
+  // Not vkDeviceWaitIdle: the device may be somebody else's, with queues in use on other threads.
+  if (pending_) vk.WaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
+  vk.DestroyQueryPool(device_.handle(), timestamps_, nullptr);
+  vk.DestroyFence(device_.handle(), fence_, nullptr);
+  vk.DestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+VkCommandBuffer Submitter::begin() {
+  const VulkanApi& vk = device_.vk();
+  check(vk.ResetCommandPool(device_.handle(), pool_, 0), "resetting a command pool");
+  VkCommandBufferBeginInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check(vk.BeginCommandBuffer(commands_, &info), "beginning a command buffer");
+  if (timestamps_ != VK_NULL_HANDLE) vk.CmdResetQueryPool(commands_, timestamps_, 0, kTimestamps);
+  return commands_;
+}
+
+void Submitter::submit_and_wait(const std::function<void()>& waiting) {
+  const VulkanApi& vk = device_.vk();
+  check(vk.EndCommandBuffer(commands_), "recording");
+  VkSubmitInfo submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands_;
+  {
+    const std::lock_guard lock(device_.queue_mutex());
+    check(vk.QueueSubmit(device_.queue(), 1, &submit, fence_), "submitting");
+  }
+  pending_ = true;
+  constexpr uint64_t slice_ns = 50'000'000;
+  VkResult result = VK_TIMEOUT;
+  while (result == VK_TIMEOUT) {
+    result = vk.WaitForFences(device_.handle(), 1, &fence_, VK_TRUE, slice_ns);
+    if (waiting) waiting();
+  }
+  check(result, "waiting for the device");
+  pending_ = false;
+  check(vk.ResetFences(device_.handle(), 1, &fence_), "resetting a fence");
+}
+
+std::vector<double> Submitter::read_timestamps(uint32_t count) const {
+  std::vector<uint64_t> ticks(count);
+  if (count > 0) {
+    check(device_.vk().GetQueryPoolResults(device_.handle(), timestamps_, 0, count,
+                                           count * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
+                                           VK_QUERY_RESULT_64_BIT),
+          "reading timestamps");
+  }
+  std::vector<double> ms;
+  ms.reserve(count);
+  for (uint64_t t : ticks)
+    ms.push_back(static_cast<double>(t - ticks[0]) * device_.timestamp_period_ns() * 1e-6);
+  return ms;
+}
+
+}  // namespace vkh

@@ -1,0 +1,74 @@
+// Buffers with memory of their own, and one command buffer that is submitted and waited for.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+#include "host/gpu/device.h"
+
+namespace vkh {
+
+enum class Placement { kDevice, kUpload, kReadback };
+
+/// A buffer bound to its own allocation; move-only. Host-visible ones stay mapped.
+class Buffer {
+ public:
+  Buffer() = default;
+  /// Throws DeviceError if the device has not the memory.
+  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement);
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+
+  VkBuffer handle() const { return buffer_; }
+  VkDeviceSize size() const { return size_; }
+  std::byte* mapped() const { return static_cast<std::byte*>(mapped_); }
+
+ private:
+  void swap(Buffer& other) noexcept;
+  const Device* device_ = nullptr;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  VkDeviceSize size_ = 0;
+  void* mapped_ = nullptr;
+};
+
+/// Makes `buffer` at least `size` bytes; its content is lost if it grows.
+void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+          Placement placement);
+
+/// One command buffer, one fence, one pool of timestamps.
+class Submitter {
+ public:
+  explicit Submitter(const Device& device);
+  ~Submitter();
+  Submitter(const Submitter&) = delete;
+  Submitter& operator=(const Submitter&) = delete;
+
+  VkCommandBuffer begin();
+  /// Submits and waits, in slices short enough that `waiting` is called every 50 ms. Throws
+  /// DeviceError if the device is lost.
+  void submit_and_wait(const std::function<void()>& waiting);
+
+  VkQueryPool timestamps() const { return timestamps_; }  ///< null if the queue has none
+  static constexpr uint32_t kTimestamps = 1024;
+  /// The first `count` timestamps of the last submission, in milliseconds.
+  std::vector<double> read_timestamps(uint32_t count) const;
+
+ private:
+  struct Empty {};
+  Submitter(const Device& device, Empty) : device_(device) {}
+
+  const Device& device_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  bool pending_ = false;
+  VkQueryPool timestamps_ = VK_NULL_HANDLE;
+};
+
+}  // namespace vkh

@@ -1,0 +1,40 @@
+// Compiled pipelines kept in a file between processes, for drivers that keep none themselves.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "host/gpu/device.h"
+
+namespace vkh {
+
+/// What a file of this device, driver and build holds, if there is one that is whole. Nothing about
+/// it ever fails a run: a file that cannot be read or written is as good as none.
+class PipelineCache {
+ public:
+  /// No folder: nothing is kept, and the handle is null.
+  PipelineCache(const Device& device, const std::filesystem::path& folder);
+  ~PipelineCache();
+  PipelineCache(const PipelineCache&) = delete;
+  PipelineCache& operator=(const PipelineCache&) = delete;
+
+  VkPipelineCache handle() const { return cache_; }
+  /// Writes the file if pipelines were added. Readers see the old file or the new one, whole.
+  void save();
+
+ private:
+  const Device& device_;
+  std::filesystem::path file_;
+  VkPipelineCache cache_ = VK_NULL_HANDLE;
+  size_t saved_bytes_ = 0;
+};
+
+/// The file as write_checked() left it: nothing of one that is cut short, changed or not ours.
+std::vector<char> read_checked(const std::filesystem::path& file);
+/// Makes the folder too. Whoever reads meanwhile finds the old file or the new one.
+void write_checked(const std::filesystem::path& file, const std::vector<char>& data);
+
+/// $XDG_CACHE_HOME/vkhausdorff or ~/.cache/vkhausdorff; empty where neither is known.
+std::filesystem::path user_cache_folder();
+
+}  // namespace vkh

@@ -1,0 +1,178 @@
+#include "host/read/mesh_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+
+#include "host/base/float_environment.h"
+#include "host/read/readers.h"
+#include "host/base/text_scanner.h"
+
+namespace vkh {
+namespace {
+
+constexpr const char* kExpectedFormats = "an OBJ, STL, PLY or OFF file";
+
+// What people pass by mistake, so that they are told more than that a keyword is missing.
+void reject_known_strangers(const MeshSource& source) {
+  struct Stranger {
+    std::string_view magic;
+    const char* what;
+    const char* expected;
+  };
+  constexpr std::array<Stranger, 6> kStrangers = {{
+      {"\x1f\x8b", "gzip-compressed data", "the file unpacked (gunzip)"},
+      {"PK\x03\x04", "a zip archive (3MF?)", kExpectedFormats},
+      {"version https://git-lfs", "a Git LFS pointer", "the file itself (git lfs pull)"},
+      {"glTF", "binary glTF, which is not read", kExpectedFormats},
+      {"\xfe\xff", "UTF-16 text", "ASCII or UTF-8"},
+      {"\xff\xfe", "UTF-16 text", "ASCII or UTF-8"},
+  }};
+  if (source.bytes.empty()) reject(source.name, "byte 0", "the file is empty", kExpectedFormats);
+  for (const Stranger& stranger : kStrangers) {
+    if (source.bytes.starts_with(stranger.magic) && !is_exact_binary_stl(source.bytes)) {
+      reject(source.name, "byte 0", stranger.what, stranger.expected);
+    }
+  }
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+using Parse = Mesh (*)(const MeshSource&);
+
+Parse parser_by_extension(const std::string& name) {
+  const std::string extension = lower_case(std::filesystem::path(name).extension().string());
+  if (extension == ".obj") return parse_obj;
+  if (extension == ".stl") return parse_stl;
+  if (extension == ".ply") return parse_ply;
+  if (extension == ".off") return parse_off;
+  return nullptr;
+}
+
+Parse parser_by_content(std::string_view bytes) {
+  if (is_exact_binary_stl(bytes)) return parse_stl;
+  TextScanner scanner(bytes.substr(0, 4096), "", '#', MixedLineEnds::kIgnored);
+  scanner.next_full_line();
+  const std::string_view word = scanner.word();
+  if (word == "ply") return parse_ply;
+  if (word.size() >= 3 && word.size() <= 8 && word.ends_with("OFF")) return parse_off;
+  if (lower_case(word) == "solid") return parse_stl;
+  return nullptr;
+}
+
+// For pipes and files without a telling name: OBJ has no magic, only keywords.
+bool looks_like_obj(std::string_view bytes) {
+  constexpr std::array<std::string_view, 10> kKeywords = {"v", "vt", "vn",     "f",      "o",
+                                                          "g", "s",  "mtllib", "usemtl", "l"};
+  TextScanner scanner(bytes.substr(0, 4096), "", '#', MixedLineEnds::kIgnored);
+  scanner.next_full_line();
+  return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
+}
+
+// Windows editors put one before UTF-8 text, where it hides the first word.
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return bytes.starts_with(kMark) ? bytes.substr(kMark.size()) : bytes;
+}
+
+// One read where the size is known; a pipe is read until it ends.
+std::string read_bytes(const std::filesystem::path& path, const std::string& name) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  const bool regular = std::filesystem::is_regular_file(status);
+  if (!regular && !std::filesystem::is_fifo(status)) {
+    const char* what = std::filesystem::exists(status) ? "not a file" : "no such file";
+    reject(name, "byte 0", error && std::filesystem::exists(status) ? error.message() : what,
+           kExpectedFormats);
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) reject(name, "byte 0", "the file cannot be opened", "permission to read it");
+  const uintmax_t known = regular ? std::filesystem::file_size(path, error) : 0;
+  constexpr size_t kPipeChunk = size_t{1} << 20;
+  std::string bytes;
+  for (size_t size = 0; in; size = bytes.size()) {
+    bytes.resize(size + (size == 0 && known > 0 ? static_cast<size_t>(known) : kPipeChunk));
+    in.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
+    bytes.resize(size + static_cast<size_t>(in.gcount()));
+    if (regular && bytes.size() == known) break;
+  }
+  if (in.bad()) {
+    reject(name, "byte " + std::to_string(bytes.size()), "the file cannot be read",
+           "a readable file");
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Mesh parse_mesh(const MeshSource& file) {
+  const FloatEnvironment ours;
+  reject_known_strangers(file);
+  const MeshSource source{.name = file.name, .bytes = without_byte_order_mark(file.bytes)};
+  Parse parse = parser_by_content(source.bytes);
+  if (!parse) parse = parser_by_extension(source.name);
+  if (!parse && looks_like_obj(source.bytes)) parse = parse_obj;
+  if (!parse) reject(source.name, "byte 0", "neither content nor name tells", kExpectedFormats);
+  return parse(source);
+}
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const std::string bytes = read_bytes(path, name);
+  return parse_mesh({.name = name, .bytes = bytes});
+}
+
+std::string counted(uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
+  std::string first;
+  while (scanner.next_full_line()) {
+    if (first.empty()) first = scanner.place();
+    double number = 0;
+    if (parse_number(scanner.word(), number)) {
+      scanner.fail("a row more than announced", "as many rows as the header says");
+    }
+  }
+  if (!first.empty()) notes.push_back("what follows the last row ignored, from " + first);
+}
+
+void MeshBuilder::add_face(std::span<const uint32_t> corners) {
+  if (corners.size() < 3) {
+    ++short_faces_;
+    return;
+  }
+  if (corners.size() > 3) ++polygons_;
+  for (size_t i = 2; i < corners.size(); ++i) {
+    faces.emplace_back(corners[0], corners[i - 1], corners[i]);
+  }
+}
+
+Mesh MeshBuilder::finish(const std::string& place) && {
+  if (faces.empty()) {
+    reject(name_, place,
+           short_faces_ == 0 ? "the file ends without a face"
+                             : "the file ends without a face of three corners",
+           "at least one face: a distance between no surfaces is undefined");
+  }
+  Mesh mesh = make_mesh(name_, std::move(vertices), std::move(faces));
+  mesh.counts.polygons = polygons_;
+  mesh.notes = std::move(notes);
+  if (polygons_ > 0) {
+    mesh.notes.push_back(counted(polygons_, "polygon") +
+                         " fanned into triangles from the first corner; the fan of a concave "
+                         "polygon leaves its outline");
+  }
+  if (short_faces_ > 0) {
+    mesh.notes.push_back(counted(short_faces_, "face") + " of fewer than three corners ignored");
+  }
+  return mesh;
+}
+
+}  // namespace vkh

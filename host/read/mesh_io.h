@@ -1,0 +1,16 @@
+// Mesh files in: OBJ, STL, PLY, OFF. The format is told by the content first, by the extension
+// where content cannot tell.
+#pragma once
+
+#include <filesystem>
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+/// Reads a mesh file. Throws InputError with one line: file, line or byte or element, what is
+/// wrong, what was expected. Never allocates from a header's word: counts are checked against the
+/// file's size first.
+Mesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace vkh

@@ -1,0 +1,209 @@
+#include "host/read/ply_header.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vkh::ply {
+namespace {
+
+Scalar read_type(TextScanner& scanner) {
+  constexpr std::array<std::string_view, 16> kNames = {
+      "char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
+      "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+  const std::string_view word = scanner.word();
+  const auto* found = std::find(kNames.begin(), kNames.end(), word);
+  if (found == kNames.end()) {
+    scanner.fail(quoted(word) + " as a type", "char to uint, int8 to uint32, float or double");
+  }
+  return static_cast<Scalar>((found - kNames.begin()) % 8);
+}
+
+Property read_property(TextScanner& scanner) {
+  Property property;
+  TextScanner ahead = scanner;
+  if (ahead.word() == "list") {
+    scanner.word();
+    property.list_count = read_type(scanner);
+    if (!is_integer(*property.list_count)) scanner.fail("a list counted in floats", "an integer");
+  }
+  property.type = read_type(scanner);
+  property.name = scanner.word();
+  if (property.name.empty()) scanner.fail("a property without a name", "one");
+  return property;
+}
+
+Element read_element(TextScanner& scanner) {
+  Element element;
+  element.name = scanner.word();
+  const auto count = scanner.number<int64_t>("count of elements");
+  if (count < 0) scanner.fail(std::to_string(count) + " elements", "a count of 0 or more");
+  element.count = static_cast<uint64_t>(count);
+  element.place = scanner.place();
+  return element;
+}
+
+Encoding read_encoding(TextScanner& scanner) {
+  constexpr std::array<std::string_view, 3> kNames = {"ascii", "binary_little_endian",
+                                                      "binary_big_endian"};
+  const std::string_view word = scanner.word();
+  const auto* found = std::find(kNames.begin(), kNames.end(), word);
+  if (found == kNames.end()) {
+    scanner.fail(quoted(word) + " as format", "ascii, binary_little_endian or binary_big_endian");
+  }
+  if (const auto version = scanner.word(); version != "1.0") {
+    scanner.fail((version.empty() ? "no" : quoted(version) + " as") + std::string(" version"),
+                 "1.0, the only one");
+  }
+  return static_cast<Encoding>(found - kNames.begin());
+}
+
+// A word too many is a header that we do not understand.
+void expect_line_end(TextScanner& scanner) {
+  if (const auto word = scanner.word(); !word.empty()) {
+    scanner.fail(quoted(word) + " after a header's line", "its end");
+  }
+}
+
+// One line after the first; false at end_header.
+bool parse_line(TextScanner& scanner, Header& header, bool& has_format) {
+  const std::string_view word = scanner.word();
+  if (word == "comment" || word == "obj_info") return true;
+  if (word == "format") {
+    if (has_format) scanner.fail("a second format line", "one");
+    header.encoding = read_encoding(scanner);
+    has_format = true;
+  } else if (word == "element") {
+    header.elements.push_back(read_element(scanner));
+  } else if (word == "property" && !header.elements.empty()) {
+    header.elements.back().properties.push_back(read_property(scanner));
+  } else if (word != "end_header") {
+    scanner.fail(quoted(word), "format, comment, element, property or end_header");
+  }
+  expect_line_end(scanner);
+  return word != "end_header";
+}
+
+Header parse_header(TextScanner& scanner) {
+  scanner.next_line();
+  if (const auto word = scanner.word(); word != "ply") scanner.fail(quoted(word), "ply");
+  expect_line_end(scanner);
+  Header header;
+  bool has_format = false;
+  while (scanner.next_line()) {
+    if (parse_line(scanner, header, has_format)) continue;
+    if (!has_format) scanner.fail("a header without a format line", "one");
+    return header;
+  }
+  scanner.fail("the file ends inside the header", "end_header");
+}
+
+// The fewest bytes that one row of an element takes; a word and a separator in ASCII.
+uint64_t least_row_bytes(const Element& element, Encoding encoding) {
+  uint64_t bytes = 0;
+  for (const Property& property : element.properties) {
+    bytes +=
+        encoding == Encoding::kAscii ? 2 : size_of(property.list_count.value_or(property.type));
+  }
+  return bytes;
+}
+
+// Before anything is allocated. Rows of no bytes would never end.
+void check_sizes(const Header& header, const MeshSource& source, uint64_t body_bytes) {
+  uint64_t room = body_bytes + (header.encoding == Encoding::kAscii ? 1 : 0);
+  for (const Element& element : header.elements) {
+    if (element.count == 0) continue;
+    const uint64_t row_bytes = least_row_bytes(element, header.encoding);
+    if (row_bytes == 0) {
+      reject(source.name, element.place, "element " + quoted(element.name) + " has no property",
+             "at least one");
+    }
+    if (element.count > room / row_bytes) {
+      reject(source.name, element.place,
+             std::to_string(element.count) + " elements " + quoted(element.name) +
+                 " announced in a file with " + std::to_string(body_bytes) +
+                 " bytes after its header",
+             "a count that fits the file");
+    }
+    room -= element.count * row_bytes;
+  }
+}
+
+bool is_corner_list(const Property& property) {
+  return property.list_count &&
+         std::find(kCornerLists.begin(), kCornerLists.end(), property.name) != kCornerLists.end();
+}
+
+// Triangle strips (of Stanford's scans) and the like: measuring only the faces beside them would
+// certify a part of the model. Edges have corners, but no area.
+void check_no_other_faces(const Header& header, const MeshSource& source) {
+  for (const Element& element : header.elements) {
+    if (element.count == 0 || element.name == "face" || element.name == "edge") continue;
+    if (element.name != "tristrips" &&
+        std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
+      continue;
+    }
+    reject(source.name, element.place,
+           "element " + quoted(element.name) + " lists corners, which are not read",
+           "all faces in element 'face'");
+  }
+}
+
+}  // namespace
+
+uint64_t size_of(Scalar type) {
+  constexpr std::array<uint64_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<size_t>(type)];
+}
+
+uint64_t least_row_of_three(const Element& element) {
+  uint64_t bytes = 0;
+  for (const Property& property : element.properties) {
+    bytes += size_of(property.list_count.value_or(property.type));
+    if (is_corner_list(property)) bytes += 3 * size_of(property.type);
+  }
+  return bytes;
+}
+
+Header read_header(TextScanner& scanner, const MeshSource& source) {
+  Header header = parse_header(scanner);
+  header.end_place = scanner.place();
+  check_no_other_faces(header, source);
+  check_sizes(header, source, scanner.bytes_left());
+  return header;
+}
+
+const Element& only_element(const Header& header, const MeshSource& source,
+                            const std::string& name) {
+  const Element* only = nullptr;
+  for (const Element& element : header.elements) {
+    if (element.name != name) continue;
+    if (only) reject(source.name, element.place, "a second element " + quoted(name), "one");
+    only = &element;
+  }
+  if (!only)
+    reject(source.name, header.end_place, "a header without element " + quoted(name), "one");
+  return *only;
+}
+
+size_t only_property(const Element& element, const MeshSource& source,
+                     std::span<const std::string_view> names, bool list) {
+  std::optional<size_t> only;
+  for (size_t i = 0; i < element.properties.size(); ++i) {
+    const Property& property = element.properties[i];
+    if (std::find(names.begin(), names.end(), property.name) == names.end()) continue;
+    if (property.list_count.has_value() != list || (list && !is_integer(property.type)) || only) {
+      reject(source.name, element.place,
+             "property " + quoted(property.name) + " of " + quoted(element.name) +
+                 " is of the wrong kind",
+             list ? "one list of integers" : "one scalar");
+    }
+    only = i;
+  }
+  if (!only) {
+    reject(source.name, element.place, "element " + quoted(element.name) + " has no such property",
+           quoted(names.front()));
+  }
+  return *only;
+}
+
+}  // namespace vkh::ply

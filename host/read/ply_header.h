@@ -1,0 +1,69 @@
+// The header of a PLY file: what its body holds, checked against the file's size.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/read/readers.h"
+#include "host/base/text_scanner.h"
+
+namespace vkh::ply {
+
+enum class Encoding { kAscii, kLittle, kBig };
+enum class Scalar : uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
+
+struct Property {
+  std::string name;
+  Scalar type{};
+  std::optional<Scalar> list_count;  ///< the type of a list's count; none for a scalar
+};
+
+struct Element {
+  std::string name;
+  uint64_t count = 0;
+  std::vector<Property> properties;
+  std::string place;  ///< its line in the header
+};
+
+struct Header {
+  Encoding encoding{};
+  std::vector<Element> elements;
+  std::string end_place;  ///< the line of end_header
+};
+
+/// What writers call the list of a face's corners.
+inline constexpr std::array<std::string_view, 2> kCornerLists = {"vertex_indices", "vertex_index"};
+
+inline bool is_integer(Scalar type) { return type < Scalar::kFloat; }
+uint64_t size_of(Scalar type);
+/// The least and greatest value of an integer type.
+inline std::array<int64_t, 2> range_of(Scalar type) {
+  static constexpr std::array<std::array<int64_t, 2>, 6> kRanges = {{{INT8_MIN, INT8_MAX},
+                                                                     {0, UINT8_MAX},
+                                                                     {INT16_MIN, INT16_MAX},
+                                                                     {0, UINT16_MAX},
+                                                                     {INT32_MIN, INT32_MAX},
+                                                                     {0, UINT32_MAX}}};
+  return kRanges[static_cast<size_t>(type)];
+}
+/// The fewest bytes of one row in a binary body; a list of corners has three, others are empty.
+uint64_t least_row_of_three(const Element& element);
+
+/// Reads to the end of the end_header line. No element announces more rows than the file has bytes
+/// for, none has rows of no bytes, and none but 'face' holds faces.
+Header read_header(TextScanner& scanner, const MeshSource& source);
+
+/// The element of that name; rejects none and several.
+const Element& only_element(const Header& header, const MeshSource& source,
+                            const std::string& name);
+/// The number of the property of one of those names; rejects none, several and, where `list`, any
+/// that is not a list of integers, otherwise any list.
+size_t only_property(const Element& element, const MeshSource& source,
+                     std::span<const std::string_view> names, bool list);
+
+}  // namespace vkh::ply

@@ -1,0 +1,75 @@
+// What the readers share. The bytes of a file come in, a checked mesh goes out.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+class TextScanner;
+
+struct MeshSource {
+  std::string name;        ///< starts every error line; its extension decides where content cannot
+  std::string_view bytes;  ///< the whole file
+};
+
+/// Tells the format and calls its reader. All of these throw InputError and nothing else but
+/// std::bad_alloc, whatever the bytes are.
+Mesh parse_mesh(const MeshSource& source);
+Mesh parse_obj(const MeshSource& source);
+Mesh parse_stl(const MeshSource& source);
+Mesh parse_ply(const MeshSource& source);
+Mesh parse_off(const MeshSource& source);
+
+/// True if the bytes are exactly as long as the triangle count at byte 80 says. No text passes: its
+/// bytes there would announce more than 6 GB.
+bool is_exact_binary_stl(std::string_view bytes);
+
+/// "1 face", "2 faces": for notes and errors.
+std::string counted(uint64_t count, const std::string& noun);
+
+/// Reads what follows the last row that a text announced, and notes it. A line that begins with a
+/// number is a row more than announced and is refused: measuring only those counted would certify a
+/// part of the model.
+void note_rest(TextScanner& scanner, std::vector<std::string>& notes);
+
+/// Collects a file's vertices and faces.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const MeshSource& source) : name_(source.name) {}
+
+  const std::string& name() const { return name_; }
+
+  std::vector<glm::dvec3> vertices;
+  std::vector<glm::uvec3> faces;
+  std::vector<std::string> notes;
+
+  /// Fans a polygon from its first corner; one of fewer than three corners is ignored and noted.
+  void add_face(std::span<const uint32_t> corners);
+  /// `place` is where the file ended, for the error if no face was there.
+  Mesh finish(const std::string& place) &&;
+
+ private:
+  std::string name_;
+  uint64_t polygons_ = 0;
+  uint64_t short_faces_ = 0;
+};
+
+/// A value of type T stored at `at` in the given byte order.
+template <class T, std::endian kOrder = std::endian::little>
+T load(const char* at) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if constexpr (kOrder != std::endian::native) std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<T>(bytes);
+}
+
+}  // namespace vkh

@@ -1,0 +1,203 @@
+#include "host/run/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "host/base/parallel.h"
+#include "host/mesh/round_to_float.h"
+#include "host/base/rounding.h"
+
+namespace vkh {
+namespace {
+
+// Largest |coordinate - centre|. With the middle for centre it cannot overflow, and subtraction is
+// exact among subnormals.
+double reach_of(const Box& box, const glm::dvec3& centre) {
+  double reach = 0;
+  for (int i = 0; i < 3; ++i) {
+    reach = std::max({reach, std::abs(box.lo[i] - centre[i]), std::abs(box.hi[i] - centre[i])});
+  }
+  return reach;
+}
+
+// 2^exponent brings the reach to [1/2, 1).
+int exponent_for(double reach) {
+  int exponent = 0;
+  std::frexp(reach, &exponent);
+  return reach == 0 ? 0 : -exponent;
+}
+
+// Times 2^exponent in two steps: one could leave the range of double on the way. Each is exact, or
+// rounded where it underflows, as with std::ldexp, which takes five times as long.
+struct Scale {
+  double first, second;
+  explicit Scale(int exponent)
+      : first(std::ldexp(1.0, exponent / 2)), second(std::ldexp(1.0, exponent - exponent / 2)) {}
+  double operator()(double x) const { return x * first * second; }
+};
+
+double scaled(double x, int exponent) { return Scale(exponent)(x); }
+
+// Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly,
+// the rounding of the subtraction by its bound (2^-53 relative, taken twice over), unless it was
+// exact. Scaling is, but for underflow, which the last term takes: a normal result has not been
+// through one.
+double store(double given, double centre, const Scale& scale, float& high, float& low) {
+  const double offset = given - centre;
+  const double exact = scale(offset);
+  high = nearest_float(exact);
+  low = nearest_float(exact - static_cast<double>(high));
+  const double left = std::abs((exact - static_cast<double>(high)) - static_cast<double>(low));
+  const double subtraction = sum_error(given, -centre) == 0 ? 0 : std::abs(exact) * 0x1p-52;
+  const bool scaled_exactly = offset == 0 || std::abs(exact) >= std::numeric_limits<double>::min();
+  return left + subtraction + (scaled_exactly ? 0 : 0x1p-1000);
+}
+
+// Halved first only where the sum would overflow: a subnormal's half is rounded.
+glm::dvec3 middle_of(const Box& box) {
+  const glm::dvec3 sum = box.lo + box.hi;
+  return std::isfinite(sum.x + sum.y + sum.z) ? sum / 2.0 : box.lo / 2.0 + box.hi / 2.0;
+}
+
+Frame frame_around(const Box& box, const glm::dvec3& centre) {
+  return {centre, exponent_for(reach_of(box, centre))};
+}
+
+// Around the origin the meshes may use only part of [-1, 1]; a quarter of it costs two bits and is
+// worth being exact.
+bool may_keep_origin(const Box& box) {
+  return reach_of(box, glm::dvec3(0)) <= 4 * reach_of(box, middle_of(box));
+}
+
+// What a range of vertices adds to a StoredMesh.
+struct Stored {
+  double worst = 0;
+  bool has_low = false;
+};
+
+// Stops where `only_high` and a low part is needed.
+Stored store_range(const Frame& frame, const Mesh& mesh, size_t begin, size_t end, bool only_high,
+                   StoredMesh& out) {
+  const Scale scale(frame.exponent);
+  Stored stored;
+  for (size_t v = begin; v < end && !(only_high && stored.has_low); ++v) {
+    double sum = 0;  // of the three coordinates: no less than their Euclidean norm, and it does not
+                     // underflow
+    for (int i = 0; i < 3; ++i) {
+      const size_t k = 3 * v + static_cast<size_t>(i);
+      sum += store(mesh.vertices[v][i], frame.centre[i], scale, out.high[k], out.low[k]);
+      stored.has_low = stored.has_low || out.low[k] != 0;
+    }
+    stored.worst = std::max(stored.worst, sum);
+  }
+  return stored;
+}
+
+// Vertices that are worth a thread: 0.3 ms.
+constexpr size_t kVerticesOfThread = 1 << 16;
+
+StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
+  const size_t count = mesh.vertices.size();
+  StoredMesh out;
+  out.high.resize(3 * count);
+  out.low.resize(3 * count);
+  const size_t parts = std::max<size_t>(count / kVerticesOfThread, 1);
+  std::vector<Stored> stored(parts);
+  for_each_index(parts, [&](size_t part) {
+    stored[part] =
+        store_range(frame, mesh, count * part / parts, count * (part + 1) / parts, only_high, out);
+  });
+  double worst = 0;
+  for (const Stored& s : stored) {
+    worst = std::max(worst, s.worst);
+    out.has_low = out.has_low || s.has_low;
+  }
+  out.displacement = worst * (1 + 0x1p-50);
+  return out;
+}
+
+// Nothing where a coordinate needs a low part.
+std::optional<StoredMesh> store_exactly(const Frame& frame, const Mesh& mesh) {
+  StoredMesh stored = store_in(frame, mesh, true);
+  if (stored.has_low || !(stored.displacement < 0x1p-61)) return std::nullopt;
+  return stored;
+}
+
+}  // namespace
+
+Box bounding_box(const Mesh& mesh) {
+  Box box{mesh.vertices.front(), mesh.vertices.front()};
+  for (const glm::dvec3& v : mesh.vertices) box = join(box, {v, v});
+  return box;
+}
+
+Box join(const Box& x, const Box& y) {
+  Box joint;
+  for (int i = 0; i < 3; ++i) {
+    joint.lo[i] = std::min(x.lo[i], y.lo[i]);
+    joint.hi[i] = std::max(x.hi[i], y.hi[i]);
+  }
+  return joint;
+}
+
+double diagonal(const Box& box) {
+  const glm::dvec3 extent = box.hi - box.lo;
+  const double length = std::hypot(extent.x, extent.y, extent.z);  // nan of infinite extents
+  return std::isfinite(length) ? length : std::numeric_limits<double>::max();
+}
+
+double Frame::to_frame(double length) const { return scaled(length, exponent); }
+
+double Frame::reach(const Box& box) const { return to_frame(reach_of(box, centre)); }
+
+double Frame::length_down(double frame_length) const {
+  const double length = scaled(frame_length, -exponent);
+  return scaled(length, exponent) > frame_length ? std::nextafter(length, 0.0) : length;
+}
+
+double Frame::length_up(double frame_length) const {
+  const double length = scaled(frame_length, -exponent);
+  return scaled(length, exponent) < frame_length
+             ? std::nextafter(length, std::numeric_limits<double>::infinity())
+             : length;
+}
+
+FileInterval Frame::to_files(double lower, double upper, double displacement,
+                             double joint_diagonal) const {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double down = std::max(0.0, add_down(lower, -displacement));
+  const double up = add_up(upper, displacement);
+  // The joint diagonal is rounded to nearest, or the largest double: a little more is surely above
+  // it.
+  const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
+  return {length_down(down), std::min(length_up(up), farthest)};
+}
+
+StoredMesh store_in(const Frame& frame, const Mesh& mesh) { return store_in(frame, mesh, false); }
+
+FramedPair frame_pair(const Mesh& a, const Mesh& b) {
+  const Box joint = join(bounding_box(a), bounding_box(b));
+  if (may_keep_origin(joint)) {
+    const Frame frame = frame_around(joint, glm::dvec3(0));
+    std::optional<StoredMesh> stored_a = store_exactly(frame, a);
+    std::optional<StoredMesh> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
+    if (stored_b) return {frame, std::move(*stored_a), std::move(*stored_b)};
+  }
+  const Frame frame = frame_around(joint, middle_of(joint));
+  return {frame, store_in(frame, a), store_in(frame, b)};
+}
+
+FramedMesh frame_mesh(const Mesh& mesh) {
+  const Box box = bounding_box(mesh);
+  if (may_keep_origin(box)) {
+    const Frame frame = frame_around(box, glm::dvec3(0));
+    std::optional<StoredMesh> stored = store_exactly(frame, mesh);
+    if (stored) return {frame, std::move(*stored)};
+  }
+  const Frame frame = frame_around(box, middle_of(box));
+  return {frame, store_in(frame, mesh)};
+}
+
+}  // namespace vkh

@@ -1,0 +1,222 @@
+#include "host/run/run.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/run/switches.h"
+
+namespace vkh {
+namespace {
+
+// Waves of the first submission: enough for most pairs on a GPU; on a CPU one wave can take
+// seconds.
+constexpr uint32_t kFirstWaves = 8;
+constexpr uint32_t kFirstWavesOnCpu = 2;
+// Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
+// H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
+// get longer ones.
+constexpr double kSubmissionMs = 100;
+constexpr uint32_t kSecondWaves = 2;
+constexpr uint32_t kMostWaves = 8;
+
+uint32_t next_waves(uint32_t submissions, uint32_t last, double last_ms) {
+  const double per_wave = std::max(last_ms / last, 1e-3);
+  const uint32_t most = std::min(kSecondWaves << std::min(submissions - 1, 2u), kMostWaves);
+  return static_cast<uint32_t>(
+      std::clamp(kSubmissionMs / per_wave, 1.0, static_cast<double>(most)));
+}
+
+double now_ms() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+// Makes what one stage wrote visible to the next: copies before and after the engine's commands.
+void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStageFlags to) {
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  vk.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, to, 0, 1, &barrier, 0,
+                        nullptr, 0, nullptr);
+}
+
+}  // namespace
+
+// One submission.
+struct Runner::Round {
+  std::vector<size_t> running;  // seats
+  bool first;
+  uint32_t waves;
+};
+
+Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
+    : device_(device),
+      cache_(device, cache_folder),
+      submitter_(device),
+      names_(Submitter::kTimestamps) {}
+
+void Runner::make_ready(uint32_t switches) {
+  const Turns::Turn turn(turns_);
+  context_for(switches);
+}
+
+VkhContext Runner::context_for(uint32_t switches) {
+  const auto known = contexts_.find(switches);
+  if (known != contexts_.end()) return known->second.get();
+  const VkhContextCreateInfo info{device_.engine_info(), cache_.handle(), switches};
+  VkhContext context = nullptr;
+  check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
+  cache_.save();
+  contexts_.emplace(switches, ContextHandle(context, vkhDestroyContext));
+  return context;
+}
+
+// Seats are kept, for their buffers, unless there is no memory beside those of an earlier run.
+void Runner::seat(size_t count, const std::function<void()>& take) {
+  const bool has_kept = !seats_.empty();
+  const auto add = [&] {
+    while (seats_.size() < count) seats_.push_back(std::make_unique<Seat>(device_));
+  };
+  try {
+    add();
+    take();
+  } catch (const DeviceError&) {
+    seats_.clear();
+    if (!has_kept) throw;
+    add();
+    take();
+  }
+}
+
+VkCommandBuffer Runner::begin() {
+  const VkCommandBuffer commands = submitter_.begin();
+  profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
+  return commands;
+}
+
+// A timestamp, where the library writes none.
+void Runner::stamp(VkCommandBuffer commands, const char* name) {
+  if (stage_times_ || !device_.has_timestamps()) return;
+  device_.vk().CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, profile_.pool,
+                                 profile_.count);
+  names_[profile_.count++] = name;
+}
+
+ResidentMesh Runner::build(const MeshData& b) {
+  const Turns::Turn turn(turns_);
+  // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
+  context_ = context_for(default_switches(device_));
+  ResidentMesh resident;
+  seat(1, [&] { resident = seats_[0]->take_resident(context_, b); });
+  VkhHierarchy hierarchy{{resident.hierarchy.handle(), 0, resident.hierarchy.size()}, 0, 0};
+  const VkCommandBuffer commands = begin();
+  seats_[0]->record_upload(commands);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  vkhCmdBuildHierarchy(context_, commands, seats_[0]->mesh_b(), &hierarchy, seats_[0]->scratch(),
+                       nullptr);
+  submitter_.submit_and_wait({});
+  return resident;
+}
+
+// With its hierarchy timed apart.
+void Runner::record_one(VkCommandBuffer commands, const Round& round) {
+  Seat& seat = *seats_[round.running[0]];
+  VkhProblem& problem = seat.problem();
+  stamp(commands, nullptr);
+  if (round.first && seat.mesh_b() != nullptr) {
+    vkhCmdBuildHierarchy(context_, commands, seat.mesh_b(), &problem.b, seat.scratch(), profile());
+    stamp(commands, "hierarchy");
+  }
+  if (round.first) vkhCmdBegin(context_, commands, &problem, profile());
+  const uint32_t waves = round.first ? round.waves - 1 : round.waves;  // the begin has one
+  vkhCmdAdvance(context_, commands, &problem, waves, profile());
+  vkhCmdWriteReport(context_, commands, &problem, seat.report(), 0, profile());
+  stamp(commands, "solve");
+}
+
+void Runner::record_together(VkCommandBuffer commands, const Round& round) {
+  std::vector<VkhTask> tasks;
+  for (const size_t i : round.running) {
+    Seat& seat = *seats_[i];
+    tasks.push_back({.mesh = round.first ? seat.mesh_b() : nullptr,
+                     .scratch = seat.scratch(),
+                     .problem = &seat.problem(),
+                     .begin = round.first ? VK_TRUE : VK_FALSE,
+                     .waves = round.first ? round.waves - 1 : round.waves,
+                     .reportBuffer = seat.report(),
+                     .reportOffset = 0});
+  }
+  stamp(commands, nullptr);
+  vkhCmdRunTasks(context_, commands, static_cast<uint32_t>(tasks.size()), tasks.data(), nullptr);
+  stamp(commands, "solve");
+}
+
+void Runner::record(const Round& round, const std::vector<RunOutput>& outputs) {
+  const VkCommandBuffer commands = begin();
+  if (round.first) {
+    for (const size_t i : round.running) seats_[i]->record_upload(commands);
+    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  }
+  if (outputs.size() == 1) {
+    record_one(commands, round);
+  } else {
+    record_together(commands, round);
+  }
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
+  for (const size_t i : round.running) seats_[i]->record_readback(commands, outputs[i]);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+}
+
+void Runner::read_stages(const Round& round, std::vector<RunOutput>& outputs) {
+  const std::vector<double> ms = submitter_.read_timestamps(profile_.count);
+  for (uint32_t stage = 1; stage < profile_.count; ++stage) {
+    if (names_[stage] == nullptr) continue;
+    for (const size_t i : round.running)
+      outputs[i].stages.push_back({names_[stage], ms[stage] - ms[stage - 1]});
+  }
+}
+
+std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
+  std::vector<RunOutput> outputs(inputs.size());
+  if (inputs.empty()) return outputs;
+  const Turns::Turn turn(turns_);
+  context_ = context_for(inputs[0].switches);
+  stage_times_ = inputs[0].stage_times && inputs.size() == 1;
+  const double start = now_ms();
+  seat(inputs.size(), [&] {
+    for_each_index(inputs.size(),
+                   [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i]); });
+  });
+  for (RunOutput& output : outputs) output.upload_ms = now_ms() - start;
+  const auto is_over = [&](size_t i) {
+    const VkhReport& r = outputs[i].report;
+    const bool is_wanted = inputs[i].advanced(r);
+    return !is_wanted || r.waves >= inputs[i].wave_limit || r.status != VKH_STATUS_RUNNING;
+  };
+  Round round{.running = {},
+              .first = true,
+              .waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves};
+  for (size_t i = 0; i < inputs.size(); ++i) round.running.push_back(i);
+  uint32_t submissions = 0;
+  while (!round.running.empty()) {
+    if (!inputs[0].multiwave) round.waves = 1;
+    // Exactly the budget: how they are grouped depends on the clock, the result must not.
+    for (const size_t i : round.running)
+      round.waves =
+          std::min(round.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);
+    const double submitted = now_ms();
+    record(round, outputs);
+    submitter_.submit_and_wait({});
+    for (const size_t i : round.running) seats_[i]->read(outputs[i]);
+    read_stages(round, outputs);
+    round.waves = next_waves(++submissions, round.waves, now_ms() - submitted);
+    round.first = false;
+    std::erase_if(round.running, is_over);
+  }
+  return outputs;
+}
+
+}  // namespace vkh

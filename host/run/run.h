@@ -1,0 +1,53 @@
+// Runs on the device: pipelines, submissions, timestamps. host/solve/solver.cpp gives each pair a
+// frame and reads its report.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+
+#include "host/gpu/pipeline_cache.h"
+#include "host/run/seat.h"
+#include "host/run/turns.h"
+
+namespace vkh {
+
+/// Pipelines for one set of switches; destroyed with the handle.
+using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
+
+/// Keeps contexts and buffers between runs. Threads take turns.
+class Runner {
+ public:
+  Runner(const Device& device, const std::filesystem::path& cache_folder);
+  void make_ready(uint32_t switches);
+  ResidentMesh build(const MeshData& b);
+  /// Runs all of them side by side (vkhCmdRunTasks), each until it is done. They have the same
+  /// switches, `multiwave` and `stage_times`. Of several, the stages are one, "solve": of all, with
+  /// their hierarchies.
+  std::vector<RunOutput> run(std::span<const RunInput> inputs);
+
+ private:
+  struct Round;
+  VkhContext context_for(uint32_t switches);
+  void seat(size_t count, const std::function<void()>& take);
+  VkCommandBuffer begin();
+  VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }
+  void stamp(VkCommandBuffer commands, const char* name);
+  void record_one(VkCommandBuffer commands, const Round& round);
+  void record_together(VkCommandBuffer commands, const Round& round);
+  void record(const Round& round, const std::vector<RunOutput>& outputs);
+  void read_stages(const Round& round, std::vector<RunOutput>& outputs);
+
+  const Device& device_;
+  Turns turns_;
+  PipelineCache cache_;
+  std::map<uint32_t, ContextHandle> contexts_;
+  Submitter submitter_;
+  std::vector<std::unique_ptr<Seat>> seats_;
+  VkhContext context_ = nullptr;
+  VkhProfile profile_{};
+  bool stage_times_ = true;
+  std::vector<const char*> names_;
+};
+
+}  // namespace vkh

@@ -1,0 +1,167 @@
+#include "host/run/seat.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string>
+#include <tuple>
+
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+constexpr VkBufferUsageFlags kWorking =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+// Room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
+VkDeviceSize roomy(VkDeviceSize bytes) {
+  constexpr VkDeviceSize kLargest = VkDeviceSize{64} << 20;
+  return bytes > kLargest ? bytes : std::bit_ceil(bytes);
+}
+
+VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
+
+// High parts, low parts, faces, one after the other.
+struct MeshBytes {
+  VkDeviceSize vertices, faces;
+  explicit MeshBytes(const Mesh& m)
+      : vertices(aligned(m.vertices.size() * 12)), faces(aligned(m.faces.size() * 12)) {}
+  VkDeviceSize total() const { return 2 * vertices + faces; }
+};
+
+VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
+  const MeshBytes bytes(*m.mesh);
+  return {.vertexBuffer = buffer,
+          .vertexOffset = offset,
+          .vertexStride = 12,
+          .vertexCount = static_cast<uint32_t>(m.mesh->vertices.size()),
+          .indexBuffer = buffer,
+          .indexOffset = offset + 2 * bytes.vertices,
+          .indexType = VK_INDEX_TYPE_UINT32,
+          .faceCount = static_cast<uint32_t>(m.mesh->faces.size()),
+          .vertexLowBuffer = m.stored->has_low ? buffer : VK_NULL_HANDLE,
+          .vertexLowOffset = offset + bytes.vertices};
+}
+
+void write(std::byte* to, const MeshData& m) {
+  const MeshBytes bytes(*m.mesh);
+  const auto& [high, low] = std::tie(m.stored->high, m.stored->low);
+  std::memcpy(to, high.data(), high.size() * sizeof(float));
+  std::memcpy(to + bytes.vertices, low.data(), low.size() * sizeof(float));
+  std::memcpy(to + 2 * bytes.vertices, m.mesh->faces.data(),
+              m.mesh->faces.size() * sizeof(m.mesh->faces[0]));
+}
+
+}  // namespace
+
+void check_engine(VkhResult result, const char* what) {
+  if (result == VKH_SUCCESS) return;
+  const char* reason = result == VKH_ERROR_TOO_LARGE ? "too large for the device's buffer bindings"
+                       : result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
+                                                         : "the driver refused a pipeline";
+  throw DeviceError(std::string(what) + ": " + reason);
+}
+
+VkhHierarchyRequirements Seat::hierarchy_requirements(VkhContext context) const {
+  VkhHierarchyRequirements needed{};
+  check_engine(
+      vkhGetHierarchyRequirements(context, mesh_b_.vertexCount, mesh_b_.faceCount, &needed),
+      "mesh B");
+  return needed;
+}
+
+// Either may be missing.
+void Seat::upload(const MeshData& a, const MeshData& b) {
+  const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
+  const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
+  uploaded_bytes_ = bytes_a + bytes_b;
+  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+       Placement::kUpload);
+  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
+  if (bytes_a > 0) write(staging_.mapped(), a);
+  if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
+  if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
+  if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
+}
+
+// Where B's hierarchy is or will be built; returns the scratch that building needs.
+VkDeviceSize Seat::place_b(VkhContext context, const RunInput& in) {
+  if (in.resident != nullptr) {
+    const ResidentMesh& b = *in.resident;
+    problem_.b = {{b.hierarchy.handle(), 0, b.hierarchy.size()}, b.face_count, b.vertex_count};
+    return 0;
+  }
+  const VkhHierarchyRequirements needed = hierarchy_requirements(context);
+  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
+  problem_.b = {
+      {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
+  return needed.scratchSize;
+}
+
+void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
+  is_resident_ = in.resident != nullptr;
+  upload(in.a, is_resident_ ? MeshData{} : in.b);
+  VkhWorkspaceRequirements workspace{};
+  check_engine(vkhGetWorkspaceRequirements(context, problem_.a.vertexCount, problem_.a.faceCount,
+                                           &workspace),
+               "mesh A");
+  VkDeviceSize bytes = in.memory_bytes == 0 ? workspace.recommended : in.memory_bytes;
+  bytes = std::clamp(bytes, workspace.minimum, workspace.maximum);
+  out.workspace_bytes = bytes;
+  const VkDeviceSize scratch = place_b(context, in);
+  grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
+  grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
+  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+       Placement::kReadback);
+  problem_.workspace = {workspace_.handle(), 0, bytes};
+  problem_.cullTolerance = in.cull_tolerance;
+  problem_.knownLower = in.known_lower;
+  problem_.sortFrom = in.sort_from;
+  problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
+  place_areas(in, out);
+  scratch_ = {workspace_.handle(), 0, workspace_.size()};
+}
+
+ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {
+  upload({}, b);
+  const VkhHierarchyRequirements needed = hierarchy_requirements(context);
+  ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),
+                        mesh_b_.vertexCount, mesh_b_.faceCount};
+  grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
+  scratch_ = {workspace_.handle(), 0, workspace_.size()};
+  is_resident_ = false;
+  return resident;
+}
+
+void Seat::place_areas(const RunInput& in, RunOutput& out) {
+  problem_.coverageBuffer = VK_NULL_HANDLE;
+  if (!in.coverage) return;
+  out.areas.resize(2 * in.a.mesh->faces.size());
+  const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
+  grow(areas_, device_, bytes, kWorking, Placement::kDevice);
+  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
+  problem_.coverageBuffer = areas_.handle();
+}
+
+void Seat::record_upload(VkCommandBuffer commands) const {
+  const VkBufferCopy copy{0, 0, uploaded_bytes_};
+  device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
+}
+
+void Seat::record_readback(VkCommandBuffer commands, const RunOutput& out) const {
+  const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
+  device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
+  if (out.areas.empty()) return;
+  const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
+  device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
+}
+
+void Seat::read(RunOutput& out) const {
+  std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
+  if (!out.areas.empty())
+    std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
+}
+
+}  // namespace vkh

@@ -1,0 +1,96 @@
+// One pair's place on the device: buffers that grow with the pairs that they have held, and what
+// the library is told of them.
+#pragma once
+
+#include <functional>
+
+#include "engine/vkhausdorff.h"
+#include "host/gpu/memory.h"
+#include "host/run/frame.h"
+
+namespace vkh {
+
+/// A mesh as it is uploaded.
+struct MeshData {
+  const Mesh* mesh = nullptr;
+  const StoredMesh* stored = nullptr;
+};
+
+/// Mesh B on the device: its hierarchy, in a buffer of its own.
+struct ResidentMesh {
+  Buffer hierarchy;
+  uint32_t vertex_count = 0, face_count = 0;
+};
+
+struct RunInput {
+  MeshData a, b;
+  const ResidentMesh* resident = nullptr;  ///< instead of uploading and building b
+  uint32_t switches = VKH_SWITCH_DEFAULT;
+  uint64_t memory_bytes = 0;  ///< 0: recommended
+  uint32_t wave_limit = UINT32_MAX;
+  bool multiwave = true;   ///< false: the host looks at the report after every wave
+  uint32_t sort_from = 0;  ///< VkhProblem::sortFrom
+  float cull_tolerance = 0, known_lower = 0;
+  bool two_float = false;
+  bool stage_times = true;  ///< false: "hierarchy" and "solve" in their place
+  bool coverage = false;    ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
+  /// Called after each submission with the report so far; false ends the run.
+  std::function<bool(const VkhReport&)> advanced;
+};
+
+struct StageTime {
+  const char* name;
+  double ms;
+};
+
+struct RunOutput {
+  VkhReport report{};
+  std::vector<StageTime> stages;  ///< one per timestamp interval, in order
+  uint64_t workspace_bytes = 0;
+  /// Asked for: of each face of A the closed part, then of each the open one; 2^40 is a whole face.
+  std::vector<uint64_t> areas;
+  double upload_ms = 0;  ///< host: buffers and copying into them; of all that were run at once
+};
+
+class Seat {
+ public:
+  explicit Seat(const Device& device) : device_(device) {}
+
+  /// Takes the pair: its buffers and, mapped, its meshes. Throws DeviceError if it does not fit.
+  void take(VkhContext context, const RunInput& input, RunOutput& output);
+  /// Takes B alone, and gives the memory for its hierarchy.
+  ResidentMesh take_resident(VkhContext context, const MeshData& b);
+
+  /// What the library works on. `mesh_b` and `scratch` are for building B's hierarchy; null where
+  /// it is resident.
+  VkhProblem& problem() { return problem_; }
+  const VkhMesh* mesh_b() const { return is_resident_ ? nullptr : &mesh_b_; }
+  const VkhMemory* scratch() const { return &scratch_; }
+  VkBuffer report() const { return report_.handle(); }
+
+  /// Copies the meshes into device memory; a barrier to compute shaders is the caller's.
+  void record_upload(VkCommandBuffer commands) const;
+  /// Copies the report, and the areas if there are any, back; barriers around it are the caller's.
+  void record_readback(VkCommandBuffer commands, const RunOutput& output) const;
+  /// What the last submission left.
+  void read(RunOutput& output) const;
+
+ private:
+  VkhHierarchyRequirements hierarchy_requirements(VkhContext context) const;
+  void upload(const MeshData& a, const MeshData& b);
+  VkDeviceSize place_b(VkhContext context, const RunInput& input);
+  void place_areas(const RunInput& input, RunOutput& output);
+
+  const Device& device_;
+  Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_, areas_, areas_readback_;
+  VkDeviceSize uploaded_bytes_ = 0;
+  bool is_resident_ = false;
+  VkhMesh mesh_b_{};
+  VkhProblem problem_{};
+  VkhMemory scratch_{};
+};
+
+/// Throws DeviceError that names `what` unless it is VKH_SUCCESS.
+void check_engine(VkhResult result, const char* what);
+
+}  // namespace vkh

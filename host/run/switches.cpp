@@ -1,0 +1,86 @@
+#include "host/run/switches.h"
+
+#include <algorithm>
+
+#include "engine/vkhausdorff.h"
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+struct NamedSwitch {
+  const char* name;
+  uint32_t bit;
+};
+
+constexpr NamedSwitch kSwitches[] = {{"centroid", VKH_SWITCH_CENTROID},
+                                     {"parent_samples", VKH_SWITCH_PARENT_SAMPLES},
+                                     {"tolerance_cull", VKH_SWITCH_TOLERANCE_CULL},
+                                     {"thin", VKH_SWITCH_THIN},
+                                     {"u3", VKH_SWITCH_PAIRS},
+                                     {"u4", VKH_SWITCH_U4},
+                                     {"warm_start", VKH_SWITCH_WARM_START},
+                                     {"group_walk", VKH_SWITCH_GROUP_WALK},
+                                     {"shared_faces", VKH_SWITCH_SHARED_FACES},
+                                     {"sort", VKH_SWITCH_SORT},
+                                     {"packet", VKH_SWITCH_PACKET},
+                                     {"defer", VKH_SWITCH_DEFER},
+                                     {"largest_first", VKH_SWITCH_LARGEST_FIRST},
+                                     {"u3_paper", VKH_SWITCH_U3_PAPER},
+                                     {"two_levels", VKH_SWITCH_TWO_LEVELS},
+                                     {"multiwave", kSwitchMultiwave}};
+
+// The paper's baseline (6.1): its cascade, and none of what it adds. The bounds are certified all
+// the same, and a point of A is queried once, where the paper queries the three corners of each
+// child: up to four times as many queries as ours.
+constexpr uint32_t kBaseline = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4 | VKH_SWITCH_CERTIFICATE;
+// The paper's method. Walks start from what the candidate knows, since its worklist holds the
+// closest triangles (6.3) and Alg. 2 updates minima.
+constexpr uint32_t kPaper = kBaseline | VKH_SWITCH_SORT | VKH_SWITCH_PACKET | VKH_SWITCH_THIN |
+                            VKH_SWITCH_DEFER | VKH_SWITCH_WARM_START;
+
+uint32_t switch_bit(const std::string& name) {
+  for (const auto& [known, bit] : kSwitches) {
+    if (name == known) return bit;
+  }
+  throw UsageError("no switch is called '" + name + "'");
+}
+
+uint32_t preset_bits(const std::string& preset, const Device& device) {
+  if (preset.empty() || preset == "default") return default_switches(device) | kSwitchMultiwave;
+  if (preset == "paper") return kPaper;
+  if (preset == "baseline-gpu") return kBaseline;
+  throw UsageError("no preset is called '" + preset + "'");
+}
+
+}  // namespace
+
+uint32_t default_switches(const Device& device) {
+  const bool is_cpu = device.description().type == "cpu";
+  return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
+}
+
+std::vector<std::string> switch_names() {
+  std::vector<std::string> names;
+  for (const NamedSwitch& s : kSwitches) names.emplace_back(s.name);
+  return names;
+}
+
+std::vector<std::string> preset_names() { return {"default", "paper", "baseline-gpu"}; }
+
+uint32_t switches_of(const SolveOptions& options, const Device& device) {
+  uint32_t on = preset_bits(options.preset, device);
+  for (const std::string& name : options.enabled) on |= switch_bit(name);
+  for (const std::string& name : options.disabled) on &= ~switch_bit(name);
+  if (options.coverage) on |= VKH_SWITCH_COVERAGE;
+  return options.certified ? on : on & ~uint32_t{VKH_SWITCH_CERTIFICATE};
+}
+
+SwitchStates switch_states(uint32_t switches) {
+  SwitchStates states;
+  for (const NamedSwitch& s : kSwitches)
+    ((switches & s.bit) != 0 ? states.on : states.off).emplace_back(s.name);
+  return states;
+}
+
+}  // namespace vkh

@@ -1,0 +1,29 @@
+// The parts of the method that can be switched, by name; presets of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/gpu/device.h"
+#include "host/run/solve_options.h"
+
+namespace vkh {
+
+/// Several waves a submission. No stage of the engine: host/run/run.cpp's, so its bit is not
+/// VkhSwitchBits'.
+constexpr uint32_t kSwitchMultiwave = 1u << 31;
+
+/// What is on unless somebody asks for something else; what pays depends on the kind of device.
+uint32_t default_switches(const Device& device);
+
+/// VkhSwitchBits that are on, and kSwitchMultiwave. Throws UsageError for a name that is none.
+uint32_t switches_of(const SolveOptions& options, const Device& device);
+
+struct SwitchStates {
+  std::vector<std::string> on, off;
+};
+SwitchStates switch_states(uint32_t switches);
+
+}  // namespace vkh

@@ -1,0 +1,127 @@
+// What a run answers: a certified interval, its witness, why it ended and what it cost.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/gpu/device_description.h"
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+/// Why a run ended. Every status comes with a true interval; only kClosed promises its width.
+enum class Status {
+  kClosed,     ///< upper - lower <= tolerance, in exact arithmetic
+  kPrecision,  ///< what is left cannot be decided in this arithmetic; the interval is the honest,
+               ///< wider one
+  kTime,       ///< the time budget ended
+  kWaves,      ///< the wave budget ended
+  kMemory,     ///< candidates were spilled and could not be refined
+  kCancelled,  ///< the caller asked for the end
+  kPruned,     ///< upper <= known_lower + tolerance, which was all that was asked; the interval is
+               ///< true, but lower was not sought: only upper says something
+};
+const char* status_name(Status status);  ///< "closed", "precision", "time", "waves", "memory",
+                                         ///< "cancelled", "pruned"
+
+/// A point on a face, in the files' own coordinates.
+struct SurfacePoint {
+  uint64_t face = 0;
+  glm::dvec3 barycentric{};
+  glm::dvec3 point{};
+};
+
+/// GPU time and counts of one stage, summed over the run.
+struct StageStats {
+  std::string name;
+  double gpu_ms = 0;
+  uint64_t dispatches = 0;
+  uint64_t items_in = 0;   ///< what the stage worked on; 0 where the stage has no count
+  uint64_t items_out = 0;  ///< what it passed on
+};
+
+/// How many candidates each bound of the cascade closed.
+struct CullHistogram {
+  uint64_t exact = 0, u1 = 0, u2 = 0, ha = 0, u3 = 0, u4 = 0;
+  uint64_t lower_raised = 0;  ///< dropped later, because lower had risen past their u
+  uint64_t precision = 0;     ///< closed at their u because nothing finer can be decided
+};
+
+/// One row per wave, for the table under --verbose and for plots.
+struct WaveStats {
+  uint32_t wave = 0;
+  uint64_t parents = 0, candidates = 0, queries = 0, survivors = 0, deferred = 0;
+  double lower = 0, upper = 0;  ///< heuristic while running, in the files' units
+};
+
+struct Times {
+  double load_ms = 0;       ///< files to meshes (filled by the CLI)
+  double setup_ms = 0;      ///< instance, device and pipelines (filled by the CLI)
+  double upload_ms = 0;     ///< meshes to device buffers, frame included
+  double hierarchy_ms = 0;  ///< GPU: B's hierarchy
+  double solve_ms = 0;      ///< GPU: seed and waves and report, without the hierarchy
+  double wall_ms = 0;       ///< host clock around Solver::distance
+};
+
+/// The host's own check of a run, asked for with --verify (host/check/verify.h).
+struct WitnessCheck {
+  double distance_lower = 0, distance_upper = 0;  ///< enclose d(witness, B), in the files' units
+  bool holds = false;  ///< every face of B is at least `lower` away from the witness
+};
+
+/// Likewise: are the closed and the open parts of each face of A the whole face?
+struct CoverageCheck {
+  uint64_t whole = 0;    ///< faces whose parts sum to the whole, as exact integers
+  uint64_t waiting = 0;  ///< faces without a part: they have no bound yet, and `upper` knows
+  uint64_t wrong = 0;    ///< the rest: none
+  double closed = 0;     ///< share of A's faces that was closed
+  bool holds = false;
+};
+
+struct Report {
+  Status status = Status::kClosed;
+  double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
+  double diagonal_a = 0;        ///< of A's bounding box, rounded to nearest
+  double tolerance = 0;    ///< in the files' units; of a fraction: times diagonal_a, rounded down
+  double known_lower = 0;  ///< SolveOptions::known_lower
+  SurfacePoint witness_a, witness_b;
+  MeshCounts mesh_a, mesh_b;
+  DeviceDescription device;
+  uint64_t workspace_bytes = 0;
+  uint32_t waves = 0;
+  uint64_t candidates = 0, queries = 0, peak_frontier = 0;
+  CullHistogram culled;
+  std::vector<StageStats> stages;
+  std::vector<WaveStats> wave_stats;
+  Times times;
+  std::string preset = "default";
+  std::vector<std::string> switched_on, switched_off;  ///< all switches, as they were
+  std::optional<WitnessCheck> witness_check;
+  std::optional<CoverageCheck> coverage_check;
+
+  double gap() const;  ///< (upper - lower) / diag(A), rounded up
+};
+
+/// (upper - lower) / diagonal_a, or the width itself where that is 0; rounded up.
+double gap_of(double lower, double upper, double diagonal_a);
+
+struct CertifiedInterval {
+  double lower = 0, upper = 0;
+  double gap = 0;  ///< (upper - lower) / diag(A), rounded up
+  Status status = Status::kClosed;
+};
+/// Of max(h(A,B), h(B,A)): [max of the lowers, max of the uppers].
+CertifiedInterval symmetric_interval(const Report& a_to_b, const Report& b_to_a);
+
+/// Both directions. The way back was pruned by the way there: its own interval is true but may be
+/// wide (Status::kPruned).
+struct SymmetricReport {
+  Report a_to_b, b_to_a;
+  CertifiedInterval interval() const { return symmetric_interval(a_to_b, b_to_a); }
+};
+
+}  // namespace vkh

@@ -1,0 +1,51 @@
+#include "host/solve/run_report.h"
+
+#include <algorithm>
+
+#include "host/mesh/closest.h"
+
+namespace vkh {
+
+void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
+  out.waves = r.waves;
+  out.candidates = r.candidateTotal;
+  out.queries = r.queryTotal;
+  out.peak_frontier = r.peakFrontier;
+  const uint32_t* c = r.culled;
+  out.culled = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+  const uint32_t first = r.waves > VKH_MAX_WAVE_RECORDS ? r.waves - VKH_MAX_WAVE_RECORDS : 0;
+  for (uint32_t w = first; w < r.waves; ++w) {
+    const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
+    out.wave_stats.push_back({w, rec.parents, rec.candidates, rec.queries, rec.survivors,
+                              rec.deferred, frame.length_down(static_cast<double>(rec.lower)),
+                              frame.length_up(static_cast<double>(rec.upper))});
+  }
+}
+
+void fill_stages(const RunOutput& run, Report& out) {
+  for (const StageTime& s : run.stages) {
+    auto at = std::find_if(out.stages.begin(), out.stages.end(),
+                           [&](const StageStats& x) { return x.name == s.name; });
+    if (at == out.stages.end())
+      at = out.stages.insert(out.stages.end(), StageStats{s.name, 0, 0, 0, 0});
+    at->gpu_ms += s.ms;
+    ++at->dispatches;
+    const bool building = at->name == "morton" || at->name == "sort" || at->name == "hierarchy";
+    (building ? out.times.hierarchy_ms : out.times.solve_ms) += s.ms;
+  }
+}
+
+void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out) {
+  if (r.witnessFaceA >= a.faces.size() || r.witnessFaceB >= b.faces.size()) return;
+  const double one = 1 << 20;
+  const double v = r.witnessBarycentric[0] / one;
+  const double w = r.witnessBarycentric[1] / one;
+  const glm::uvec3 fa = a.faces[r.witnessFaceA];
+  const glm::dvec3 p = (1 - v - w) * a.vertices[fa.x] + v * a.vertices[fa.y] + w * a.vertices[fa.z];
+  out.witness_a = {r.witnessFaceA, {1 - v - w, v, w}, p};
+  const glm::uvec3 fb = b.faces[r.witnessFaceB];
+  const ClosestPoint q = closest_point(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
+  out.witness_b = {r.witnessFaceB, q.barycentric, q.point};
+}
+
+}  // namespace vkh

@@ -1,0 +1,14 @@
+// What a run did and where it found its witness, in a report's words.
+#pragma once
+
+#include "host/run/frame.h"
+#include "host/run/run.h"
+#include "host/solve/report.h"
+
+namespace vkh {
+
+void fill_counts(const VkhReport& r, const Frame& frame, Report& out);
+void fill_stages(const RunOutput& run, Report& out);
+void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out);
+
+}  // namespace vkh

@@ -1,0 +1,83 @@
+// Two meshes in, a certified interval out; blocking.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "host/gpu/device.h"
+#include "host/mesh/mesh.h"
+#include "host/run/solve_options.h"
+#include "host/solve/report.h"
+
+namespace vkh {
+
+/// Mesh B on the device with its hierarchy, for many A's. Made by a Solver, used by any Solver of
+/// the same device, outlives neither the device nor its owner's handles.
+class PreparedMesh {
+ public:
+  PreparedMesh(PreparedMesh&&) noexcept;
+  PreparedMesh& operator=(PreparedMesh&&) noexcept;
+  ~PreparedMesh();
+  const Mesh& mesh() const;
+  /// Whether h(a, this) is found with what is kept. False: A reaches four times farther than B, or
+  /// B is a single point; distance() then does what it does without preparation.
+  bool serves(const Mesh& a) const;
+
+ private:
+  friend class Solver;
+  struct Impl;
+  explicit PreparedMesh(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Two meshes of the caller's, who keeps them.
+struct PairView {
+  const Mesh& a;
+  const Mesh& b;
+};
+
+/// Keeps pipelines and buffers of one device between runs. Threads take turns; Solvers of their own
+/// on the same Device run at once. Everything throws DeviceError if the device is lost or out of
+/// memory, and UsageError for an unknown switch, a tolerance that is not positive and finite, or a
+/// call from a progress callback of the same Solver.
+class Solver {
+ public:
+  /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
+  /// driver and build; empty: nowhere.
+  explicit Solver(Device& device, const std::filesystem::path& cache_folder = {});
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
+  /// the slow part of a start, so that meshes may be read meanwhile.
+  void make_ready(const SolveOptions& options = {});
+
+  /// Encloses h(a, b).
+  Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
+
+  /// Encloses h(a, b) of each, all at once: a large GPU, which one pair of 10,000 faces leaves
+  /// mostly idle, takes 16 in half of the time (vkhCmdRunTasks). Every bound is that of distance().
+  /// Each pair has a workspace of options.memory_bytes to itself, 99 MiB or more where that is 0,
+  /// and the solver keeps them. Give pairs of like size, 16 or so, and no more than the device has
+  /// memory for. Times in a report are those of all together while it ran, stages are not told
+  /// apart; options.progress is asked for each pair, and ends that one.
+  std::vector<Report> distances(std::span<const PairView> pairs, const SolveOptions& options = {});
+
+  /// Uploads B and builds its hierarchy.
+  PreparedMesh prepare(Mesh b);
+  /// Encloses h(a, b). The answer depends on a and b alone, not on the A's before.
+  Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
+
+  /// Encloses max(h(a, b), h(b, a)). The way back has the way there's tolerance, what is left of
+  /// the time, and is pruned by the way there's lower bound.
+  SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vkh

@@ -1,0 +1,20 @@
+// Nodes and triangles in whole 16-byte loads: the buffers that walks read are declared as arrays of
+// uvec4, and this page has the layout of Node and Triangle (gpu_types.h) by heart. Include after
+// `triangles` is declared.
+#ifndef VKH_SHADERS_LIB_FETCH_GLSL
+#define VKH_SHADERS_LIB_FETCH_GLSL
+
+#include "shaders/math/triangle.h"
+
+const uint kTriangleWords = 3u;
+const uint kNodeWords = 8u;
+
+Corners triangle_corners(uint i) {
+  Corners t;
+  t.a = uintBitsToFloat(triangles[kTriangleWords * i].xyz);
+  t.b = uintBitsToFloat(triangles[kTriangleWords * i + 1u].xyz);
+  t.c = uintBitsToFloat(triangles[kTriangleWords * i + 2u].xyz);
+  return t;
+}
+
+#endif

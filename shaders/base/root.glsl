@@ -1,0 +1,14 @@
+// Faces of A as roots. Include after `vertices` and `faces` are declared.
+#ifndef VKH_SHADERS_LIB_ROOT_GLSL
+#define VKH_SHADERS_LIB_ROOT_GLSL
+
+#include "shaders/math/bary.h"
+
+Two3 vertex_at(uint i) { return Two3(vertices[i].hi, vertices[i].lo); }
+
+Root load_root(uint face) {
+  uvec3 f = faces[face];
+  return make_root(vertex_at(f.x), vertex_at(f.y), vertex_at(f.z));
+}
+
+#endif

@@ -1,0 +1,53 @@
+// Triangles of B as surfaces to measure against, low parts included where the meshes have them.
+// Include after `triangles`, `triangle_lows` and `control` are declared.
+#ifndef VKH_SHADERS_LIB_SURFACE_GLSL
+#define VKH_SHADERS_LIB_SURFACE_GLSL
+
+#include "shaders/base/fetch.glsl"
+
+// Triangle i as the run measures it.
+struct Exact {
+  Two3 a, b, c;
+};
+
+Exact load_exact(uint i) {
+  TriangleLow low = TriangleLow(vec3(0.0), vec3(0.0), vec3(0.0));
+  if (control.two_float != 0u) {
+    low.a = triangle_lows[i].a;
+    low.b = triangle_lows[i].b;
+    low.c = triangle_lows[i].c;
+  }
+  Corners t = triangle_corners(i);
+  return Exact(Two3(t.a, low.a), Two3(t.b, low.b), Two3(t.c, low.c));
+}
+
+Surface load_surface(uint i, View from) {
+  Exact t = load_exact(i);
+  return make_surface(t.a, t.b, t.c, from);
+}
+
+// Bit by bit, 0 and -0 alike: devices may flush what floats are compared as.
+bool is_same(vec3 p, vec3 q) {
+  uvec3 u = floatBitsToUint(p);
+  uvec3 v = floatBitsToUint(q);
+  uvec3 zero = uvec3(equal((u | v) << 1, uvec3(0u)));
+  return all(bvec3(zero | uvec3(equal(u, v))));
+}
+
+bool is_same(Two3 p, Two3 q) { return both(is_same(p.hi, q.hi), is_same(p.lo, q.lo)); }
+
+bool is_corner(Two3 p, Exact t) {
+  return either(is_same(p, t.a), either(is_same(p, t.b), is_same(p, t.c)));
+}
+
+// Whether each corner of a triangle is one of triangle i: then it lies in that, and its distance
+// from B is 0 whatever the rounding.
+bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
+  Exact t = load_exact(i);
+  return is_corner(p, t) && is_corner(q, t) && is_corner(r, t);
+}
+
+// To measure one point from, as precisely as it goes.
+View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false, 0.0); }
+
+#endif

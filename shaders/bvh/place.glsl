@@ -1,0 +1,22 @@
+// A triangle of B at its place in Morton order. Include after `vertices`, `faces`, `triangles`,
+// `triangle_lows` and `push` are declared, and after bvh/box.glsl.
+#ifndef VKH_SHADERS_LIB_PLACE_GLSL
+#define VKH_SHADERS_LIB_PLACE_GLSL
+
+// Returns its box. Clamped: whatever the sort did, a triangle is one of B, and upper bounds from it
+// are true.
+Box place_triangle(uint i, uint face) {
+  face = min(face, push.count - 1u);
+  uvec3 f = faces[face];
+  Vertex a = vertices[f.x];
+  Vertex b = vertices[f.y];
+  Vertex c = vertices[f.z];
+  triangles[i].a = a.hi;
+  triangles[i].b = b.hi;
+  triangles[i].c = c.hi;
+  triangles[i].face = face;
+  triangle_lows[i] = TriangleLow(a.lo, b.lo, c.lo);
+  return triangle_box(a.hi, b.hi, c.hi);
+}
+
+#endif

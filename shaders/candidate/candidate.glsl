@@ -1,0 +1,87 @@
+// Candidates in a wave: where they stand in the frontier, their geometry in their root's frame, and
+// what closes them. Include after `control`, `frontier`, `vertices` and `faces` are declared.
+#ifndef VKH_SHADERS_LIB_CANDIDATE_GLSL
+#define VKH_SHADERS_LIB_CANDIDATE_GLSL
+
+#include "shaders/math/bary.h"
+#include "shaders/candidate/base.glsl"
+#include "shaders/math/bounds.h"
+#include "shaders/math/hash.h"
+#include "shaders/base/root.glsl"
+
+// The half of the frontier that this wave reads, and the one that it writes.
+uint reading(uint i) { return control.parity * control.capacity + i; }
+uint writing(uint i) { return (1u - control.parity) * control.capacity + i; }
+
+// A bound that was kept above the old base.
+float rebased(float upper) {
+  float error = kUlp2 * control.base;
+  float moved = (upper + control.rebase_hi) + (control.rebase_lo + error);
+  return control.rebase_hi == 0.0 ? upper : max(raised(moved), 0.0);
+}
+
+// A candidate's u, of the frontier being read.
+float upper_of(Candidate c) { return rebased(c.upper); }
+
+// The best sample's distance, above the base: with this wave's samples, complete once its queries
+// have ended; and as it was when the wave began, which stays until the plan.
+float raised_lower() { return uintBitsToFloat(control.maximum[kMaxLower]); }
+float adopted_lower() { return control.witness.distance; }
+
+// What candidates are closed against: the best sample's distance, or a known one that is larger.
+float reached(float lower) { return max(lower, control.known_lower - control.base); }
+
+// How far above the lower bound a candidate may be closed. Of the tolerance, 32 ulp of the
+// distances that samples are known by are kept for the certificate of the lower bound: of what they
+// are above the base and, where they are compared in plain floats, of the base too; 64 kUlp2 of it
+// otherwise. Asking for less would refine the rounding of distances; where only what is above the
+// base is too coarse, a quarter is asked for all the same: the next plan moves the base.
+float effective_tolerance(float lower) {
+  float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
+  float above_noise = 32.0 * kUlp * reached(lower);
+  float left = max(control.cull_tolerance - noise - above_noise, 0.25 * control.cull_tolerance);
+  return max(left, noise);
+}
+
+// Candidates with u <= this are closed: they can never widen the interval beyond the tolerance.
+// `tolerant` is the switch kUseToleranceCull; without it only what is under the lower bound is
+// closed.
+float cull_threshold(float lower, bool tolerant) {
+  return tolerant ? reached(lower) + effective_tolerance(lower) : reached(lower);
+}
+
+// How a candidate's surfaces are measured.
+View view_of(Placement placed, bool plain) {
+  float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
+  return View(placed.origin, placed.reach, control.base, needs_sharp(distance), plain, 0.0);
+}
+
+// Which candidates are refined where there is no room for all: the smallest u first; of equal ones
+// the smallest in area, so that a candidate's children come before its equals (kReserve); then by a
+// hash of what the candidate is. The choice does not depend on where in the frontier they stand.
+struct Key {
+  uint first, second;
+};
+
+// `largest`: the wave's order, control.select_largest.
+uint first_of_key(float upper, bool largest) {
+  uint u = bits_of(upper);
+  return largest ? ~u : u;
+}
+
+Key key_of(Candidate c, bool largest) {
+  Bary3 t = unpack_corners(c.corners);
+  vec2 ab = vec2(ivec2(t.b) - ivec2(t.a));
+  vec2 ac = vec2(ivec2(t.c) - ivec2(t.a));
+  // A dyadic area is a power of two: its exponent, 0 to 42, and 26 bits of the hash.
+  uint exponent = (floatBitsToUint(max(abs(ab.x * ac.y - ab.y * ac.x), 1.0)) >> 23) - 127u;
+  uint hash = mixed(mixed(mixed(mixed(mixed(0u, c.root), c.corners.x), c.corners.y), c.corners.z),
+                    c.corners.w);
+  return Key(first_of_key(c.upper, largest), (exponent << 26) | (hash >> 6));
+}
+
+bool not_after(Key k, Key than) {
+  return k.first < than.first || (k.first == than.first && k.second <= than.second);
+}
+
+#endif

@@ -1,0 +1,34 @@
+// How many children and new points a refined candidate has in this wave: 4 and 3 or, where it is
+// split twice, 16 and 15: three of its own and three of each child. Include after `control` and
+// kSwitches are declared.
+#ifndef VKH_SHADERS_LIB_GENERATIONS_GLSL
+#define VKH_SHADERS_LIB_GENERATIONS_GLSL
+
+#include "shaders/math/bary.h"
+
+// What goes over children one by one, or over a candidate's three points, takes one generation.
+const bool kMaySplitTwice =
+    (kSwitches & (kUseTwoLevels | kUseFilter | kUsePacket)) == kUseTwoLevels;
+
+bool splits_twice() { return kMaySplitTwice && control.twice != 0u; }
+
+uint children_each() { return splits_twice() ? 16u : 4u; }
+uint points_each() { return splits_twice() ? 15u : 3u; }
+
+// Of a candidate that is split twice: the split of its child.
+uint inner_split(Split split, uint child) {
+  uint code = (split.inner >> (5u * child)) & 31u;
+  return code == kInnerNone ? kSplitNone : code;
+}
+
+// The children and new points of all the wave's candidates; children of faces of A come behind.
+uint child_count() { return children_each() * control.parents + control.roots; }
+uint point_count() { return points_each() * control.parents; }
+
+// New points, and survivors' centroids where they are asked for.
+uint query_count() {
+  uint asked = (kSwitches & kUseCentroid) != 0u ? control.count[kCountSurvivors] : 0u;
+  return point_count() + asked;
+}
+
+#endif

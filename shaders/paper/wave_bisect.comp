@@ -1,0 +1,37 @@
+// What: the paper's u3 of each of the wave's survivors, for wave_bound to take into account; a
+// kernel of its own, so that wave_bound is no longer to compile for those who do without. In:
+// survivors. Out: u3_bounds[i], above the base, rounding included.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/base/invocation.glsl"
+#include "shaders/gpu_types.h"
+
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 2) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 3) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 4) readonly buffer Triangles { uvec4 triangles[]; };
+layout(scalar, binding = 5) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 6) readonly buffer Splits { Split splits[]; };
+layout(scalar, binding = 7) readonly buffer Points { Point points[]; };
+layout(scalar, binding = 8) readonly buffer Survivors { uint survivors[]; };
+layout(scalar, binding = 9) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 10) writeonly buffer U3Bounds { float u3_bounds[]; };
+
+#include "shaders/base/surface.glsl"
+#include "shaders/candidate/candidate.glsl"
+#include "shaders/candidate/child.glsl"
+#include "shaders/paper/paper_u3.glsl"
+
+void main() {
+  uint i = item_index();
+  if (i >= control.count[kCountSurvivors]) return;
+  Child c = load_child(survivors[i]);
+  Placement placed = place_corners(load_root(c.root), c.at);
+  Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
+  View view = view_of(placed, (kSwitches & kUseCertificate) == 0u);
+  u3_bounds[i] = kept_bound(paper_u3(t, c.nearest, view), placed.slack);
+}

@@ -1,0 +1,36 @@
+// A workgroup adopts the wave's witness. Include after `control` is declared and
+// plan/plan_words.glsl is included.
+#ifndef VKH_SHADERS_LIB_ADOPT_GLSL
+#define VKH_SHADERS_LIB_ADOPT_GLSL
+
+// Called by every invocation; control is changed by the first one alone. Offers come in by atomics,
+// as they were written: maybe by other workgroups of this dispatch.
+void adopt_witness() {
+  uint lane = gl_LocalInvocationID.x;
+  if (lane == 0u) plan_words[kWordAdopted + 3u] = kNone;
+  barrier();
+  uint count = min(atomicOr(control.offer_count, 0u), kMaxOffers);  // <= kGroupSize
+  uint key = atomicOr(control.offer_key, 0u);
+  if (lane < count && atomicOr(control.offers[lane].key, 0u) == key) {
+    plan_words[kWordAdopted] = atomicOr(control.offers[lane].x, 0u);
+    plan_words[kWordAdopted + 1u] = atomicOr(control.offers[lane].y, 0u);
+    plan_words[kWordAdopted + 2u] = atomicOr(control.offers[lane].z, 0u);
+    plan_words[kWordAdopted + 3u] = atomicOr(control.offers[lane].root, 0u);
+    plan_words[kWordAdopted + 4u] = atomicOr(control.offers[lane].j, 0u);
+    plan_words[kWordAdopted + 5u] = atomicOr(control.offers[lane].k, 0u);
+    plan_words[kWordAdopted + 6u] = atomicOr(control.offers[lane].nearest, 0u);
+  }
+  barrier();
+  if (lane > 0u || count == 0u) return;
+  control.offer_count = 0u;
+  control.offer_key = kNone;
+  // Where the list had no place for it, the old witness stays, and is one.
+  if (plan_words[kWordAdopted + 3u] == kNone) return;
+  vec3 position = uintBitsToFloat(uvec3(plan_words[kWordAdopted], plan_words[kWordAdopted + 1u],
+                                        plan_words[kWordAdopted + 2u]));
+  control.witness = Witness(position, uintBitsToFloat(control.maximum[kMaxLower]),
+                            plan_words[kWordAdopted + 3u], plan_words[kWordAdopted + 4u],
+                            plan_words[kWordAdopted + 5u], plan_words[kWordAdopted + 6u]);
+}
+
+#endif

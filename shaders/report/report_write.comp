@@ -1,0 +1,111 @@
+// What: the report, with the certified lower bound: the smallest distance of the witness from any
+// face of B, each rounded down. Every triangle is visited, so nothing rests on the hierarchy or on
+// the walks that found the witness. The last workgroup to end writes, one invocation all but the
+// waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
+// 48-bit position can lie from the point of A that it stands for. upper: the largest u of
+// everything that was dropped, spilled or is still open; without bound while faces of A wait. Both
+// as float32, and to more bits above the base. lower_bits, ordered bits (math/morton.h), and
+// groups_done are kNone and 0 again.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shaders/base/invocation.glsl"
+#include "shaders/math/bary.h"
+#include "shaders/math/lower.h"
+#include "shaders/math/morton.h"
+
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer BVertices { Vertex b_vertices[]; };
+layout(scalar, binding = 2) readonly buffer BFaces { uvec3 b_faces[]; };
+layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
+layout(scalar, binding = 6) buffer LowerBits { uint lower_bits; };
+layout(scalar, binding = 7) buffer GroupsDone { uint groups_done; };
+layout(scalar, binding = 8) writeonly buffer ReportBlock { Report report; };
+layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+
+#include "shaders/base/last_group.glsl"
+#include "shaders/base/root.glsl"
+
+// A corner of B by the parts that the run works with.
+Two3 b_corner(uint v) {
+  Two3 p = two(b_vertices[v].hi);
+  if (control.two_float != 0u) p.lo = b_vertices[v].lo;
+  return p;
+}
+
+// Of this invocation's triangle. Those past the end repeat the last one: every one takes part in
+// the subgroup's minimum.
+float certified_distance() {
+  uint i = min(item_index(), push.count - 1u);
+  Witness w = control.witness;
+  Root root = load_root(w.root);
+  Two3 p = place(root, uvec2(w.j, w.k));
+  uvec3 f = b_faces[i];
+  Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
+                           View(p, norm_up(p.hi), control.base, true, false, 0.0));
+  // A triangle farther than the steering distance by a margin does not decide the minimum.
+  float enough = w.distance + 1.0e-4 * (control.base + w.distance);
+  return triangle_distance_down(s, enough);
+}
+
+float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
+
+bool is_running() { return control.status == kStatusRunning; }
+
+// Faces of A that no wave has bounded; the planned wave's are admitted only.
+uint waiting_faces() {
+  return control.face_count - control.root_cursor + (is_running() ? control.roots : 0u);
+}
+
+uint remaining() {
+  bool open = is_running() || control.status == kStatusMemory;
+  return (open ? control.count[kCountFrontier] : 0u) + waiting_faces();
+}
+
+float upper_bound() {
+  if (waiting_faces() > 0u) return 3.0e38;
+  uint bits = max(max(control.maximum[kMaxDropped], control.maximum[kMaxSpilled]),
+                  control.maximum[kMaxFrontier]);
+  return uintBitsToFloat(bits);
+}
+
+// What the certified lower bound is above the base, at least -base.
+float lower_bound(Witness w) {
+  float above = uintBitsToFloat(from_ordered_bits(atomicExchange(lower_bits, kNone)));
+  return max(lowered(above - 2.0 * witness_slack(w)), -control.base);
+}
+
+void write_report() {
+  Witness w = control.witness;
+  float lower = lower_bound(w);
+  float upper = max(upper_bound(), lower);
+  report.base = control.base;
+  report.lower_above = lower;
+  report.upper_above = upper;
+  report.lower = max(lowered(control.base + lower), 0.0);
+  report.upper = raised(control.base + upper);
+  report.status = control.status;
+  report.wave = is_running() ? control.wave - 1u : control.wave;  // one is planned
+  report.witness = w;
+  report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
+  report.witness_face = triangles[w.nearest].face;
+  report.remaining = remaining();
+  report.candidate_total = control.candidate_total;
+  report.query_total = control.query_total;
+  report.peak_frontier = control.peak_frontier;
+  for (int i = 0; i < 8; ++i) report.culled[i] = control.culled[i];
+}
+
+void main() {
+  float smallest = subgroupMin(certified_distance());
+  if (subgroupElect()) atomicMin(lower_bits, ordered_bits(floatBitsToUint(smallest)));
+  if (!is_last_group()) return;
+  uint lane = gl_LocalInvocationID.x;
+  for (uint w = lane; w < kMaxWaveRecords; w += kGroupSize) report.waves[w] = control.waves[w];
+  if (lane == 0u) write_report();
+}

@@ -1,0 +1,170 @@
+// What: moves each key and value to its place for one digit, keeping the order of equal digits.
+// In: keys_in, values_in; counts and totals from sort_scan, or, of few blocks, counts from
+// sort_count, from who wrote the keys or from the pass before. Out: keys_out, values_out, and the
+// next pass's counts where this one counts for it. Each subgroup owns a contiguous run of the
+// block, so that its own counters, taken round by round, keep the order; lanes of equal digit find
+// each other by ballots. 16-bit counters, two a word: a block has 2048 keys at most.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "shaders/gpu_types.h"
+#include "shaders/base/invocation.glsl"
+#include "shaders/sort/sort.glsl"
+
+layout(local_size_x = kSortGroup) in;
+layout(scalar, binding = 0) readonly buffer KeysIn { uint keys_in[]; };
+layout(scalar, binding = 1) readonly buffer ValuesIn { uint values_in[]; };
+layout(scalar, binding = 2) writeonly buffer KeysOut { uint keys_out[]; };
+layout(scalar, binding = 3) writeonly buffer ValuesOut { uint values_out[]; };
+layout(scalar, binding = 4) buffer Counts { uint counts[]; };
+layout(scalar, binding = 5) readonly buffer Totals { uint totals[]; };
+layout(scalar, binding = 6) readonly buffer KeyCount { uint key_count; };
+layout(scalar, push_constant) uniform PushBlock { SortPush push; };
+
+#include "shaders/sort/key_total.glsl"
+
+const uint kMaxSubgroups =
+    kSortGroup / 8u;                 // uncertified: integers. Subgroups are 8 wide or wider.
+const uint kRow = kSortDigits / 2u;  // uncertified: integers
+const uint kBatch = 8u;              // loads of counts that do not wait for each other
+shared uint counters[kMaxSubgroups * kRow];
+shared uint digit_base[kSortDigits];  // where the block's keys of a digit go
+shared uint subgroup_sum[kMaxSubgroups];
+
+uint total;   // keys
+uint blocks;  // of them
+// Loops over these go to kSortRounds, which compilers know: they unroll them and keep the arrays in
+// registers.
+uint key[kSortRounds];
+uint value[kSortRounds];
+uint rank[kSortRounds];
+
+// Lanes of this subgroup whose digit equals ours.
+uvec4 peers_of(uint digit) {
+  uvec4 peers = subgroupBallot(true);
+  for (uint bit = 0u; bit < 8u; ++bit) {
+    bool set = ((digit >> bit) & 1u) != 0u;
+    uvec4 with_bit = subgroupBallot(set);
+    peers &= set ? with_bit : ~with_bit;
+  }
+  return peers;
+}
+
+struct DigitCount {
+  uint total;
+  uint earlier;  // of them in earlier blocks
+};
+
+DigitCount count_of(uint digit, uint block) {
+  if (blocks > kSortFewBlocks)
+    return DigitCount(totals[digit], counts[block * kSortDigits + digit]);
+  uint start = push.pass * blocks;
+  DigitCount sum = DigitCount(0u, 0u);
+  for (uint first = 0u; first < blocks; first += kBatch) {
+    uint here[kBatch];
+    for (uint k = 0u; k < kBatch; ++k)
+      here[k] = counts[(start + min(first + k, blocks - 1u)) * kSortDigits + digit];
+    for (uint k = 0u; k < kBatch; ++k) {
+      if (first + k < blocks) sum.total += here[k];
+      if (first + k < block) sum.earlier += here[k];
+    }
+  }
+  return sum;
+}
+
+// Exclusive sum of the totals over digits: where each digit starts in the output, and there this
+// block's keys.
+void scan_totals(uint digit, uint block) {
+  DigitCount own = count_of(digit, block);
+  uint inclusive = subgroupInclusiveAdd(own.total);
+  if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) subgroup_sum[gl_SubgroupID] = inclusive;
+  barrier();
+  uint before = inclusive - own.total;
+  for (uint s = 0u; s < gl_SubgroupID; ++s) before += subgroup_sum[s];
+  digit_base[digit] = before + own.earlier;
+}
+
+// Turns the subgroups' counters of one digit into exclusive sums over the subgroups.
+void scan_subgroups(uint word) {
+  uint running = 0u;
+  for (uint s = 0u; s < gl_NumSubgroups; ++s) {
+    uint here = counters[s * kRow + word];
+    counters[s * kRow + word] = running;
+    running += here;
+  }
+}
+
+// The keys and values of this invocation, all at once: no load waits for what is done with another.
+void load_run(uint run) {
+  for (uint round = 0u; round < kSortRounds; ++round) {
+    if (round >= push.rounds) continue;
+    uint i = min(run + round * gl_SubgroupSize, total - 1u);
+    key[round] = keys_in[i];
+    value[round] = values_in[i];
+  }
+}
+
+// Of each key, how many of its digit stand before it in its subgroup's run.
+void rank_run(uint run) {
+  for (uint round = 0u; round < kSortRounds; ++round) {
+    if (round >= push.rounds) continue;
+    // Past the end every key counts as the last digit: such lanes stand after all others and push
+    // none of them away.
+    bool there = run + round * gl_SubgroupSize < total;
+    uint digit = there ? (key[round] >> push.shift) & 255u : 255u;
+    uvec4 peers = peers_of(digit);
+    uint leader = subgroupBallotFindLSB(peers);
+    uint shift = 16u * (digit & 1u);
+    uint before = 0u;
+    if (gl_SubgroupInvocationID == leader) {
+      before = atomicAdd(counters[gl_SubgroupID * kRow + (digit >> 1)],
+                         subgroupBallotBitCount(peers) << shift);
+    }
+    before = (subgroupShuffle(before, leader) >> shift) & 0xffffu;
+    rank[round] = before + subgroupBallotExclusiveBitCount(peers);
+    subgroupMemoryBarrierShared();
+    subgroupBarrier();
+  }
+}
+
+void count_for_next(uint moved, uint place) {
+  uint block = place / (push.rounds * kSortGroup);  // uncertified: integers
+  uint digit = (moved >> (push.shift + 8u)) & 255u;
+  atomicAdd(counts[((push.pass + 1u) * blocks + block) * kSortDigits + digit], 1u);
+}
+
+void write_run(uint run) {
+  for (uint round = 0u; round < kSortRounds; ++round) {
+    if (round >= push.rounds || run + round * gl_SubgroupSize >= total) continue;
+    uint digit = (key[round] >> push.shift) & 255u;
+    uint earlier =
+        (counters[gl_SubgroupID * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
+    uint place = digit_base[digit] + earlier + rank[round];
+    keys_out[place] = key[round];
+    values_out[place] = value[round];
+    if (push.pass + 1u < push.passes) count_for_next(key[round], place);
+  }
+}
+
+void main() {
+  uint lane = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+  uint block = workgroup_index();
+  total = key_total();
+  blocks = sort_blocks(total, push.rounds);
+  if (block >= blocks) return;
+  uint run = block * push.rounds * kSortGroup + gl_SubgroupID * (gl_SubgroupSize * push.rounds) +
+             gl_SubgroupInvocationID;
+  load_run(run);
+  for (uint i = lane; i < gl_NumSubgroups * kRow; i += kSortGroup) counters[i] = 0u;
+  scan_totals(lane, block);
+  barrier();
+  rank_run(run);
+  barrier();
+  if (lane < kRow) scan_subgroups(lane);
+  barrier();
+  write_run(run);
+}

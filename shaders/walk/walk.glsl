@@ -1,0 +1,237 @@
+// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
+// (algorithm.md §2.4), and no lower bound rests on it (report_write.comp visits every triangle), so
+// it needs no rounding analysis. Include after `nodes`, `triangles`, `triangle_lows` and `control`
+// are declared.
+#ifndef VKH_SHADERS_LIB_BVH_GLSL
+#define VKH_SHADERS_LIB_BVH_GLSL
+
+#include "shaders/math/lower.h"
+#include "shaders/base/surface.glsl"
+
+// Up to here a sample's distance is bounded from below, see measured(): beyond, a foot that is
+// 1.2e-7 off costs under 1e-8, or under 1e-10 in a tight run.
+float next_to_surface(bool tight) { return tight ? 1.0e-4 : 1.0e-6; }
+
+// Corners of triangle i in the frame at `origin`; each is off by one rounding.
+Corners local_triangle(uint i, vec3 origin) {
+  Corners t = triangle_corners(i);
+  t.a -= origin;
+  t.b -= origin;
+  t.c -= origin;
+  return t;
+}
+
+float box_distance2(vec3 p, vec3 lo, vec3 hi) {
+  vec3 d = max(max(lo - p, p - hi), vec3(0.0));
+  return dot3(d, d);
+}
+
+struct Nearest {
+  uint triangle;
+  float distance2;  // in plain floats
+  float above;      // what the distance is above the base: to 48 bits in a tight walk
+};
+
+Nearest nothing_near() { return Nearest(kNone, 3.0e38, 3.0e38); }
+
+float triangle_distance2(vec3 p, uint i) {
+  return plain_distance2(vec3(0.0), local_triangle(i, p));
+}
+
+// Of equally far triangles the first, in whichever order they are tried.
+void keep_nearer(uint i, float d2, inout Nearest best) {
+  if (d2 < best.distance2 || (d2 == best.distance2 && i < best.triangle))
+    best = Nearest(i, d2, 0.0);
+}
+
+void try_triangle(vec3 p, uint i, inout Nearest best) {
+  keep_nearer(i, triangle_distance2(p, i), best);
+}
+
+// Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
+// of A is equally far from several: a tight walk compares those next to the best to 48 bits.
+float reach_of(Nearest best) {
+  float d = 1.000001 * root(best.distance2) + 5.0e-7;  // uncertified: steers
+  return d * d;
+}
+
+void try_tight(Two3 p, uint i, float base, inout Nearest best) {
+  Surface s = load_surface(i, view_from(p, base));
+  float above = surface_distance_up(two(vec3(0.0)), s);
+  bool closer = above < best.above || (above == best.above && i < best.triangle);
+  if (closer) best = Nearest(i, best.distance2, above);
+}
+
+// How far a distance in plain floats can be off, in a frame of order 1: 1.04e-6 seen.
+const float kPlainDoubt = 4.0e-6;
+
+struct Query {
+  Two3 p;
+  float base;
+  bool tight;
+};
+
+// What a tight walk cannot tell from the nearest so far waits here, to be measured when there is
+// much of it and at the end, where others of the subgroup do so too: in between, they would wait.
+const uint kTied = 16u;  // a leaf more than is let stand
+uint tied[kTied];
+float tied_distance2[kTied];
+uint tied_count;
+
+void keep_query(Query q, uint i, float d2, inout Nearest best) {
+  if (!q.tight) {
+    keep_nearer(i, d2, best);
+    return;
+  }
+  if (d2 > reach_of(best)) return;
+  best.distance2 = min(best.distance2, d2);
+  tied[tied_count] = i;
+  tied_distance2[tied_count] = d2;
+  ++tied_count;
+}
+
+void try_query(Query q, uint i, inout Nearest best) {
+  keep_query(q, i, triangle_distance2(q.p.hi, i), best);
+}
+
+void measure_tied(Query q, inout Nearest best) {
+  for (uint k = 0u; k < tied_count; ++k) {
+    if (tied_distance2[k] <= reach_of(best)) try_tight(q.p, tied[k], q.base, best);
+  }
+  tied_count = 0u;
+}
+
+float reach_of(Query q, Nearest best) { return q.tight ? reach_of(best) : best.distance2; }
+
+// Of two results of parts of a walk; of equally near triangles the first.
+bool is_nearer(Query q, Nearest x, Nearest than) {
+  if (x.triangle == kNone) return false;
+  float d = q.tight ? x.above - than.above : x.distance2 - than.distance2;
+  return than.triangle == kNone || d < 0.0 || (d == 0.0 && x.triangle < than.triangle);
+}
+
+// A walk's result as a sample: its distance to 48 bits, where a plain walk left that out. Next to B
+// what counts is that it is not too large: a foot that 24-bit weights place is 2^-24 of its
+// triangle off, so there the distance is bounded from below. Not above `than`, it is no matter.
+Nearest measured(Query q, Nearest best, float than) {
+  if (best.triangle == kNone) return best;
+  if (!q.tight) {
+    // As plain floats have it, where that is surely under it: most samples are.
+    best.above = root(best.distance2) - q.base;  // uncertified: steers
+    if (best.above < than - kPlainDoubt) return best;
+  }
+  float next = next_to_surface(q.tight) - q.base;
+  if (q.tight && best.above > next) return best;
+  Surface s = load_surface(best.triangle, view_from(q.p, q.base));
+  Closest c = closest_point(vec3(0.0), s.at);
+  if (!q.tight) best.above = distance_to_up(two(vec3(0.0)), s, c);
+  bool matters = best.above > than;
+  if (matters && best.above <= next) best.above = distance_down(s, c, 3.0e38);
+  return best;
+}
+
+// Where a walk stands: what is still to be visited, deeper boxes above others. A node leaves
+// at most three behind, and the tree of nodes is half as deep as that of branches.
+const uint kWalkStack = 3u * kStackDepth / 2u;  // uncertified: integers
+
+// Of the invocation's own; not a struct that functions pass on, which drivers copy (lavapipe: 8
+// times slower).
+uint left_child[kWalkStack];
+float left_distance2[kWalkStack];
+uint left_count;
+
+// The next child that is within reach; kNone, which reads as a leaf, if there is none.
+uint pop(float reach) {
+  while (left_count > 0u) {
+    --left_count;
+    if (left_distance2[left_count] < reach) return left_child[left_count];
+  }
+  return kNone;
+}
+
+// A child of a node, and how far it is, squared.
+struct Near {
+  uint child;
+  float distance2;
+};
+
+Near child_at(uint at, uint k, vec3 p) {
+  uvec4 lo = nodes[kNodeWords * at + 2u * k];
+  uvec4 hi = nodes[kNodeWords * at + 2u * k + 1u];
+  return Near(lo.w, box_distance2(p, uintBitsToFloat(lo.xyz), uintBitsToFloat(hi.xyz)));
+}
+
+// The nearer of the two becomes `nearest`, the other is left for later where it is within reach.
+void leave_farther(Near other, inout Near nearest, float reach) {
+  bool nearer = other.distance2 < nearest.distance2;
+  uint left = choose(nearer, nearest.child, other.child);
+  float distance2 = choose(nearer, nearest.distance2, other.distance2);
+  nearest.child = choose(nearer, other.child, nearest.child);
+  nearest.distance2 = choose(nearer, other.distance2, nearest.distance2);
+  if (distance2 >= reach) return;
+  left_child[left_count] = left;
+  left_distance2[left_count] = distance2;
+  ++left_count;
+}
+
+// From a node to its nearest child within reach. To sort the others costs what it saves. Not a
+// loop, whose vectors' components would be named by a variable: slow on CPU devices.
+uint step_down(uint at, vec3 p, float reach) {
+  Near a = child_at(at, 0u, p);
+  Near b = child_at(at, 1u, p);
+  Near c = child_at(at, 2u, p);
+  Near nearest = child_at(at, 3u, p);
+  leave_farther(a, nearest, reach);
+  leave_farther(b, nearest, reach);
+  leave_farther(c, nearest, reach);
+  if (nearest.distance2 < reach) return nearest.child;
+  return pop(reach);
+}
+
+// The node or leaf that the walk is at; kNone: it is done.
+uint walk_at;
+
+// A walk from the root. `start`: a triangle to begin with, or kNone.
+Nearest begin_walk(Query q, uint start) {
+  Nearest best = nothing_near();
+  tied_count = 0u;
+  if (start != kNone) try_query(q, start, best);
+  left_count = 0u;
+  walk_at = 0u;
+  return best;
+}
+
+// Walks to the end. Depth first, near children first. Invocations go down until each is at a leaf,
+// then all try triangles (Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on
+// GPUs").
+void walk_on(Query q, inout Nearest best) {
+  float reach = reach_of(q, best);
+  while (walk_at != kNone) {
+    while (walk_at != kNone && tied_count + kLeafTriangles <= kTied) {
+      while ((walk_at & kLeafFlag) == 0u) walk_at = step_down(walk_at, q.p.hi, reach);
+      if (walk_at == kNone) break;
+      uint first = walk_at & (kMaxTriangles - 1u);
+      uint last = first + ((walk_at >> 28) & 7u);
+      // Two at a time, so that they are loaded at once.
+      for (uint i = first; i <= last; i += 2u) {
+        uint next = min(i + 1u, last);
+        float d2 = triangle_distance2(q.p.hi, i);
+        float next_d2 = triangle_distance2(q.p.hi, next);
+        keep_query(q, i, d2, best);
+        if (next > i) keep_query(q, next, next_d2, best);
+      }
+      reach = reach_of(q, best);
+      walk_at = pop(reach);
+    }
+    measure_tied(q, best);
+  }
+}
+
+// The triangle closest to q.p, to 48 bits in a tight walk.
+Nearest nearest_triangle(Query q, uint start) {
+  Nearest best = begin_walk(q, start);
+  walk_on(q, best);
+  return best;
+}
+
+#endif

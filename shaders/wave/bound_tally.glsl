@@ -1,0 +1,68 @@
+// What a workgroup of wave_bound has for the control block. On GPUs it is summed up first: its
+// words are in a cache line or two, where the atomics of all workgroups wait for each other. On CPU
+// devices a barrier costs more than an atomic. Include after wave/bound_group.glsl and
+// base/stream.glsl.
+#ifndef VKH_SHADERS_LIB_BOUND_TALLY_GLSL
+#define VKH_SHADERS_LIB_BOUND_TALLY_GLSL
+
+// Words 0 to 6: children closed, by kCull*.
+const uint kTallyDropped = 7u;  // largest u of those, as bits
+const uint kTallyNext = 8u;     // and of those that stay open
+const uint kTallyOpen = 9u;     // how many these are; then where their places in the stream begin
+const uint kTallies = 10u;
+
+// In the words of known triangles, which nobody reads after the cuts: shared memory is scarce.
+uint tally_word(uint i) { return known_triangle[i]; }
+
+// Called by every invocation, as are those below; a barrier stands before give.
+void begin_tally() {
+  if (gl_LocalInvocationID.x < kTallies) known_triangle[gl_LocalInvocationID.x] = 0u;
+}
+
+// Returns how many were counted before this invocation.
+uint tally_count(uint word, bool counts) {
+  uvec4 counted = subgroupBallot(counts);
+  uint before = 0u;
+  if (subgroupElect()) before = atomicAdd(known_triangle[word], subgroupBallotBitCount(counted));
+  return subgroupBroadcastFirst(before) + subgroupBallotExclusiveBitCount(counted);
+}
+
+// For value >= 0.
+void tally_raise(uint word, float value) {
+  float highest = subgroupMax(value);
+  if (subgroupElect()) atomicMax(known_triangle[word], bits_of(highest));
+}
+
+// An invocation a word.
+void give_tally() {
+  uint i = gl_LocalInvocationID.x;
+  if (i >= kTallies || tally_word(i) == 0u) return;
+  if (i < kTallyDropped) atomicAdd(control.culled[i], tally_word(i));
+  if (i == kTallyDropped) atomicMax(control.maximum[kMaxDropped], tally_word(i));
+  if (i == kTallyNext) atomicMax(control.maximum[kMaxNext], tally_word(i));
+  if (i == kTallyOpen) known_triangle[i] = atomicAdd(control.count[kCountNext], tally_word(i));
+}
+
+// A child that is closed, or open, or neither. Returns the place of an open one in the stream.
+uint give(bool closed, bool open, Verdict v) {
+  float dropped = closed ? v.upper : 0.0;
+  float next = open ? v.upper : 0.0;
+  if (!kSpread) {
+    for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
+      count_culled(why, closed && v.by == why);
+    raise(kMaxDropped, dropped);
+    raise(kMaxNext, next);
+    return stream_append(kCountNext, open);
+  }
+  for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
+    tally_count(why, closed && v.by == why);
+  tally_raise(kTallyDropped, dropped);
+  tally_raise(kTallyNext, next);
+  uint slot = tally_count(kTallyOpen, open);
+  barrier();
+  give_tally();
+  barrier();
+  return tally_word(kTallyOpen) + slot;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// Triangles of B that are known to be near a child: of the children that a workgroup looks at.
+// Include after kKnowers, how many these are, is declared and candidate/child.glsl,
+// candidate/dispatch.glsl and candidate/centroid.glsl are included.
+#ifndef VKH_SHADERS_LIB_KNOWN_GLSL
+#define VKH_SHADERS_LIB_KNOWN_GLSL
+
+// At most: three own, three more of the parent's six points, the parent's centroid, the child's own
+// centroid.
+const uint kMaxKnown = 8u;
+// Without the centroid's triangle and the parent's, only the three corners' are known.
+const uint kMostKnown = kKnowsMore ? kMaxKnown : 3u;
+
+shared uint known_triangle[kKnowers * kMostKnown];
+shared uint known_count[kKnowers];
+
+uint known_to(uint child, uint k) { return known_triangle[child * kMostKnown + k]; }
+
+void know(uint child, uint triangle) {
+  uint count = known_count[child];
+  bool fresh = triangle != kNone && count < kMostKnown;
+  for (uint k = 0u; k < count; ++k) fresh = fresh && known_to(child, k) != triangle;
+  if (!fresh) return;
+  known_triangle[child * kMostKnown + count] = triangle;
+  known_count[child] = count + 1u;
+}
+
+void know_corners(uint child, Child c) {
+  know(child, c.nearest.x);
+  know(child, c.nearest.y);
+  know(child, c.nearest.z);
+}
+
+// The parent's samples are free: its other corners, its other new points, its centroid.
+void know_parent_samples(uint child, uint code) {
+  if ((kSwitches & kUseParentSamples) == 0u || is_root(code)) return;
+  uint place = reading(splits[parent_of(code)].parent);
+  Candidate parent = frontier[place];
+  for (uint i = 0u; i < 6u; ++i) know(child, nearest_of(parent, parent_of(code), i));
+  know(child, nearest_to_centroid(place));
+}
+
+#endif

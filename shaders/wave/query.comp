@@ -1,0 +1,138 @@
+// What: the closest triangle of B to each of some points: all that a run asks for but the paper's
+// packets (wave_packet). One kernel, for a walk is most of the code that a driver compiles.
+// push.asked says which points:
+//   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
+// negative distance means skip; or, where kFused, the frontier, whose candidates are split here
+// (wave/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; and
+// of a split all that wave_subdivide writes but the points' positions.
+//   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
+// where push.warm (seed/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
+// control.maximum[kMaxVertex].
+//   the same once more, or the witness alone where the base has moved, to 48 bits above the base,
+// which follows from the maximum of the first. Out: the same; control.maximum[kMaxLower].
+// An invocation walks for a point of its own, or, where there are few, all of a workgroup for one
+// (walk/group_walk.glsl).
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/base/invocation.glsl"
+#include "shaders/gpu_types.h"
+
+layout(constant_id = 0) const uint kSwitches = kUseAll;
+layout(local_size_x = kQueryGroup) in;
+layout(scalar, binding = 0) buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
+layout(scalar, binding = 3) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 4) readonly buffer Boxes { Box boxes[]; };
+layout(scalar, binding = 5) buffer Points { Point points[]; };
+layout(scalar, binding = 6) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 7) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 8) buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 9) buffer VertexDistance { uint vertex_distance[]; };
+layout(scalar, binding = 10) buffer Frontier { Candidate frontier[]; };
+layout(scalar, binding = 11) writeonly buffer Splits { Split splits[]; };
+layout(scalar, binding = 12) buffer Areas { Area areas[]; };
+// Of wave/split.glsl; not touched here, where nothing is sorted and no centroid known.
+layout(scalar, binding = 13) readonly buffer Order { uint order[]; };
+layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; };
+layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
+
+#include "shaders/walk/walk.glsl"
+#include "shaders/candidate/candidate.glsl"
+#include "shaders/candidate/centroid.glsl"
+#include "shaders/base/coverage.glsl"
+#include "shaders/candidate/dispatch.glsl"
+#include "shaders/walk/group_walk.glsl"
+#include "shaders/walk/query.glsl"
+#include "shaders/seed/seed.glsl"
+#include "shaders/base/stream.glsl"
+#include "shaders/wave/split.glsl"
+
+// A wave whose plan has moved the base asks for its witness alone.
+uint what_is_asked() {
+  bool again = push.asked == kAskPoints && control.measuring != 0u;
+  return again ? kAskVerticesAgain : push.asked;
+}
+
+bool are_points(uint asks) { return asks <= kAskCentroids; }
+
+uint asked_count(uint asks) {
+  if (asks == kAskPoints) return point_count();
+  if (asks == kAskCentroids) return control.count[kCountSurvivors];
+  return seed_count();
+}
+
+// All of a workgroup for one point, or an invocation for each. The second pass over the vertices
+// has few walks, and does not know which.
+bool are_few(uint asks, uint count) {
+  if (kFused && asks == kAskPoints) return splits_in_groups();
+  bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupWalkVertices;
+  // kSpread once more: optimisers then leave the group's walk out.
+  return kSpread && (are_points(asks) ? walks_in_groups(count) : few_vertices);
+}
+
+Item item_at(uint asks, uint i, bool mine) {
+  if (are_points(asks)) return point_item(mine ? i : 0u, mine);
+  return asks == kAskVertices ? first_item(i, mine) : known_item(i, mine);
+}
+
+// Of a fused query: splits a candidate, and takes a new point of it. A workgroup has all those of
+// some candidates, or one, which all its invocations walk for: then every workgroup of a candidate
+// works out its split, and the one of the first point keeps it. `i`: which point of the wave it is.
+Item new_item(bool by_group, out uint i) {
+  uint each = points_each();
+  uint lane = gl_LocalInvocationID.x;
+  uint group = by_group ? 0u : lane / each;  // uncertified: integers
+  uint item = workgroup_index() * candidates_a_group() + group;
+  uint k = lane % each;
+  bool first = k == 0u;
+  if (!by_group && group >= candidates_a_group()) item = kNone;
+  if (by_group) {
+    item = workgroup_index() / each;  // uncertified: integers
+    k = workgroup_index() % each;
+    first = k == 0u && lane == 0u;
+    // For the splits of all its children.
+    if (k == 0u && lane < each) k = lane;
+  }
+  Refined r = refine(item, by_group ? lane == 0u : first, group);
+  bool mine = r.place != kNone;
+  NewPoint n = NewPoint(two(vec3(0.0)), kNone, false);
+  if (mine) n = new_point(k, r, group);
+  keep_split(r, first, group);
+  i = each * r.place + k;
+  mine = mine && (!by_group || lane == 0u);
+  return Item(mine, mine && n.asked, n.start, -1.0, Query(n.p, control.base, control.tight != 0u));
+}
+
+void main() {
+  uint asks = what_is_asked();
+  uint count = asked_count(asks);
+  bool by_group = are_few(asks, count);
+  uint lane = gl_LocalInvocationID.x;
+  uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
+  bool mine = i < count && (!by_group || lane == 0u);
+  Item item;
+  if (kFused && asks == kAskPoints) {
+    item = new_item(by_group, i);
+  } else {
+    item = item_at(asks, i, mine);
+  }
+  Nearest found = find_nearest(item.query, item.nearest, item.asked, by_group);
+  bool plain = asks == kAskVertices;
+  if (item.asked) {
+    // A wave looks for samples farther than the witness. Not kMaxLower: others raise it meanwhile.
+    float than = are_points(asks) ? control.witness.distance : -1.0;
+    if (!plain) found = measured(item.query, found, than);
+    item.nearest = found.triangle;
+    item.distance = max(found.above, 0.0);
+    // In plain floats it steers; the second pass measures what matters.
+    if (plain) item.distance = root(found.distance2);  // uncertified: steers
+  }
+  if (are_points(asks)) {
+    if (item.exists) answer_point(i, item.nearest, item.distance);
+  } else if (item.exists) {
+    answer_vertex(i, item);
+  }
+  raise(plain ? kMaxVertex : kMaxLower, item.distance);
+}

@@ -1,0 +1,183 @@
+// A wave's first step, over what the frontier holds: which candidates are refined, how each is
+// split, and where its new points are: three, or, where the wave splits twice, three of its own and
+// three of each child (candidate/generations.glsl). Midpoints, or double longest-edge bisection
+// where the candidate is thin (paper.md §4.1); always 1 -> 4. Candidates that there is no room to
+// refine (plan/select.glsl) are copied to the next frontier. A candidate that the risen lower bound
+// closes, or that is too small to be decided, gets kSplitNone; its u is kept. Include after the
+// frontier, `splits`, `order`, `areas`, A, B and `control` are declared and walk/walk.glsl,
+// candidate/candidate.glsl, candidate/centroid.glsl, base/coverage.glsl, candidate/dispatch.glsl
+// and base/stream.glsl are included. A workgroup has kGroupSize invocations, and refines as many
+// candidates at most.
+#ifndef VKH_SHADERS_LIB_SPLIT_GLSL
+#define VKH_SHADERS_LIB_SPLIT_GLSL
+
+shared uint place_in_group[kGroupSize];
+shared uint inner_in_group[kGroupSize];
+
+// What an invocation knows of its candidate.
+struct Refined {
+  uint from;   // its place in the half of the frontier being read
+  uint place;  // among the wave's parents; kNone: it is none of them
+  uint split;  // math/bary.h; kSplitNone where it ends here
+  bool closed;
+  float upper;
+  uint centre;  // the triangle closest to its centroid, or kNone
+  Candidate c;
+  Bary3 at;
+  Root root;
+};
+
+// The code of the candidate's split; kSplitNone where the barycentric bits have run out.
+uint choose_split(Bary3 at, Root root) {
+  Corners t = plain_corners(root, at);
+  if ((kSwitches & kUseThin) != 0u && quality(t) < kThinQuality) {
+    uint x = opposite_longest(t);
+    Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
+    uvec3 all = uvec3(0u, 1u, 2u);
+    uint y = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 0u))));
+    uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
+    uint code = bisection_code(x, y, z);
+    if (can_split(at, code)) return code;
+  }
+  return can_split(at, kSplitMidpoint) ? kSplitMidpoint : kSplitNone;
+}
+
+uint best_start(Refined r, vec3 p) {
+  if ((kSwitches & kUseWarmStart) == 0u) return kNone;
+  Nearest best = nothing_near();
+  for (uint k = 0u; k < 4u; ++k) {
+    uint i = k < 3u ? r.c.nearest[k] : r.centre;
+    if (i != kNone && i != best.triangle) try_triangle(p, i, best);
+  }
+  return best.triangle;
+}
+
+// A new point as a query: where it is, the triangle to start from, and whether it is one.
+struct NewPoint {
+  Two3 p;
+  uint start;
+  bool asked;
+};
+
+// New point k: of the candidate's own split, or of the split of one of its children, which goes to
+// the `group` of the workgroup that the candidate is.
+NewPoint new_point(uint k, Refined r, uint group) {
+  uint split = r.split;
+  bool inner = kMaySplitTwice && k >= 3u && split != kSplitNone;
+  if (inner) {
+    uint which = k / 3u - 1u;  // uncertified: integers
+    r.at = child_of(split_points(r.at, split), child_points(split, which));
+    split = choose_split(r.at, r.root);
+    if (k % 3u == 0u) atomicOr(inner_in_group[group], (split & kInnerNone) << (5u * which));
+  }
+  bool asked = split != kSplitNone;
+  Bary6 six = split_points(r.at, asked ? split : kSplitMidpoint);
+  Two3 p = place(r.root, corner_of(six.fresh, k % 3u));
+  return NewPoint(p, asked ? best_start(r, p.hi) : kNone, asked);
+}
+
+// Whether items are taken in the order of the sort. Then the wave's parents come first, and one
+// kernel serves both ways to split: at most one subgroup has candidates of both. A second dispatch
+// for the thin ones would cost 3.5 us a wave on an H200, and a count of them.
+bool is_sorted() { return (kSwitches & kUseSort) != 0u && control.sorted != 0u; }
+
+// Nothing may wait, and there is no room: the candidate is lost, but for its u.
+void lose(bool held, Candidate c, float upper) {
+  raise(kMaxSpilled, held ? upper : 0.0);
+  close_area(held, c.root, unpack_corners(c.corners));
+}
+
+void defer(uint place, Refined r) {
+  r.c.upper = r.upper;
+  frontier[writing(place)] = r.c;
+  if (kKnowsCentroids) centroid_nearest[writing(place)] = r.centre;
+}
+
+// Where the candidate of an item stands among the wave's parents; kNone if there is no room for it
+// in this wave: then it is copied to the next frontier. Where none is deferred, items are parents.
+uint place_of(uint item, bool held, Refined r) {
+  if (control.deferred == 0u) return held ? item : kNone;
+  if ((kSwitches & kUseDefer) == 0u) {
+    lose(held, r.c, r.upper);
+    return kNone;
+  }
+  if (is_sorted()) {
+    bool waits = held && item >= control.parents;
+    raise(kMaxNext, waits ? r.upper : 0.0);
+    if (waits) defer(item - control.parents, r);
+    return held && !waits ? item : kNone;
+  }
+  Key key = key_of(r.c, control.select_largest != 0u);
+  bool refined = held && not_after(key, Key(control.select_key, control.select_tie));
+  uint place = stream_append(kCountRefined, refined);
+  refined = refined && place < control.parents;
+  bool deferred = held && !refined;
+  uint slot = stream_append(kCountDeferred, deferred);
+  // There are as many places as the plan left: no bound rests on its selection.
+  bool fits = slot < control.deferred;
+  lose(deferred && !fits, r.c, r.upper);
+  raise(kMaxNext, deferred && fits ? r.upper : 0.0);
+  if (deferred && fits) defer(slot, r);
+  return refined ? place : kNone;
+}
+
+// The same for all invocations of a candidate: the first of them asks.
+uint shared_place_of(uint item, bool held, bool first, Refined r, uint group) {
+  uint i = place_of(item, held && first, r);
+  if (!kSpread && !kMaySplitTwice) return i;
+  if (first) {
+    place_in_group[group] = i;
+    inner_in_group[group] = 0u;
+  }
+  barrier();
+  return place_in_group[group];
+}
+
+// Whether it is rounding that holds u up, so that no split helps: the candidate is tiny; or it lies
+// on B, where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
+// A's.
+bool is_noise(Bary3 corners, Root root, float upper) {
+  Corners t = plain_corners(root, corners);
+  float size2 = max(dot3(t.b, t.b), dot3(t.c, t.c));
+  float root_size2 = max(dot3(root.ab.hi, root.ab.hi), dot3(root.ac.hi, root.ac.hi));
+  float left = upper - adopted_lower();
+  float tiny = 0.0625 * effective_tolerance(adopted_lower());
+  return size2 < tiny * tiny ||
+         (control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2);
+}
+
+// Called by every invocation of the workgroup, the first of a candidate's among them once.
+Refined refine(uint item, bool first, uint group) {
+  Refined r;
+  bool held = item < control.count[kCountFrontier];
+  r.from = held ? item : 0u;
+  if (held && is_sorted()) r.from = order[item];
+  r.c = frontier[reading(r.from)];
+  r.centre = nearest_to_centroid(reading(r.from));
+  r.upper = upper_of(r.c);
+  r.place = shared_place_of(item, held, first, r, group);
+  bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
+  r.closed = r.upper <= cull_threshold(adopted_lower(), tolerant);
+  r.split = kSplitNone;
+  if (r.place != kNone) {
+    r.at = unpack_corners(r.c.corners);
+    r.root = load_root(r.c.root);
+    if (!r.closed && !is_noise(r.at, r.root, r.upper)) r.split = choose_split(r.at, r.root);
+  }
+  return r;
+}
+
+// Keeps what became of the candidate, once its new points are there. Called by every invocation;
+// `first`: of the candidate.
+void keep_split(Refined r, bool first, uint group) {
+  if (kMaySplitTwice) barrier();
+  bool mine = first && r.place != kNone;
+  if (mine) splits[r.place] = Split(r.split, kMaySplitTwice ? inner_in_group[group] : 0u, r.from);
+  bool ended = mine && r.split == kSplitNone;
+  if (ended) close_area(true, r.c.root, r.at);
+  count_culled(kCullLowerRaised, ended && r.closed);
+  count_culled(kCullPrecision, ended && !r.closed);
+  raise(kMaxDropped, ended ? r.upper : 0.0);
+}
+
+#endif

@@ -1,0 +1,81 @@
+// Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an order
+// that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
+// that the report says of a witness, so that two samples with one key are one to the report, but
+// for one chance in 2^32 a pair of them. wave_bound, by when all are measured, offers them; the
+// plan adopts one (plan/adopt.glsl). Include after `control`, `frontier`, `splits`, `points`,
+// `survivors` and `centroids` are declared and candidate/child.glsl is included.
+#ifndef VKH_SHADERS_LIB_WITNESS_GLSL
+#define VKH_SHADERS_LIB_WITNESS_GLSL
+
+#include "shaders/math/hash.h"
+
+// Samples of the wave: its new points, then survivors' centroids.
+uint sample_count() { return query_count(); }
+
+float distance_of_sample(uint s) {
+  uint points_asked = point_count();
+  if ((kSwitches & kUseCentroid) != 0u && s >= points_asked)
+    return centroids[s - points_asked].distance;
+  return points[s].distance;
+}
+
+bool is_new_lower(float distance) {
+  return distance == uintBitsToFloat(control.maximum[kMaxLower]) &&
+         distance > control.witness.distance;
+}
+
+Witness witness_from(Point asked, uint root, uvec2 at) {
+  vec3 position = place(load_root(root), at).hi;
+  return Witness(position, asked.distance, root, at.x, at.y, asked.nearest);
+}
+
+// A sample as the witness that it would be.
+Witness witness_at(uint s) {
+  if ((kSwitches & kUseCentroid) != 0u && s >= point_count()) {
+    uint c = s - point_count();
+    Child child = load_child(survivors[c]);
+    return witness_from(centroids[c], child.root, centroid_of(child.at));
+  }
+  Split split = splits[s / points_each()];  // uncertified: integers
+  Candidate parent = frontier[reading(split.parent)];
+  Bary6 six = split_points(unpack_corners(parent.corners), split.code);
+  uint which = s % points_each();
+  if (kMaySplitTwice && which >= 3u) {  // a child's
+    uint child = (which - 3u) / 3u;     // uncertified: integers
+    six = split_points(child_of(six, child_points(split.code, child)), inner_split(split, child));
+  }
+  return witness_from(points[s], parent.root, corner_of(six.fresh, which % 3u));
+}
+
+uint key_of_witness(Witness w) {
+  uint key = mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest);
+  return min(key, kNone - 1u);
+}
+
+// Kept where its key is the smallest so far: some 20 are kept of a million in whatever order, and
+// the smallest of all is among them.
+void offer(Witness w) {
+  uint key = key_of_witness(w);
+  if (key >= atomicMin(control.offer_key, key)) return;
+  uint slot = atomicAdd(control.offer_count, 1u);
+  if (slot >= kMaxOffers) return;
+  uvec3 at = floatBitsToUint(w.position);
+  atomicExchange(control.offers[slot].key, key);
+  atomicExchange(control.offers[slot].x, at.x);
+  atomicExchange(control.offers[slot].y, at.y);
+  atomicExchange(control.offers[slot].z, at.z);
+  atomicExchange(control.offers[slot].root, w.root);
+  atomicExchange(control.offers[slot].j, w.j);
+  atomicExchange(control.offers[slot].k, w.k);
+  atomicExchange(control.offers[slot].nearest, w.nearest);
+}
+
+// The invocations of a dispatch go over all samples (groups_for_children).
+void offer_samples() {
+  uint step = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kGroupSize;
+  for (uint s = item_index(); s < sample_count(); s += step) {
+    if (is_new_lower(distance_of_sample(s))) offer(witness_at(s));
+  }
+}
+
+#endif
