@@ -151,8 +151,7 @@ TEST_CASE("certified.h: outward rounding, roots, lengths, quotients") {
 #ifndef VKH_TEST_VULKAN_MODEL
 TEST_CASE("the tests' arithmetics reach the headers' operations") {
   // Volatile: a compiler that knows the operands rounds them itself, to nearest.
-  volatile float one = 1.0f, little = 0x1p-40f;
-  const float least = 0x1p-126f;
+  volatile float one = 1.0f, little = 0x1p-40f, least = 0x1p-126f;
   for (uint64_t i = 0; i < kArithmetics.size(); ++i) {
     const Device device(i);
     CAPTURE(device.name());
