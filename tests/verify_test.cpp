@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "host/solve/coverage.h"
 #include "host/solve/solver.h"
 #include "tests/support/arithmetic.h"
 #include "tests/support/exact.h"
