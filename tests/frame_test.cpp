@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <limits>
 
-#include "host/mesh/round_to_float.h"
 #include "host/demo/default_pair.h"
+#include "host/mesh/round_to_float.h"
 #include "tests/support/adversarial.h"
 #include "tests/support/arithmetic.h"
 #include "tests/support/exact.h"

@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 #include <utility>
 
-#include "host/mesh/round_to_float.h"
 #include "host/demo/simplify.h"
+#include "host/mesh/round_to_float.h"
 
 namespace vkh {
 namespace {

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "host/base/float_environment.h"
-#include "host/read/readers.h"
 #include "host/base/text_scanner.h"
+#include "host/read/readers.h"
 
 namespace vkh {
 namespace {

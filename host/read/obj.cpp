@@ -11,8 +11,8 @@
 #include <istream>
 #include <streambuf>
 
-#include "host/read/readers.h"
 #include "host/base/text_scanner.h"
+#include "host/read/readers.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>

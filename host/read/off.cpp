@@ -2,8 +2,8 @@
 // numbers are its position, and what follows a face's corners is its colour.
 #include <charconv>
 
-#include "host/read/readers.h"
 #include "host/base/text_scanner.h"
+#include "host/read/readers.h"
 
 namespace vkh {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "host/base/text_scanner.h"
 #include "host/read/ply_header.h"
 #include "host/read/readers.h"
-#include "host/base/text_scanner.h"
 
 namespace vkh {
 namespace {

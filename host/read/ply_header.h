@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/read/readers.h"
 #include "host/base/text_scanner.h"
+#include "host/read/readers.h"
 
 namespace vkh::ply {
 

@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 
 #include "host/base/hash_index.h"
-#include "host/read/readers.h"
 #include "host/base/text_scanner.h"
+#include "host/read/readers.h"
 
 namespace vkh {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "host/base/parallel.h"
-#include "host/mesh/round_to_float.h"
 #include "host/base/rounding.h"
+#include "host/mesh/round_to_float.h"
 
 namespace vkh {
 namespace {
