@@ -230,6 +230,18 @@ class EmbedShaders(unittest.TestCase):
                 self.assertNotEqual(result.returncode, 0)
                 self.assertIn("whose order is not fixed", result.stderr)
 
+    def test_several_values_at_once_stop_the_build(self):
+        result = self.embed(FLOATS, "int n; x[0] = frexp(x[1], n);", order=True)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("which gives several values", result.stderr)
+
+    def test_the_doctors_header_stays_when_the_others_are_listed_again(self):
+        for name in ("self_test", "of_a_shader_that_is_gone"):
+            (self.dir / f"{name}.h").write_text("")
+        subprocess.run([sys.executable, "-B", EMBED, "index", self.dir, "wave_plan"], check=True)
+        self.assertTrue((self.dir / "self_test.h").exists())
+        self.assertFalse((self.dir / "of_a_shader_that_is_gone.h").exists())
+
     def test_moved_and_chosen_floats_need_no_decoration(self):
         self.header(FLOATS, "uint i = gl_LocalInvocationID.x; v[0] = abs(v[1]).zyx;"
                             "x[0] = max(x[1], clamp(x[2], x[3], 1.0)); x[1] = sqrt(x[2]);"

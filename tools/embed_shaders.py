@@ -340,7 +340,7 @@ def embed_index(out_dir, names):
     write_if_changed(out_dir / "all_kernels.cpp", '#include "kernels/all_kernels.h"\n')
     for header in out_dir.glob("*.h"):  # of a shader that is gone: including it must not compile
         # The doctor's is in no list, and a Makefile does not make it again.
-        if header.stem not in ("all_kernels", *names) and not (SHADERS / f"{header.stem}.comp").exists():
+        if header.stem not in ("all_kernels", *names) and not any(SHADERS.glob(f"*/{header.stem}.comp")):
             header.unlink()
 
 

@@ -30,7 +30,7 @@ MOVED = {1: "OpUndef", 12: "OpExtInst", 43: "OpConstant", 44: "OpConstantComposi
          169: "OpSelect", 245: "OpPhi", 337: "OpGroupNonUniformBroadcast",
          338: "OpGroupNonUniformBroadcastFirst", 345: "OpGroupNonUniformShuffle",
          355: "OpGroupNonUniformFMin", 358: "OpGroupNonUniformFMax"}
-OP_EXT_INST, OP_SPEC_CONSTANT_OP = 12, 52
+OP_EXT_INST_IMPORT, OP_EXT_INST, OP_SPEC_CONSTANT_OP = 11, 12, 52
 
 # Of GLSL.std.450: exact, and the root, a formula of one operation. Not Fma, FMix, Length, Distance,
 # Normalize, Cross: like OpDot they are sums of products, whose inner order no decoration fixes.
@@ -71,9 +71,24 @@ def no_contraction(words):
             if op == spirv.OP_DECORATE and words[at + 2] == NO_CONTRACTION}
 
 
+def other_instructions(words):
+    """Extended instructions of other sets than GLSL.std.450, and those that give several values."""
+    types = spirv.Module(words).types
+    for at, op in spirv.instructions(words):
+        if op == OP_EXT_INST_IMPORT:
+            name = spirv.literal_string(words[at + 2:at + (words[at] >> 16)])
+            if name != "GLSL.std.450":
+                return f"imports {name}, whose instructions are not known"
+        if op == OP_EXT_INST and types[words[at + 1]][0] == spirv.OP_TYPE_STRUCT:
+            return f"uses GLSL.std.450 instruction {words[at + 4]}, which gives several values"
+    return None
+
+
 def breach(words):
     """What a driver may still rearrange, as text; None where there is nothing."""
     known = no_contraction(words)
+    if breach := other_instructions(words):
+        return breach
     for op, result, extended in float_results(words):
         if op in ROUNDED and result not in known:
             return f"{ROUNDED[op]} %{result} is not decorated NoContraction"
