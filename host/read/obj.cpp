@@ -24,18 +24,21 @@ constexpr const char* kIndexForms = "a vertex index such as 7, 7/1, 7//1 or 7/1/
 
 // Every keyword of the format, so that no face is lost in silence. v and f are read. What moves no
 // point of a surface is skipped: names, groups, display, materials, texture coordinates, normals,
-// tinyobj's bone weights and tags (vw, t), and the words that only describe a curve or a free-form
-// surface. What is no triangle mesh is noted: points, lines and curves; free-form surfaces, which
-// we do not read; files and commands that are called. Any other word is refused: F, fo (the first
-// versions' f), V, a keyword misspelt or glued to something, text.
+// tinyobj's bone weights and tags (vw, t), materials that were pasted in and colours (newmtl to
+// vc), and the words that only describe a curve or a free-form surface. What is no triangle mesh is
+// noted: points, lines and curves; free-form surfaces, which we do not read; files and commands
+// that are called. Any other word is refused: F, fo (the first versions' f), V, a keyword misspelt
+// or glued to something, text.
 enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kUnknown };
 
 Line kind_of(std::string_view keyword) {
-  static constexpr std::array<std::string_view, 34> kSkipped = {
-      "",       "vn",   "vt",   "g",        "s",        "o",   "usemtl",     "mtllib",    "vp",
-      "vw",     "t",    "mg",   "usemap",   "maplib",   "lod", "shadow_obj", "trace_obj", "end",
-      "cstype", "deg",  "bmat", "c_interp", "d_interp", "sp",  "step",       "parm",      "trim",
-      "hole",   "scrv", "con",  "ctech",    "stech",    "res", "bevel"};
+  static constexpr std::array<std::string_view, 46> kSkipped = {
+      "",          "vn",    "vt",     "g",     "s",      "o",        "usemtl",   "mtllib",
+      "vp",        "vw",    "t",      "mg",    "usemap", "maplib",   "lod",      "shadow_obj",
+      "trace_obj", "end",   "cstype", "deg",   "bmat",   "c_interp", "d_interp", "sp",
+      "step",      "parm",  "trim",   "hole",  "scrv",   "con",      "ctech",    "stech",
+      "res",       "bevel", "newmtl", "illum", "Ka",     "Kd",       "Ks",       "Ke",
+      "Ns",        "Ni",    "d",      "Tr",    "Tf",     "vc"};
   static constexpr std::array<std::string_view, 6> kElements = {"p",     "l",   "curv",
                                                                 "curv2", "cdc", "cdp"};
   static constexpr std::array<std::string_view, 3> kSurfaces = {"surf", "bsp", "bzp"};
@@ -77,7 +80,7 @@ class ObjSource : public std::streambuf {
         skip(line, keyword);
         continue;
       }
-      skipped_is_continued_ = false;
+      continued_ = Continued::kNot;
       setg(line_.data(), line_.data(), line_.data() + line_.size());
       return traits_type::to_int_type(line_[0]);
     }
@@ -85,6 +88,18 @@ class ObjSource : public std::streambuf {
   }
 
  private:
+  /// What a line may be continued by on the next one.
+  enum class Continued { kNot, kByNumbers, kByNames };
+
+  // A name may end in a backslash: 'usemtl C:\red\' does not swallow a face.
+  static Continued continued_by(std::string_view keyword) {
+    static constexpr std::array<std::string_view, 10> kNames = {
+        "",       "usemtl", "mtllib",     "usemap",    "maplib",
+        "newmtl", "o",      "shadow_obj", "trace_obj", "lod"};
+    if (std::find(kNames.begin(), kNames.end(), keyword) != kNames.end()) return Continued::kNot;
+    return keyword == "g" ? Continued::kByNames : Continued::kByNumbers;
+  }
+
   void skip(Line line, std::string_view keyword) {
     if (line == Line::kUnknown && !is_skipped_too(keyword)) {
       scanner_.fail(quoted(keyword) + " begins the line",
@@ -93,15 +108,30 @@ class ObjSource : public std::streambuf {
     ignored_elements += line == Line::kElement ? 1 : 0;
     ignored_surfaces += line == Line::kSurface ? 1 : 0;
     ignored_calls += line == Line::kCall ? 1 : 0;
-    skipped_is_continued_ = !keyword.empty() && scanner_.is_continued();
+    if (!scanner_.is_continued()) {
+      continued_ = Continued::kNot;
+    } else if (line != Line::kUnknown) {
+      continued_ = continued_by(keyword);
+    }  // else as the line that this one continues
   }
 
   // Of the lines that begin with no keyword: what continues a skipped line, as those of long curves
-  // and group lists do, but not F or fo; and the Ctrl-Z by which DOS programs end a text. A line
-  // with a keyword is never taken for a continuation: 'usemtl C:\red\' does not swallow a face.
+  // (numbers) and group lists (names) do, but not what may be a face; and the Ctrl-Z by which DOS
+  // programs end a text. A line with a keyword is never taken for a continuation.
   bool is_skipped_too(std::string_view keyword) {
-    if (skipped_is_continued_) return keyword != "F" && keyword != "V" && keyword != "fo";
+    if (continued_ == Continued::kByNumbers) {
+      return keyword.find_first_not_of("+-.0123456789eE/\\") == std::string_view::npos;
+    }
+    if (continued_ == Continued::kByNames) return !may_be_geometry(keyword);
     return keyword == "\x1a" && scanner_.word().empty() && scanner_.bytes_left() == 0;
+  }
+
+  // 'FACE 1 2 4' and 'f<no-break space>1 2 4', but not a group's name such as 'front'.
+  bool may_be_geometry(std::string_view keyword) {
+    if (std::string_view("fFvV").find(keyword.front()) == std::string_view::npos) return false;
+    const std::string_view next = scanner_.word();
+    return keyword.size() == 1 ||
+           (!next.empty() && next.find_first_not_of("+-.0123456789/") == std::string_view::npos);
   }
 
   // x y z, then perhaps a weight or a colour: checked to be numbers, not used.
@@ -153,7 +183,7 @@ class ObjSource : public std::streambuf {
 
   TextScanner scanner_;
   std::string line_;
-  bool skipped_is_continued_ = false;
+  Continued continued_ = Continued::kNot;  ///< by what the skipped line before may go on
 };
 
 // What tinyobjloader calls back.

@@ -78,8 +78,15 @@ uint64_t checked_count(const MeshSource& source) {
   return count;
 }
 
-// Three different corners, none of them a million times farther out than the mesh; text and
-// padding hardly ever look so.
+// A date, a name, a version: what exporters sign with. It is no triangle, but digits make floats.
+bool is_signature(std::string_view rest) {
+  const auto printable = [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); };
+  return std::all_of(rest.begin(), rest.end(), printable) &&
+         rest.find("vertex") == std::string_view::npos;
+}
+
+// Three different corners, none of them a million times farther out than the mesh; padding hardly
+// ever looks so.
 bool looks_like_triangle(const char* at, double mesh_size) {
   constexpr double kFar = 0x1p20;
   std::array<glm::dvec3, 3> corners{};
@@ -102,7 +109,8 @@ void check_rest(const MeshSource& source, MeshBuilder& builder, uint64_t end) {
     const glm::dvec3 p = glm::abs(v);
     mesh_size = std::max({mesh_size, p.x, p.y, p.z});
   }
-  for (uint64_t at = end; at + kTriangleBytes <= source.bytes.size(); ++at) {
+  const bool may_be_binary = !is_signature(source.bytes.substr(end));
+  for (uint64_t at = end; may_be_binary && at + kTriangleBytes <= source.bytes.size(); ++at) {
     if (!looks_like_triangle(source.bytes.data() + at, mesh_size)) continue;
     reject(source.name, byte_place(at), "a triangle after the last one announced",
            "as many triangles as byte 80 says");

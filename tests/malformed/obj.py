@@ -108,6 +108,16 @@ def continued_lines(cases):
     cases.accept('group_ends_in_backslash', 1, 'g name\\\n' + VERTICES + 'f 1 3 2\n')
     cases.accept('material_ends_in_backslash', 2,
                  VERTICES + 'usemtl C:\\mat\\\nf 1 3 2\nf 1 2 4\n')
+    # A name ends in a backslash and continues nothing; numbers are continued by numbers alone.
+    for name, line in (('upper', 'F 1 2 4'), ('glued', 'f1 2 4'), ('no_break_space', 'f\xa01 2 4'),
+                       ('word', 'FACE 1 2 4')):
+        for before, skipped in (('usemtl', 'usemtl C:\\tmp\\'), ('parm', 'parm u 0 1 \\'),
+                                ('g', 'g left right \\')):
+            cases.refuse(f'face_{name}_behind_{before}', f'{VERTICES}f 1 3 2\n{skipped}\n{line}\n')
+    cases.accept('group_names_continued', 1, VERTICES + 'g left \\\nfront 2nd\nf 1 3 2\n')
+    cases.accept('parameters_continued', 1, VERTICES + 'parm u 0 0.5 \\\n1 1e-3\nf 1 3 2\n')
+    cases.accept('material_and_colours', 1,
+                 VERTICES + 'newmtl a\nKd 1 0 0\nillum 2\nvc 1 0 0\nf 1 3 2\n')
     cases.accept('group_continued', 1, VERTICES + 'g a \\\n b \\\n c\nf 1 2 3\n')
     cases.refuse('group_continued_by_capital_face', VERTICES + 'f 1 3 2\ng a \\\nF 1 2 4\n', "'F'")
     cases.refuse('group_continuation_ends', VERTICES + 'g a \\\n b\n c\nf 1 2 3\n', "'c' begins")

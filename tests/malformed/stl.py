@@ -30,6 +30,8 @@ TEXT = 'solid a\n' + ''.join(facet(face) for face in FACES) + 'endsolid a\n'
 def binary_counts(cases):
     cases.accept('binary', 4, binary(4, BODY))
     cases.accept('binary_litter', 4, binary(4, BODY + b'litter'), '6 bytes after the last triangle')
+    signature = b'\n2024-03-04 12:33:11.000000 1.0 2.0 3.0 4.0 1234567 '
+    cases.accept('binary_signature', 4, binary(4, BODY + signature), 'after the last triangle')
     cases.accept('binary_text_behind', 4, binary(4, BODY + b'garbage\0' * 9),
                  '72 bytes after the last')
     cases.accept('binary_sentences_behind', 4, binary(4, BODY + b'Exported by some program. ' * 10))
