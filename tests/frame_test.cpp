@@ -175,3 +175,18 @@ TEST_CASE("a number that is rounded to float stays so beside another") {
     CHECK(lost(p) == glm::dvec2(0x1p-40));
   }
 }
+
+TEST_CASE("nothing that a device may flush is stored: it is displaced by so much") {
+  for (const double low : {0x1p-140, 0x1p-127, 0x1.8p-126}) {
+    const auto mesh = [](double z) {
+      return make_mesh("m", {{1, 0, z}, {0, 1, z}, {-1, -1, z}}, {{0, 1, 2}});
+    };
+    const FramedPair pair = frame_pair(mesh(0x1p-100 + low), mesh(low));
+    for (const StoredMesh* stored : {&pair.a, &pair.b}) {
+      for (const std::vector<float>* part : {&stored->high, &stored->low})
+        for (const float x : *part) CHECK((x == 0 || std::abs(x) >= 0x1p-126f));
+    }
+    const double scale = std::ldexp(1.0, pair.frame.exponent);
+    CHECK((low * scale >= 0x1p-126 || pair.b.displacement >= low * scale));
+  }
+}

@@ -40,6 +40,13 @@ struct Scale {
 
 double scaled(double x, int exponent) { return Scale(exponent)(x); }
 
+// The nearest float, but 0 for one under 2^-126: a device may flush those as it reads them, and two
+// that differ would be one.
+float stored_float(double x) {
+  const float near = nearest_float(x);
+  return std::abs(near) >= std::numeric_limits<float>::min() ? near : 0.0f;
+}
+
 // Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly,
 // the rounding of the subtraction by its bound (2^-53 relative, taken twice over), unless it was
 // exact. Scaling is, but for underflow, which the last term takes: a normal result has not been
@@ -47,8 +54,8 @@ double scaled(double x, int exponent) { return Scale(exponent)(x); }
 double store(double given, double centre, const Scale& scale, float& high, float& low) {
   const double offset = given - centre;
   const double exact = scale(offset);
-  high = nearest_float(exact);
-  low = nearest_float(exact - static_cast<double>(high));
+  high = stored_float(exact);
+  low = stored_float(exact - static_cast<double>(high));
   const double left = std::abs((exact - static_cast<double>(high)) - static_cast<double>(low));
   const double subtraction = sum_error(given, -centre) == 0 ? 0 : std::abs(exact) * 0x1p-52;
   const bool scaled_exactly = offset == 0 || std::abs(exact) >= std::numeric_limits<double>::min();
