@@ -158,18 +158,15 @@ TEST_CASE("spellings") {
   CHECK(decimal(std::nan(""), 17, Rounding::kUp) == "nan");
 }
 
-TEST_CASE("17 digits read back as the double or its outward neighbour") {
+TEST_CASE("what JSON gives, rounded outward, reads back as the double") {
   std::mt19937_64 random(3);
   for (int i = 0; i < 20000; ++i) {
     const double value = std::abs(random_bits_double(random));
-    if (value > 1e307) continue;
     const double down =
         std::strtod(decimal(value, vkh::kJsonDigits, Rounding::kDown).c_str(), nullptr);
     const double up = std::strtod(decimal(value, vkh::kJsonDigits, Rounding::kUp).c_str(), nullptr);
-    CHECK(down <= value);
-    CHECK(down >= std::nextafter(value, 0.0));
-    CHECK(up >= value);
-    CHECK(up <= std::nextafter(value, 1e308));
+    CHECK(down == value);
+    CHECK(up == value);
   }
 }
 
@@ -191,7 +188,7 @@ TEST_CASE("digits that matter go two past the gap") {
   CHECK(vkh::digits_that_matter(0.5, 1e-6) == 8);  // 0.50000000
   CHECK(vkh::digits_that_matter(123.4, 0.01) == 7);
   CHECK(vkh::digits_that_matter(1e-9, 1) == 3);
-  CHECK(vkh::digits_that_matter(1, 0) == 17);
+  CHECK(vkh::digits_that_matter(1, 0) == vkh::kJsonDigits);
   CHECK(vkh::digits_that_matter(0, 1e-9) == 3);
   CHECK(vkh::digits_that_matter(1, std::numeric_limits<double>::infinity()) == 3);
 }

@@ -7,7 +7,7 @@ namespace vkh {
 
 enum class Rounding { kDown, kUp };  ///< towards minus or plus infinity
 
-inline constexpr int kJsonDigits = 17;  ///< enough to tell any two doubles apart
+inline constexpr int kJsonDigits = 18;  ///< rounded outward, and read back as the same double
 
 /// `value` with at most `digits` (>= 1) significant digits, as a JSON number without trailing
 /// zeros. Exact: the printed decimal is <= value (kDown) or >= value (kUp), by less than one unit

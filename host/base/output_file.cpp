@@ -139,7 +139,8 @@ void OutputFile::open_special(unsigned mode) {
 void OutputFile::check_place() const {
   const std::string folder = folder_of(target_);
   if (fs::path(target_).filename().empty()) refuse("is a folder's name");
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
+  const bool may_write_over = access(target_.c_str(), W_OK) == 0;
+  if (!may_write_over && access(folder.c_str(), W_OK | X_OK) != 0)
     refuse("the folder '" + folder + "' cannot be written: " + std::strerror(errno));
   if (access(target_.c_str(), W_OK) != 0 && errno != ENOENT)
     refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
@@ -149,6 +150,17 @@ void OutputFile::write(std::string_view text) const {
   if (special_ < 0) return replace(text);
   if (!write_all(special_, text))
     throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(errno));
+}
+
+// Where nothing can be renamed over the older file: it is mounted by itself, or its folder is not
+// ours to write.
+void OutputFile::write_over(std::string_view text) const {
+  const int file = open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  const bool good = file >= 0 && write_all(file, text);
+  const int error = errno;
+  if (file >= 0 && close(file) == 0 && good) return;
+  throw OutputError(option_ + " '" + path_ +
+                    "': cannot be written: " + std::strerror(good ? errno : error));
 }
 
 void OutputFile::replace(std::string_view text) const {
@@ -163,6 +175,8 @@ void OutputFile::replace(std::string_view text) const {
   if (error == 0 && rename(beside.c_str(), target_.c_str()) != 0) error = errno;
   if (error == 0) return;
   if (file >= 0) unlink(beside.c_str());
+  const bool may_write_over = error == EBUSY || error == EACCES || error == EPERM || error == EXDEV;
+  if (older && may_write_over) return write_over(text);
   throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(error));
 }
 

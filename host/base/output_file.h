@@ -8,7 +8,8 @@
 namespace vkh {
 
 /// A regular file is written beside its place and renamed, so that an older one is whole until the
-/// new one is. Links are followed: their target is replaced. Pipes, terminals and whatever is
+/// new one is; where that cannot be, as it is mounted by itself, it is written over. Links are
+/// followed: their target is replaced. Pipes, terminals and whatever is
 /// standard output already are not replaced but written to.
 class OutputFile {
  public:
@@ -27,6 +28,7 @@ class OutputFile {
   void open_special(unsigned mode);
   void check_place() const;
   void replace(std::string_view text) const;
+  void write_over(std::string_view text) const;
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::string option_, path_;

@@ -1,4 +1,5 @@
-// Sums, products and quotients of doubles, rounded in a known direction. Exact results stay exact.
+// Sums, products and quotients of finite doubles, rounded in a known direction. Exact results stay
+// exact. Of sums that overflow, only add_up's of positive and add_down's of negative numbers hold.
 #pragma once
 
 #include <cmath>
