@@ -62,8 +62,8 @@ TEST_CASE("the doctor refuses a driver that rearranges, by the name of what it b
 }
 
 TEST_CASE("decorated operations leave nothing to rearrange") {
-  for (const auto& [name, count] : beaten(model::Decorations::kAll))
-    CHECK_MESSAGE(count == 0, name << ": " << count << " of " << kClimbs);
+  for (const auto& target : beaten(model::Decorations::kAll))
+    CHECK_MESSAGE(target.second == 0, target.first << ": " << target.second << " of " << kClimbs);
 }
 
 TEST_CASE("the model rearranges what is not decorated, and bounds that rest on order give") {
