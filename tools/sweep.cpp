@@ -19,8 +19,8 @@
 #include "host/base/decimal.h"
 #include "host/check/verify.h"
 #include "host/solve/solver.h"
-#include "tests/support/hard_pairs.h"
-#include "tests/support/reference_solver.h"
+#include "tests/oracle/reference_solver.h"
+#include "tests/shapes/hard_pairs.h"
 
 namespace {
 

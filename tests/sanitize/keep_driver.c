@@ -1,7 +1,8 @@
 /* Linked into every program of the sanitizer tree. Opens the drivers that VK_DRIVER_FILES (or
  * VK_ICD_FILENAMES) names before anything else does, and for good. The Vulkan loader unloads a
  * driver with the last instance, before leaks are counted; what the driver allocated once for the
- * life of the process is then a leak of an unknown module, which tests/lsan.supp cannot name. */
+ * life of the process is then a leak of an unknown module, which tests/sanitize/lsan.supp cannot
+ * name. */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"
-#include "tests/support/shapes.h"
 
 namespace vkh::test {
 namespace {

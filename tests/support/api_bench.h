@@ -8,7 +8,7 @@
 #include "engine/vkhausdorff.h"
 #include "host/gpu/memory.h"
 #include "host/mesh/mesh.h"
-#include "tests/support/reference_solver.h"
+#include "tests/oracle/reference_solver.h"
 
 namespace vkh::test {
 

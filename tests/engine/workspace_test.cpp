@@ -1,0 +1,349 @@
+// Budgets: memory, waves, time, the caller's patience, switches. Whatever ends a run, its interval
+// is true.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host/base/error.h"
+#include "tests/oracle/reference_solver.h"
+#include "tests/shapes/shapes.h"
+#include "tests/support/solver_bench.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+/// Pairs that need several waves.
+const std::vector<ReferencePair>& pairs() {
+  static const std::vector<ReferencePair> all = {
+      with_reference("spheres", icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})),
+      with_reference("V", v_lid(), v_sheet()),
+      with_reference("twin", height_field(24, 1), height_field(24, 3)),
+      with_reference("soups", soup(1, 60), soup(2, 80)),
+      with_reference("plane above a bumpy field", big_plane(1.0, 0.3), height_field(12, 1))};
+  return all;
+}
+
+SolveOptions with_memory(uint64_t bytes) {
+  SolveOptions options;
+  options.memory_bytes = bytes;
+  return options;
+}
+
+SolveOptions with_waves(uint32_t limit) {
+  SolveOptions options;
+  options.wave_limit = limit;
+  return options;
+}
+
+SolveOptions without(std::vector<std::string> switches) {
+  SolveOptions options;
+  options.disabled = std::move(switches);
+  options.wave_limit = 200;
+  return options;
+}
+
+Report check_true(const ReferencePair& pair, const SolveOptions& options) {
+  const Report r = solver().distance(pair.a, pair.b, options);
+  CAPTURE(pair.name);
+  CAPTURE(status_name(r.status));
+  CAPTURE(r.lower);
+  CAPTURE(r.upper);
+  CAPTURE(r.waves);
+  CHECK(r.lower <= r.upper);
+  CHECK(interval(r).meets(pair.exact));
+  if (r.status == Status::kClosed) CHECK(r.upper - r.lower <= r.tolerance);
+  return r;
+}
+
+}  // namespace
+
+// --- Memory ---
+
+TEST_CASE("the interval is true in the smallest workspace") {
+  for (const ReferencePair& pair : pairs()) {
+    for (const uint64_t bytes : {uint64_t{1}, uint64_t{64} << 10, uint64_t{256} << 10,
+                                 uint64_t{1} << 20, uint64_t{16} << 20}) {
+      CAPTURE(bytes);
+      const Report r = check_true(pair, with_memory(bytes));
+      CHECK((r.status == Status::kClosed || r.status == Status::kMemory));
+      CHECK(std::isfinite(r.upper));
+      CHECK(r.workspace_bytes >= bytes);  // raised to the least that works, never cut
+    }
+  }
+}
+
+TEST_CASE("a small workspace after a large one, and the other way round") {
+  const ReferencePair& pair = pairs()[2];
+  const Report large = check_true(pair, {});
+  check_true(pair, with_memory(1));
+  const Report again = check_true(pair, {});
+  CHECK(again.lower == large.lower);
+  CHECK(again.upper == large.upper);
+}
+
+namespace {
+
+// With every stream, with those of a GPU, and of a CPU device.
+constexpr uint32_t kSwitchSets[] = {VKH_SWITCH_ALL | VKH_SWITCH_SORT | VKH_SWITCH_U3_PAPER,
+                                    VKH_SWITCH_DEFAULT, VKH_SWITCH_DEFAULT_CPU};
+
+void check_sizes(const Limits& limits) {
+  for (const uint32_t vertices : {1u, 3u, 1000u, 100'000u}) {
+    for (const uint32_t faces : {1u, 2u, 65u, 200'000u}) {
+      for (const uint32_t capacity : {64u, 65u, 1000u, 12'345u, 1u << 20}) {
+        const VkDeviceSize bytes = workspace_size(vertices, faces, capacity, limits.switches);
+        CHECK(capacity_for(limits, vertices, faces, bytes) >= capacity);
+        CHECK(capacity_for(limits, vertices, faces, bytes - 256) < capacity + 64);
+        const Workspace ws = view_workspace({VK_NULL_HANDLE, 512, bytes}, limits, vertices, faces);
+        CHECK(ws.unused.offset + ws.unused.size <= 512 + bytes);
+        CHECK(ws.centroid_nearest.offset + ws.centroid_nearest.size <= 512 + bytes);
+        CHECK(ws.centroids.offset + ws.centroids.size <= 512 + bytes);
+        CHECK(ws.survivors.offset + ws.survivors.size <= 512 + bytes);
+        CHECK(ws.u3_bounds.offset + ws.u3_bounds.size <= 512 + bytes);
+        CHECK(ws.sort.count.offset + ws.sort.count.size <= 512 + bytes);
+        CHECK(ws.sort.values[0].offset + ws.sort.values[0].size <= 512 + bytes);
+        CHECK(ws.frontier.size == 2ull * ws.capacity * sizeof(gpu::Candidate));
+        CHECK(ws.points.size >= 3ull * (ws.capacity / 4) * sizeof(gpu::Point));
+        CHECK(ws.frontier.offset % 256 == 0);
+        CHECK(ws.dispatches.offset % 4 == 0);
+      }
+    }
+  }
+  CHECK(capacity_for(limits, 1000, 1000, 100) == 0);  // not even the fixed streams
+}
+
+}  // namespace
+
+TEST_CASE("sizes and views agree for every capacity and set of switches") {
+  KernelBench bench;
+  Limits limits = bench.context()->limits;
+  for (const uint32_t switches : kSwitchSets) {
+    limits.switches = switches;
+    check_sizes(limits);
+  }
+}
+
+TEST_CASE("a candidate takes 36 bytes, and a place in the workspace of a GPU's run under 100") {
+  static_assert(sizeof(gpu::Candidate) == 36);
+  const uint32_t capacity = 1u << 20;
+  const auto each = [&](uint32_t switches) {
+    return static_cast<double>(workspace_size(1, 1, capacity, switches)) / capacity;
+  };
+  CHECK(each(VKH_SWITCH_DEFAULT) < 100);
+  CHECK(each(VKH_SWITCH_DEFAULT_CPU) > 140);  // centroids
+}
+
+TEST_CASE("no binding of a workspace exceeds what the device can bind") {
+  KernelBench bench;
+  const Limits& limits = bench.context()->limits;
+  const uint32_t capacity = largest_capacity(limits);
+  const VkDeviceSize bytes = workspace_size(1, 1, capacity, limits.switches);
+  const Workspace ws = view_workspace({VK_NULL_HANDLE, 0, bytes}, limits, 1, 1);
+  CHECK(ws.capacity == capacity);
+  for (const VkDeviceSize size :
+       {ws.frontier.size, ws.points.size, ws.splits.size, ws.survivors.size, ws.centroids.size})
+    CHECK(size <= limits.storage_range);
+}
+
+TEST_CASE("the pyramid has room for every level") {
+  CHECK(pyramid_size(1) == 0);
+  CHECK(pyramid_size(2) == 1);
+  CHECK(pyramid_size(16) == 1);
+  CHECK(pyramid_size(17) == 3);
+  CHECK(pyramid_size(256) == 17);
+  CHECK(pyramid_size(257) == 17 + 2 + 1);
+  CHECK(quads_size(1) == 0);
+  CHECK(quads_size(2) == 1);
+  CHECK(quads_size(17) == 5 + 1);
+  CHECK(quads_size(257) == 65 + 5 + 1);
+}
+
+// --- Waves and time ---
+
+TEST_CASE("after every wave the interval holds the distance, and never widens") {
+  for (const ReferencePair& pair : pairs()) {
+    Interval last{0, INFINITY};
+    uint32_t waves = 0;
+    for (uint32_t limit = 1; limit <= 40; ++limit) {
+      const Report r = check_true(pair, with_waves(limit));
+      CAPTURE(pair.name);
+      CAPTURE(limit);
+      CHECK((r.status == Status::kClosed || r.status == Status::kWaves));
+      // Bounds of a later wave are taken from finer candidates, and rounding may cost a little.
+      CHECK(r.lower >= last.lower - 1e-9);
+      CHECK(r.upper <= last.upper + 1e-9);
+      CHECK(r.waves >= waves);
+      last = interval(r);
+      waves = r.waves;
+      if (r.status == Status::kClosed) break;
+    }
+    CHECK(last.upper - last.lower <= 1e-6 * diagonal(pair.a));
+  }
+}
+
+TEST_CASE("no time at all still gives a true interval") {
+  for (const ReferencePair& pair : pairs()) {
+    SolveOptions options;
+    options.time_limit_s = 0;
+    const Report r = check_true(pair, options);
+    CHECK((r.status == Status::kClosed || r.status == Status::kTime));
+  }
+}
+
+TEST_CASE("a caller who cancels gets the interval so far") {
+  for (const ReferencePair& pair : pairs()) {
+    int calls = 0;
+    SolveOptions options;
+    options.progress = [&](const Progress&) { return ++calls < 1; };
+    const Report r = check_true(pair, options);
+    CHECK((r.status == Status::kClosed || r.status == Status::kCancelled));
+    CHECK(calls <= 1);
+    if (r.status == Status::kCancelled) CHECK(calls == 1);
+  }
+}
+
+TEST_CASE("in any memory, a run again is the same run, bit by bit") {
+  for (const ReferencePair& pair : pairs()) {
+    for (const uint64_t bytes : {1ull, 64ull << 10, 256ull << 10}) {
+      CAPTURE(bytes);
+      const Report first = check_true(pair, with_memory(bytes));
+      for (int repeat = 0; repeat < 2; ++repeat) {
+        const Report again = check_true(pair, with_memory(bytes));
+        CHECK(again.lower == first.lower);
+        CHECK(again.upper == first.upper);
+        CHECK(again.waves == first.waves);
+        CHECK(again.candidates == first.candidates);
+        CHECK(again.witness_a.point == first.witness_a.point);
+      }
+    }
+  }
+}
+
+TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same run") {
+  for (const ReferencePair& pair : pairs()) {
+    for (const uint64_t bytes : {0ull, 1ull, 64ull << 10, 256ull << 10}) {
+      CAPTURE(bytes);
+      SolveOptions options = with_memory(bytes);
+      options.enabled = {"group_walk", "two_levels"};
+      options.disabled = {"centroid", "parent_samples"};
+      const Report first = check_true(pair, options);
+      const Report again = check_true(pair, options);
+      CHECK(first.status == Status::kClosed);
+      CHECK(again.lower == first.lower);
+      CHECK(again.upper == first.upper);
+      CHECK(again.waves == first.waves);
+      CHECK(again.candidates == first.candidates);
+    }
+  }
+}
+
+namespace {
+
+bool has_stage(const Report& r, const std::string& name) {
+  return std::any_of(r.stages.begin(), r.stages.end(),
+                     [&](const StageStats& s) { return s.name == name; });
+}
+
+}  // namespace
+
+/// A wave is then two dispatches: `query` splits, wave_bound plans. A frontier that may be sorted
+/// takes four, though it is not sorted here.
+TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are the same") {
+  for (const ReferencePair& pair : pairs()) {
+    for (const uint64_t bytes : {0ull, 1ull}) {  // the recommended capacity, and the smallest
+      for (const double tolerance : {1e-6, 1e-8}) {
+        CAPTURE(bytes);
+        CAPTURE(tolerance);
+        SolveOptions options = with_memory(bytes);
+        options.tolerance = tolerance;
+        options.wave_limit = 400;
+        options.enabled = {"group_walk", "two_levels"};
+        options.disabled = {"centroid", "parent_samples"};
+        const Report two = check_true(pair, options);
+        CHECK(!has_stage(two, "subdivide"));
+        CHECK(!has_stage(two, "plan"));
+        options.enabled.push_back("sort");
+        options.sort_from = ~0u;
+        const Report four = check_true(pair, options);
+        CHECK(has_stage(four, "subdivide"));
+        CHECK(has_stage(four, "plan"));
+        check_same(two, four);
+      }
+    }
+  }
+}
+
+/// Where nothing may wait, a frontier that does not fit is lost as a whole.
+TEST_CASE("with a GPU's switches, what is lost to memory keeps its bound") {
+  for (const ReferencePair& pair : pairs()) {
+    SolveOptions options = with_memory(1);
+    options.enabled = {"group_walk", "two_levels"};
+    options.disabled = {"centroid", "parent_samples", "defer"};
+    check_true(pair, options);
+  }
+}
+
+TEST_CASE("progress tells of intervals that are true and shrink") {
+  // Little memory: many waves, so that there are many submissions.
+  for (const ReferencePair& pair : pairs()) {
+    Interval last{0, INFINITY};
+    uint32_t waves = 0;
+    SolveOptions options = with_memory(64 << 10);
+    options.progress = [&](const Progress& p) {
+      CHECK(p.wave > waves);
+      CHECK(Interval{p.lower, p.upper}.meets(pair.exact));
+      CHECK(p.lower >= last.lower - 1e-9);
+      CHECK(p.upper <= last.upper + 1e-9);
+      CHECK(p.gap >= 0);
+      last = {p.lower, p.upper};
+      waves = p.wave;
+      return true;
+    };
+    const Report r = check_true(pair, options);
+    CHECK(r.waves >= waves);
+  }
+}
+
+// --- Switches ---
+
+TEST_CASE("each switch off, or all, gives a true interval") {
+  const std::vector<std::string> names = switch_names();
+  CHECK(names.size() == 16);
+  for (const ReferencePair& pair : pairs()) {
+    for (const std::string& name : names) {
+      CAPTURE(name);
+      const Report r = check_true(pair, without({name}));
+      CHECK(std::count(r.switched_off.begin(), r.switched_off.end(), name) == 1);
+      CHECK(r.status == Status::kClosed);
+    }
+    CHECK(check_true(pair, without(names)).switched_off == names);
+  }
+}
+
+TEST_CASE("what does not pay on a CPU device is off unless asked for") {
+  const std::vector<std::string> off = {"u4",       "group_walk", "sort", "packet", "largest_first",
+                                        "u3_paper", "two_levels"};
+  for (const ReferencePair& pair : pairs()) {
+    CHECK(check_true(pair, {}).switched_off == off);
+    SolveOptions options;
+    options.enabled = off;
+    CHECK(check_true(pair, options).switched_off.empty());
+  }
+}
+
+TEST_CASE("an unknown switch is refused by its name") {
+  const ReferencePair& pair = pairs()[1];
+  try {
+    solver().distance(pair.a, pair.b, without({"u3", "u9"}));
+    FAIL("accepted");
+  } catch (const UsageError& error) {
+    CHECK(std::string(error.what()).find("'u9'") != std::string::npos);
+  }
+  SolveOptions options;
+  options.enabled = {"u9"};
+  CHECK_THROWS_AS(solver().distance(pair.a, pair.b, options), UsageError);
+}
