@@ -32,7 +32,7 @@ const int kProbes = 3;
 int farthest(int i, int direction, int least, int span) {
   int s = 0;
   while (span > 1) {
-    span = (span + kProbes) / (kProbes + 1);  // uncertified: integers
+    span = (span + kProbes) / (kProbes + 1);
     int beyond = 0;
     for (int k = 1; k <= kProbes; ++k)
       beyond += prefix(i, i + (s + k * span) * direction) > least ? span : 0;

@@ -27,6 +27,6 @@ void main() {
   keys[i] = key;
   values[i] = i;
   if (push.block == 0u) return;
-  uint block = i / push.block;  // uncertified: integers
+  uint block = i / push.block;
   atomicAdd(counts[block * kSortDigits + ((key >> push.first_bit) & 255u)], 1u);
 }

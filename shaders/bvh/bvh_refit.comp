@@ -61,9 +61,7 @@ Box box_ends(uint start, Range r) {
 }
 
 // The boxes of four that lie in a range of more than 2 * kEnd: there is one.
-Range fours_within(Range r) {
-  return Range((r.first + 3u) / 4u, (r.last + 1u) / 4u - 1u);  // uncertified: integers
-}
+Range fours_within(Range r) { return Range((r.first + 3u) / 4u, (r.last + 1u) / 4u - 1u); }
 
 Box range_box(Range r) {
   Box b = triangle_ends(r);
@@ -73,7 +71,7 @@ Box range_box(Range r) {
   while (r.last - r.first >= 2u * kEnd) {
     r = fours_within(r);
     b = joined(b, box_ends(start, r));
-    count = (count + 3u) / 4u;  // uncertified: integers
+    count = (count + 3u) / 4u;
     uint after = start + count;
     start = next;
     next = after;

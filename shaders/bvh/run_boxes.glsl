@@ -9,9 +9,9 @@
 #include "shaders/base/last_group.glsl"
 
 // Those of 1, then those of 4, 16 and 64, each at its level's start.
-shared Box run_boxes[kRun + kRun / 4u + kRun / 16u + kRun / 64u];  // uncertified: integers
+shared Box run_boxes[kRun + kRun / 4u + kRun / 16u + kRun / 64u];
 
-uint fours(uint count) { return (count + 3u) / 4u; }  // uncertified: integers
+uint fours(uint count) { return (count + 3u) / 4u; }
 
 // Called by every invocation of the workgroup. `own`: the box of item run * kRun + lane, empty past
 // the end; `count`: of all items; `quads`, `sixteens`: where the levels above them start
@@ -25,7 +25,7 @@ void write_run(uint run, Box own, uint count, uint quads, uint sixteens) {
     if ((level & 1u) == 0u && count <= 1u) return;
     barrier();
     uint above = below + width;
-    width /= 4u;  // uncertified: integers
+    width /= 4u;
     count = fours(count);
     uint i = run * width + lane;
     if (lane < width) {

@@ -6,12 +6,10 @@
 
 Dispatch groups_of(uint groups) {
   uint x = min(groups, kMaxGroupsX);
-  return Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);  // uncertified: integers
+  return Dispatch(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);
 }
 
-Dispatch groups_for(uint items) {
-  return groups_of((items + kGroupSize - 1u) / kGroupSize);  // uncertified: integers
-}
+Dispatch groups_for(uint items) { return groups_of((items + kGroupSize - 1u) / kGroupSize); }
 
 // Whether a small wave gets more invocations for each query and child.
 const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
@@ -25,20 +23,20 @@ bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQuer
 // Of query, for points that are there.
 Dispatch groups_for_queries(uint queries) {
   if (walks_in_groups(queries)) return groups_of(queries);
-  return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);  // uncertified: integers
+  return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);
 }
 
 // Whether a workgroup of a fused query has one new point, and not all those of some candidates.
 bool splits_in_groups() { return control.deferred == 0u && walks_in_groups(point_count()); }
 
 // Candidates whose new points a workgroup of a fused query has.
-uint candidates_a_group() { return kQueryGroup / points_each(); }  // uncertified: integers
+uint candidates_a_group() { return kQueryGroup / points_each(); }
 
 // Of a fused query, for `held` candidates, refined or deferred.
 Dispatch groups_for_splits(uint held) {
   if (splits_in_groups()) return groups_of(held * points_each());
   uint candidates = candidates_a_group();
-  return groups_of((held + candidates - 1u) / candidates);  // uncertified: integers
+  return groups_of((held + candidates - 1u) / candidates);
 }
 
 // Of wave_subdivide: invocations of a candidate. Each new point has one where a wave is a chain of
@@ -51,7 +49,7 @@ uint split_lanes() {
 // Whether a child may know more triangles than its corners' three.
 const bool kKnowsMore = (kSwitches & (kUseCentroid | kUseParentSamples)) != 0u;
 // Children of a workgroup of wave_bound at most, so that its shared memory is small enough.
-const uint kMostChildren = kKnowsMore ? kGroupSize / 2u : kGroupSize;  // uncertified: integers
+const uint kMostChildren = kKnowsMore ? kGroupSize / 2u : kGroupSize;
 
 // Children that a workgroup of wave_bound takes: so many more as there are more of them.
 uint children_a_group(uint total) {
@@ -65,8 +63,8 @@ uint children_a_group(uint total) {
 // has left few of them, there are enough to go over the wave's samples (wave/witness.glsl).
 Dispatch groups_for_children(uint total) {
   uint children = children_a_group(total);
-  uint groups = max((total + children - 1u) / children, 1u);          // uncertified: integers
-  return groups_of(max(groups, point_count() / (16u * kGroupSize)));  // uncertified: integers
+  uint groups = max((total + children - 1u) / children, 1u);
+  return groups_of(max(groups, point_count() / (16u * kGroupSize)));
 }
 
 #endif

@@ -151,7 +151,7 @@ VKH_FN uvec3 child_points(uint split, uint child) {
   uint code = split - 1u;
   uint half_side = child >> 1;
   uvec3 half_points = bisected(uvec3(0u, 1u, 2u), code % 3u, 3u, half_side);
-  uint inner = choose(half_side == 0u, (code / 3u) % 3u, code / 9u);  // uncertified: integers
+  uint inner = choose(half_side == 0u, (code / 3u) % 3u, code / 9u);
   return bisected(half_points, inner, 4u + half_side, child & 1u);
 }
 
@@ -210,8 +210,8 @@ VKH_FN Bary6 split_points(Bary3 t, uint split) {
   uvec2 m = middle_opposite(t, code % 3u);
   Halves h = halves_of(t, code % 3u, m);
   p.fresh.a = m;
-  p.fresh.b = middle_opposite(h.first, (code / 3u) % 3u);  // uncertified: integers
-  p.fresh.c = middle_opposite(h.second, code / 9u);        // uncertified: integers
+  p.fresh.b = middle_opposite(h.first, (code / 3u) % 3u);
+  p.fresh.c = middle_opposite(h.second, code / 9u);
   return p;
 }
 
@@ -221,9 +221,8 @@ VKH_FN bool can_split(Bary3 t, uint split) {
     return has_middle(t.b, t.c) && has_middle(t.c, t.a) && has_middle(t.a, t.b);
   uint code = split - 1u;
   Halves h = halves_of(t, code % 3u, middle_opposite(t, code % 3u));
-  return has_middle_opposite(t, code % 3u) &&
-         has_middle_opposite(h.first, (code / 3u) % 3u) &&  // uncertified: integers
-         has_middle_opposite(h.second, code / 9u);          // uncertified: integers
+  return has_middle_opposite(t, code % 3u) && has_middle_opposite(h.first, (code / 3u) % 3u) &&
+         has_middle_opposite(h.second, code / 9u);
 }
 
 VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {
@@ -236,7 +235,7 @@ VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {
 
 // A dyadic point next to the centroid; inside the root, and inside t but for the rounding to an
 // integer.
-VKH_FN uint third(uint x) { return x / 3u; }  // uncertified: integers
+VKH_FN uint third(uint x) { return x / 3u; }
 VKH_FN uvec2 centroid_of(Bary3 t) {
   return uvec2(third(t.a.x + t.b.x + t.c.x), third(t.a.y + t.b.y + t.c.y));
 }

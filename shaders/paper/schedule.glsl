@@ -33,7 +33,7 @@ uint schedule(uint held, uint room) {
 // Faces of A that the wave admits, beside `held` candidates, with so much room left: while the
 // frontier is at most a quarter full, so that it can be refined as a whole.
 uint roots_to_admit(uint held, uint room) {
-  uint quarter = (control.capacity - kReserve) / 4u;  // uncertified: integers
+  uint quarter = (control.capacity - kReserve) / 4u;
   uint waiting = control.face_count - control.root_cursor;
   return held < quarter ? min(waiting, min(quarter - held, room - kReserve)) : 0u;
 }

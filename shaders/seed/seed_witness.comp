@@ -40,7 +40,7 @@ void offer_face(uint i) {
 void adopt_corner() {
   uint chosen = atomicMin(control.seed_witness, kNone);
   if (chosen == kNone) return;
-  uint face = chosen / 3u;  // uncertified: integers
+  uint face = chosen / 3u;
   uint corner = chosen % 3u;
   uint vertex = faces[face][corner];
   float distance = uintBitsToFloat(control.maximum[kMaxLower]);

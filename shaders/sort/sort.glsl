@@ -5,7 +5,7 @@
 // Blocks of `rounds` times kSortGroup keys.
 uint sort_blocks(uint keys, uint rounds) {
   uint block = kSortGroup * rounds;
-  return (keys + block - 1u) / block;  // uncertified: integers
+  return (keys + block - 1u) / block;
 }
 
 uint sort_blocks(uint keys) { return sort_blocks(keys, kSortRounds); }

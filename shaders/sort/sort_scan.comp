@@ -21,7 +21,7 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   uint blocks = sort_blocks(key_total());
   uint digit = gl_WorkGroupID.x;
-  uint per_lane = (blocks + kSortGroup - 1u) / kSortGroup;  // uncertified: integers
+  uint per_lane = (blocks + kSortGroup - 1u) / kSortGroup;
   uint begin = min(lane * per_lane, blocks);
   uint end = min(begin + per_lane, blocks);
   uint sum = 0u;

@@ -27,10 +27,9 @@ layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
 #include "shaders/sort/key_total.glsl"
 
-const uint kMaxSubgroups =
-    kSortGroup / 8u;                 // uncertified: integers. Subgroups are 8 wide or wider.
-const uint kRow = kSortDigits / 2u;  // uncertified: integers
-const uint kBatch = 8u;              // loads of counts that do not wait for each other
+const uint kMaxSubgroups = kSortGroup / 8u;  // Subgroups are 8 wide or wider.
+const uint kRow = kSortDigits / 2u;
+const uint kBatch = 8u;  // loads of counts that do not wait for each other
 shared uint counters[kMaxSubgroups * kRow];
 shared uint digit_base[kSortDigits];  // where the block's keys of a digit go
 shared uint subgroup_sum[kMaxSubgroups];
@@ -132,7 +131,7 @@ void rank_run(uint run) {
 }
 
 void count_for_next(uint moved, uint place) {
-  uint block = place / (push.rounds * kSortGroup);  // uncertified: integers
+  uint block = place / (push.rounds * kSortGroup);
   uint digit = (moved >> (push.shift + 8u)) & 255u;
   atomicAdd(counts[((push.pass + 1u) * blocks + block) * kSortDigits + digit], 1u);
 }

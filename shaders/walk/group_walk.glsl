@@ -18,11 +18,11 @@ struct Level {
 };
 
 Level level_at(uint level) {
-  uint count = (push.triangle_count + kPyramidFan - 1u) / kPyramidFan;  // uncertified: integers
+  uint count = (push.triangle_count + kPyramidFan - 1u) / kPyramidFan;
   Level at = Level(0u, count);
   for (uint l = 0u; l < level; ++l) {
     at.start += at.count;
-    at.count = (at.count + kPyramidFan - 1u) / kPyramidFan;  // uncertified: integers
+    at.count = (at.count + kPyramidFan - 1u) / kPyramidFan;
   }
   return at;
 }
@@ -30,7 +30,7 @@ Level level_at(uint level) {
 uint level_total() {
   uint total = 1u;
   for (uint n = push.triangle_count; n > kPyramidFan; ++total) {
-    n = (n + kPyramidFan - 1u) / kPyramidFan;  // uncertified: integers
+    n = (n + kPyramidFan - 1u) / kPyramidFan;
   }
   return total;
 }
@@ -50,7 +50,7 @@ float group_reach() {
 
 // The k-th of all children of the boxes on `side`.
 uint entry_of(uint side, uint k) {
-  uint parent = level_boxes[side][k / kPyramidFan];  // uncertified: integers
+  uint parent = level_boxes[side][k / kPyramidFan];
   return parent * kPyramidFan + k % kPyramidFan;
 }
 
@@ -95,7 +95,7 @@ Nearest try_runs(Query q, uint side) {
 // Halves of the lanes at a time; the result is in lane 0.
 void join_lanes(Query q) {
   uint lane = gl_LocalInvocationID.x;
-  for (uint reach = kQueryGroup / 2u; reach > 0u; reach /= 2u) {  // uncertified: integers
+  for (uint reach = kQueryGroup / 2u; reach > 0u; reach /= 2u) {
     barrier();
     if (lane >= reach) continue;
     if (is_nearer(q, nearest_of_lane[lane + reach], nearest_of_lane[lane]))

@@ -132,7 +132,7 @@ Nearest measured(Query q, Nearest best, float than) {
 
 // Where a walk stands: what is still to be visited, deeper boxes above others. A node leaves
 // at most three behind, and the tree of nodes is half as deep as that of branches.
-const uint kWalkStack = 3u * kStackDepth / 2u;  // uncertified: integers
+const uint kWalkStack = 3u * kStackDepth / 2u;
 
 // Of the invocation's own; not a struct that functions pass on, which drivers copy (lavapipe: 8
 // times slower).

@@ -7,7 +7,7 @@
 const uint kKnowers = kMostChildren;
 #include "shaders/wave/known.glsl"
 
-const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;  // uncertified: integers
+const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;
 
 // A child as all invocations need it, each word beside the same one of other children: invocations
 // of a subgroup read those at once, and as structs they would be in few of the banks of shared
@@ -29,7 +29,7 @@ shared uint corner_bits[kMostChildren * kMostKnown * 3u];  // of distances
 // (child * kMaxKnown + i) * kMaxKnown + j and, where they are measured in parts, the bits of each
 // one's u3: then the children are half as many at most.
 const uint kMostListed = kMostChildren * kMostPairs;  // kMostPairs >= kMostKnown
-const uint kPairBits = kMostListed / 2u;              // uncertified: integers
+const uint kPairBits = kMostListed / 2u;
 shared uint listed[kMostListed];
 shared uint measure_count;
 shared uint pair_count;
@@ -100,8 +100,8 @@ void hold(uint child, Child c) {
 void measure_corners(bool fine, float enough) {
   uint step = fine ? 3u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
-    uint at = listed[n / step];    // uncertified: integers
-    uint child = at / kMostKnown;  // uncertified: integers
+    uint at = listed[n / step];
+    uint child = at / kMostKnown;
     Surface s = surface_of(child, at % kMostKnown, enough);
     for (uint corner = n % step; corner < 3u; corner += step) {
       Two3 p = two(vec3(0.0));
@@ -154,15 +154,15 @@ void list_pairs(uint child, float upper, bool fine) {
   }
 }
 
-uint child_of_pair(uint pair) { return pair / (kMaxKnown * kMaxKnown); }  // uncertified: integers
+uint child_of_pair(uint pair) { return pair / (kMaxKnown * kMaxKnown); }
 
 // u3 of the listed pairs: two cuts, each against two surfaces; where `fine`, an invocation each.
 void measure_cuts(bool fine, float enough) {
   uint step = fine ? 4u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < pair_count * step; n += kGroupSize) {
-    uint pair = listed[n / step];  // uncertified: integers
+    uint pair = listed[n / step];
     uint child = child_of_pair(pair);
-    uint i = (pair / kMaxKnown) % kMaxKnown;  // uncertified: integers
+    uint i = (pair / kMaxKnown) % kMaxKnown;
     uint j = pair % kMaxKnown;
     vec3 di = distances_of(child, i);
     vec3 dj = distances_of(child, j);
@@ -179,7 +179,7 @@ void measure_cuts(bool fine, float enough) {
     }
     uint bits = bits_of(kept_bound(u3, held[kHeldSlack][child]));
     if (fine) {
-      atomicMax(listed[kPairBits + n / step], bits);  // uncertified: integers
+      atomicMax(listed[kPairBits + n / step], bits);
     } else {
       atomicMin(upper_bits[child], bits);
     }

@@ -83,13 +83,13 @@ Item item_at(uint asks, uint i, bool mine) {
 Item new_item(bool by_group, out uint i) {
   uint each = points_each();
   uint lane = gl_LocalInvocationID.x;
-  uint group = by_group ? 0u : lane / each;  // uncertified: integers
+  uint group = by_group ? 0u : lane / each;
   uint item = workgroup_index() * candidates_a_group() + group;
   uint k = lane % each;
   bool first = k == 0u;
   if (!by_group && group >= candidates_a_group()) item = kNone;
   if (by_group) {
-    item = workgroup_index() / each;  // uncertified: integers
+    item = workgroup_index() / each;
     k = workgroup_index() % each;
     first = k == 0u && lane == 0u;
     // For the splits of all its children.

@@ -65,7 +65,7 @@ NewPoint new_point(uint k, Refined r, uint group) {
   uint split = r.split;
   bool inner = kMaySplitTwice && k >= 3u && split != kSplitNone;
   if (inner) {
-    uint which = k / 3u - 1u;  // uncertified: integers
+    uint which = k / 3u - 1u;
     r.at = child_of(split_points(r.at, split), child_points(split, which));
     split = choose_split(r.at, r.root);
     if (k % 3u == 0u) atomicOr(inner_in_group[group], (split & kInnerNone) << (5u * which));

@@ -39,9 +39,9 @@ void write_points(uint lane, Refined r, uint group) {
 }
 
 void main() {
-  uint item = item_index() / split_lanes();  // uncertified: integers
+  uint item = item_index() / split_lanes();
   uint lane = item_index() % split_lanes();
-  uint group = gl_LocalInvocationID.x / split_lanes();  // uncertified: integers
+  uint group = gl_LocalInvocationID.x / split_lanes();
   Refined r = refine(item, lane == 0u, group);
   if (r.place != kNone) write_points(lane, r, group);
   keep_split(r, lane == 0u, group);

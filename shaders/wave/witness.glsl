@@ -36,12 +36,12 @@ Witness witness_at(uint s) {
     Child child = load_child(survivors[c]);
     return witness_from(centroids[c], child.root, centroid_of(child.at));
   }
-  Split split = splits[s / points_each()];  // uncertified: integers
+  Split split = splits[s / points_each()];
   Candidate parent = frontier[reading(split.parent)];
   Bary6 six = split_points(unpack_corners(parent.corners), split.code);
   uint which = s % points_each();
   if (kMaySplitTwice && which >= 3u) {  // a child's
-    uint child = (which - 3u) / 3u;     // uncertified: integers
+    uint child = (which - 3u) / 3u;
     six = split_points(child_of(six, child_points(split.code, child)), inner_split(split, child));
   }
   return witness_from(points[s], parent.root, corner_of(six.fresh, which % 3u));
