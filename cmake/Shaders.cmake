@@ -48,15 +48,10 @@ set(VKH_FLATTEN
   --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive --ccp --eliminate-dead-branches
   --redundancy-elimination --eliminate-dead-branches --vector-dce --eliminate-dead-inserts
   --eliminate-dead-code-aggressive --merge-blocks --compact-ids)
-# It also keeps what the switches leave out until it has been through most of that, and unrolls loops at a third of its time
-# for nothing that runs faster. So every kernel is built a second time, for what is on by default on a CPU device, and its
-# loops are marked to be left as they are (embed_shaders.py).
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/engine/vkhausdorff.h)
-file(STRINGS ${PROJECT_SOURCE_DIR}/engine/vkhausdorff.h VKH_CPU_SWITCHES REGEX "^ *VKH_SWITCH_DEFAULT_CPU = [-+ 0-9]+")
-string(REGEX REPLACE "^[^=]*= ([-+ 0-9]+).*" "\\1" VKH_CPU_SWITCHES "${VKH_CPU_SWITCHES}")
-math(EXPR VKH_CPU_SWITCHES "${VKH_CPU_SWITCHES}")
-set(VKH_FREEZE --set-spec-const-default-value=0:${VKH_CPU_SWITCHES} --freeze-spec-const --fold-spec-const-op-composite
-  --ccp --eliminate-dead-branches --eliminate-dead-functions)
+# It also keeps what a wide device would do until it has been through most of that, and unrolls loops at a third of its
+# time for nothing that runs faster. So every kernel is built a second time, for a device that is not wide, and its loops
+# are marked to be left as they are (embed_shaders.py).
+set(VKH_PRUNE --ccp --eliminate-dead-branches --eliminate-dead-functions)
 
 # No -g0: reflection reads the debug names, of what the compiler wrote, for the optimiser drops buffers that are not used.
 function(vkh_add_kernel name shader out)
@@ -67,11 +62,12 @@ function(vkh_add_kernel name shader out)
     set(flat ${out}/${name}.flat.spv ${out}/${name}.cpu.spv)
     set(optimise COMMAND ${VKH_SPIRV_OPT} --target-env=vulkan1.2 --scalar-block-layout)
     set(flatten ${optimise} ${VKH_FLATTEN} -o ${out}/${name}.flat.spv ${spv}
-                ${optimise} ${VKH_FREEZE} ${VKH_FLATTEN} -o ${out}/${name}.cpu.spv ${spv})
+                COMMAND ${VKH_RUN_EMBED} narrow ${spv} ${out}/${name}.narrow.spv
+                ${optimise} ${VKH_PRUNE} ${VKH_FLATTEN} -o ${out}/${name}.cpu.spv ${out}/${name}.narrow.spv)
     foreach(file IN LISTS flat)
       list(APPEND flatten COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${file})
     endforeach()
-    list(APPEND flatten BYPRODUCTS ${flat})
+    list(APPEND flatten BYPRODUCTS ${flat} ${out}/${name}.narrow.spv)
   endif()
   add_custom_command(
     OUTPUT ${spv}
@@ -80,7 +76,7 @@ function(vkh_add_kernel name shader out)
     COMMAND ${VKH_RUN_ORDER} ${spv}
     COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
     ${flatten}
-    DEPENDS ${shader} ${VKH_EMBED_DIR}/float_order.py ${VKH_EMBED_DIR}/spirv_module.py
+    DEPENDS ${shader} ${VKH_EMBED_DIR}/float_order.py ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED}
     DEPFILE ${spv}.d
     COMMENT "Compiling ${name}.comp"
     VERBATIM)
@@ -90,7 +86,7 @@ function(vkh_add_kernel name shader out)
     BYPRODUCTS ${out}/${name}.h
     COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
     DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED_DIR}/float_order.py
-            ${VKH_EMBED_DIR}/kernel_templates.py
+            ${VKH_EMBED_DIR}/kernel_templates.py ${VKH_EMBED_DIR}/shared_memory.py
     COMMENT "Embedding ${name}"
     VERBATIM)
 endfunction()

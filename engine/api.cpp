@@ -18,14 +18,28 @@ static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witn
 static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
 static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
 static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
+static_assert(offsetof(VkhReport, certified) == offsetof(gpu::Report, certified));
+#define VKH_SAME_SWITCH(constant, bit, api, name) static_assert(VKH_SWITCH_##api == gpu::constant);
+VKH_SWITCHES(VKH_SAME_SWITCH)
+#undef VKH_SAME_SWITCH
+#define VKH_SAME_STATUS(constant, value, api) static_assert(VKH_STATUS_##api == gpu::constant);
+VKH_STATUSES(VKH_SAME_STATUS)
+#undef VKH_SAME_STATUS
 static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
-static_assert(VKH_SWITCH_ALL == gpu::kUseAll && VKH_SWITCH_SHARED_FACES == gpu::kUseSharedFaces);
-static_assert(VKH_SWITCH_SORT == gpu::kUseSort && VKH_SWITCH_PACKET == gpu::kUsePacket &&
-              VKH_SWITCH_DEFER == gpu::kUseDefer &&
-              VKH_SWITCH_LARGEST_FIRST == gpu::kUseLargestFirst &&
-              VKH_SWITCH_U3_PAPER == gpu::kUsePaperU3);
-static_assert(VKH_STATUS_MEMORY == gpu::kStatusMemory &&
-              VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords);
+static_assert(VKH_SWITCH_UNCERTIFIED == gpu::kUseUncertified);
+static_assert(VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords && VKH_MAX_CULLS == gpu::kMostCulls);
+static_assert(gpu::kCullCount <= gpu::kMostCulls);
+
+// What the caller leaves open, by the kind of device.
+Limits chosen(const VkhContextCreateInfo& info) {
+  Limits limits = device_limits(info.device);
+  if (info.deviceKind != VKH_DEVICE_KIND_AUTO)
+    limits.wide = info.deviceKind == VKH_DEVICE_KIND_WIDE;
+  limits.switches = info.switches & ~uint32_t{VKH_SWITCH_NONE};
+  if (info.switches == 0)
+    limits.switches = limits.wide ? VKH_SWITCH_DEFAULT_WIDE : VKH_SWITCH_DEFAULT_NARROW;
+  return limits;
+}
 
 bool load_functions(const VkhDeviceInfo& info, DeviceFunctions& vk) {
   const auto get_device_proc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
@@ -53,6 +67,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .known_lower = p.knownLower,
           .sort_from = p.sortFrom,
           .switches = context.limits.switches,
+          .wide = context.limits.wide,
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
           .b = view_hierarchy(p.b),
@@ -140,9 +155,8 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
   }
   VkResult result = VK_ERROR_OUT_OF_HOST_MEMORY;
   try {
-    created->limits = vkh::device_limits(info->device);
-    created->limits.switches = info->switches;
-    result = vkh::create_kernels(*created, info->pipelineCache, info->switches);
+    created->limits = vkh::chosen(*info);
+    result = vkh::create_kernels(*created, info->pipelineCache);
   } catch (...) {  // no exception may cross a C interface
   }
   if (result != VK_SUCCESS) {

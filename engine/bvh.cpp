@@ -21,6 +21,35 @@ AlignedRange align(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
 
 uint32_t over(uint32_t count, uint32_t fan) { return (count + fan - 1) / fan; }
 
+// What kernels are given: the hierarchy, and besides
+struct Count : Hierarchy {
+  gpu::CountPush push;
+};
+struct Level : Hierarchy {
+  gpu::PyramidPush push;
+};
+struct Refit : Hierarchy {
+  gpu::RefitPush push;
+};
+struct Keys : Hierarchy {
+  gpu::MortonPush push;
+  Slice<uint32_t> keys, values, counts;
+};
+struct Sorted : Hierarchy {
+  gpu::PyramidPush push;
+  Slice<uint32_t> keys, values;
+};
+struct SortedCount : Hierarchy {
+  gpu::CountPush push;
+  Slice<uint32_t> keys;
+};
+struct Load {
+  gpu::LoadPush push;
+  Slice<uint32_t> vertex_words, index_words, low_words;
+  Slice<gpu::Vertex> vertices;
+  Slice<uint32_t> indices;
+};
+
 // The levels over the triangles: those over 4, 64, .. of them stand behind those over 16, 256, ..
 gpu::PyramidPush first_levels(const Hierarchy& h) {
   return {.from = 0, .count = h.face_count, .quads = pyramid_size(h.face_count), .sixteens = 0};
@@ -36,8 +65,7 @@ void record_pyramid(Recorder& rec, const Hierarchy& h) {
             .count = over(push.count, gpu::kRun),
             .quads = push.quads + over(push.count, 4) + over(count, 4),
             .sixteens = push.sixteens + count + over(push.count, gpu::kRun)};
-    rec.run<k::BvhPyramid>({.boxes = h.pyramid, .groups_done = h.groups_done}, push,
-                           Items{push.count});
+    rec.run<k::BvhPyramid>(Level{h, push}, Items{push.count});
   }
 }
 
@@ -45,11 +73,7 @@ void record_pyramid(Recorder& rec, const Hierarchy& h) {
 // are.
 void record_boxes(Recorder& rec, const Hierarchy& h) {
   record_pyramid(rec, h);
-  rec.run<k::BvhRefit>({.triangles = as<gpu::uvec4>(h.triangles),
-                        .boxes = as<gpu::vec2>(h.pyramid),
-                        .branches = h.branches,
-                        .nodes = h.nodes},
-                       {.count = h.face_count, .quads = pyramid_size(h.face_count)},
+  rec.run<k::BvhRefit>(Refit{h, {.count = h.face_count, .quads = pyramid_size(h.face_count)}},
                        Items{4 * (std::max(h.face_count, 2u) - 1)});
 }
 
@@ -74,49 +98,30 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& v
                            .index_is_16bit = is_16bit ? 1u : 0u,
                            .has_low = has_low ? 1u : 0u,
                            .low_word = low.skip / 4};
-  rec.run<k::MeshLoad>({.vertex_words = high.words,
-                        .index_words = indices.words,
-                        .low_words = low.words,
-                        .vertices = vertices,
-                        .indices = as<uint32_t>(faces)},
-                       push, Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
+  rec.run<k::MeshLoad>(
+      Load{push, high.words, indices.words, low.words, vertices, as<uint32_t>(faces)},
+      Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
 }
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
   const auto scope = rec.scope("hierarchy");
-  const gpu::CountPush count{b.faceCount};
   const Items faces{b.faceCount};
-  record_load(rec, b, h.vertices, h.faces);
   const uint32_t first_bit = b.faceCount <= gpu::kFewFaces ? gpu::kFewFacesFirstBit : 0;
   const uint32_t side = sort_side(first_bit);
+  record_load(rec, b, h.vertices, h.faces);
   rec.fill(h.box, 0xffffffffu, Order::kIndependent);
   const uint32_t block =
       record_empty_counts(rec, s.sort, b.faceCount, first_bit, Order::kIndependent);
-  rec.run<k::BvhBox>({.vertices = h.vertices, .faces = h.faces, .box = h.box}, count,
-                     Items{over(b.faceCount, gpu::kBoxFaces)});
-  rec.run<k::BvhMorton>({.vertices = h.vertices,
-                         .faces = h.faces,
-                         .box = h.box,
-                         .keys = s.sort.keys[side],
-                         .values = s.sort.values[side],
-                         .counts = s.sort.counts,
-                         .groups_done = h.groups_done},
-                        {.count = b.faceCount, .block = block, .first_bit = first_bit}, faces);
+  const Keys unsorted{
+      h, {b.faceCount, block, first_bit}, s.sort.keys[side], s.sort.values[side], s.sort.counts};
+  const Sorted sorted{h, first_levels(h), s.sort.keys[0], s.sort.values[0]};
+  rec.run<k::BvhBox>(Count{h, {b.faceCount}}, Items{over(b.faceCount, gpu::kBoxFaces)});
+  rec.run<k::BvhMorton>(unsorted, faces);
   rec.stage("morton");
   record_sort(rec, s.sort, b.faceCount, first_bit, block > 0 ? Counted::kYes : Counted::kNo);
   rec.stage("sort");
-  rec.run<k::BvhLeaves>({.vertices = h.vertices,
-                         .faces = h.faces,
-                         .values = s.sort.values[0],
-                         .triangles = h.triangles,
-                         .triangle_lows = h.triangle_lows,
-                         .keys = s.sort.keys[0],
-                         .codes = h.codes,
-                         .boxes = h.pyramid,
-                         .groups_done = h.groups_done},
-                        first_levels(h), faces);
-  rec.run<k::BvhHierarchy>({.keys = s.sort.keys[0], .branches = h.branches}, count, faces,
-                           Order::kIndependent);
+  rec.run<k::BvhLeaves>(sorted, faces);
+  rec.run<k::BvhHierarchy>(SortedCount{h, {b.faceCount}, sorted.keys}, faces, Order::kIndependent);
   record_boxes(rec, h);
   rec.stage("hierarchy");
 }
@@ -124,13 +129,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
 void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   const auto scope = rec.scope("refit");
   record_load(rec, b, h.vertices, h.faces);
-  rec.run<k::BvhMove>({.vertices = h.vertices,
-                       .faces = h.faces,
-                       .triangles = h.triangles,
-                       .triangle_lows = h.triangle_lows,
-                       .boxes = h.pyramid,
-                       .groups_done = h.groups_done},
-                      first_levels(h), Items{b.faceCount});
+  rec.run<k::BvhMove>(Level{h, first_levels(h)}, Items{b.faceCount});
   record_boxes(rec, h);
   rec.stage("refit");
 }

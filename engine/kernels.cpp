@@ -27,11 +27,12 @@ constexpr uint32_t push_size<NoPush>() {
   return 0;
 }
 
-std::array<KernelSource, kKernelCount> kernel_sources(uint32_t switches) {
-  const bool for_cpu = switches == VKH_SWITCH_DEFAULT_CPU;
+// A device that is not wide has kernels of its own: without what they would never run, and slower
+// to run where they are unrolled.
+std::array<KernelSource, kKernelCount> kernel_sources(bool wide) {
   return {{
 #define VKH_SOURCE(K) \
-  {for_cpu ? k::K::words_for_cpu() : k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
+  {wide ? k::K::words() : k::K::words_for_cpu(), k::K::kBindings, push_size<k::K::Push>()},
       VKH_KERNELS(VKH_SOURCE)
 #undef VKH_SOURCE
   }};
@@ -63,7 +64,7 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
 }
 
 VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
-                         uint32_t switches, KernelPipeline& out) {
+                         KernelPipeline& out) {
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   module_info.codeSize = source.words.size_bytes();
@@ -72,8 +73,10 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
   VkResult result = c.vk.CreateShaderModule(c.device, &module_info, nullptr, &shader);
   if (result != VK_SUCCESS) return result;
 
-  const VkSpecializationMapEntry entry{0, 0, sizeof(switches)};
-  const VkSpecializationInfo specialisation{1, &entry, sizeof(switches), &switches};
+  // kSwitches and kWide (base/switches.glsl).
+  const std::array<uint32_t, 2> values{c.limits.switches, c.limits.wide ? VK_TRUE : VK_FALSE};
+  const std::array<VkSpecializationMapEntry, 2> entries{{{0, 0, 4}, {1, 4, 4}}};
+  const VkSpecializationInfo specialisation{2, entries.data(), sizeof(values), values.data()};
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -100,33 +103,53 @@ std::array<uint32_t, kKernelCount> costliest_first(
   return order;
 }
 
-// Kernels that only a switch brings in: without it they are not created, for a driver takes tens of
-// milliseconds for some.
-bool is_needed(uint32_t kernel, uint32_t switches) {
-  if (kernel == kIndexOfWavePacket) return (switches & gpu::kUsePacket) != 0;
-  if (kernel == kIndexOfWaveSort) return (switches & gpu::kUseSort) != 0;
-  if (kernel == kIndexOfWaveBisect) return (switches & gpu::kUsePaperU3) != 0;
-  if (kernel == kIndexOfWaveFilter) return (switches & gpu::kUseFilter) != 0;
-  if (kernel == kIndexOfWavePlan) return !is_fused(switches);
-  if (kernel == kIndexOfWaveSubdivide) return !is_fused(switches);
-  if (kernel == kIndexOfReportOpen) return (switches & gpu::kUseCoverage) != 0;
-  return true;
+// What the lines of shaders/stages.h say of one kernel.
+struct Lines {
+  bool any = false, needed = false;
+};
+
+Lines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
+  Lines lines;
+  const auto see = [&](uint32_t other, bool needed) {
+    if (other != kernel) return;
+    lines.any = true;
+    lines.needed = lines.needed || needed;
+  };
+#define VKH_SEE_SIZED(kernel, given, size, needed, column, groups) \
+  see(kIndexOf##kernel, gpu::needed(switches, wide));
+#define VKH_SEE_ALONE(kernel, given, needed, column) \
+  see(kIndexOf##kernel, gpu::needed(switches, wide));
+  VKH_REFINE_STAGES(VKH_SEE_SIZED)
+  VKH_FILTER_STAGES(VKH_SEE_SIZED, VKH_SEE_ALONE)
+  VKH_BOUND_STAGES(VKH_SEE_SIZED, VKH_SEE_ALONE)
+#undef VKH_SEE_SIZED
+#undef VKH_SEE_ALONE
+  see(kIndexOfWaveSort, gpu::sorts_frontier(switches, wide));
+  see(kIndexOfReportOpen, gpu::covers_area(switches, wide));
+  return lines;
+}
+
+// Others are not created, for a driver takes tens of milliseconds for some. What no line names is
+// of the hierarchy, the seed or the report, and always needed.
+bool is_needed(uint32_t kernel, const Limits& limits) {
+  const Lines lines = lines_of(kernel, limits.switches, limits.wide);
+  return !lines.any || lines.needed;
 }
 
 }  // namespace
 
-VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches) {
-  const auto sources = kernel_sources(switches);
+VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache) {
+  const auto sources = kernel_sources(context.limits.wide);
   const auto order = costliest_first(sources);
   std::atomic<uint32_t> next = 0;
   std::atomic<VkResult> outcome = VK_SUCCESS;
   const auto work = [&] {
     for (uint32_t i = next++; i < kKernelCount && outcome == VK_SUCCESS; i = next++) {
-      if (!is_needed(order[i], switches)) continue;
+      if (!is_needed(order[i], context.limits)) continue;
       KernelPipeline& kernel = context.kernels[order[i]];
       const KernelSource& source = sources[order[i]];
       VkResult result = create_layouts(context, source, kernel);
-      if (result == VK_SUCCESS) result = create_pipeline(context, source, cache, switches, kernel);
+      if (result == VK_SUCCESS) result = create_pipeline(context, source, cache, kernel);
       if (result != VK_SUCCESS) outcome = result;
     }
   };

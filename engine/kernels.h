@@ -24,14 +24,9 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
-// Whether a wave is two dispatches: kFused in shaders/candidate/dispatch.glsl.
-constexpr bool is_fused(uint32_t switches) {
-  return (switches & (gpu::kUseGroupWalk | gpu::kUseApart)) == gpu::kUseGroupWalk;
-}
-
-// Creates every kernel's pipeline in `context`; `switches` becomes specialisation constant 0. On
-// failure what was created stays in the context, for destroy_kernels.
-VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, uint32_t switches);
+// Creates the pipelines that the context's switches and kind of device need. On failure what was
+// created stays in the context, for destroy_kernels.
+VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache);
 void destroy_kernels(VkhContext_T& context);
 
 }  // namespace vkh

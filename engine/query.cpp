@@ -1,30 +1,22 @@
-// Closest points: what `query` works on and what it is asked, of the seed and of every wave.
+// What the kernels of a run bind, and what `query` is asked, in the seed and in every wave.
 #include "engine/stages.h"
 
 namespace vkh {
 
-// Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
-Slice<gpu::Area> areas_of(const Problem& p) {
-  return p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused);
-}
-
-k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points) {
-  return {.control = p.ws.control,
-          .nodes = as<gpu::uvec4>(p.b.nodes),
-          .triangles = as<gpu::uvec4>(p.b.triangles),
-          .triangle_lows = p.b.triangle_lows,
-          .boxes = p.b.pyramid,
-          .points = points,
-          .vertices = p.ws.vertices,
-          .faces = p.ws.faces,
-          .vertex_nearest = p.ws.vertex_nearest,
-          .vertex_distance = as<uint32_t>(p.ws.vertex_distance),
-          .frontier = p.ws.frontier,
-          .splits = p.ws.splits,
-          .areas = areas_of(p),
-          .order = p.ws.sort.values[0],
-          .centroid_nearest = p.ws.centroid_nearest};
-}
+RunBuffers::RunBuffers(const Problem& p)
+    : Workspace(p.ws),
+      nodes(p.b.nodes),
+      triangles(p.b.triangles),
+      triangle_lows(p.b.triangle_lows),
+      boxes(p.b.boxes),
+      codes(p.b.codes),
+      box(p.b.box),
+      b_vertices(p.b.vertices),
+      b_faces(p.b.faces),
+      // Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
+      areas(p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused)),
+      vertex_state(p.ws.vertex_distance),
+      order(p.ws.sort.values[0]) {}
 
 gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count, bool warm) {
   return {.asked = asked,

@@ -39,25 +39,24 @@ class Recorder {
   // Keeps the commands instead, without labels and timestamps.
   Recorder(const VkhContext_T& context, Track& track) : context_(context), track_(&track) {}
 
-  template <class K>
-  void run(const typename K::Args& args, const typename K::Push& push, Items items,
-           Order order = Order::kAfterAll) {
+  // `given` is any struct whose members are called as the kernel's buffers are, with a member
+  // `push` where the kernel has push constants. A name that is missing does not compile.
+  template <class K, class Given>
+  void run(const Given& given, Items items, Order order = Order::kAfterAll) {
     const uint32_t groups = (items.count + K::kLocalSize[0] - 1) / K::kLocalSize[0];
-    run<K>(args, push, Groups{groups}, order);
+    run<K>(given, Groups{groups}, order);
   }
-  template <class K>
-  void run(const typename K::Args& args, const typename K::Push& push, Groups groups,
-           Order order = Order::kAfterAll) {
-    Command command = command_of<K>(args, push);
+  template <class K, class Given>
+  void run(const Given& given, Groups groups, Order order = Order::kAfterAll) {
+    Command command = command_of<K>(given);
     command.order = order;
     command.groups = groups.count;
     put(command);
   }
   // `size` holds one gpu::Dispatch.
-  template <class K>
-  void run_indirect(const typename K::Args& args, const typename K::Push& push,
-                    const Slice<gpu::Dispatch>& size) {
-    Command command = command_of<K>(args, push);
+  template <class K, class Given>
+  void run_indirect(const Given& given, const Slice<gpu::Dispatch>& size) {
+    Command command = command_of<K>(given);
     command.kind = Command::Kind::kDispatchIndirect;
     command.size = size;
     put(command);
@@ -72,7 +71,7 @@ class Recorder {
     command.word = word;
     put(command);
   }
-  uint32_t switches() const { return context_.limits.switches; }
+  bool is_wide() const { return context_.limits.wide; }
   // Ends a stage: what ran since the last call is timed under this name (a static string).
   void stage(const char* name);
 
@@ -80,9 +79,10 @@ class Recorder {
   void begin_label(const char* name);
   void end_label();
 
-  template <class K>
-  Command command_of(const typename K::Args& args, const typename K::Push& push) const {
+  template <class K, class Given>
+  Command command_of(const Given& given) const {
     constexpr uint32_t count = sizeof(K::kBindings) / sizeof(Binding);
+    const typename K::Args args = K::named(given);
     static_assert(sizeof(args) == count * sizeof(Slice<uint32_t>) && count <= kMaxBindings);
     Command command;
     command.kernel = &context_.kernels[IndexOf<K>::value];
@@ -90,6 +90,7 @@ class Recorder {
     std::copy_n(reinterpret_cast<const Slice<uint32_t>*>(&args), count, command.slices.begin());
     command.slice_count = count;
     if constexpr (!std::is_same_v<typename K::Push, NoPush>) {
+      const typename K::Push& push = given.push;
       static_assert(sizeof(push) <= kMaxPushBytes);
       std::memcpy(command.push.data(), &push, sizeof(push));
       command.push_bytes = sizeof(push);

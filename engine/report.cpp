@@ -2,33 +2,30 @@
 #include "engine/stages.h"
 
 namespace vkh {
-
 namespace {
 
-void record_open(Recorder& rec, const Problem& p) {
-  if (p.areas.buffer == VK_NULL_HANDLE) return;
+struct ReportBuffers : RunBuffers {
+  ReportBuffers(const Problem& p, const Slice<gpu::Report>& at)
+      : RunBuffers(p), report(at), push{p.b.face_count} {}
+  Slice<gpu::Report> report;
+  gpu::CountPush push;
+};
+
+// The open half of the areas.
+Slice<gpu::Area> open_areas(const Problem& p) {
   const VkDeviceSize half = p.face_count * sizeof(gpu::Area);
-  rec.fill(Slice<gpu::Area>{p.areas.buffer, p.areas.offset + half, half}, 0);
-  rec.run<k::ReportOpen>({.control = p.ws.control, .frontier = p.ws.frontier, .areas = p.areas}, {},
-                         Items{p.ws.capacity});
+  return {p.areas.buffer, p.areas.offset + half, half};
 }
 
 }  // namespace
 
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
-  const Workspace& ws = p.ws;
-  rec.run<k::ReportWrite>({.control = ws.control,
-                           .b_vertices = p.b.vertices,
-                           .b_faces = p.b.faces,
-                           .vertices = ws.vertices,
-                           .faces = ws.faces,
-                           .triangles = p.b.triangles,
-                           .lower_bits = ws.lower_bits,
-                           .groups_done = ws.groups_done,
-                           .report = report},
-                          gpu::CountPush{p.b.face_count}, Items{p.b.face_count});
-  record_open(rec, p);
+  const ReportBuffers run(p, report);
+  const bool has_areas = p.areas.buffer != VK_NULL_HANDLE;
+  rec.run<k::ReportWrite>(run, Items{p.b.face_count});
+  if (has_areas) rec.fill(open_areas(p), 0);
+  if (has_areas) rec.run<k::ReportOpen>(run, Items{p.ws.capacity});
   rec.stage("report");
 }
 

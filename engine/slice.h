@@ -7,6 +7,9 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
+#include <type_traits>
+
+#include "shaders/gpu_types.h"
 
 namespace vkh {
 
@@ -18,21 +21,26 @@ struct Slice {
   VkDeviceSize size = 0;    // bytes
 };
 
-// A member without a default: leaving it out of a designated initialiser does not compile, at any
-// warning level (clang 14's -Wmissing-field-initializers passes over designated initialisers).
-// Converting from T is implicit, so that a plain slice is an argument.
-template <class T>
-struct Required : T {
-  Required() = delete;
-  Required(const T& value) : T(value) {}
-};
-
 // The same range as elements of another type: kernels that only read a struct may take it in words
 // of 16 bytes.
 template <class U, class T>
 Slice<U> as(const Slice<T>& slice) {
   return {slice.buffer, slice.offset, slice.size};
 }
+
+// A kernel's argument. It has no default: leaving it out of a designated initialiser does not
+// compile, at any warning level (clang 14's -Wmissing-field-initializers passes over designated
+// initialisers). Converting from a slice is implicit, so that a plain one is an argument.
+template <class T>
+struct Argument : Slice<T> {
+  Argument() = delete;
+  Argument(const Slice<T>& slice) : Slice<T>(slice) {}
+  // What walks read in whole loads.
+  template <class U>
+  requires std::is_same_v<T, gpu::uvec4> || std::is_same_v<T, gpu::vec2> Argument(
+      const Slice<U>& slice)
+      : Slice<T>(as<T>(slice)) {}
+};
 
 template <class T>
 VkDescriptorBufferInfo info(const Slice<T>& slice) {

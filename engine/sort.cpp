@@ -2,22 +2,35 @@
 // (Harris, Satish and Garland's scheme, without look-back between workgroups, which Vulkan does not
 // promise to make progress).
 #include <algorithm>
-#include <cstddef>
 
 #include "engine/stages.h"
 
 namespace vkh {
 namespace {
 
+// What the kernels of a pass are given: from one side to the other.
+struct Pass {
+  Pass(const SortStreams& s, uint32_t from, const gpu::SortPush& p)
+      : push(p),
+        keys(s.keys[from]),
+        keys_in(s.keys[from]),
+        values_in(s.values[from]),
+        keys_out(s.keys[1 - from]),
+        values_out(s.values[1 - from]),
+        counts(s.counts),
+        totals(s.totals),
+        key_count(s.count) {}
+  gpu::SortPush push;
+  Slice<uint32_t> keys, keys_in, values_in, keys_out, values_out, counts, totals, key_count;
+};
+
 template <class K>
-void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Push& push,
-              Groups groups) {
-  if (groups.count > 0) rec.run<K>(args, push, groups);
+void dispatch(Recorder& rec, const Pass& pass, Groups groups) {
+  if (groups.count > 0) rec.run<K>(pass, groups);
 }
 template <class K>
-void dispatch(Recorder& rec, const typename K::Args& args, const typename K::Push& push,
-              const Slice<gpu::Dispatch>& size) {
-  rec.run_indirect<K>(args, push, size);
+void dispatch(Recorder& rec, const Pass& pass, const Slice<gpu::Dispatch>& size) {
+  rec.run_indirect<K>(pass, size);
 }
 
 // By which bits, how many keys an invocation takes, how many there are, and whether each pass
@@ -37,26 +50,15 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted cou
   const uint32_t passes = passes_of(sorted);
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const uint32_t from = (passes - pass) % 2;
-    const uint32_t to = 1 - from;
     const gpu::SortPush push{.shift = sorted.first_bit + 8 * pass,
                              .rounds = sorted.rounds,
                              .count = sorted.count,
                              .pass = sorted.counted_ahead ? pass : 0,
                              .passes = sorted.counted_ahead ? passes : 1};
-    if (push.pass == 0 && counted == Counted::kNo)
-      dispatch<k::SortCount>(rec, {.keys = s.keys[from], .counts = s.counts, .key_count = s.count},
-                             push, blocks);
-    dispatch<k::SortScan>(rec, {.counts = s.counts, .totals = s.totals, .key_count = s.count}, push,
-                          digits);
-    dispatch<k::SortScatter>(rec,
-                             {.keys_in = s.keys[from],
-                              .values_in = s.values[from],
-                              .keys_out = s.keys[to],
-                              .values_out = s.values[to],
-                              .counts = s.counts,
-                              .totals = s.totals,
-                              .key_count = s.count},
-                             push, blocks);
+    const Pass given(s, from, push);
+    if (push.pass == 0 && counted == Counted::kNo) dispatch<k::SortCount>(rec, given, blocks);
+    dispatch<k::SortScan>(rec, given, digits);
+    dispatch<k::SortScatter>(rec, given, blocks);
   }
 }
 
@@ -64,8 +66,7 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted cou
 // kSortFewBlocks workgroups take fewer rounds, and each pass counts for the next, by atomics. A CPU
 // does not wait, and has more to do for each workgroup.
 Keys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
-  if ((rec.switches() & gpu::kUseGroupWalk) == 0)
-    return {first_bit, gpu::kSortRounds, count, false};
+  if (!rec.is_wide()) return {first_bit, gpu::kSortRounds, count, false};
   uint32_t rounds = gpu::kFewestSortRounds;
   while (rounds < gpu::kSortRounds && sort_blocks(count, rounds) > gpu::kSortFewBlocks) rounds *= 2;
   return {first_bit, rounds, count, sort_blocks(count, rounds) <= gpu::kSortFewBlocks};
@@ -94,23 +95,9 @@ void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t f
   record_passes(rec, s, keys, counted, Groups{blocks}, Groups{digits});
 }
 
-void record_wave_sort(Recorder& rec, const Problem& p) {
-  const Workspace& ws = p.ws;
-  // The frontier's length, as one word.
-  static_assert(offsetof(gpu::Control, count) == 0 && gpu::kCountFrontier == 0);
-  SortStreams streams = ws.sort;
-  streams.count = {ws.control.buffer, ws.control.offset, sizeof(uint32_t)};
-  rec.run_indirect<k::WaveSort>({.control = ws.control,
-                                 .frontier = ws.frontier,
-                                 .vertices = ws.vertices,
-                                 .faces = ws.faces,
-                                 .nodes = as<gpu::uvec4>(p.b.nodes),
-                                 .keys = streams.keys[0],
-                                 .values = streams.values[0]},
-                                {}, ws.dispatch(gpu::kDispatchSortKeys));
-  record_passes(rec, streams, {0, gpu::kSortRounds, gpu::kNone, false}, Counted::kNo,
-                ws.dispatch(gpu::kDispatchSortBlocks), ws.dispatch(gpu::kDispatchSortDigits));
-  rec.stage("order");
+void record_sort(Recorder& rec, const SortStreams& s, const Slice<gpu::Dispatch>& blocks,
+                 const Slice<gpu::Dispatch>& digits) {
+  record_passes(rec, s, {0, gpu::kSortRounds, gpu::kNone, false}, Counted::kNo, blocks, digits);
 }
 
 }  // namespace vkh

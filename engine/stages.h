@@ -22,6 +22,10 @@ uint32_t record_empty_counts(Recorder& rec, const SortStreams& streams, uint32_t
 enum class Counted { kNo, kYes };
 void record_sort(Recorder& rec, const SortStreams& streams, uint32_t count, uint32_t first_bit = 0,
                  Counted counted = Counted::kNo);
+// The same where the device alone knows how many there are, streams.count, and how many workgroups
+// that takes: for blocks of keys, and for digits.
+void record_sort(Recorder& rec, const SortStreams& streams, const Slice<gpu::Dispatch>& blocks,
+                 const Slice<gpu::Dispatch>& digits);
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
                   const Hierarchy& hierarchy);
@@ -34,7 +38,8 @@ struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
   float cull_tolerance = 0, known_lower = 0;
   uint32_t sort_from = 0;            // kSortFrom if 0
-  uint32_t switches = gpu::kUseAll;  // of the context
+  uint32_t switches = gpu::kUseAll;  // of the context,
+  bool wide = true;                  // and the kind of its device
   bool two_float = false;
   bool warm = false;  // the workspace holds an earlier run to start from
   Hierarchy b;
@@ -43,21 +48,41 @@ struct Problem {
       {};  // of each face of A, closed; then of each, open. No buffer: not recorded
 };
 
-// Where --verify adds up what is closed and open.
-Slice<gpu::Area> areas_of(const Problem& p);
-void record_seed(Recorder& rec, const Problem& p);
-// What `query` works on; `points`: of a wave.
-k::Query::Args query_args(const Problem& p, const Slice<gpu::Point>& points);
-// What it is asked, kAsk*; of A's vertices so many and, where `warm`, the witness there is: a wave
-// asks for that alone where the base has moved.
+// All that the kernels of a run bind, by the names that they have for it.
+struct RunBuffers : Workspace {
+  explicit RunBuffers(const Problem& p);
+
+  Slice<gpu::Node> nodes;
+  Slice<gpu::Triangle> triangles;
+  Slice<gpu::TriangleLow> triangle_lows;
+  Slice<gpu::Box> boxes;
+  Slice<uint32_t> codes;
+  Slice<gpu::CentroidBox> box;
+  Slice<gpu::Vertex> b_vertices;
+  Slice<gpu::uvec3> b_faces;
+  Slice<gpu::Area> areas;
+  Slice<uint32_t> vertex_state;  // vertex_distance, before it is one
+  Slice<uint32_t> order;         // of the frontier, where it is sorted
+};
+
+// The same with push constants; `points` are what `query` is to answer.
+template <class Push>
+struct Given : RunBuffers {
+  Given(const RunBuffers& run, const Push& p) : RunBuffers(run), push(p) {}
+  Push push;
+};
+// What `query` is asked, kAsk*; of A's vertices so many and, where `warm`, the witness there is: a
+// wave asks for that alone where the base has moved.
 gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count = 0,
                           bool warm = true);
+
+void record_seed(Recorder& rec, const Problem& p);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan
-// finds it worth it.
-void record_wave_sort(Recorder& rec, const Problem& p);
+// finds it worth it. The paper's.
+void record_order(Recorder& rec, const RunBuffers& run);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

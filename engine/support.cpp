@@ -1,17 +1,32 @@
 #include "engine/support.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
-#include "shaders/gpu_types.h"
+#include "engine/command.h"
+#include "engine/kernels.h"
 
 namespace vkh {
 namespace {
 
 constexpr const char* kExtensions[] = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
                                        VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
-constexpr uint32_t kDescriptors = 16;
+
+// What the kernels take at most, as the build has reflected it.
+constexpr uint32_t kDescriptors = std::max({
+#define VKH_BINDINGS(K) static_cast<uint32_t>(std::size(k::K::kBindings)),
+    VKH_KERNELS(VKH_BINDINGS)
+#undef VKH_BINDINGS
+});
+constexpr uint32_t kSharedBytes = std::max({
+#define VKH_SHARED(K) k::K::kSharedBytes,
+    VKH_KERNELS(VKH_SHARED)
+#undef VKH_SHARED
+});
+static_assert(kDescriptors <= kMaxBindings);
 
 struct DeviceFacts {
   VkPhysicalDeviceProperties2 properties{};
@@ -83,13 +98,13 @@ void check_limits(const DeviceFacts& facts, Reasons& reasons) {
                  "Vulkan 1.2 is missing");
   reasons.unless(limits.maxComputeWorkGroupInvocations >= gpu::kSortGroup,
                  "workgroups of 256 are not possible");
-  reasons.unless(limits.maxComputeSharedMemorySize >= 18 * 1024,
-                 "18 KiB of shared memory are missing");
+  reasons.unless(limits.maxComputeSharedMemorySize >= kSharedBytes,
+                 std::to_string(kSharedBytes) + " bytes of shared memory are missing");
   reasons.unless(limits.minStorageBufferOffsetAlignment <= 256,
                  "storage buffer offsets need more than 256 bytes");
   reasons.unless(limits.maxPerStageDescriptorStorageBuffers >= kDescriptors &&
                      facts.push.maxPushDescriptors >= kDescriptors,
-                 "16 storage buffers a kernel are not possible");
+                 std::to_string(kDescriptors) + " storage buffers a kernel are not possible");
 }
 
 void check_subgroups(const DeviceFacts& facts, Reasons& reasons) {
@@ -109,7 +124,9 @@ void check_subgroups(const DeviceFacts& facts, Reasons& reasons) {
 Limits device_limits(const VkhDeviceInfo& info) {
   DeviceFacts facts;
   query_properties(info, facts);
-  return {.storage_range = facts.properties.properties.limits.maxStorageBufferRange};
+  const VkPhysicalDeviceProperties& properties = facts.properties.properties;
+  return {.storage_range = properties.limits.maxStorageBufferRange,
+          .wide = properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU};
 }
 
 }  // namespace vkh

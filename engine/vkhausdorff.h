@@ -85,8 +85,8 @@ typedef enum VkhResult {
                               binding of the device reaches; or it has none */
 } VkhResult;
 
-/* Stages that can be switched off, for ablations. The interval stays true without any of them but
- * VKH_SWITCH_CERTIFICATE. */
+/* Parts of the method that can be switched, for ablations: a set of 0 is what pays on the device
+ * and is what you want. The interval is true without any of them. */
 typedef enum VkhSwitchBits {
   VKH_SWITCH_CENTROID = 1,       /* the triangle closest to a candidate's centroid, in ha and u3 */
   VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, likewise */
@@ -95,16 +95,16 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_PAIRS = 16,         /* u3, the pairwise split bound */
   VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
-  VKH_SWITCH_COVERAGE = 128,     /* no stage of the method: VkhProblem::coverageBuffer is written */
-  VKH_SWITCH_GROUP_WALK =
-      256, /* few queries or children: more invocations for each; for GPUs, not CPU devices */
+  VKH_SWITCH_COVERAGE = 128,     /* no part of the method: VkhProblem::coverageBuffer is written */
+  VKH_SWITCH_GROUP_WALK = 256,   /* few queries: a workgroup walks for each; wide devices only */
   VKH_SWITCH_SHARED_FACES =
       512, /* faces of A that are faces of B are closed: h(A, A) is 0 at once */
-  /* Without it bounds are plain floats and NOTHING IS CERTIFIED: to measure what that costs. */
-  VKH_SWITCH_CERTIFICATE = 1024,
+  /* Bounds in plain floats: NOTHING IS CERTIFIED, and VkhReport::certified says so. To measure what
+   * the certificate costs. */
+  VKH_SWITCH_UNCERTIFIED = 1024,
   /* What the method of the paper has and this one does without, or in another form. */
   VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
-  VKH_SWITCH_PACKET = 4096, /* one walk for a candidate's three new points; few: GROUP_WALK */
+  VKH_SWITCH_PACKET = 4096, /* one walk for a candidate's three new points */
   VKH_SWITCH_DEFER = 8192,  /* candidates wait where there is no room; off: what does not fit is
                                lost, the run ends as VKH_STATUS_MEMORY */
   VKH_SWITCH_LARGEST_FIRST = 16384, /* those with the largest u are refined first */
@@ -112,13 +112,22 @@ typedef enum VkhSwitchBits {
   /* Few candidates are split twice in a wave; for GPUs. Without effect where CENTROID, PACKET or
    * U3_PAPER is on. */
   VKH_SWITCH_TWO_LEVELS = 65536,
-  VKH_SWITCH_ALL = 127 + 256 + 512 + 1024 + 8192 + 65536, /* all of this method */
-  /* What pays on a CPU device, and on a GPU. U4 decides no candidate that u3 over all pairs leaves
-   * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a GPU, where a wave
-   * is a chain of short steps, more candidates at once are cheaper than another step. */
-  VKH_SWITCH_DEFAULT_CPU = 127 - 32 + 512 + 1024 + 8192,
-  VKH_SWITCH_DEFAULT = 4 + 8 + 16 + 64 + 256 + 512 + 1024 + 8192 + 65536
+  /* Nothing is switched by this bit: a set that is empty but for it is an empty set, not 0. */
+  VKH_SWITCH_NONE = 1 << 30,
+  /* What 0 stands for, by the kind of device. U4 decides no candidate that u3 over all pairs leaves
+   * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a wide device, where
+   * a wave is a chain of short steps, more candidates at once are cheaper than another step. */
+  VKH_SWITCH_DEFAULT_NARROW = 1 + 2 + 4 + 8 + 16 + 64 + 512 + 8192,
+  VKH_SWITCH_DEFAULT_WIDE = 4 + 8 + 16 + 64 + 256 + 512 + 8192 + 65536
 } VkhSwitchBits;
+
+/* How a device runs. It decides on kernels and on how a wave is divided into dispatches; no bound
+ * depends on it. */
+typedef enum VkhDeviceKind {
+  VKH_DEVICE_KIND_AUTO = 0,  /* narrow for VK_PHYSICAL_DEVICE_TYPE_CPU, wide for all others */
+  VKH_DEVICE_KIND_WIDE = 1,  /* many workgroups at once: a small wave is given more invocations */
+  VKH_DEVICE_KIND_NARROW = 2 /* a few at once, as a CPU: no invocation more than there is work */
+} VkhDeviceKind;
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader
  * may be opened by you, or be somebody's layer. `device` may be null for vkhQuerySupport. Labels
@@ -145,10 +154,12 @@ VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capac
 typedef struct VkhContextCreateInfo {
   VkhDeviceInfo device;
   VkPipelineCache pipelineCache; /* may be null */
-  uint32_t switches;             /* VkhSwitchBits that are on; VKH_SWITCH_ALL is the full method */
+  uint32_t switches;             /* VkhSwitchBits that are on; 0: what pays on the device */
+  VkhDeviceKind deviceKind;      /* 0: by the device's type */
 } VkhContextCreateInfo;
 
-/* Creates the pipelines, on up to 8 threads of its own while it runs; this is the one slow call
+/* A structure of zeros but for `device` is right: certified, and what pays on the device. Creates
+ * the pipelines, on up to 8 threads of its own while it runs; this is the one slow call
  * (seconds where the driver has not compiled them before, so keep a pipeline cache). Nothing of
  * `info` but the handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
  * VKH_ERROR_UNSUPPORTED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left. */
@@ -310,7 +321,7 @@ typedef enum VkhStatus {
   VKH_STATUS_MEMORY = 3     /* the workspace is full and nothing in it can be refined in place */
 } VkhStatus;
 
-enum { VKH_MAX_WAVE_RECORDS = 64 };
+enum { VKH_MAX_WAVE_RECORDS = 64, VKH_MAX_CULLS = 16 };
 
 typedef struct VkhWaveRecord {
   uint32_t parents, candidates, queries, survivors, deferred;
@@ -326,19 +337,21 @@ typedef struct VkhReport {
   /* The same interval with more bits than two float32 near h have: certified, base + lowerAbove <=
    * h(A, B) <= base + upperAbove, the sums taken exactly (in double). */
   float base, lowerAbove, upperAbove;
-  uint32_t status; /* VkhStatus */
+  uint32_t status;    /* VkhStatus */
+  uint32_t certified; /* 0 with VKH_SWITCH_UNCERTIFIED: then neither end is certified; else 1 */
   uint32_t waves;
   float witnessPosition[3]; /* the point of A that proves `lower`, rounded */
   float witnessDistance;
   uint32_t witnessFaceA;
   uint32_t witnessBarycentric[2]; /* of the face's second and third corner, in units of 2^-20 */
-  uint32_t witnessTriangle;       /* internal */
+  uint32_t reserved;              /* the engine's own; it means nothing to you */
   uint32_t witnessFaceB;          /* the face of B closest to it */
   uint32_t remaining;             /* candidates still open */
   uint32_t candidateTotal;
   uint32_t queryTotal;
   uint32_t peakFrontier;
-  uint32_t culled[8]; /* exact, u1, u2, ha, u3, u4, lower raised, precision */
+  uint32_t culled[VKH_MAX_CULLS]; /* candidates closed: exact, u1, u2, ha, u3, u4, lower raised,
+                                     precision; the rest is 0 */
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
 } VkhReport;
 

@@ -30,7 +30,7 @@ class Suballocator {
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
   take(h.branches, std::max(face_count, 2u) - 1);
   take(h.nodes, std::max(face_count, 2u) - 1);
-  take(h.pyramid, pyramid_size(face_count) + quads_size(face_count));
+  take(h.boxes, pyramid_size(face_count) + quads_size(face_count));
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
   take(h.codes, face_count);
@@ -66,7 +66,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   // parents.
   const uint64_t parents = capacity / 4 + 1;
   take(w.control, 1);
-  take(w.dispatches, gpu::kDispatchCount);
+  take(w.sizes, 1);
   take(w.vertices, vertex_count);
   take(w.faces, face_count);
   take(w.vertex_nearest, vertex_count);

@@ -2,8 +2,10 @@
 // so that they cannot disagree: a new stream is one line in it.
 #pragma once
 
+#include <cstddef>
+
 #include "engine/context.h"
-#include "shaders/gpu_types.h"
+#include "shaders/stages.h"
 
 namespace vkh {
 
@@ -11,7 +13,7 @@ namespace vkh {
 struct Hierarchy {
   Slice<gpu::Branch> branches;
   Slice<gpu::Node> nodes;
-  Slice<gpu::Box> pyramid;
+  Slice<gpu::Box> boxes;  // of the pyramid
   Slice<gpu::Triangle> triangles;
   Slice<gpu::TriangleLow> triangle_lows;
   Slice<uint32_t> codes;  // Morton codes of the triangles, ascending, and the box that they lie in:
@@ -44,13 +46,13 @@ struct BuildScratch {
 // One run.
 struct Workspace {
   Slice<gpu::Control> control;
-  Slice<gpu::Dispatch> dispatches;
+  Slice<gpu::WaveSizes> sizes;
   Slice<gpu::Vertex> vertices;  // of A
   Slice<gpu::uvec3> faces;      // of A
   Slice<uint32_t> vertex_nearest;
-  Slice<float> vertex_distance;
-  Slice<uint32_t> face_shared;     // whether a face of A is one of B, too
-  Slice<gpu::Candidate> frontier;  // two halves of `capacity`
+  Slice<uint32_t> vertex_distance;  // floats, as bits
+  Slice<uint32_t> face_shared;      // whether a face of A is one of B, too
+  Slice<gpu::Candidate> frontier;   // two halves of `capacity`
   Slice<gpu::Split> splits;
   Slice<gpu::Point> points;
   Slice<uint32_t> lower_bits;   // between reports kNone
@@ -63,12 +65,12 @@ struct Workspace {
   Slice<float> u3_bounds;            // kUsePaperU3
   SortStreams sort;                  // kUseSort; else values[0] alone is something
   uint32_t capacity = 0;
-
-  Slice<gpu::Dispatch> dispatch(uint32_t which) const {
-    return {dispatches.buffer, dispatches.offset + which * sizeof(gpu::Dispatch),
-            sizeof(gpu::Dispatch)};
-  }
 };
+
+// One of them: `offset` of its member.
+inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, size_t offset) {
+  return {sizes.buffer, sizes.offset + offset, sizeof(gpu::Dispatch)};
+}
 
 // Boxes of all levels of the pyramid over `face_count` triangles.
 uint32_t pyramid_size(uint32_t face_count);

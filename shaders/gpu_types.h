@@ -67,42 +67,62 @@ VKH_CONST uint kMaxTriangles = 1u << 28;
 // least one bit a level.
 VKH_CONST uint kStackDepth = 60u;
 
-// Switches (specialisation constant 0). A set bit switches the stage on.
-VKH_CONST uint kUseCentroid = 1u;        // query the centroid, use its closest triangle
-VKH_CONST uint kUseParentSamples = 2u;   // try the closest triangles of the parent's six points
-VKH_CONST uint kUseToleranceCull = 4u;   // cull at lower + tolerance, not at lower
-VKH_CONST uint kUseThin = 8u;            // double longest-edge bisection where q(T) < kThinQuality
-VKH_CONST uint kUsePairs = 16u;          // u3 over every pair of candidate triangles
-VKH_CONST uint kUseU4 = 32u;             // u4, the point-point bisector
-VKH_CONST uint kUseWarmStart = 64u;      // start a query from the parent's known triangles
-VKH_CONST uint kUseGroupWalk = 256u;     // few queries or children: more invocations for each
-VKH_CONST uint kUseSharedFaces = 512u;   // faces of A that are faces of B too are closed at once
-VKH_CONST uint kUseCertificate = 1024u;  // off: plain floats, nothing is certified
-VKH_CONST uint kUseSort = 2048u;         // sort the frontier before it is refined
-VKH_CONST uint kUsePacket = 4096u;       // an invocation walks for a candidate's three new points
-VKH_CONST uint kUseDefer = 8192u;        // candidates that there is no room to refine wait
-VKH_CONST uint kUseLargestFirst = 16384u;  // those with the largest u are refined first
-VKH_CONST uint kUsePaperU3 = 32768u;       // u3 as the paper has it
-VKH_CONST uint kUseTwoLevels = 65536u;     // few candidates are split twice in a wave
+// Switches (specialisation constant 0): the one list of them. A set bit switches the part on.
+//   X(constant, bit, api, name): VKH_SWITCH_<api> in vkhausdorff.h; name: what the command line,
+// JSON and Python call it.
+#define VKH_SWITCHES(X)                                                                           \
+  X(kUseCentroid, 0u, CENTROID, centroid) /* query the centroid, use its closest triangle */      \
+  X(kUseParentSamples, 1u, PARENT_SAMPLES, parent_samples) /* the parent's six points', too */    \
+  X(kUseToleranceCull, 2u, TOLERANCE_CULL, tolerance_cull) /* cull at lower + tolerance */        \
+  X(kUseThin, 3u, THIN, thin) /* bisect longest edges twice where q(T) < kThinQuality */          \
+  X(kUsePairs, 4u, PAIRS, u3) /* u3 over every pair of candidate triangles */                     \
+  X(kUseU4, 5u, U4, u4)       /* the point-point bisector */                                      \
+  X(kUseWarmStart, 6u, WARM_START, warm_start) /* queries start from the parent's triangles */    \
+  X(kUseGroupWalk, 8u, GROUP_WALK, group_walk) /* few queries: a workgroup walks for each */      \
+  X(kUseSharedFaces, 9u, SHARED_FACES, shared_faces) /* faces of A that B has are closed */       \
+  X(kUseSort, 11u, SORT, sort)                       /* sort the frontier before it is refined */ \
+  X(kUsePacket, 12u, PACKET, packet) /* one walk for a candidate's three new points */            \
+  X(kUseDefer, 13u, DEFER, defer)    /* candidates that there is no room to refine wait */        \
+  X(kUseLargestFirst, 14u, LARGEST_FIRST, largest_first) /* the largest u are refined first */    \
+  X(kUsePaperU3, 15u, U3_PAPER, u3_paper)                /* u3 as the paper has it */             \
+  X(kUseTwoLevels, 16u, TWO_LEVELS, two_levels) /* few candidates are split twice in a wave */
+#define VKH_SWITCH(constant, bit, api, name) VKH_CONST uint constant = 1u << bit;
+VKH_SWITCHES(VKH_SWITCH)
+#undef VKH_SWITCH
+// No parts of the method: record what was closed (base/coverage.glsl); bounds in plain floats, by
+// which NOTHING IS CERTIFIED.
+VKH_CONST uint kUseCoverage = 1u << 7;
+VKH_CONST uint kUseUncertified = 1u << 10;
+
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
-// Any of them: a wave is more than two dispatches (kFused in candidate/dispatch.glsl).
-VKH_CONST uint kUseApart = kUseFilter | kUsePacket | kUseSort;
-// The method of ours: without what the paper has in another place.
-VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u + 65536u;
-VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (base/coverage.glsl)
+VKH_CONST uint kUseBesides = kUseU4 | kUsePaperU3;       // either brings in paper_bound
+// Any of them: a wave is more than two dispatches (is_fused in stages.h).
+VKH_CONST uint kUseApart = kUseFilter | kUseBesides | kUsePacket | kUseSort;
+// All of this method: without what the paper has in another place.
+VKH_CONST uint kUseAll = kUseCentroid | kUseParentSamples | kUseToleranceCull | kUseThin |
+                         kUsePairs | kUseU4 | kUseWarmStart | kUseGroupWalk | kUseSharedFaces |
+                         kUseDefer | kUseTwoLevels;
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
 
-// Why a candidate was closed: Control::culled counts each.
-VKH_CONST uint kCullExact = 0u;
-VKH_CONST uint kCullU1 = 1u;
-VKH_CONST uint kCullU2 = 2u;
-VKH_CONST uint kCullHa = 3u;
-VKH_CONST uint kCullU3 = 4u;
-VKH_CONST uint kCullU4 = 5u;
-VKH_CONST uint kCullLowerRaised = 6u;
-VKH_CONST uint kCullPrecision = 7u;
-VKH_CONST uint kCullCount = 8u;
+// Why a candidate was closed: the one list. Control::culled counts each; the name is what JSON and
+// Python have. wave_bound closes by those up to kCullLowerRaised, so a new bound stands before it.
+#define VKH_CULLS(X)                                                                      \
+  X(kCullExact, 0u, exact)                                                                \
+  X(kCullU1, 1u, u1)                                                                      \
+  X(kCullU2, 2u, u2)                                                                      \
+  X(kCullHa, 3u, ha)                                                                      \
+  X(kCullU3, 4u, u3)                                                                      \
+  X(kCullU4, 5u, u4)                                                                      \
+  X(kCullLowerRaised, 6u, lower_raised) /* later, because lower had risen past their u */ \
+  X(kCullPrecision, 7u, precision)      /* nothing finer can be decided */
+#define VKH_CULL(constant, value, name) VKH_CONST uint constant = value;
+VKH_CULLS(VKH_CULL)
+#undef VKH_CULL
+#define VKH_ONE(constant, value, name) +1u
+VKH_CONST uint kCullCount = 0u VKH_CULLS(VKH_ONE);
+#undef VKH_ONE
+VKH_CONST uint kMostCulls = 16u;  // room for them in what the host reads
 
 // Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax
 // orders them. Distances are what they are above Control::base.
@@ -122,19 +142,6 @@ VKH_CONST uint kCountSurvivors = 2u;  // candidates past the filter in this wave
 VKH_CONST uint kCountRefined = 3u;   // where some are deferred: refined ones that have their place,
 VKH_CONST uint kCountDeferred = 4u;  // and deferred ones
 VKH_CONST uint kCountCount = 5u;
-
-// Indirect dispatches, in the order in which a wave runs them.
-VKH_CONST uint kDispatchSubdivide = 0u;
-VKH_CONST uint kDispatchQueryPoints = 1u;
-VKH_CONST uint kDispatchFilter = 2u;
-VKH_CONST uint kDispatchQueryCentroids = 3u;
-VKH_CONST uint kDispatchBound = 4u;
-VKH_CONST uint kDispatchPacket = 5u;      // in place of kDispatchQueryPoints
-VKH_CONST uint kDispatchSortKeys = 6u;    // the sort of the frontier: its keys,
-VKH_CONST uint kDispatchSortBlocks = 7u;  // blocks of them,
-VKH_CONST uint kDispatchSortDigits = 8u;  // digits
-VKH_CONST uint kDispatchBisect = 9u;      // the paper's u3
-VKH_CONST uint kDispatchCount = 10u;
 
 // Radix sort: 8-bit digits; a block is what one workgroup of kSortGroup invocations sorts at a
 // time, kSortRounds keys each, or down to kFewestSortRounds (SortPush).
@@ -169,7 +176,7 @@ VKH_CONST uint kSelectDigits = 256u;  // of a key, where a plan selects: 8 bits
 // The distance of a witness that is to be measured again.
 VKH_CONST float kUnmeasured = 3.0e38f;
 
-// wave_subdivide: invocations of a candidate where kUseGroupWalk is on, and where it is split
+// wave_subdivide: invocations of a candidate of a wide device, and where it is split
 // twice.
 VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
@@ -191,14 +198,15 @@ VKH_CONST uint kMaxWaveRecords = 64u;
 VKH_CONST uint kVertexUsed = 1u;
 VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
 
-// Status codes of the report.
-VKH_CONST uint kStatusRunning =
-    0u;  // candidates are left: advance further, or take the interval as it is
-VKH_CONST uint kStatusDecided = 1u;  // no candidate is left
-VKH_CONST uint kStatusPrecision =
-    2u;  // none is left, but some were closed at a u above the tolerance
-VKH_CONST uint kStatusMemory =
-    3u;  // the frontier is full and nothing in it can be refined in place
+// Status of the report: the one list; VKH_STATUS_<api's> in vkhausdorff.h.
+#define VKH_STATUSES(X)                                                                        \
+  X(kStatusRunning, 0u, RUNNING)     /* candidates are left: advance, or take what there is */ \
+  X(kStatusDecided, 1u, DECIDED)     /* none is left */                                        \
+  X(kStatusPrecision, 2u, PRECISION) /* none, but some closed at a u above the tolerance */    \
+  X(kStatusMemory, 3u, MEMORY) /* the frontier is full, nothing in it can be refined in place */
+#define VKH_STATUS(constant, value, api) VKH_CONST uint constant = value;
+VKH_STATUSES(VKH_STATUS)
+#undef VKH_STATUS
 
 // ---- structs
 // ----------------------------------------------------------------------------------------------------
@@ -297,18 +305,18 @@ struct Offer {
 };
 
 struct Control {
-  uint count[5];     // kCount*
-  uint maximum[6];   // kMax*
-  uint culled[8];    // kCull*
-  uint parity;       // which half of the frontier is being read
-  uint wave;         // while the run goes on, the planned one is counted
-  uint status;       // kStatus*
-  uint root_cursor;  // faces of A before this one were admitted
-  uint roots;        // faces of A admitted in this wave
-  uint deferred;     // candidates that stay as they are in this wave
-  uint parents;      // candidates that it refines
-  uint select_key;   // where some are deferred, those with a smaller or the same key are refined:
-  uint select_tie;   // candidate/candidate.glsl
+  uint count[5];            // kCount*
+  uint maximum[6];          // kMax*
+  uint culled[kMostCulls];  // kCull*
+  uint parity;              // which half of the frontier is being read
+  uint wave;                // while the run goes on, the planned one is counted
+  uint status;              // kStatus*
+  uint root_cursor;         // faces of A before this one were admitted
+  uint roots;               // faces of A admitted in this wave
+  uint deferred;            // candidates that stay as they are in this wave
+  uint parents;             // candidates that it refines
+  uint select_key;  // where some are deferred, those with a smaller or the same key are refined:
+  uint select_tie;  // candidate/candidate.glsl
   uint select_largest;  // in this wave the largest u come first
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is
@@ -316,7 +324,6 @@ struct Control {
   uint measuring;       // this wave measures its witness above a new base, and nothing else
   uint lost;            // candidates that could neither be refined nor wait
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
-  uint groups_done;     // of wave_bound, where it plans; 0 between dispatches
   // The wave's samples that are at a new lower bound: the smallest of their keys, and those that
   // had it when they came.
   uint offer_key;
@@ -357,6 +364,7 @@ struct Report {
   // The same, with more bits: base + lower_above <= h(A,B) <= base + upper_above.
   float base, lower_above, upper_above;
   uint status;
+  uint certified;  // 0: bounds were plain floats, and nothing is
   uint wave;
   Witness witness;
   uint witness_face;  // of B, as given
@@ -364,7 +372,7 @@ struct Report {
   uint candidate_total;
   uint query_total;
   uint peak_frontier;
-  uint culled[8];
+  uint culled[kMostCulls];
   WaveRecord waves[64];
 };
 

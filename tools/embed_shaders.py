@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """SPIR-V in, C++ out: one header and one source per kernel, checked against shaders/gpu_types.h.
 
+  embed_shaders.py narrow SPV OUT          the kernel of a device that is not wide (kWide)
   embed_shaders.py kernel SPV OUT_DIR [FLAT CPU]
                                            OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
                                            SPV tells of the buffers, and FLAT is embedded where it
@@ -20,6 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import float_order
+import shared_memory
 import spirv_module as spirv
 from kernel_templates import HEADER, SOURCE
 
@@ -169,6 +171,7 @@ class Kernel:
     push: str
     structs: dict
     vectors: dict
+    shared_bytes: int
 
     @property
     def type_name(self):
@@ -249,7 +252,8 @@ def reflect(name, words):
             raise ContractError(f"block {block}: {error}") from None
     buffers.sort(key=lambda b: b.binding)
     check_buffers(buffers)
-    return Kernel(name, module.local_size, buffers, push, layouts.structs, layouts.vectors)
+    return Kernel(name, module.local_size, buffers, push, layouts.structs, layouts.vectors,
+                  shared_memory.most_bytes(words))
 
 
 def layout_asserts(kernel):
@@ -276,7 +280,9 @@ def header_text(kernel):
         type=kernel.type_name,
         count=len(kernel.buffers),
         local_size=", ".join(str(n) for n in kernel.local_size),
-        args="\n".join(f"    Required<Slice<{b.item}>> {b.name};" for b in kernel.buffers),
+        shared_bytes=kernel.shared_bytes,
+        args="\n".join(f"    Argument<{b.item}> {b.name};" for b in kernel.buffers),
+        named="\n".join(f"        .{b.name} = from.{b.name}," for b in kernel.buffers),
         bindings="\n".join(binding_text(b) for b in kernel.buffers),
         push=kernel.push,
         descriptors="\n".join(f"        info(args.{b.name})," for b in kernel.buffers),
@@ -344,8 +350,18 @@ def embed_index(out_dir, names):
             header.unlink()
 
 
+WIDE = 1  # constant_id of kWide (shaders/base/switches.glsl)
+
+
+def write_narrow(spv, out):
+    words = spirv.with_constant_false(spirv.read_words(spv), WIDE)
+    out.write_bytes(struct.pack(f"<{len(words)}I", *words))
+
+
 def main(args):
-    if len(args) in (3, 5) and args[0] == "kernel":
+    if len(args) == 3 and args[0] == "narrow":
+        write_narrow(*map(Path, args[1:]))
+    elif len(args) in (3, 5) and args[0] == "kernel":
         embed_kernel(*map(Path, args[1:]))
     elif len(args) >= 2 and args[0] == "index":
         embed_index(Path(args[1]), sorted(args[2:]))

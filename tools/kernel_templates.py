@@ -11,7 +11,7 @@ HEADER = """\
 #include <type_traits>
 
 #include "engine/slice.h"
-#include "shaders/gpu_types.h"
+#include "shaders/stages.h"
 
 namespace vkh::k {{
 
@@ -19,8 +19,9 @@ struct {type} {{
   static constexpr const char* kName = "{name}";
   static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
   static std::span<const uint32_t> words();
-  static std::span<const uint32_t> words_for_cpu();  // the switches are VKH_SWITCH_DEFAULT_CPU
+  static std::span<const uint32_t> words_for_cpu();  // kWide is false
   static uint32_t fingerprint();                     // of the words
+  static constexpr uint32_t kSharedBytes = {shared_bytes};  // of a workgroup, whatever the switches
 
   struct Args {{
 {args}
@@ -29,6 +30,14 @@ struct {type} {{
 {bindings}
   }};
   using Push = {push};
+
+  // The members of `from`, any struct, that are called as the kernel's buffers are.
+  template <class Names>
+  static Args named(const Names& from) {{
+    return {{
+{named}
+    }};
+  }}
 
   // The buffers in binding order, as a descriptor write takes them.
   static std::array<VkDescriptorBufferInfo, {count}> descriptors(const Args& args) {{

@@ -47,6 +47,48 @@ def with_loops_kept(words):
     return tuple(kept)
 
 
+OP_CONSTANT_TRUE, OP_CONSTANT_FALSE = 41, 42
+OP_SPEC_CONSTANT_TRUE, OP_SPEC_CONSTANT_FALSE, OP_SPEC_CONSTANT_OP = 48, 49, 52
+OP_LOGICAL_OR, OP_LOGICAL_AND, OP_LOGICAL_NOT = 166, 167, 168
+SPEC_ID = 1
+
+
+def with_constant_false(words, spec_id):
+    """The module, its boolean specialisation constant `spec_id` false for good, and so whatever
+    follows from that alone, as spirv-opt leaves it where another operand is a constant of that kind.
+    """
+    ids = [words[at + 1] for at, op in instructions(words)
+           if op == OP_DECORATE and words[at + 2] == SPEC_ID and words[at + 3] == spec_id]
+    known, out = {}, list(words[:5])
+    for at, op in instructions(words):
+        text = words[at : at + (words[at] >> 16)]
+        if op == OP_DECORATE and text[1] in ids and text[2] == SPEC_ID:
+            continue
+        value = None
+        if op in (OP_SPEC_CONSTANT_TRUE, OP_SPEC_CONSTANT_FALSE) and text[2] in ids:
+            value = False
+        elif op == OP_SPEC_CONSTANT_OP:
+            value = _logical(text[3], [known.get(i) for i in text[4:]])
+        elif op in (OP_CONSTANT_TRUE, OP_CONSTANT_FALSE):
+            known[text[2]] = op == OP_CONSTANT_TRUE
+        if value is not None:
+            known[text[2]] = value
+            text = (3 << 16 | (OP_CONSTANT_TRUE if value else OP_CONSTANT_FALSE), text[1], text[2])
+        out += text
+    return tuple(out)
+
+
+def _logical(op, operands):
+    """The value of an operation on booleans of which some are not known; None where it is not."""
+    if op == OP_LOGICAL_AND:
+        return False if False in operands else True if operands == [True, True] else None
+    if op == OP_LOGICAL_OR:
+        return True if True in operands else False if operands == [False, False] else None
+    if op == OP_LOGICAL_NOT and operands[0] is not None:
+        return not operands[0]
+    return None
+
+
 class Module:
     """The declarations of one SPIR-V module, by id."""
 
@@ -56,6 +98,7 @@ class Module:
         self.names, self.member_names = {}, defaultdict(dict)
         self.decorations, self.member_decorations = defaultdict(dict), defaultdict(dict)
         self.types, self.constants, self.composites = {}, {}, {}
+        self.operations = {}  # of specialisation constants: opcode and operands
         self.variables, self.local_size = [], None
         for at, op in instructions(words):
             self._declare(op, words[at + 1 : at + (words[at] >> 16)])
@@ -75,6 +118,11 @@ class Module:
             self.types[args[0]] = (op, args[1:])
         elif op in (OP_CONSTANT, OP_SPEC_CONSTANT):
             self.constants[args[1]] = (args[2], op == OP_SPEC_CONSTANT)
+        elif op == OP_SPEC_CONSTANT_OP:
+            self.operations[args[1]] = (args[2], args[3:])
+        elif op in (OP_CONSTANT_TRUE, OP_SPEC_CONSTANT_TRUE, OP_CONSTANT_FALSE, OP_SPEC_CONSTANT_FALSE):
+            true = op in (OP_CONSTANT_TRUE, OP_SPEC_CONSTANT_TRUE)
+            self.constants[args[1]] = (int(true), op in (OP_SPEC_CONSTANT_TRUE, OP_SPEC_CONSTANT_FALSE))
         elif op in (OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT_COMPOSITE):
             self.composites[args[1]] = args[2:]
         elif op == OP_VARIABLE:

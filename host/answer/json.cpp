@@ -78,24 +78,15 @@ Json times_json(const Times& t) {
 Json stages_json(const std::vector<StageStats>& stages) {
   Json rows = Json::array();
   for (const StageStats& s : stages) {
-    rows.push_back({{"name", s.name},
-                    {"gpu_ms", s.gpu_ms},
-                    {"dispatches", s.dispatches},
-                    {"items_in", s.items_in},
-                    {"items_out", s.items_out}});
+    rows.push_back({{"name", s.name}, {"gpu_ms", s.gpu_ms}, {"times", s.times}});
   }
   return rows;
 }
 
-Json culled_json(const CullHistogram& c) {
-  return {{"exact", c.exact},
-          {"u1", c.u1},
-          {"u2", c.u2},
-          {"ha", c.ha},
-          {"u3", c.u3},
-          {"u4", c.u4},
-          {"lower_raised", c.lower_raised},
-          {"precision", c.precision}};
+Json culled_json(const std::vector<CullCount>& culled) {
+  Json json = Json::object();
+  for (const CullCount& c : culled) json[c.name] = c.candidates;
+  return json;
 }
 
 Json wave_stats_json(const std::vector<WaveStats>& waves) {

@@ -114,12 +114,10 @@ void print_direction(std::ostream& out, const Report& r, const char* a, const ch
 
 void print_stages(std::ostream& out, const std::vector<StageStats>& stages) {
   if (stages.empty()) return;
-  out << printed("\n  %-24s %12s %12s %14s %14s\n", "stage", "GPU ms", "dispatches", "items in",
-                 "items out");
+  out << printed("\n  %-24s %12s %12s\n", "stage", "GPU ms", "times");
   for (const StageStats& s : stages) {
     out << "  " << s.name << std::string(s.name.size() < 24 ? 24 - s.name.size() : 0, ' ')
-        << printed(" %12.4f %12llu %14llu %14llu\n", s.gpu_ms, static_cast<Count>(s.dispatches),
-                   static_cast<Count>(s.items_in), static_cast<Count>(s.items_out));
+        << printed(" %12.4f %12llu\n", s.gpu_ms, static_cast<Count>(s.times));
   }
 }
 
@@ -135,19 +133,10 @@ void print_waves(std::ostream& out, const std::vector<WaveStats>& waves) {
   }
 }
 
-void print_culled(std::ostream& out, const CullHistogram& c) {
+void print_culled(std::ostream& out, const std::vector<CullCount>& culled) {
   out << "\n  candidates closed by\n";
-  const auto line = [&](const char* name, uint64_t n) {
-    out << printed("  %-14s %14llu\n", name, static_cast<Count>(n));
-  };
-  line("exact", c.exact);
-  line("u1", c.u1);
-  line("u2", c.u2);
-  line("ha", c.ha);
-  line("u3", c.u3);
-  line("u4", c.u4);
-  line("lower raised", c.lower_raised);
-  line("precision", c.precision);
+  for (const CullCount& c : culled)
+    out << printed("  %-14s %14llu\n", c.name, static_cast<Count>(c.candidates));
 }
 
 void print_details(std::ostream& out, const Report& r) {

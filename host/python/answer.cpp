@@ -13,9 +13,10 @@ py::dict counts_of(const MeshCounts& c) {
                   "degenerate"_a = c.degenerate, "duplicate"_a = c.duplicate);
 }
 
-py::dict culled_of(const CullHistogram& c) {
-  return py::dict("exact"_a = c.exact, "u1"_a = c.u1, "u2"_a = c.u2, "ha"_a = c.ha, "u3"_a = c.u3,
-                  "u4"_a = c.u4, "lower_raised"_a = c.lower_raised, "precision"_a = c.precision);
+py::dict culled_of(const std::vector<CullCount>& culled) {
+  py::dict counts;
+  for (const CullCount& c : culled) counts[c.name] = c.candidates;
+  return counts;
 }
 
 py::dict device_of(const DeviceDescription& d) {

@@ -66,7 +66,10 @@ void Runner::make_ready(uint32_t switches) {
 VkhContext Runner::context_for(uint32_t switches) {
   const auto known = contexts_.find(switches);
   if (known != contexts_.end()) return known->second.get();
-  const VkhContextCreateInfo info{device_.engine_info(), cache_.handle(), switches};
+  const bool wide = (switches & kSwitchWide) != 0;
+  const VkhContextCreateInfo info{device_.engine_info(), cache_.handle(),
+                                  (switches & ~kSwitchWide) | VKH_SWITCH_NONE,
+                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW};
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
   cache_.save();

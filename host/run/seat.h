@@ -25,8 +25,8 @@ struct ResidentMesh {
 struct RunInput {
   MeshData a, b;
   const ResidentMesh* resident = nullptr;  ///< instead of uploading and building b
-  uint32_t switches = VKH_SWITCH_DEFAULT;
-  uint64_t memory_bytes = 0;  ///< 0: recommended
+  uint32_t switches = 0;                   ///< VkhSwitchBits and kSwitchWide
+  uint64_t memory_bytes = 0;               ///< 0: recommended
   uint32_t wave_limit = UINT32_MAX;
   bool multiwave = true;   ///< false: the host looks at the report after every wave
   uint32_t sort_from = 0;  ///< VkhProblem::sortFrom

@@ -4,6 +4,7 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/base/error.h"
+#include "shaders/gpu_types.h"
 
 namespace vkh {
 namespace {
@@ -13,27 +14,17 @@ struct NamedSwitch {
   uint32_t bit;
 };
 
-constexpr NamedSwitch kSwitches[] = {{"centroid", VKH_SWITCH_CENTROID},
-                                     {"parent_samples", VKH_SWITCH_PARENT_SAMPLES},
-                                     {"tolerance_cull", VKH_SWITCH_TOLERANCE_CULL},
-                                     {"thin", VKH_SWITCH_THIN},
-                                     {"u3", VKH_SWITCH_PAIRS},
-                                     {"u4", VKH_SWITCH_U4},
-                                     {"warm_start", VKH_SWITCH_WARM_START},
-                                     {"group_walk", VKH_SWITCH_GROUP_WALK},
-                                     {"shared_faces", VKH_SWITCH_SHARED_FACES},
-                                     {"sort", VKH_SWITCH_SORT},
-                                     {"packet", VKH_SWITCH_PACKET},
-                                     {"defer", VKH_SWITCH_DEFER},
-                                     {"largest_first", VKH_SWITCH_LARGEST_FIRST},
-                                     {"u3_paper", VKH_SWITCH_U3_PAPER},
-                                     {"two_levels", VKH_SWITCH_TWO_LEVELS},
-                                     {"multiwave", kSwitchMultiwave}};
+constexpr NamedSwitch kSwitches[] = {
+#define VKH_NAMED(constant, bit, api, name) {#name, gpu::constant},
+    VKH_SWITCHES(VKH_NAMED)
+#undef VKH_NAMED
+        {"wide", kSwitchWide},
+    {"multiwave", kSwitchMultiwave}};
 
 // The paper's baseline (6.1): its cascade, and none of what it adds. The bounds are certified all
 // the same, and a point of A is queried once, where the paper queries the three corners of each
 // child: up to four times as many queries as ours.
-constexpr uint32_t kBaseline = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4 | VKH_SWITCH_CERTIFICATE;
+constexpr uint32_t kBaseline = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4;
 // The paper's method. Walks start from what the candidate knows, since its worklist holds the
 // closest triangles (6.3) and Alg. 2 updates minima.
 constexpr uint32_t kPaper = kBaseline | VKH_SWITCH_SORT | VKH_SWITCH_PACKET | VKH_SWITCH_THIN |
@@ -57,7 +48,8 @@ uint32_t preset_bits(const std::string& preset, const Device& device) {
 
 uint32_t default_switches(const Device& device) {
   const bool is_cpu = device.description().type == "cpu";
-  return is_cpu ? VKH_SWITCH_DEFAULT_CPU : VKH_SWITCH_DEFAULT;
+  if (is_cpu) return VKH_SWITCH_DEFAULT_NARROW;
+  return VKH_SWITCH_DEFAULT_WIDE | kSwitchWide;
 }
 
 std::vector<std::string> switch_names() {
@@ -73,7 +65,7 @@ uint32_t switches_of(const SolveOptions& options, const Device& device) {
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
   if (options.coverage) on |= VKH_SWITCH_COVERAGE;
-  return options.certified ? on : on & ~uint32_t{VKH_SWITCH_CERTIFICATE};
+  return options.certified ? on : on | VKH_SWITCH_UNCERTIFIED;
 }
 
 SwitchStates switch_states(uint32_t switches) {

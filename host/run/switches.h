@@ -14,11 +14,14 @@ namespace vkh {
 /// Several waves a submission. No stage of the engine: host/run/run.cpp's, so its bit is not
 /// VkhSwitchBits'.
 constexpr uint32_t kSwitchMultiwave = 1u << 31;
+/// The device is of VKH_DEVICE_KIND_WIDE, else NARROW.
+constexpr uint32_t kSwitchWide = 1u << 29;
 
 /// What is on unless somebody asks for something else; what pays depends on the kind of device.
 uint32_t default_switches(const Device& device);
 
-/// VkhSwitchBits that are on, and kSwitchMultiwave. Throws UsageError for a name that is none.
+/// VkhSwitchBits that are on, kSwitchWide and kSwitchMultiwave. Throws UsageError for a name that
+/// is none.
 uint32_t switches_of(const SolveOptions& options, const Device& device);
 
 struct SwitchStates {

@@ -39,16 +39,14 @@ struct SurfacePoint {
 struct StageStats {
   std::string name;
   double gpu_ms = 0;
-  uint64_t dispatches = 0;
-  uint64_t items_in = 0;   ///< what the stage worked on; 0 where the stage has no count
-  uint64_t items_out = 0;  ///< what it passed on
+  uint64_t times = 0;  ///< how often it ran
 };
 
-/// How many candidates each bound of the cascade closed.
-struct CullHistogram {
-  uint64_t exact = 0, u1 = 0, u2 = 0, ha = 0, u3 = 0, u4 = 0;
-  uint64_t lower_raised = 0;  ///< dropped later, because lower had risen past their u
-  uint64_t precision = 0;     ///< closed at their u because nothing finer can be decided
+/// How many candidates a bound of the cascade closed; "lower_raised": later, because lower had
+/// risen past their u; "precision": at their u, because nothing finer can be decided.
+struct CullCount {
+  const char* name = "";
+  uint64_t candidates = 0;
 };
 
 /// One row per wave, for the table under --verbose and for plots.
@@ -94,7 +92,7 @@ struct Report {
   uint64_t workspace_bytes = 0;
   uint32_t waves = 0;
   uint64_t candidates = 0, queries = 0, peak_frontier = 0;
-  CullHistogram culled;
+  std::vector<CullCount> culled;
   std::vector<StageStats> stages;
   std::vector<WaveStats> wave_stats;
   Times times;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/mesh/closest.h"
+#include "shaders/gpu_types.h"
 
 namespace vkh {
 
@@ -11,8 +12,9 @@ void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
   out.candidates = r.candidateTotal;
   out.queries = r.queryTotal;
   out.peak_frontier = r.peakFrontier;
-  const uint32_t* c = r.culled;
-  out.culled = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+#define VKH_COUNT(constant, value, name) {#name, r.culled[value]},
+  out.culled = {VKH_CULLS(VKH_COUNT)};
+#undef VKH_COUNT
   const uint32_t first = r.waves > VKH_MAX_WAVE_RECORDS ? r.waves - VKH_MAX_WAVE_RECORDS : 0;
   for (uint32_t w = first; w < r.waves; ++w) {
     const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
@@ -26,10 +28,9 @@ void fill_stages(const RunOutput& run, Report& out) {
   for (const StageTime& s : run.stages) {
     auto at = std::find_if(out.stages.begin(), out.stages.end(),
                            [&](const StageStats& x) { return x.name == s.name; });
-    if (at == out.stages.end())
-      at = out.stages.insert(out.stages.end(), StageStats{s.name, 0, 0, 0, 0});
+    if (at == out.stages.end()) at = out.stages.insert(out.stages.end(), StageStats{s.name, 0, 0});
     at->gpu_ms += s.ms;
-    ++at->dispatches;
+    ++at->times;
     const bool building = at->name == "morton" || at->name == "sort" || at->name == "hierarchy";
     (building ? out.times.hierarchy_ms : out.times.solve_ms) += s.ms;
   }

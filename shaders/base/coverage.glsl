@@ -1,9 +1,9 @@
 // For --verify: what of each face of A has been closed, as an exact 64-bit integer, in units of
-// 2^-40 of the face. Include after `areas` and kSwitches are declared; nothing is left of it where
-// kUseCoverage is off.
+// 2^-40 of the face. Nothing is left of it where kUseCoverage is off. The kernel declares `areas`.
 #ifndef VKH_SHADERS_LIB_COVERAGE_GLSL
 #define VKH_SHADERS_LIB_COVERAGE_GLSL
 
+#include "shaders/base/switches.glsl"
 #include "shaders/math/bary.h"
 
 // The cross product of two edges: 2^40 for a whole root. Children keep their parent's orientation,

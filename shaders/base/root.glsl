@@ -1,4 +1,4 @@
-// Faces of A as roots. Include after `vertices` and `faces` are declared.
+// Faces of A as roots. The kernel declares `vertices`, `faces`.
 #ifndef VKH_SHADERS_LIB_ROOT_GLSL
 #define VKH_SHADERS_LIB_ROOT_GLSL
 

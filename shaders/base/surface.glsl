@@ -1,5 +1,5 @@
 // Triangles of B as surfaces to measure against, low parts included where the meshes have them.
-// Include after `triangles`, `triangle_lows` and `control` are declared.
+// The kernel declares `triangles`, `triangle_lows`, `control`.
 #ifndef VKH_SHADERS_LIB_SURFACE_GLSL
 #define VKH_SHADERS_LIB_SURFACE_GLSL
 

@@ -1,7 +1,9 @@
-// A triangle of B at its place in Morton order. Include after `vertices`, `faces`, `triangles`,
-// `triangle_lows` and `push` are declared, and after bvh/box.glsl.
+// A triangle of B at its place in Morton order. The kernel declares `vertices`, `faces`,
+// `triangles` (Triangle), `triangle_lows`, `push` (with a count).
 #ifndef VKH_SHADERS_LIB_PLACE_GLSL
 #define VKH_SHADERS_LIB_PLACE_GLSL
+
+#include "shaders/bvh/box.glsl"
 
 // Returns its box. Clamped: whatever the sort did, a triangle is one of B, and upper bounds from it
 // are true.

@@ -1,11 +1,12 @@
-// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64 and
-// 256 of them; and by the last workgroup to end, where a run holds all of the level over 256, those
-// over them. Include after `boxes`, coherent, and `groups_done` are declared; the workgroup has
-// kRun invocations.
+// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64
+// and 256 of them; and by the last workgroup to end, where a run holds all of the level over 256,
+// those over them. The workgroup has kRun invocations. The kernel declares `boxes`, coherent, and
+// `groups_done`.
 #ifndef VKH_SHADERS_LIB_RUN_BOXES_GLSL
 #define VKH_SHADERS_LIB_RUN_BOXES_GLSL
 
 #include "shaders/bvh/box.glsl"
+#include "shaders/base/invocation.glsl"
 #include "shaders/base/last_group.glsl"
 
 // Those of 1, then those of 4, 16 and 64, each at its level's start.

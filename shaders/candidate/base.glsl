@@ -1,7 +1,9 @@
 // The base of a run: a float under the largest distance of a vertex of A, so that what distances
-// are above it has more bits than they have themselves. Include after `control` is declared.
+// are above it has more bits than they have themselves. The kernel declares `control`.
 #ifndef VKH_SHADERS_LIB_BASE_GLSL
 #define VKH_SHADERS_LIB_BASE_GLSL
+
+#include "shaders/math/bounds.h"
 
 // Under a distance, by 84 ulp: near enough to gain 16 bits, far enough for the rounding of the
 // plain floats that it comes from.

@@ -1,5 +1,5 @@
-// Candidates in a wave: where they stand in the frontier, their geometry in their root's frame, and
-// what closes them. Include after `control`, `frontier`, `vertices` and `faces` are declared.
+// Candidates in a wave: where they stand in the frontier, their geometry in their root's frame,
+// and what closes them. The kernel declares `control`, `frontier`, `vertices`, `faces`.
 #ifndef VKH_SHADERS_LIB_CANDIDATE_GLSL
 #define VKH_SHADERS_LIB_CANDIDATE_GLSL
 

@@ -1,10 +1,11 @@
 // A child in a wave: one of the four of a refined candidate, or of its sixteen where the wave
-// splits twice, or a face of A admitted whole. Children are not stored: a code names them, and this
-// page derives their corners and the triangles of B that are known to be near. Include after
-// candidate/candidate.glsl and the wave's buffers.
+// splits twice, or a face of A admitted whole. Children are not stored: a code names them, and
+// this page derives their corners and the triangles of B that are known to be near. The kernel
+// declares `splits`, `points`, `vertex_nearest`, and what candidate/candidate.glsl needs.
 #ifndef VKH_SHADERS_LIB_CHILD_GLSL
 #define VKH_SHADERS_LIB_CHILD_GLSL
 
+#include "shaders/candidate/candidate.glsl"
 #include "shaders/candidate/generations.glsl"
 
 struct Child {

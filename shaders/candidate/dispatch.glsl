@@ -1,7 +1,9 @@
-// The sizes of indirect dispatches: one invocation an item, or as `query` takes its points.
+// The sizes of indirect dispatches: one invocation an item, or as `query` takes its points. The
+// kernel declares `control`.
 #ifndef VKH_SHADERS_LIB_DISPATCH_GLSL
 #define VKH_SHADERS_LIB_DISPATCH_GLSL
 
+#include "shaders/base/switches.glsl"
 #include "shaders/candidate/generations.glsl"
 
 Dispatch groups_of(uint groups) {
@@ -11,14 +13,11 @@ Dispatch groups_of(uint groups) {
 
 Dispatch groups_for(uint items) { return groups_of((items + kGroupSize - 1u) / kGroupSize); }
 
-// Whether a small wave gets more invocations for each query and child.
-const bool kSpread = (kSwitches & kUseGroupWalk) != 0u;
+// Whether each of so many queries has all of a workgroup.
+bool walks_in_groups(uint queries) { return walks_by_group() && queries <= kGroupWalkQueries; }
 
-// Whether a wave is two dispatches: `query` splits the candidates whose new points it asks for, and
-// the last workgroup of wave_bound plans the next wave. Else wave_subdivide and wave_plan do.
-const bool kFused = (kSwitches & (kUseGroupWalk | kUseApart)) == kUseGroupWalk;
-
-bool walks_in_groups(uint queries) { return kSpread && queries <= kGroupWalkQueries; }
+// Whether the new points of so many candidates are asked for in packets.
+bool asks_in_packets(uint parents) { return packs_points() && !walks_in_groups(3u * parents); }
 
 // Of query, for points that are there.
 Dispatch groups_for_queries(uint queries) {
@@ -42,7 +41,7 @@ Dispatch groups_for_splits(uint held) {
 // Of wave_subdivide: invocations of a candidate. Each new point has one where a wave is a chain of
 // steps.
 uint split_lanes() {
-  if (!kSpread) return 1u;
+  if (!kWide) return 1u;
   return splits_twice() ? kSplitTwiceLanes : kSplitLanes;
 }
 
@@ -53,7 +52,7 @@ const uint kMostChildren = kKnowsMore ? kGroupSize / 2u : kGroupSize;
 
 // Children that a workgroup of wave_bound takes: so many more as there are more of them.
 uint children_a_group(uint total) {
-  if (!kSpread) return kMostChildren;
+  if (!kWide) return kMostChildren;
   uint children = kFewestChildren;
   while (children < kMostChildren && children * kBoundGroups < total) children *= 2u;
   return children;

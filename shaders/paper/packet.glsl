@@ -1,7 +1,10 @@
-// Alg. 2 of the paper: one walk through B's hierarchy for the three new points of a candidate, each
-// a bit of a mask. It finds for each what nearest_triangle finds. Include after walk/walk.glsl.
+// Alg. 2 of the paper: one walk through B's hierarchy for the three new points of a candidate,
+// each a bit of a mask. It finds for each what nearest_triangle finds. The kernel declares what
+// walk/walk.glsl needs.
 #ifndef VKH_SHADERS_LIB_PACKET_GLSL
 #define VKH_SHADERS_LIB_PACKET_GLSL
+
+#include "shaders/walk/walk.glsl"
 
 const uint kPacket = 3u;
 const float kUnasked = 3.3e38;  // a tight walk's first reach is 3.00001e38

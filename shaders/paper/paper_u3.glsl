@@ -1,8 +1,9 @@
-// The paper's u3 of a candidate by the triangles closest to its corners. Include after
-// base/surface.glsl.
+// The paper's u3 of a candidate by the triangles closest to its corners. The kernel declares what
+// base/surface.glsl needs.
 #ifndef VKH_SHADERS_LIB_PAPER_U3_GLSL
 #define VKH_SHADERS_LIB_PAPER_U3_GLSL
 
+#include "shaders/base/surface.glsl"
 #include "shaders/paper/bounds_paper.h"
 
 // The corners have two triangles between them: the first has corner `alone`, the second the others.

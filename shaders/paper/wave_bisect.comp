@@ -5,9 +5,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/base/invocation.glsl"
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
@@ -32,6 +31,6 @@ void main() {
   Child c = load_child(survivors[i]);
   Placement placed = place_corners(load_root(c.root), c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
-  View view = view_of(placed, (kSwitches & kUseCertificate) == 0u);
+  View view = view_of(placed, (kSwitches & kUseUncertified) != 0u);
   u3_bounds[i] = kept_bound(paper_u3(t, c.nearest, view), placed.slack);
 }

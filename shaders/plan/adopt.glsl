@@ -1,7 +1,8 @@
-// A workgroup adopts the wave's witness. Include after `control` is declared and
-// plan/plan_words.glsl is included.
+// A workgroup adopts the wave's witness. The kernel declares `plan_words`, `control`.
 #ifndef VKH_SHADERS_LIB_ADOPT_GLSL
 #define VKH_SHADERS_LIB_ADOPT_GLSL
+
+#include "shaders/plan/plan_words.glsl"
 
 // Called by every invocation; control is changed by the first one alone. Offers come in by atomics,
 // as they were written: maybe by other workgroups of this dispatch.

@@ -1,19 +1,22 @@
 // Everything that a wave decides as a whole: adopts the last wave's witness, flips the frontier's
 // halves, moves the base of distances, tests for the end, shares the room out between refined,
 // deferred and newly admitted candidates, selects which ones are refined, writes the sizes of the
-// wave's dispatches. One workgroup does it, the last one of wave_bound or that of wave_plan, and of
-// it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
+// wave's dispatches. One workgroup does it, the last one of wave_bound or that of wave_plan, and
+// of it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
 // dispatches only. Invariant: deferred + 4 parents + roots <= capacity, or 16 parents where they
 // are split twice, and their new points fit the stream of points; so no stream of the wave can
-// overflow. Include after candidate/candidate.glsl, candidate/dispatch.glsl, paper/schedule.glsl
-// and what these need, and after `plan_words` (plan/plan_words.glsl) is declared.
+// overflow. The kernel declares `plan_words` (plan/plan_words.glsl), `sizes`, and what
+// candidate/candidate.glsl needs.
 #ifndef VKH_SHADERS_LIB_PLAN_GLSL
 #define VKH_SHADERS_LIB_PLAN_GLSL
 
-#include "shaders/plan/plan_words.glsl"
-
+#include "shaders/candidate/candidate.glsl"
 #include "shaders/plan/adopt.glsl"
+#include "shaders/plan/plan_words.glsl"
+#include "shaders/plan/room.glsl"
+#include "shaders/plan/schedule.glsl"
 #include "shaders/plan/select.glsl"
+#include "shaders/plan/sizes.glsl"
 
 // What the wave has raised comes in by atomics: the workgroups that did may be of this dispatch.
 struct WaveEnd {
@@ -136,12 +139,8 @@ void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
   uint held = running ? parents + control.deferred : 0u;
-  dispatches[kDispatchSubdivide] = groups_for(held * split_lanes());
-  write_query_sizes(parents, held);
-  write_sort_sizes(running ? control.count[kCountFrontier] : 0u);
-  uint children = running ? child_count() : 0u;
-  dispatches[kDispatchFilter] = groups_for(children);
-  dispatches[kDispatchBound] = running ? groups_for_children(children) : groups_of(0u);
+  write_refine_sizes(parents, held, running ? control.count[kCountFrontier] : 0u);
+  write_child_sizes(running ? child_count() : 0u, running);
   if (!running) return;
   control.count[kCountNext] = may_wait() ? control.deferred : 0u;
   control.count[kCountRefined] = 0u;

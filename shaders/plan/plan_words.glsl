@@ -1,7 +1,9 @@
 // The shared words of the workgroup that plans: `plan_words`, kPlanWords of them, which the kernel
-// has to spare. Include after that is declared.
+// has to spare.
 #ifndef VKH_SHADERS_LIB_PLAN_WORDS_GLSL
 #define VKH_SHADERS_LIB_PLAN_WORDS_GLSL
+
+#include "shaders/gpu_types.h"
 
 // Words 0 to kSelectDigits - 1: how many keys have a digit.
 const uint kWordDecided = kSelectDigits;       // digits of the prefix,

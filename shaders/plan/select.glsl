@@ -1,10 +1,12 @@
 // The selection of the candidates that a wave refines where there is no room for all: those with
 // the smallest keys (candidate/candidate.glsl), by digits of 8 bits from the top. A boundary that
-// leaves at least half of the room used will do. Include after `control` and `frontier` are
-// declared and candidate/candidate.glsl and plan/plan_words.glsl are included; the workgroup has
-// kGroupSize invocations.
+// leaves at least half of the room used will do. The workgroup has kGroupSize invocations. The
+// kernel declares `plan_words`, and what candidate/candidate.glsl needs.
 #ifndef VKH_SHADERS_LIB_SELECT_GLSL
 #define VKH_SHADERS_LIB_SELECT_GLSL
+
+#include "shaders/candidate/candidate.glsl"
+#include "shaders/plan/plan_words.glsl"
 
 const uint kAtOnce = 8u;  // candidates of an invocation that are loaded together
 

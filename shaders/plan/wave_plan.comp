@@ -1,23 +1,19 @@
 // What: the next wave's plan (plan/plan.glsl) where wave_bound does not end with it: on CPU
 // devices, where a dispatch costs next to nothing, and both sides of a branch are gone through. One
-// workgroup. In: control, the frontier. Out: control; dispatches.
+// workgroup. In: control, the frontier. Out: control; sizes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
-layout(scalar, binding = 1) writeonly buffer Dispatches { Dispatch dispatches[]; };
+layout(scalar, binding = 1) writeonly buffer Sizes { WaveSizes sizes; };
 layout(scalar, binding = 2) readonly buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
 
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/dispatch.glsl"
 #include "shaders/plan/plan_words.glsl"
-#include "shaders/paper/schedule.glsl"
 
 shared uint plan_words[kPlanWords];
 #include "shaders/plan/plan.glsl"

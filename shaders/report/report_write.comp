@@ -12,6 +12,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shaders/base/invocation.glsl"
+#include "shaders/base/switches.glsl"
 #include "shaders/math/bary.h"
 #include "shaders/math/lower.h"
 #include "shaders/math/morton.h"
@@ -90,6 +91,7 @@ void write_report() {
   report.lower = max(lowered(control.base + lower), 0.0);
   report.upper = raised(control.base + upper);
   report.status = control.status;
+  report.certified = (kSwitches & kUseUncertified) == 0u ? 1u : 0u;
   report.wave = is_running() ? control.wave - 1u : control.wave;  // one is planned
   report.witness = w;
   report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
@@ -98,7 +100,7 @@ void write_report() {
   report.candidate_total = control.candidate_total;
   report.query_total = control.query_total;
   report.peak_frontier = control.peak_frontier;
-  for (int i = 0; i < 8; ++i) report.culled[i] = control.culled[i];
+  for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = control.culled[i];
 }
 
 void main() {

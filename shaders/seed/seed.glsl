@@ -1,14 +1,16 @@
 // The points that the seed queries: A's vertices and, in a warm run, the last run's witness behind
 // them, wherever it is now. What the last run left may be anything: starts are checked, and the
 // witness is moved into A, so that it costs time at worst. First, vertex_distance holds the states
-// from seed_faces; then the distance, and vertex_nearest the triangle, kNone where no face uses the
-// vertex. Again also for the witness alone, after a plan that has moved the base. Include after
-// `vertices`, `faces`, `vertex_nearest`, `vertex_distance`, `control` and `push` are declared and
-// candidate/base.glsl and walk/query.glsl are included.
+// from seed_faces; then the distance, and vertex_nearest the triangle, kNone where no face uses
+// the vertex. Again also for the witness alone, after a plan that has moved the base. The kernel
+// declares `vertices`, `faces`, `vertex_nearest`, `vertex_distance`, `push` (QueryPush), and what
+// walk/query.glsl needs.
 #ifndef VKH_SHADERS_LIB_SEED_GLSL
 #define VKH_SHADERS_LIB_SEED_GLSL
 
 #include "shaders/base/root.glsl"
+#include "shaders/candidate/base.glsl"
+#include "shaders/walk/query.glsl"
 
 // The last run's, or this one's where it is measured again.
 bool is_witness(uint i) { return i == push.vertex_count && push.warm != 0u; }

@@ -15,7 +15,7 @@ layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 void begin() {
   for (int i = 0; i < 5; ++i) control.count[i] = 0u;
   for (int i = 0; i < 6; ++i) control.maximum[i] = 0u;
-  for (int i = 0; i < 8; ++i) control.culled[i] = 0u;
+  for (uint i = 0u; i < kMostCulls; ++i) control.culled[i] = 0u;
   control.parity = 0u;
   control.wave = 0u;
   control.status = kStatusRunning;
@@ -30,7 +30,6 @@ void begin() {
   control.twice = 0u;
   control.measuring = 0u;
   control.seed_witness = kNone;
-  control.groups_done = 0u;
   control.offer_key = kNone;
   control.offer_count = 0u;
   control.cull_tolerance = push.cull_tolerance;

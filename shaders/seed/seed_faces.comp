@@ -6,10 +6,9 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 #include "shaders/base/invocation.glsl"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 1) buffer VertexState { uint vertex_state[]; };

@@ -6,27 +6,26 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 #include "shaders/base/invocation.glsl"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Faces { uvec3 faces[]; };
-layout(scalar, binding = 1) readonly buffer VertexDistance { float vertex_distance[]; };
+layout(scalar, binding = 1) readonly buffer VertexDistance { uint vertex_distance[]; };
 layout(scalar, binding = 2) buffer ControlBlock { Control control; };
 layout(scalar, binding = 3) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 4) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 5) writeonly buffer Dispatches { Dispatch dispatches[]; };
+layout(scalar, binding = 5) writeonly buffer Sizes { WaveSizes sizes; };
 layout(scalar, binding = 6) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/candidate/base.glsl"
-#include "shaders/candidate/dispatch.glsl"
 #include "shaders/base/last_group.glsl"
-#include "shaders/paper/schedule.glsl"
+#include "shaders/plan/room.glsl"
+#include "shaders/plan/sizes.glsl"
 
 void offer_face(uint i) {
-  float lower = uintBitsToFloat(control.maximum[kMaxLower]);
+  uint lower = control.maximum[kMaxLower];  // as bits, as the distances are
   uvec3 f = faces[i];
   uint corner = vertex_distance[f.x] == lower   ? 0u
                 : vertex_distance[f.y] == lower ? 1u
@@ -59,8 +58,7 @@ void plan_first_wave() {
   control.roots = roots;
   control.root_cursor = roots;
   control.wave = base_is_right ? 1u : 0u;
-  dispatches[kDispatchFilter] = groups_for(roots);
-  dispatches[kDispatchBound] = groups_for_children(roots);
+  write_child_sizes(roots, true);
 }
 
 void main() {

@@ -1,7 +1,9 @@
-// How many keys there are: as the host says, or where the device alone knows, in a buffer. Include
-// after `push` and `key_count` are declared.
+// How many keys there are: as the host says, or where the device alone knows, in a buffer. The
+// kernel declares `push` (SortPush), `key_count`.
 #ifndef VKH_SHADERS_LIB_KEY_TOTAL_GLSL
 #define VKH_SHADERS_LIB_KEY_TOTAL_GLSL
+
+#include "shaders/gpu_types.h"
 
 uint key_total() {
   uint total = push.count;

@@ -2,6 +2,8 @@
 #ifndef VKH_SHADERS_LIB_SORT_GLSL
 #define VKH_SHADERS_LIB_SORT_GLSL
 
+#include "shaders/gpu_types.h"
+
 // Blocks of `rounds` times kSortGroup keys.
 uint sort_blocks(uint keys, uint rounds) {
   uint block = kSortGroup * rounds;

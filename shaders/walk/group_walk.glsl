@@ -1,10 +1,13 @@
-// The walk of a whole workgroup for one query, where a wave has too few queries to fill the device:
-// level by level down the pyramid of boxes, all children of a level's boxes at once, then all
-// triangles of the runs that are left. It finds what nearest_triangle finds. Include after `boxes`
-// and `push` are declared and walk/walk.glsl and candidate/dispatch.glsl are included; the
-// workgroup has kQueryGroup invocations.
+// The walk of a whole workgroup for one query, where a wave has too few queries to fill the
+// device: level by level down the pyramid of boxes, all children of a level's boxes at once, then
+// all triangles of the runs that are left. It finds what nearest_triangle finds. The workgroup has
+// kQueryGroup invocations. The kernel declares `boxes`, `push` (QueryPush), and what
+// walk/walk.glsl needs.
 #ifndef VKH_SHADERS_LIB_GROUP_WALK_GLSL
 #define VKH_SHADERS_LIB_GROUP_WALK_GLSL
+
+#include "shaders/candidate/dispatch.glsl"
+#include "shaders/walk/walk.glsl"
 
 shared uint level_boxes[2][kGroupWalkBoxes];
 shared uint level_count[2];

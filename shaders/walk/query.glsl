@@ -1,6 +1,8 @@
-// Queries of a stream of points. Include after `points` is declared and walk/walk.glsl is included.
+// Queries of a stream of points. The kernel declares `points`, and what walk/walk.glsl needs.
 #ifndef VKH_SHADERS_LIB_QUERY_GLSL
 #define VKH_SHADERS_LIB_QUERY_GLSL
+
+#include "shaders/walk/walk.glsl"
 
 // What an invocation knows of its item, and whether a walk is to find more.
 struct Item {

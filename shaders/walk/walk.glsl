@@ -1,12 +1,12 @@
-// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
-// (algorithm.md §2.4), and no lower bound rests on it (report_write.comp visits every triangle), so
-// it needs no rounding analysis. Include after `nodes`, `triangles`, `triangle_lows` and `control`
-// are declared.
+// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper
+// bound (algorithm.md §2.4), and no lower bound rests on it (report_write.comp visits every
+// triangle), so it needs no rounding analysis. The kernel declares `nodes`, `triangles`,
+// `triangle_lows`, `control`.
 #ifndef VKH_SHADERS_LIB_BVH_GLSL
 #define VKH_SHADERS_LIB_BVH_GLSL
 
-#include "shaders/math/lower.h"
 #include "shaders/base/surface.glsl"
+#include "shaders/math/lower.h"
 
 // Up to here a sample's distance is bounded from below, see measured(): beyond, a foot that is
 // 1.2e-7 off costs under 1e-8, or under 1e-10 in a tight run.

@@ -1,8 +1,13 @@
 // The cascade for some children at once, by a whole workgroup: who holds what, and how the
-// distances are shared out. Include after base/surface.glsl, candidate/candidate.glsl and
-// candidate/child.glsl; kSwitches is declared, the workgroup has kGroupSize invocations.
+// distances are shared out. The workgroup has kGroupSize invocations. The kernel declares what
+// base/surface.glsl, candidate/child.glsl and candidate/centroid.glsl need.
 #ifndef VKH_SHADERS_LIB_BOUND_GROUP_GLSL
 #define VKH_SHADERS_LIB_BOUND_GROUP_GLSL
+
+#include "shaders/base/surface.glsl"
+#include "shaders/candidate/candidate.glsl"
+#include "shaders/candidate/child.glsl"
+#include "shaders/candidate/dispatch.glsl"
 
 const uint kKnowers = kMostChildren;
 #include "shaders/wave/known.glsl"
@@ -62,7 +67,7 @@ View view_of_child(uint child) {
   Placement p;
   p.origin = Two3(held_vector(kHeldOrigin, child), held_vector(kHeldOriginLow, child));
   p.reach = held[kHeldReach][child];
-  return view_of(p, (kSwitches & kUseCertificate) == 0u);
+  return view_of(p, (kSwitches & kUseUncertified) != 0u);
 }
 
 Patch patch_of_child(uint child) {

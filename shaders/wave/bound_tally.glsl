@@ -1,15 +1,19 @@
 // What a workgroup of wave_bound has for the control block. On GPUs it is summed up first: its
-// words are in a cache line or two, where the atomics of all workgroups wait for each other. On CPU
-// devices a barrier costs more than an atomic. Include after wave/bound_group.glsl and
-// base/stream.glsl.
+// words are in a cache line or two, where the atomics of all workgroups wait for each other. On
+// CPU devices a barrier costs more than an atomic. The kernel declares what wave/bound_group.glsl
+// needs.
 #ifndef VKH_SHADERS_LIB_BOUND_TALLY_GLSL
 #define VKH_SHADERS_LIB_BOUND_TALLY_GLSL
 
-// Words 0 to 6: children closed, by kCull*.
-const uint kTallyDropped = 7u;  // largest u of those, as bits
-const uint kTallyNext = 8u;     // and of those that stay open
-const uint kTallyOpen = 9u;     // how many these are; then where their places in the stream begin
-const uint kTallies = 10u;
+#include "shaders/base/stream.glsl"
+#include "shaders/wave/bound_group.glsl"
+
+// Words 0 to kCullLowerRaised: children closed, by kCull*.
+const uint kTallyDropped = kCullLowerRaised + 1u;  // largest u of those, as bits
+const uint kTallyNext = kTallyDropped + 1u;        // and of those that stay open
+const uint kTallyOpen =
+    kTallyNext + 1u;  // how many these are; then where their places in the stream begin
+const uint kTallies = kTallyOpen + 1u;
 
 // In the words of known triangles, which nobody reads after the cuts: shared memory is scarce.
 uint tally_word(uint i) { return known_triangle[i]; }
@@ -47,7 +51,7 @@ void give_tally() {
 uint give(bool closed, bool open, Verdict v) {
   float dropped = closed ? v.upper : 0.0;
   float next = open ? v.upper : 0.0;
-  if (!kSpread) {
+  if (!kWide) {
     for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
       count_culled(why, closed && v.by == why);
     raise(kMaxDropped, dropped);

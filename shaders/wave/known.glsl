@@ -1,8 +1,11 @@
-// Triangles of B that are known to be near a child: of the children that a workgroup looks at.
-// Include after kKnowers, how many these are, is declared and candidate/child.glsl,
-// candidate/dispatch.glsl and candidate/centroid.glsl are included.
+// Triangles of B that are known to be near a child: of the children that a workgroup looks at. The
+// kernel declares kKnowers, how many children these are, candidate/centroid.glsl, and what
+// candidate/child.glsl needs.
 #ifndef VKH_SHADERS_LIB_KNOWN_GLSL
 #define VKH_SHADERS_LIB_KNOWN_GLSL
+
+#include "shaders/candidate/child.glsl"
+#include "shaders/candidate/dispatch.glsl"
 
 // At most: three own, three more of the parent's six points, the parent's centroid, the child's own
 // centroid.

@@ -2,7 +2,7 @@
 // packets (wave_packet). One kernel, for a walk is most of the code that a driver compiles.
 // push.asked says which points:
 //   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
-// negative distance means skip; or, where kFused, the frontier, whose candidates are split here
+// negative distance means skip; or, where is_fused(), the frontier, whose candidates are split here
 // (wave/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; and
 // of a split all that wave_subdivide writes but the points' positions.
 //   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
@@ -16,9 +16,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/base/invocation.glsl"
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kQueryGroup) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
@@ -33,20 +32,17 @@ layout(scalar, binding = 9) buffer VertexDistance { uint vertex_distance[]; };
 layout(scalar, binding = 10) buffer Frontier { Candidate frontier[]; };
 layout(scalar, binding = 11) writeonly buffer Splits { Split splits[]; };
 layout(scalar, binding = 12) buffer Areas { Area areas[]; };
-// Of wave/split.glsl; not touched here, where nothing is sorted and no centroid known.
-layout(scalar, binding = 13) readonly buffer Order { uint order[]; };
-layout(scalar, binding = 14) buffer CentroidNearest { uint centroid_nearest[]; };
 layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
-#include "shaders/walk/walk.glsl"
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/centroid.glsl"
 #include "shaders/base/coverage.glsl"
+#include "shaders/base/stream.glsl"
+#include "shaders/candidate/candidate.glsl"
 #include "shaders/candidate/dispatch.glsl"
+#include "shaders/candidate/no_centroid.glsl"
+#include "shaders/candidate/unsorted.glsl"
 #include "shaders/walk/group_walk.glsl"
 #include "shaders/walk/query.glsl"
 #include "shaders/seed/seed.glsl"
-#include "shaders/base/stream.glsl"
 #include "shaders/wave/split.glsl"
 
 // A wave whose plan has moved the base asks for its witness alone.
@@ -66,10 +62,10 @@ uint asked_count(uint asks) {
 // All of a workgroup for one point, or an invocation for each. The second pass over the vertices
 // has few walks, and does not know which.
 bool are_few(uint asks, uint count) {
-  if (kFused && asks == kAskPoints) return splits_in_groups();
+  if (is_fused() && asks == kAskPoints) return splits_in_groups();
   bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupWalkVertices;
-  // kSpread once more: optimisers then leave the group's walk out.
-  return kSpread && (are_points(asks) ? walks_in_groups(count) : few_vertices);
+  // Once more: optimisers then leave the group's walk out.
+  return walks_by_group() && (are_points(asks) ? walks_in_groups(count) : few_vertices);
 }
 
 Item item_at(uint asks, uint i, bool mine) {
@@ -113,7 +109,7 @@ void main() {
   uint i = by_group ? workgroup_index() : workgroup_index() * kQueryGroup + lane;
   bool mine = i < count && (!by_group || lane == 0u);
   Item item;
-  if (kFused && asks == kAskPoints) {
+  if (is_fused() && asks == kAskPoints) {
     item = new_item(by_group, i);
   } else {
     item = item_at(asks, i, mine);

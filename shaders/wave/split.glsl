@@ -1,15 +1,20 @@
 // A wave's first step, over what the frontier holds: which candidates are refined, how each is
-// split, and where its new points are: three, or, where the wave splits twice, three of its own and
-// three of each child (candidate/generations.glsl). Midpoints, or double longest-edge bisection
-// where the candidate is thin (paper.md §4.1); always 1 -> 4. Candidates that there is no room to
-// refine (plan/select.glsl) are copied to the next frontier. A candidate that the risen lower bound
-// closes, or that is too small to be decided, gets kSplitNone; its u is kept. Include after the
-// frontier, `splits`, `order`, `areas`, A, B and `control` are declared and walk/walk.glsl,
-// candidate/candidate.glsl, candidate/centroid.glsl, base/coverage.glsl, candidate/dispatch.glsl
-// and base/stream.glsl are included. A workgroup has kGroupSize invocations, and refines as many
-// candidates at most.
+// split, and where its new points are: three, or, where the wave splits twice, three of its own
+// and three of each child (candidate/generations.glsl). Midpoints, or double longest-edge
+// bisection where the candidate is thin (paper.md §4.1); always 1 -> 4. Candidates that there is
+// no room to refine (plan/select.glsl) are copied to the next frontier. A candidate that the risen
+// lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept. A
+// workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
+// declares `frontier`, `splits`, `areas`, what walk/walk.glsl and candidate/candidate.glsl need,
+// candidate/centroid.glsl or no_centroid.glsl, and candidate/unsorted.glsl or paper/sorted.glsl.
 #ifndef VKH_SHADERS_LIB_SPLIT_GLSL
 #define VKH_SHADERS_LIB_SPLIT_GLSL
+
+#include "shaders/base/coverage.glsl"
+#include "shaders/base/stream.glsl"
+#include "shaders/candidate/candidate.glsl"
+#include "shaders/candidate/dispatch.glsl"
+#include "shaders/walk/walk.glsl"
 
 shared uint place_in_group[kGroupSize];
 shared uint inner_in_group[kGroupSize];
@@ -76,11 +81,6 @@ NewPoint new_point(uint k, Refined r, uint group) {
   return NewPoint(p, asked ? best_start(r, p.hi) : kNone, asked);
 }
 
-// Whether items are taken in the order of the sort. Then the wave's parents come first, and one
-// kernel serves both ways to split: at most one subgroup has candidates of both. A second dispatch
-// for the thin ones would cost 3.5 us a wave on an H200, and a count of them.
-bool is_sorted() { return (kSwitches & kUseSort) != 0u && control.sorted != 0u; }
-
 // Nothing may wait, and there is no room: the candidate is lost, but for its u.
 void lose(bool held, Candidate c, float upper) {
   raise(kMaxSpilled, held ? upper : 0.0);
@@ -90,7 +90,7 @@ void lose(bool held, Candidate c, float upper) {
 void defer(uint place, Refined r) {
   r.c.upper = r.upper;
   frontier[writing(place)] = r.c;
-  if (kKnowsCentroids) centroid_nearest[writing(place)] = r.centre;
+  keep_nearest_to_centroid(writing(place), r.centre);
 }
 
 // Where the candidate of an item stands among the wave's parents; kNone if there is no room for it
@@ -124,7 +124,7 @@ uint place_of(uint item, bool held, Refined r) {
 // The same for all invocations of a candidate: the first of them asks.
 uint shared_place_of(uint item, bool held, bool first, Refined r, uint group) {
   uint i = place_of(item, held && first, r);
-  if (!kSpread && !kMaySplitTwice) return i;
+  if (!kWide && !kMaySplitTwice) return i;
   if (first) {
     place_in_group[group] = i;
     inner_in_group[group] = 0u;
@@ -150,8 +150,7 @@ bool is_noise(Bary3 corners, Root root, float upper) {
 Refined refine(uint item, bool first, uint group) {
   Refined r;
   bool held = item < control.count[kCountFrontier];
-  r.from = held ? item : 0u;
-  if (held && is_sorted()) r.from = order[item];
+  r.from = held ? place_of_item(item) : 0u;
   r.c = frontier[reading(r.from)];
   r.centre = nearest_to_centroid(reading(r.from));
   r.upper = upper_of(r.c);

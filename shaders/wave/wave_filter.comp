@@ -7,9 +7,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/base/invocation.glsl"
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 
-layout(constant_id = 0) const uint kSwitches = kUseAll;
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) readonly buffer Frontier { Candidate frontier[]; };
@@ -24,7 +23,7 @@ layout(scalar, binding = 9) buffer Centroids { Point centroids[]; };
 layout(scalar, binding = 10) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 layout(scalar, binding = 11) buffer Areas { Area areas[]; };
 layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
-layout(scalar, binding = 13) readonly buffer CentroidNearest { uint centroid_nearest[]; };
+layout(scalar, binding = 13) buffer CentroidNearest { uint centroid_nearest[]; };
 
 #include "shaders/base/surface.glsl"
 #include "shaders/candidate/candidate.glsl"
@@ -59,7 +58,7 @@ Verdict filter_child(uint code, Child c, Root root, float threshold) {
   uint child = gl_LocalInvocationID.x;
   Placement placed = place_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
-  View view = view_of(placed, (kSwitches & kUseCertificate) == 0u);
+  View view = view_of(placed, (kSwitches & kUseUncertified) != 0u);
   float shift = placed.slack;
   known_count[child] = 0u;
   know_corners(child, c);

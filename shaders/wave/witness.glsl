@@ -1,12 +1,14 @@
-// Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an order
-// that depends on scheduling: the one with the smallest key is taken, and the key is a hash of all
-// that the report says of a witness, so that two samples with one key are one to the report, but
-// for one chance in 2^32 a pair of them. wave_bound, by when all are measured, offers them; the
-// plan adopts one (plan/adopt.glsl). Include after `control`, `frontier`, `splits`, `points`,
-// `survivors` and `centroids` are declared and candidate/child.glsl is included.
+// Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an
+// order that depends on scheduling: the one with the smallest key is taken, and the key is a hash
+// of all that the report says of a witness, so that two samples with one key are one to the
+// report, but for one chance in 2^32 a pair of them. wave_bound, by when all are measured, offers
+// them; the plan adopts one (plan/adopt.glsl). The kernel declares `survivors`, `centroids`, and
+// what candidate/child.glsl needs.
 #ifndef VKH_SHADERS_LIB_WITNESS_GLSL
 #define VKH_SHADERS_LIB_WITNESS_GLSL
 
+#include "shaders/base/invocation.glsl"
+#include "shaders/candidate/child.glsl"
 #include "shaders/math/hash.h"
 
 // Samples of the wave: its new points, then survivors' centroids.

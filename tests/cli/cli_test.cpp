@@ -150,7 +150,7 @@ const Words kDistanceKeys = sorted(
 
 // On a CPU device.
 const Words kOffUnlessAsked = {"u4",       "group_walk", "sort", "packet", "largest_first",
-                               "u3_paper", "two_levels"};
+                               "u3_paper", "two_levels", "wide"};
 
 TEST_CASE("distance --json: one object of the schema and nothing else on stdout") {
   const std::string a = square_a(), b = square_b();

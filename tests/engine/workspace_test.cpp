@@ -88,8 +88,8 @@ TEST_CASE("a small workspace after a large one, and the other way round") {
 namespace {
 
 // With every stream, with those of a GPU, and of a CPU device.
-constexpr uint32_t kSwitchSets[] = {VKH_SWITCH_ALL | VKH_SWITCH_SORT | VKH_SWITCH_U3_PAPER,
-                                    VKH_SWITCH_DEFAULT, VKH_SWITCH_DEFAULT_CPU};
+constexpr uint32_t kSwitchSets[] = {gpu::kUseAll | VKH_SWITCH_SORT | VKH_SWITCH_U3_PAPER,
+                                    VKH_SWITCH_DEFAULT_WIDE, VKH_SWITCH_DEFAULT_NARROW};
 
 void check_sizes(const Limits& limits) {
   for (const uint32_t vertices : {1u, 3u, 1000u, 100'000u}) {
@@ -109,7 +109,7 @@ void check_sizes(const Limits& limits) {
         CHECK(ws.frontier.size == 2ull * ws.capacity * sizeof(gpu::Candidate));
         CHECK(ws.points.size >= 3ull * (ws.capacity / 4) * sizeof(gpu::Point));
         CHECK(ws.frontier.offset % 256 == 0);
-        CHECK(ws.dispatches.offset % 4 == 0);
+        CHECK(ws.sizes.offset % 4 == 0);
       }
     }
   }
@@ -133,8 +133,8 @@ TEST_CASE("a candidate takes 36 bytes, and a place in the workspace of a GPU's r
   const auto each = [&](uint32_t switches) {
     return static_cast<double>(workspace_size(1, 1, capacity, switches)) / capacity;
   };
-  CHECK(each(VKH_SWITCH_DEFAULT) < 100);
-  CHECK(each(VKH_SWITCH_DEFAULT_CPU) > 140);  // centroids
+  CHECK(each(VKH_SWITCH_DEFAULT_WIDE) < 100);
+  CHECK(each(VKH_SWITCH_DEFAULT_NARROW) > 140);  // centroids
 }
 
 TEST_CASE("no binding of a workspace exceeds what the device can bind") {
@@ -228,7 +228,7 @@ TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same ru
     for (const uint64_t bytes : {0ull, 1ull, 64ull << 10, 256ull << 10}) {
       CAPTURE(bytes);
       SolveOptions options = with_memory(bytes);
-      options.enabled = {"group_walk", "two_levels"};
+      options.enabled = {"wide", "group_walk", "two_levels"};
       options.disabled = {"centroid", "parent_samples"};
       const Report first = check_true(pair, options);
       const Report again = check_true(pair, options);
@@ -261,7 +261,7 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
         SolveOptions options = with_memory(bytes);
         options.tolerance = tolerance;
         options.wave_limit = 400;
-        options.enabled = {"group_walk", "two_levels"};
+        options.enabled = {"wide", "group_walk", "two_levels"};
         options.disabled = {"centroid", "parent_samples"};
         const Report two = check_true(pair, options);
         CHECK(!has_stage(two, "subdivide"));
@@ -281,7 +281,7 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
 TEST_CASE("with a GPU's switches, what is lost to memory keeps its bound") {
   for (const ReferencePair& pair : pairs()) {
     SolveOptions options = with_memory(1);
-    options.enabled = {"group_walk", "two_levels"};
+    options.enabled = {"wide", "group_walk", "two_levels"};
     options.disabled = {"centroid", "parent_samples", "defer"};
     check_true(pair, options);
   }
@@ -312,7 +312,7 @@ TEST_CASE("progress tells of intervals that are true and shrink") {
 
 TEST_CASE("each switch off, or all, gives a true interval") {
   const std::vector<std::string> names = switch_names();
-  CHECK(names.size() == 16);
+  CHECK(names.size() == 17);
   for (const ReferencePair& pair : pairs()) {
     for (const std::string& name : names) {
       CAPTURE(name);
@@ -326,7 +326,7 @@ TEST_CASE("each switch off, or all, gives a true interval") {
 
 TEST_CASE("what does not pay on a CPU device is off unless asked for") {
   const std::vector<std::string> off = {"u4",       "group_walk", "sort", "packet", "largest_first",
-                                        "u3_paper", "two_levels"};
+                                        "u3_paper", "two_levels", "wide"};
   for (const ReferencePair& pair : pairs()) {
     CHECK(check_true(pair, {}).switched_off == off);
     SolveOptions options;

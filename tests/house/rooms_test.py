@@ -15,17 +15,18 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
-    "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "paper", "seed", "plan", "wave",
+    "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
     "host": ["base", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve",
               "cli", "python", "house", "malformed", "fuzz", "sanitize"],
 }
 FLOORS = list(ROOMS)
-OUTSIDE = {"gpu_types.h"}  # both languages' structs: before every room
+OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room
 BESIDE = {"host/python", "tests/package"}  # with builds of their own: after all of the floor's rooms
 MOST_FILES = 12
-SOURCES = {".h", ".c", ".cpp", ".glsl", ".comp", ".py", ".sh"}
+INCLUDING = {".h", ".c", ".cpp", ".glsl", ".comp"}
+SOURCES = {*INCLUDING, ".py", ".sh"}
 
 
 def files_of(root):
@@ -34,7 +35,7 @@ def files_of(root):
     for floor in ROOMS:
         for path in sorted((root / floor).rglob("*")):
             if path.suffix in SOURCES:
-                text = path.read_text()
+                text = path.read_text() if path.suffix in INCLUDING else ""
                 out[path.relative_to(root).as_posix()] = re.findall(
                     r'^\s*#\s*include "((?:host|shaders|tests)/[^"]+)"', text, re.M)
     return out

@@ -143,21 +143,21 @@ class EmbedShaders(unittest.TestCase):
 
     def test_argument_types(self):
         kinds = {
-            "Item items[]": "Slice<gpu::Item>> items",
-            "Item one": "Slice<gpu::Item>> one",
-            "uint keys[]": "Slice<uint32_t>> keys",
-            "int signs[16]": "Slice<int32_t>> signs",
-            "float heights[]": "Slice<float>> heights",
-            "double exact[]": "Slice<double>> exact",
-            "uint64_t codes[]": "Slice<uint64_t>> codes",
-            "uint16_t indices[]": "Slice<uint16_t>> indices",
-            "vec3 points[]": "Slice<gpu::vec3>> points",
-            "uvec4 corners[]": "Slice<gpu::uvec4>> corners",
+            "Item items[]": "gpu::Item> items",
+            "Item one": "gpu::Item> one",
+            "uint keys[]": "uint32_t> keys",
+            "int signs[16]": "int32_t> signs",
+            "float heights[]": "float> heights",
+            "double exact[]": "double> exact",
+            "uint64_t codes[]": "uint64_t> codes",
+            "uint16_t indices[]": "uint16_t> indices",
+            "vec3 points[]": "gpu::vec3> points",
+            "uvec4 corners[]": "gpu::uvec4> corners",
         }
         for declared, expected in kinds.items():
             with self.subTest(declared):
                 block = "layout(scalar, set = 0, binding = 0) buffer Block { %s; };" % declared
-                self.assertIn(f"Required<{expected};", self.header(block))
+                self.assertIn(f"Argument<{expected};", self.header(block))
 
     def test_read_only_and_binding_order(self):
         header = self.header(

@@ -197,8 +197,7 @@ std::vector<gpu::Branch> topology_of(const Words& keys) {
   const auto keys_in = bench.put(keys);
   const auto branches = bench.garbage<gpu::Branch>(std::max(count, 2u) - 1);
   bench.run([&](Recorder& rec) {
-    rec.run<k::BvhHierarchy>({.keys = keys_in, .branches = branches}, gpu::CountPush{count},
-                             Items{count});
+    rec.run<k::BvhHierarchy>(Direct<k::BvhHierarchy>{{keys_in, branches}, {count}}, Items{count});
   });
   return bench.get(branches);
 }

@@ -188,12 +188,13 @@ TEST_CASE("mesh_load of nothing but vertices, or nothing but indices") {
                              .has_low = 0,
                              .low_word = 0};
     bench.run([&](Recorder& rec) {
-      rec.run<k::MeshLoad>({.vertex_words = words,
-                            .index_words = words,
-                            .low_words = words,
-                            .vertices = loaded,
-                            .indices = indices},
-                           push, Items{1});
+      rec.run<k::MeshLoad>(Direct<k::MeshLoad>{{.vertex_words = words,
+                                                .index_words = words,
+                                                .low_words = words,
+                                                .vertices = loaded,
+                                                .indices = indices},
+                                               push},
+                           Items{1});
     });
   };
   load(0, 0);

@@ -21,7 +21,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-constexpr uint32_t kSwitches = VKH_SWITCH_ALL | VKH_SWITCH_SORT;
+constexpr uint32_t kSwitches = gpu::kUseAll | VKH_SWITCH_SORT;
 using SelectionKey = std::pair<uint32_t, uint32_t>;
 
 struct Sorted {
@@ -88,11 +88,11 @@ Problem put_problem(KernelBench& bench, const Wave& wave, const Mesh& a, const H
   control.select_tie = wave.selected.second;
   std::vector<gpu::Candidate> halves(control.capacity);
   halves.insert(halves.end(), wave.frontier.begin(), wave.frontier.end());
-  std::vector<gpu::Dispatch> sizes(gpu::kDispatchCount);
-  sizes[gpu::kDispatchSortKeys] = groups((count + gpu::kGroupSize - 1) / gpu::kGroupSize);
+  gpu::WaveSizes sizes{};
+  sizes.sort_keys = groups((count + gpu::kGroupSize - 1) / gpu::kGroupSize);
   const uint32_t blocks = (count + gpu::kSortBlock - 1) / gpu::kSortBlock;
-  sizes[gpu::kDispatchSortBlocks] = groups(blocks);
-  sizes[gpu::kDispatchSortDigits] = groups(blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0);
+  sizes.sort_blocks = groups(blocks);
+  sizes.sort_digits = groups(blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0);
   Problem p;
   p.switches = kSwitches;
   p.b = b;
@@ -104,13 +104,13 @@ Problem put_problem(KernelBench& bench, const Wave& wave, const Mesh& a, const H
   bench.run([&](Recorder& rec) { record_load(rec, on, p.ws.vertices, p.ws.faces); });
   p.ws.control = bench.put(std::vector{control});
   p.ws.frontier = bench.put(halves);
-  p.ws.dispatches = bench.put(sizes);
+  p.ws.sizes = bench.put(std::vector{sizes});
   return p;
 }
 
 Sorted sort_wave(KernelBench& bench, const Wave& wave, const Mesh& a, const Hierarchy& b) {
   const Problem p = put_problem(bench, wave, a, b);
-  bench.run([&](Recorder& rec) { record_wave_sort(rec, p); });
+  bench.run([&](Recorder& rec) { record_order(rec, RunBuffers(p)); });
   Sorted out{bench.get(p.ws.sort.keys[0]), bench.get(p.ws.sort.values[0])};
   out.keys.resize(wave.frontier.size());
   out.places.resize(wave.frontier.size());

@@ -48,7 +48,7 @@ uint32_t check_level(const std::vector<gpu::Triangle>& triangles,
 void check_pyramid(const KernelBench& bench, const Hierarchy& h) {
   CAPTURE(h.face_count);
   const auto triangles = bench.get(h.triangles);
-  const auto boxes = bench.get(h.pyramid);
+  const auto boxes = bench.get(h.boxes);
   uint32_t sixteens = 0;
   uint32_t quads = pyramid_size(h.face_count);
   size_t span = 1;

@@ -152,28 +152,24 @@ Query run_query(KernelBench& bench, const Mesh& mesh, const Hierarchy& h, uint32
   const auto points = bench.put(q.before);
   const auto control = bench.put(std::vector<gpu::Control>{q.control});
   bench.run([&](Recorder& rec) {
-    if (mode.packet) {
-      rec.run<k::WavePacket>({.control = control,
-                              .nodes = as<gpu::uvec4>(h.nodes),
-                              .triangles = as<gpu::uvec4>(h.triangles),
-                              .points = points,
-                              .triangle_lows = h.triangle_lows},
-                             {}, Groups{count / 3 + 1});
-      return;
-    }
     Problem p;
     p.ws.control = control;
     p.ws.vertices = bench.put(std::vector<gpu::Vertex>(1));
     p.ws.faces = bench.put(std::vector<gpu::uvec3>(1));
     p.ws.vertex_nearest = bench.put(std::vector<uint32_t>(1));
-    p.ws.vertex_distance = bench.put(std::vector<float>(1));
+    p.ws.vertex_distance = bench.put(std::vector<uint32_t>(1));
     p.ws.frontier = bench.put(std::vector<gpu::Candidate>(1));
     p.ws.splits = bench.put(std::vector<gpu::Split>(1));
     p.ws.unused = bench.put(std::vector<uint32_t>(1));
-    p.ws.sort.values[0] = p.ws.centroid_nearest = p.ws.unused;
     p.b = h;
     const uint32_t asked = mode.centroids ? gpu::kAskCentroids : gpu::kAskPoints;
-    rec.run<k::Query>(query_args(p, points), query_push(p, asked), Groups{count + 3});
+    Given run(RunBuffers(p), query_push(p, asked));
+    run.points = points;
+    if (mode.packet) {
+      rec.run<k::WavePacket>(run, Groups{count / 3 + 1});
+    } else {
+      rec.run<k::Query>(run, Groups{count + 3});
+    }
   });
   q.after = bench.get(points);
   q.control = bench.get(control)[0];
@@ -237,7 +233,7 @@ Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b, bool two_
     record_load(rec, on, p.ws.vertices, p.ws.faces);
     record_seed(rec, p);
   });
-  return {bench.get(p.ws.vertex_nearest), bench.get(p.ws.vertex_distance),
+  return {bench.get(p.ws.vertex_nearest), bench.get(as<float>(p.ws.vertex_distance)),
           bench.get(p.ws.control)[0]};
 }
 
@@ -304,12 +300,12 @@ TEST_CASE("wave_packet finds what query finds, three points at a time") {
       CAPTURE(called);
       const size_t face_count = mesh.faces.size();
       CAPTURE(face_count);
-      KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
+      KernelBench bench(gpu::kUseAll | VKH_SWITCH_PACKET);
       check_query(bench, mesh, 600, {.two_float = two_float, .packet = true});
     }
   }
   const Mesh mesh = stored(soup(50, 100), false);
-  KernelBench bench(VKH_SWITCH_ALL | VKH_SWITCH_PACKET);
+  KernelBench bench(gpu::kUseAll | VKH_SWITCH_PACKET);
   for (const uint32_t parents : {0u, 1u, 2u, 63u, 64u, 65u, 683u})
     check_query(bench, mesh, 3 * parents, {.packet = true});
 }

@@ -114,11 +114,11 @@ TEST_CASE("the sort is std::stable_sort on many keys") {
 
 TEST_CASE("the sort is std::stable_sort where blocks grow, and as a CPU device has it") {
   const uint32_t few = gpu::kSortFewBlocks * gpu::kSortGroup;  // keys of few blocks, one a round
-  for (const uint32_t switches : {VKH_SWITCH_ALL, VKH_SWITCH_DEFAULT_CPU}) {
-    KernelBench bench(switches);
+  for (const bool wide : {true, false}) {
+    KernelBench bench(VKH_SWITCH_DEFAULT_NARROW, wide);
     for (const uint32_t rounds : {2u, 4u, 8u}) {
       for (const uint32_t count : {few * rounds - 1, few * rounds, few * rounds + 1}) {
-        CAPTURE(switches);
+        CAPTURE(wide);
         CAPTURE(count);
         check_sort(bench, make_keys(kAllKeys[0], count));
       }
@@ -156,7 +156,7 @@ TEST_CASE("sort_count counts each digit of each block") {
         const gpu::SortPush push{
             .shift = shift, .rounds = rounds, .count = gpu::kNone, .pass = 0, .passes = 1};
         bench.run([&](Recorder& rec) {
-          rec.run<k::SortCount>({.keys = keys_in, .counts = counts, .key_count = key_count}, push,
+          rec.run<k::SortCount>(Direct<k::SortCount>{{keys_in, counts, key_count}, push},
                                 Groups{blocks});
         });
         CAPTURE(count);
@@ -185,7 +185,7 @@ TEST_CASE("sort_scan sums each digit's counts exclusively") {
     const gpu::SortPush push{
         .shift = 0, .rounds = gpu::kSortRounds, .count = gpu::kNone, .pass = 0, .passes = 1};
     bench.run([&](Recorder& rec) {
-      rec.run<k::SortScan>({.counts = in_out, .totals = totals_out, .key_count = key_count}, push,
+      rec.run<k::SortScan>(Direct<k::SortScan>{{in_out, totals_out, key_count}, push},
                            Groups{gpu::kSortDigits});
     });
     CAPTURE(blocks);

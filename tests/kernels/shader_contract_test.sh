@@ -67,9 +67,9 @@ expect_rejected "a float before $type::$field" "$work/all.cpp" "$because"
 rm "$work/changed/shaders/gpu_types.h"
 
 # Arguments, tried on the kernel that has the most: "type name" a line.
-header=$(grep -c 'Required<' "$generated"/kernels/*.h | sort -t: -k2 -n | tail -1 | cut -d: -f1)
+header=$(grep -c 'Argument<' "$generated"/kernels/*.h | sort -t: -k2 -n | tail -1 | cut -d: -f1)
 kernel=$(sed -nE 's/^struct (\w+) \{/\1/p' "$header")
-mapfile -t buffers < <(sed -nE 's/^ *Required<Slice<(.*)>> (\w+);/\1 \2/p' "$header")
+mapfile -t buffers < <(sed -nE 's/^ *Argument<(.*)> (\w+);/\1 \2/p' "$header")
 ((${#buffers[@]} >= 2)) || { echo "FAILED: no kernel has two buffers"; exit 1; }
 
 write_args() {  # file, then "type name" each
@@ -88,7 +88,7 @@ write_args "$work/args.cpp" "${buffers[@]}"
 expect_compiles "$kernel with all buffers" "$work/args.cpp"
 for left_out in 0 $last; do
   write_args "$work/args.cpp" "${buffers[@]:0:left_out}" "${buffers[@]:left_out+1}"
-  expect_rejected "$kernel without ${buffers[left_out]##* }" "$work/args.cpp" 'Required<'
+  expect_rejected "$kernel without ${buffers[left_out]##* }" "$work/args.cpp" 'Argument<'
 done
 write_args "$work/args.cpp" "${buffers[@]:0:last}" "${buffers[last]}_misspelt"
 name=${buffers[last]##* }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "host/mesh/round_to_float.h"
 
@@ -21,10 +22,10 @@ const char* environment(const char* name) {
 struct TestDevice {
   Device device{{.selector = environment("VKH_TEST_DEVICE"),
                  .validation = *environment("VKH_VALIDATION") != '\0'}};
-  std::map<uint32_t, VkhContext> contexts;
+  std::map<std::pair<uint32_t, bool>, VkhContext> contexts;  // by switches and kind
 
   ~TestDevice() {
-    for (const auto& [switches, context] : contexts) vkhDestroyContext(context);
+    for (const auto& [ways, context] : contexts) vkhDestroyContext(context);
   }
 };
 
@@ -33,10 +34,11 @@ std::optional<TestDevice>& made() {
   return device;
 }
 
-VkhContext context_for(uint32_t switches) {
+VkhContext context_for(uint32_t switches, bool wide) {
   Device& device = test_device();
-  VkhContext& context = made()->contexts[switches];
-  const VkhContextCreateInfo info{device.engine_info(), VK_NULL_HANDLE, switches};
+  VkhContext& context = made()->contexts[{switches, wide}];
+  const VkhContextCreateInfo info{device.engine_info(), VK_NULL_HANDLE, switches | VKH_SWITCH_NONE,
+                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW};
   if (context == nullptr && vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw std::runtime_error("no context");
   return context;
@@ -51,8 +53,8 @@ Device& test_device() {
 
 uint32_t validation_messages() { return made() ? made()->device.validation_messages() : 0; }
 
-KernelBench::KernelBench(uint32_t switches)
-    : submitter_(test_device()), context_(context_for(switches)) {}
+KernelBench::KernelBench(uint32_t switches, bool wide)
+    : submitter_(test_device()), context_(context_for(switches, wide)) {}
 
 VkBuffer KernelBench::reserve_bytes(const void* content, size_t bytes) {
   constexpr VkBufferUsageFlags usage =

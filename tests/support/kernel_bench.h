@@ -22,7 +22,7 @@ uint32_t validation_messages();
 
 class KernelBench {
  public:
-  explicit KernelBench(uint32_t switches = VKH_SWITCH_ALL);
+  explicit KernelBench(uint32_t switches = gpu::kUseAll, bool wide = true);
   KernelBench(const KernelBench&) = delete;
   KernelBench& operator=(const KernelBench&) = delete;
 
@@ -66,6 +66,12 @@ class KernelBench {
   Submitter submitter_;
   VkhContext context_;
   std::vector<Buffer> buffers_;
+};
+
+/// What a single kernel is given: its buffers and push constants.
+template <class K>
+struct Direct : K::Args {
+  typename K::Push push;
 };
 
 /// A mesh on the bench, with low parts if a coordinate is no float32.

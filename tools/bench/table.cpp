@@ -4,11 +4,28 @@
 #include <cstdio>
 #include <limits>
 
+#include "shaders/stages.h"
+
 namespace vkh::bench {
 namespace {
 
-constexpr const char* kStages[] = {"morton",    "sort",  "hierarchy", "seed",  "plan",  "order",
-                                   "subdivide", "query", "filter",    "bound", "report"};
+// The hierarchy's, the seed, those of the wave's lines, each once, and the report.
+std::vector<std::string> stage_names() {
+  std::vector<std::string> names = {"morton", "sort", "hierarchy", "seed"};
+  const auto add = [&](const char* name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+  };
+#define VKH_SIZED(kernel, given, size, needed, column, groups) add(#column);
+#define VKH_ALONE(kernel, given, needed, column) add(#column);
+  VKH_ORDER_STAGES(VKH_SIZED)
+  VKH_REFINE_STAGES(VKH_SIZED)
+  VKH_FILTER_STAGES(VKH_SIZED, VKH_ALONE)
+  VKH_BOUND_STAGES(VKH_SIZED, VKH_ALONE)
+#undef VKH_SIZED
+#undef VKH_ALONE
+  add("report");
+  return names;
+}
 
 template <class F>
 double median_of(const std::vector<Report>& reports, F value) {
@@ -60,7 +77,7 @@ void print_header() {
   std::printf(
       "pair,family,preset,faces_a,faces_b,status,verdict,lower,upper,gap,waves,candidates,queries,"
       "peak,workspace_mib,runs,load_ms,setup_ms,upload_ms,hierarchy_ms,solve_ms,gpu_ms,wall_ms");
-  for (const char* stage : kStages) std::printf(",stage_%s_ms", stage);
+  for (const std::string& stage : stage_names()) std::printf(",stage_%s_ms", stage.c_str());
   std::printf("\n");
 }
 
@@ -82,7 +99,7 @@ void print_row(const Row& row, const Outcome& o, bool meets) {
               median_time(o.reports, &Times::upload_ms), hierarchy, solve, hierarchy + solve,
               median_time(o.reports, &Times::wall_ms));
   const std::vector<Report>& staged = o.staged.empty() ? o.reports : o.staged;
-  for (const char* stage : kStages)
+  for (const std::string& stage : stage_names())
     std::printf(",%.4f", median_of(staged, [&](const Report& x) { return stage_ms(x, stage); }));
   std::printf("\n");
   std::fflush(stdout);

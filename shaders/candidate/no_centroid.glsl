@@ -1,0 +1,10 @@
+// As candidate/centroid.glsl, where a wave is fused: then no centroid is known.
+#ifndef VKH_SHADERS_CANDIDATE_NO_CENTROID_GLSL
+#define VKH_SHADERS_CANDIDATE_NO_CENTROID_GLSL
+
+#include "shaders/gpu_types.h"
+
+uint nearest_to_centroid(uint place) { return kNone; }
+void keep_nearest_to_centroid(uint place, uint triangle) {}
+
+#endif

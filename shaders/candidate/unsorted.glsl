@@ -1,0 +1,8 @@
+// The frontier is refined in the order in which it stands; paper/sorted.glsl has another.
+#ifndef VKH_SHADERS_CANDIDATE_UNSORTED_GLSL
+#define VKH_SHADERS_CANDIDATE_UNSORTED_GLSL
+
+bool is_sorted() { return false; }
+uint place_of_item(uint item) { return item; }
+
+#endif

@@ -1,0 +1,29 @@
+// How many faces of A a wave admits, whether it splits its candidates twice, and how a run ends.
+// The kernel declares `control`.
+#ifndef VKH_SHADERS_PLAN_ROOM_GLSL
+#define VKH_SHADERS_PLAN_ROOM_GLSL
+
+#include "shaders/candidate/generations.glsl"
+
+// Faces of A that the wave admits, beside `held` candidates, with so much room left: while the
+// frontier is at most a quarter full, so that it can be refined as a whole.
+uint roots_to_admit(uint held, uint room) {
+  uint quarter = (control.capacity - kReserve) / 4u;
+  uint waiting = control.face_count - control.root_cursor;
+  return held < quarter ? min(waiting, min(quarter - held, room - kReserve)) : 0u;
+}
+
+// Whether the wave splits its `held` candidates twice: there are few, and there is room for their
+// children and, in a stream for three of each of a quarter of the capacity, for their new points.
+bool may_split_twice(uint held, uint room) {
+  bool fits = 15u * held + kReserve < room && 20u * held <= control.capacity;
+  return kMaySplitTwice && held > 0u && held <= kTwiceParents && fits;
+}
+
+// What a run ends with that decided all it held.
+uint status_decided() {
+  if (control.lost > 0u) return kStatusMemory;
+  return control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
+}
+
+#endif

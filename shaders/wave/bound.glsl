@@ -1,0 +1,102 @@
+// The cascade over every child of the wave, or, where there is a filter, its hard half over those
+// past it: exact case, u1, u2, ha, u3 over every pair of known triangles; of wave_bound, and of
+// paper_bound, which has more bounds. What is still open enters the next frontier. A workgroup
+// bounds some children together (wave/bound_group.glsl): an invocation loads one of them and has
+// its last word; all share out the distances and then the cuts of pairs. So a wave of few children
+// is as long as its longest step, not as their sum. The kernel declares the buffers of wave_bound.
+#ifndef VKH_SHADERS_WAVE_BOUND_GLSL
+#define VKH_SHADERS_WAVE_BOUND_GLSL
+
+#include "shaders/base/coverage.glsl"
+#include "shaders/base/invocation.glsl"
+#include "shaders/base/stream.glsl"
+#include "shaders/candidate/candidate.glsl"
+#include "shaders/candidate/centroid.glsl"
+#include "shaders/candidate/child.glsl"
+#include "shaders/candidate/dispatch.glsl"
+#include "shaders/wave/bound_group.glsl"
+#include "shaders/wave/bound_tally.glsl"
+#include "shaders/wave/witness.glsl"
+
+// By what the kernel has besides.
+Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold);
+
+// Of the tolerance, the slack that plain floats may have: they are quicker, and a candidate is
+// closed by them all the same, unless it is as close to the threshold as that. Not on CPU devices,
+// which go through both kinds wherever a few invocations of a subgroup have one of them each.
+const float kEnough = 0.25;
+
+uint child_total() { return is_filtered() ? control.count[kCountSurvivors] : child_count(); }
+
+// The child's code; kNone where its parent was not split.
+uint code_of(uint i) {
+  if (is_filtered()) return survivors[i];
+  return is_child(i) ? i : kNone;
+}
+
+uint centre_of(uint i) {
+  if (!is_filtered() || centroids[i].distance < 0.0) return kNone;
+  return centroids[i].nearest;
+}
+
+void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
+  bool closed = mine && v.upper <= threshold;
+  bool open = mine && !closed;
+  if (mine) close_area(closed, c.root, c.at);
+  uint slot = give(closed, open, v);
+  if (!open) return;
+  frontier[writing(slot)] = Candidate(pack_corners(c.at), c.root, c.nearest, v.upper);
+  keep_nearest_to_centroid(writing(slot), centre);
+}
+
+void bound_children() {
+  uint lane = gl_LocalInvocationID.x;
+  uint total = child_total();
+  uint children = children_a_group(total);
+  bool fine = children < kMostChildren;
+  uint i = workgroup_index() * children + lane;
+  bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
+  float threshold = cull_threshold(raised_lower(), tolerant);
+  float enough = kWide && tolerant ? kEnough * effective_tolerance(raised_lower()) : 0.0;
+  begin_group();
+  offer_samples();
+  uint code = kNone;
+  if (lane < children && i < total) code = code_of(i);
+  bool mine = code != kNone;
+  bool bounded = false;
+  Child c;
+  uint centre = kNone;
+  if (mine) {
+    c.root = root_of(code);
+    c.at = whole_root();
+    bounded = !(is_root(code) && face_shared[c.root] != 0u);
+  }
+  if (bounded) {
+    c = load_child(code);
+    centre = centre_of(i);
+    know(lane, centre);
+    know_corners(lane, c);
+    know_parent_samples(lane, code);
+    hold(lane, c);
+  }
+  barrier();
+  measure_corners(fine, enough);
+  barrier();
+  Verdict v = Verdict(0.0, kCullExact);
+  if (bounded) {
+    v = bound_singly(lane, threshold);
+    if ((kSwitches & kUsePairs) != 0u && v.upper > threshold) list_pairs(lane, v.upper, fine);
+  }
+  barrier();
+  measure_cuts(fine, enough);
+  barrier();
+  if (kWide) {
+    begin_tally();
+    if (fine) join_cuts();
+    barrier();
+  }
+  if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
+  write(mine, c, centre, v, threshold);
+}
+
+#endif
