@@ -174,11 +174,11 @@ VKH_CONST float kUnmeasured = 3.0e38f;
 VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
 // Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
-// half as many waves are worth twice the work. Measured on an H200 (docs/measurements.md).
+// half as many waves are worth twice the work. Measured on an H200 (docs/log/measurements.md).
 VKH_CONST uint kTwiceParents = 8192u;
 
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
-// small, so that it fills the device. Measured on an H200 (docs/measurements.md).
+// small, so that it fills the device. Measured on an H200 (docs/log/measurements.md).
 VKH_CONST uint kFewestChildren = 8u;
 VKH_CONST uint kBoundGroups = 640u;  // workgroups that are worth having before they take more
 
