@@ -91,7 +91,7 @@ VKH_CONST uint kUseApart = kUseFilter | kUsePacket | kUseSort;
 VKH_CONST uint kUseAll = 127u + 256u + 512u + 1024u + 8192u + 65536u;
 VKH_CONST uint kUseCoverage = 128u;  // no stage: records what was closed (base/coverage.glsl)
 
-VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
+VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge: docs/method.md, eq. 3
 
 // Why a candidate was closed: Control::culled counts each.
 VKH_CONST uint kCullExact = 0u;
@@ -150,7 +150,7 @@ VKH_CONST uint kFewFacesFirstBit = 6u;
 // Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
 VKH_CONST uint kSortFewBlocks = 64u;
 
-// The frontier's sort key: defer | mode | morton30 (paper.md eq. 4).
+// The frontier's sort key: defer | mode | morton30 (docs/method.md, eq. 4).
 VKH_CONST uint kKeyDeferred = 0x80000000u;
 VKH_CONST uint kKeyThin = 0x40000000u;
 // Frontiers of fewer candidates are not sorted unless a run says otherwise. An H200 wins nothing by
