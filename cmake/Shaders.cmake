@@ -39,7 +39,7 @@ function(vkh_add_shaders target)
 endfunction()
 
 # lavapipe inlines and brings to SSA form at every start of a program, and slower than it takes what is so already
-# (docs/startup.md). Nothing here may touch floating point: no -O, no --simplify-instructions, which reassociate whatever is
+# (docs/log/startup.md). Nothing here may touch floating point: no -O, no --simplify-instructions, which reassociate whatever is
 # not `precise`. That is left to the drivers, whose rounding is specified.
 set(VKH_FLATTEN
   --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions

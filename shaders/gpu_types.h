@@ -103,7 +103,7 @@ VKH_CONST uint kUseAll = kUseCentroid | kUseParentSamples | kUseToleranceCull | 
                          kUsePairs | kUseU4 | kUseWarmStart | kUseGroupWalk | kUseSharedFaces |
                          kUseDefer | kUseTwoLevels;
 
-VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge, paper.md eq. 3
+VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge: docs/method.md, eq. 3
 
 // Why a candidate was closed: the one list. Control::culled counts each; the name is what JSON and
 // Python have. wave_bound closes by those up to kCullLowerRaised, so a new bound stands before it.
@@ -157,7 +157,7 @@ VKH_CONST uint kFewFacesFirstBit = 6u;
 // Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
 VKH_CONST uint kSortFewBlocks = 64u;
 
-// The frontier's sort key: defer | mode | morton30 (paper.md eq. 4).
+// The frontier's sort key: defer | mode | morton30 (docs/method.md, eq. 4).
 VKH_CONST uint kKeyDeferred = 0x80000000u;
 VKH_CONST uint kKeyThin = 0x40000000u;
 // Frontiers of fewer candidates are not sorted unless a run says otherwise. An H200 wins nothing by
@@ -181,11 +181,11 @@ VKH_CONST float kUnmeasured = 3.0e38f;
 VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
 // Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
-// half as many waves are worth twice the work. Measured on an H200 (docs/measurements.md).
+// half as many waves are worth twice the work. Measured on an H200 (docs/log/measurements.md).
 VKH_CONST uint kTwiceParents = 8192u;
 
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
-// small, so that it fills the device. Measured on an H200 (docs/measurements.md).
+// small, so that it fills the device. Measured on an H200 (docs/log/measurements.md).
 VKH_CONST uint kFewestChildren = 8u;
 VKH_CONST uint kBoundGroups = 640u;  // workgroups that are worth having before they take more
 

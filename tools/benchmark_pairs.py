@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Times vkhausdorff against a peer over a manifest of mesh pairs, and checks every interval.
 
-  tools/benchmark_pairs.py --manifest ../shared/pairs/manifest.csv --program out/vkhausdorff \\
+  tools/benchmark_pairs.py --manifest PAIRS/manifest.csv --program out/vkhausdorff \\
       --peer /tmp/peers/cpu_sota --max-faces 100000 --repeat 3 --out results.csv \\
       --markdown results.md [--filter substr] [--device cpu] [--extra "--disable=sort"]
 

@@ -1,5 +1,5 @@
-// The cascade of upper bounds on h(T, B), cheapest first: exact case, u1, u2, ha, u3, u4 (paper.md
-// Appendix A).
+// The cascade of upper bounds on h(T, B), cheapest first: exact case, u1, u2, ha, u3, u4
+// (docs/method.md, section 3; equations are cited by its numbers).
 //
 // T is a sub-triangle of A as computed in a local frame, S a triangle of B in the same frame. Each
 // bound holds in exact arithmetic for the computed T; the caller adds position_slack for the
@@ -127,9 +127,8 @@ VKH_FN float bound_nearer(vec3 ds, vec3 dr) {
   return max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
 }
 
-// u3 for a pair of surfaces (eq. 9, and algorithm.md §4.4): T is cut where its distances from them
-// even out, one piece is measured against S and the other against R. `ds` and `dr` are
-// corner_distances of both.
+// u3 for a pair of surfaces (eq. 13): T is cut where its distances from them even out, one piece is
+// measured against S and the other against R. `ds` and `dr` are corner_distances of both.
 VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
   Cut cut = cut_by(ds - dr);
   if (cut.none) return min(max3(ds), max3(dr));

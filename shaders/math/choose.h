@@ -1,5 +1,5 @@
 // Choices without branches: `?:`, && and || become branches, and a driver takes longer for hundreds
-// of them than for the arithmetic between (docs/startup.md). All operands are evaluated.
+// of them than for the arithmetic between (docs/log/startup.md). All operands are evaluated.
 #ifndef VKH_SHADERS_LIB_CHOOSE_H
 #define VKH_SHADERS_LIB_CHOOSE_H
 

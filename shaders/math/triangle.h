@@ -222,7 +222,8 @@ VKH_FN float surface_distance_up(Two3 p, Surface s) {
   return distance_to_up(p, s, closest_point(rounded(p), s.at));
 }
 
-// Altitude on the longest edge over the longest edge, eq. 3 of the paper. Steers subdivision only.
+// Altitude on the longest edge over the longest edge: docs/method.md, eq. 3. Steers subdivision
+// only.
 VKH_FN float quality(Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -245,7 +246,8 @@ VKH_FN uint opposite_longest(Corners t) {
 }
 
 // Radius of a ball that holds t, around the circumcentre of an acute triangle or the middle of the
-// longest edge of another (paper eq. 8). The centre may be off: the radius is measured from it.
+// longest edge of another (docs/method.md, eq. 8). The centre may be off: the radius is measured
+// from it.
 VKH_FN float enclosing_radius_up(Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;

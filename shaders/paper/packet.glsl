@@ -1,6 +1,6 @@
-// Alg. 2 of the paper: one walk through B's hierarchy for the three new points of a candidate,
-// each a bit of a mask. It finds for each what nearest_triangle finds. The kernel declares what
-// walk/walk.glsl needs.
+// The packet walk (docs/method.md, section 6): one walk through B's hierarchy for the three new
+// points of a candidate, each a bit of a mask. It finds for each what nearest_triangle finds. The
+// kernel declares what walk/walk.glsl needs.
 #ifndef VKH_SHADERS_LIB_PACKET_GLSL
 #define VKH_SHADERS_LIB_PACKET_GLSL
 

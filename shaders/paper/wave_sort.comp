@@ -1,5 +1,5 @@
-// What: the sort keys of the frontier, defer | mode | morton30 of the centroid (paper.md eq. 4),
-// and the places of its candidates. In: the frontier's reading half, the plan's selection. Out:
+// What: the sort keys of the frontier, defer | mode | morton30 of the centroid (docs/method.md, eq.
+// 4), and the places of its candidates. In: the frontier's reading half, the plan's selection. Out:
 // keys[i], values[i] = i. Once sorted, the wave's parents come first, those that midpoints split
 // before the thin ones, neighbours next to each other; what waits for a later wave comes last.
 #version 460

@@ -1,7 +1,7 @@
 // What: what the faces of A say before any query. Which vertices they use: others are no part of a
 // mesh and must not raise the lower bound. And which faces are faces of B too, whatever the order
 // of their corners: their h is 0, their corners lie on B, and no query need be asked to find that
-// out (algorithm.md §4.7). In: A; B's triangles by their codes; vertex_state all 0. Out:
+// out (docs/method.md, section 7). In: A; B's triangles by their codes; vertex_state all 0. Out:
 // face_shared; vertex_state: kVertexUsed, or kVertexOnB + a triangle that has it for a corner.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,5 @@
-// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper
-// bound (algorithm.md §2.4), and no lower bound rests on it (report_write.comp visits every
+// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
+// (docs/method.md, section 6), and no lower bound rests on it (report_write.comp visits every
 // triangle), so it needs no rounding analysis. The kernel declares `nodes`, `triangles`,
 // `triangle_lows`, `control`.
 #ifndef VKH_SHADERS_LIB_BVH_GLSL
@@ -202,8 +202,7 @@ Nearest begin_walk(Query q, uint start) {
 }
 
 // Walks to the end. Depth first, near children first. Invocations go down until each is at a leaf,
-// then all try triangles (Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on
-// GPUs").
+// then all try triangles ([AL09] of docs/method.md).
 void walk_on(Query q, inout Nearest best) {
   float reach = reach_of(q, best);
   while (walk_at != kNone) {

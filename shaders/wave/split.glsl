@@ -1,10 +1,10 @@
 // A wave's first step, over what the frontier holds: which candidates are refined, how each is
 // split, and where its new points are: three, or, where the wave splits twice, three of its own
 // and three of each child (candidate/generations.glsl). Midpoints, or double longest-edge
-// bisection where the candidate is thin (paper.md §4.1); always 1 -> 4. Candidates that there is
-// no room to refine (plan/select.glsl) are copied to the next frontier. A candidate that the risen
-// lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept. A
-// workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
+// bisection where the candidate is thin (docs/method.md, section 4); always 1 -> 4. Candidates that
+// there is no room to refine (plan/select.glsl) are copied to the next frontier. A candidate that
+// the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
+// A workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
 // declares `frontier`, `splits`, `areas`, what walk/walk.glsl and candidate/candidate.glsl need,
 // candidate/centroid.glsl or no_centroid.glsl, and candidate/unsorted.glsl or paper/sorted.glsl.
 #ifndef VKH_SHADERS_LIB_SPLIT_GLSL

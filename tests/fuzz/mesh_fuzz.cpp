@@ -1,10 +1,9 @@
 // libFuzzer entry: whatever the bytes, every reader gives a valid mesh or one InputError line.
 //
-// By hand, from the repository's root (CMake: VKH_FUZZ=ON with clang):
+// By hand, from the repository's root, with a folder of files to start from:
 //   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -I.
-//     tests/fuzz/mesh_fuzz.cpp host/mesh/mesh.cpp host/read/mesh_io.cpp host/mesh_io_*.cpp
-//     host/read/ply_header.cpp host/base/text_scanner.cpp -o mesh_fuzz
-//   ./mesh_fuzz -max_len=4096 -malloc_limit_mb=64 -max_total_time=120 corpus ../shared/bad
+//     tests/fuzz/mesh_fuzz.cpp host/mesh/mesh.cpp host/read/*.cpp host/base/*.cpp -o mesh_fuzz
+//   ./mesh_fuzz -max_len=4096 -malloc_limit_mb=64 -max_total_time=120 corpus out/malformed
 #include <cmath>
 #include <cstdlib>
 

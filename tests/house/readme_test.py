@@ -1,20 +1,48 @@
 #!/usr/bin/env python3
-"""What the README quotes is a file that a test compiles or runs, letter by letter. usage: readme_test.py README FILE... --parts-of FILE..."""
+"""What README and guide quote is a file that a test compiles or runs, letter by letter; their links lead somewhere; a README
+has at most 120 lines. usage: readme_test.py README GUIDE --whole FILE... --parts-of FILE... --pages FOLDER
+Every FILE of --whole stands in the GUIDE as it is; other quotations are parts of some FILE."""
 import pathlib
 import re
 import sys
 
-readme = pathlib.Path(sys.argv[1]).read_text()
-quoted = re.findall(r"^```\w+\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
-split = sys.argv.index("--parts-of")
-files = {path: pathlib.Path(path).read_text() for path in sys.argv[2:split]}
-parts = [pathlib.Path(path).read_text() for path in sys.argv[split + 1 :]]
-missing = [path for path, text in files.items() if text not in quoted]
-for path in missing:
-    print(f"{sys.argv[1]}: does not quote {path} as it is")
-strangers = [
-    text for text in quoted if text not in files.values() and not any(text in whole for whole in parts)
-]
-for text in strangers:
-    print(f"{sys.argv[1]}: quotes what no test compiles or runs:\n{text}")
-sys.exit(1 if missing or strangers else 0)
+LONGEST_README = 120
+
+whole_at, parts_at, pages_at = (sys.argv.index(word) for word in ("--whole", "--parts-of", "--pages"))
+readme, guide = map(pathlib.Path, sys.argv[1:whole_at])
+whole = {path: pathlib.Path(path).read_text() for path in sys.argv[whole_at + 1 : parts_at]}
+sources = [*whole.values(), *(pathlib.Path(path).read_text() for path in sys.argv[parts_at + 1 : pages_at])]
+pages = [readme, *readme.parent.glob("[A-Z]*.md"), *pathlib.Path(sys.argv[pages_at + 1]).rglob("*.md")]
+faults = []
+
+
+def quoted(page):
+    return re.findall(r"^```\w+\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+
+
+def anchors(page):
+    """As GitHub makes them of headings."""
+    for title in re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE):
+        yield re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
+faults += [f"{guide}: does not quote {path} as it is" for path, text in whole.items() if text not in quoted(guide)]
+for page in (readme, guide):
+    for text in quoted(page):
+        if not any(text in source for source in sources):
+            faults.append(f"{page}: quotes what no test compiles or runs:\n{text}")
+if len(readme.read_text().splitlines()) > LONGEST_README:
+    faults.append(f"{readme}: more than {LONGEST_README} lines")
+for page in set(pages):
+    for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
+        if re.match(r"\w+:", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path) if path else page
+        if not target.exists():
+            faults.append(f"{page}: links to {link}, which is not there")
+        elif anchor and anchor not in anchors(target):
+            faults.append(f"{page}: links to {link}, which has no such heading")
+
+print(*faults, sep="\n", end="\n" if faults else "")
+sys.exit(1 if faults else 0)

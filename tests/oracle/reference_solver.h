@@ -1,5 +1,5 @@
 // The independent oracle: directed Hausdorff distances in double precision on one CPU core, written
-// from the mathematics (paper Appendix A, algorithm.md 4) and sharing no code with the engine.
+// from the mathematics (docs/method.md, sections 3 and 7) and sharing no code with the engine.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ grep -q 'interval' "$folder/log" || fail "quickstart printed no interval"
 install_says NO
 built_by_hand
 for program in examples/vkh_embed examples/vkh_frames examples/vkh_renderer tools/vkh_bench; do
-  [ -x "out/$program" ] || fail "README names out/$program, which is not built"
+  [ -x "out/$program" ] || fail "docs/guide.md names out/$program, which is not built"
 done
 install_says "$has_python"
 step cmake --preset release
