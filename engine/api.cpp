@@ -1,4 +1,4 @@
-// The C API: checks nothing that its contract leaves to the caller, translates views, calls the
+// The C API: leaves the contract to the caller (engine/checks.h), translates views, calls the
 // recording pages.
 #include <algorithm>
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <new>
 #include <vector>
 
+#include "engine/checks.h"
 #include "engine/stages.h"
 #include "engine/support.h"
 
@@ -61,6 +62,7 @@ bool load_functions(const VkhDeviceInfo& info, DeviceFunctions& vk) {
 }
 
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
+  check_problem(context, p);
   return {.vertex_count = p.a.vertexCount,
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
@@ -78,6 +80,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
 // Its counts are known once it is built: before anything reads them.
 void record_hierarchy(Recorder& rec, const VkhMesh& mesh, VkhHierarchy& hierarchy,
                       const VkhMemory& scratch) {
+  check_build(mesh, hierarchy, &scratch);
   hierarchy.faceCount = mesh.faceCount;
   hierarchy.vertexCount = mesh.vertexCount;
   record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy));
@@ -86,6 +89,7 @@ void record_hierarchy(Recorder& rec, const VkhMesh& mesh, VkhHierarchy& hierarch
 // `p`: a view of `problem`.
 void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
   // Without twoFloat, B is measured by its high parts alone: A must be, too.
+  check_mesh(problem.a);
   VkhMesh a = problem.a;
   if (problem.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   record_load(rec, a, p.ws.vertices, p.ws.faces);
@@ -99,6 +103,7 @@ void record_waves(Recorder& rec, const Problem& p, uint32_t waves) {
 }
 
 Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
+  check_report(buffer, offset);
   return {buffer, offset, sizeof(VkhReport)};
 }
 
@@ -107,6 +112,7 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
   if (task.mesh != nullptr && task.scratch != nullptr) {
     record_hierarchy(rec, *task.mesh, problem.b, *task.scratch);
   } else if (task.mesh != nullptr) {
+    check_build(*task.mesh, problem.b, nullptr);
     record_refit(rec, *task.mesh, view_hierarchy(problem.b));
   }
   const Problem p = view_problem(context, problem);
@@ -207,6 +213,7 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile) {
+  vkh::check_build(*mesh, *hierarchy, nullptr);
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_refit(rec, *mesh, vkh::view_hierarchy(*hierarchy));
 }

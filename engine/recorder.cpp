@@ -1,9 +1,12 @@
 #include "engine/recorder.h"
 
+#include "engine/checks.h"
+
 namespace vkh {
 
 Recorder::Recorder(const VkhContext_T& context, VkCommandBuffer commands, VkhProfile* profile)
     : context_(context), commands_(commands), profile_(profile) {
+  check_profile(profile_);
   stage(nullptr);
 }
 

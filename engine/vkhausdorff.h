@@ -55,8 +55,9 @@
  *
  * Errors. Functions that can fail return VkhResult and then leave their output as it was (a context
  * becomes null). Recording cannot fail: what could go wrong is refused before by the Get functions
- * or is a rule below, and breaking a rule is undefined as in Vulkan. The validation layers see the
- * engine's commands as yours. */
+ * or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the engine without
+ * NDEBUG asserts the rules that it can see (strides, offsets, sizes, counts, types) and names the
+ * one that is broken. The validation layers see the engine's commands as yours. */
 #ifndef VKHAUSDORFF_H
 #define VKHAUSDORFF_H
 
@@ -111,7 +112,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
   /* Few candidates are split twice in a wave; for GPUs. Without effect where CENTROID, PACKET or
    * U3_PAPER is on. */
-  VKH_SWITCH_TWO_LEVELS = 65536,
+  VKH_SWITCH_SPLIT_TWICE = 65536,
   /* Nothing is switched by this bit: a set that is empty but for it is an empty set, not 0. */
   VKH_SWITCH_NONE = 1 << 30,
   /* What 0 stands for, by the kind of device. U4 decides no candidate that u3 over all pairs leaves

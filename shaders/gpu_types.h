@@ -85,7 +85,7 @@ VKH_CONST uint kStackDepth = 60u;
   X(kUseDefer, 13u, DEFER, defer)    /* candidates that there is no room to refine wait */        \
   X(kUseLargestFirst, 14u, LARGEST_FIRST, largest_first) /* the largest u are refined first */    \
   X(kUsePaperU3, 15u, U3_PAPER, u3_paper)                /* u3 as the paper has it */             \
-  X(kUseTwoLevels, 16u, TWO_LEVELS, two_levels) /* few candidates are split twice in a wave */
+  X(kUseSplitTwice, 16u, SPLIT_TWICE, split_twice) /* few candidates are split twice in a wave */
 #define VKH_SWITCH(constant, bit, api, name) VKH_CONST uint constant = 1u << bit;
 VKH_SWITCHES(VKH_SWITCH)
 #undef VKH_SWITCH
@@ -101,7 +101,7 @@ VKH_CONST uint kUseApart = kUseFilter | kUseBesides | kUsePacket | kUseSort;
 // All of this method: without what the paper has in another place.
 VKH_CONST uint kUseAll = kUseCentroid | kUseParentSamples | kUseToleranceCull | kUseThin |
                          kUsePairs | kUseU4 | kUseWarmStart | kUseGroupWalk | kUseSharedFaces |
-                         kUseDefer | kUseTwoLevels;
+                         kUseDefer | kUseSplitTwice;
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge: docs/method.md, eq. 3
 
@@ -126,8 +126,8 @@ VKH_CONST uint kMostCulls = 16u;  // room for them in what the host reads
 
 // Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax
 // orders them. Distances are what they are above Control::base.
-VKH_CONST uint kMaxLower = 0u;    // largest distance of a sample, not yet certified: it only steers
-VKH_CONST uint kMaxDropped = 1u;  // largest u of a culled candidate
+VKH_CONST uint kMaxLower = 0u;   // largest distance of a sample, not yet certified: it only steers
+VKH_CONST uint kMaxClosed = 1u;  // largest u of a culled candidate
 VKH_CONST uint kMaxFrontier = 2u;  // largest u in the frontier being read
 VKH_CONST uint kMaxNext = 3u;      // largest u in the frontier being written
 VKH_CONST uint kMaxSpilled = 4u;   // largest u of what did not fit or cannot be refined
@@ -182,7 +182,7 @@ VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
 // Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
 // half as many waves are worth twice the work. Measured on an H200 (docs/log/measurements.md).
-VKH_CONST uint kTwiceParents = 8192u;
+VKH_CONST uint kSplitTwiceParents = 8192u;
 
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
 // small, so that it fills the device. Measured on an H200 (docs/log/measurements.md).
@@ -264,9 +264,10 @@ struct Candidate {
 
 // A refined candidate in its wave.
 struct Split {
-  uint code;    // math/bary.h; kSplitNone where it ends here
-  uint inner;   // where it is split twice: the codes of its four children, 5 bits each; kInnerNone
-  uint parent;  // its place in the half of the frontier being read
+  uint code;          // math/bary.h; kSplitNone where it ends here
+  uint child_splits;  // where it is split twice: the codes of its four children, 5 bits each;
+                      // kChildSplitNone
+  uint parent;        // its slot in the half of the frontier being read
 };
 
 // One closest-point query: in, a position and triangles to start from; out, the closest triangle
@@ -320,9 +321,9 @@ struct Control {
   uint select_largest;  // in this wave the largest u come first
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is
-  uint twice;           // this wave splits its candidates twice
+  uint split_twice;     // this wave splits its candidates twice
   uint measuring;       // this wave measures its witness above a new base, and nothing else
-  uint lost;            // candidates that could neither be refined nor wait
+  uint spilled;         // candidates that could neither be refined nor wait
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
   // The wave's samples that are at a new lower bound: the smallest of their keys, and those that
   // had it when they came.

@@ -10,7 +10,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Reserves a place in stream `which` for every invocation that keeps something.
+// Reserves a slot of stream `which` for every invocation that keeps something.
 uint stream_append(uint which, bool keep) {
   uvec4 keepers = subgroupBallot(keep);
   uint base = 0u;

@@ -20,14 +20,14 @@ layout(scalar, binding = 8) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/bvh/run_boxes.glsl"
-#include "shaders/bvh/place.glsl"
+#include "shaders/bvh/store_triangle.glsl"
 
 void main() {
   uint i = workgroup_index() * kRun + gl_LocalInvocationID.x;
   Box own = empty_box();
   if (i < push.count) {
     codes[i] = keys[i];
-    own = place_triangle(i, values[i]);
+    own = store_triangle(i, values[i]);
   }
   write_levels(own, push.count, push.quads, push.sixteens);
 }

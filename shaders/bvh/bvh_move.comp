@@ -17,11 +17,11 @@ layout(scalar, binding = 5) buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { PyramidPush push; };
 
 #include "shaders/bvh/run_boxes.glsl"
-#include "shaders/bvh/place.glsl"
+#include "shaders/bvh/store_triangle.glsl"
 
 void main() {
   uint i = workgroup_index() * kRun + gl_LocalInvocationID.x;
   Box own = empty_box();
-  if (i < push.count) own = place_triangle(i, triangles[i].face);
+  if (i < push.count) own = store_triangle(i, triangles[i].face);
   write_levels(own, push.count, push.quads, push.sixteens);
 }

@@ -51,7 +51,7 @@ float cull_threshold(float lower, bool tolerant) {
 }
 
 // How a candidate's surfaces are measured.
-View view_of(Placement placed, bool plain) {
+View view_of(LocalCorners placed, bool plain) {
   float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
   return View(placed.origin, placed.reach, control.base, needs_sharp(distance), plain, 0.0);
 }

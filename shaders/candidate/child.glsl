@@ -6,7 +6,7 @@
 #define VKH_SHADERS_LIB_CHILD_GLSL
 
 #include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/generations.glsl"
+#include "shaders/candidate/split_counts.glsl"
 
 struct Child {
   uint root;
@@ -71,7 +71,7 @@ Child split_child(uint code) {
   uint which = (splits_twice() ? code >> 2 : code) & 3u;
   Child c = child_of_candidate(parent, index, split.code, which);
   if (!splits_twice()) return c;
-  uint inner = inner_split(split, which);
+  uint inner = child_split(split, which);
   if (inner == kSplitNone) return c;
   return child_of_child(c, inner, code & 3u, 15u * index + 3u + 3u * which);
 }
@@ -83,7 +83,7 @@ bool is_child(uint code) {
   Split split = splits[parent_of(code)];
   if (split.code == kSplitNone) return false;
   if (!splits_twice() || (code & 3u) == 0u) return true;
-  return inner_split(split, (code >> 2) & 3u) != kSplitNone;
+  return child_split(split, (code >> 2) & 3u) != kSplitNone;
 }
 
 Child load_child(uint code) {

@@ -4,7 +4,7 @@
 #define VKH_SHADERS_LIB_DISPATCH_GLSL
 
 #include "shaders/base/switches.glsl"
-#include "shaders/candidate/generations.glsl"
+#include "shaders/candidate/split_counts.glsl"
 
 Dispatch groups_of(uint groups) {
   uint x = min(groups, kMaxGroupsX);

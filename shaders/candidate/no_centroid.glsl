@@ -4,7 +4,7 @@
 
 #include "shaders/gpu_types.h"
 
-uint nearest_to_centroid(uint place) { return kNone; }
-void keep_nearest_to_centroid(uint place, uint triangle) {}
+uint nearest_to_centroid(uint slot) { return kNone; }
+void keep_nearest_to_centroid(uint slot, uint triangle) {}
 
 #endif

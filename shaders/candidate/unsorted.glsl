@@ -3,6 +3,6 @@
 #define VKH_SHADERS_CANDIDATE_UNSORTED_GLSL
 
 bool is_sorted() { return false; }
-uint place_of_item(uint item) { return item; }
+uint slot_of_item(uint item) { return item; }
 
 #endif

@@ -58,13 +58,13 @@ VKH_CONST float kBaryUnit = 9.5367431640625e-7f;  // 2^-20 = 1 / kBaryOne
 
 // A point of the root in the frame of the meshes; off by 8 kUlp2 of the root's coordinates (`reach`
 // of make_placement).
-VKH_FN Two3 place(Root r, uvec2 point) {
+VKH_FN Two3 position_of(Root r, uvec2 point) {
   return two_combination(r.origin, float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit,
                          r.ac);
 }
 
 // A candidate around its first corner.
-struct Placement {
+struct LocalCorners {
   Two3 origin;
   Two3 b, c;    // the other corners from the first
   Corners at;   // rounded; a is 0
@@ -95,9 +95,9 @@ VKH_FN Corners plain_corners(Root r, Bary3 t) {
 }
 
 // Corners are off by 8 kUlp2 reach (place), steps by as much, cuts by 6 kUlp2 of a step more.
-VKH_FN Placement place_corners(Root r, Bary3 t) {
-  Placement p;
-  p.origin = place(r, t.a);
+VKH_FN LocalCorners local_corners(Root r, Bary3 t) {
+  LocalCorners p;
+  p.origin = position_of(r, t.a);
   p.b = step_between(t.a, t.b, r);
   p.c = step_between(t.a, t.c, r);
   p.at.a = vec3(0.0f, 0.0f, 0.0f);
@@ -109,7 +109,7 @@ VKH_FN Placement place_corners(Root r, Bary3 t) {
 }
 
 // The same with the other corners' high parts alone: T is moved by the longer low part at most.
-VKH_FN Placement without_low_parts(Placement p) {
+VKH_FN LocalCorners without_low_parts(LocalCorners p) {
   p.slack = round_up(p.slack + max(norm_up(p.b.lo), norm_up(p.c.lo)), 1.0f);
   p.b = two(p.b.hi);
   p.c = two(p.c.hi);
@@ -124,7 +124,7 @@ VKH_FN Placement without_low_parts(Placement p) {
 // 0..2 are the corners.
 
 VKH_CONST uint kSplitMidpoint = 0u;
-VKH_CONST uint kInnerNone = 31u;          // as kSplitNone, in 5 bits
+VKH_CONST uint kChildSplitNone = 31u;     // as kSplitNone, in 5 bits
 VKH_CONST uint kSplitNone = 0xffffffffu;  // not split: closed before its subdivision
 
 VKH_FN uint pick(uvec3 t, uint i) { return choose(i == 0u, t.x, choose(i == 1u, t.y, t.z)); }

@@ -9,16 +9,16 @@
 
 VKH_LIB_BEGIN
 
-VKH_FN vec3 place_of_corner(Corners t, uint i) { return i == 0u ? t.a : (i == 1u ? t.b : t.c); }
+VKH_FN vec3 corner_position(Corners t, uint i) { return i == 0u ? t.a : (i == 1u ? t.b : t.c); }
 
 // Whether S and R share an edge or a vertex: one of `s` is one of `r`; then `at` is it.
 VKH_FN bool share_corner(Corners s, Corners r, VKH_OUT(vec3) at) {
   at = s.a;
   for (uint i = 0u; i < 3u; ++i) {
     for (uint j = 0u; j < 3u; ++j) {
-      vec3 from = place_of_corner(s, i) - place_of_corner(r, j);
+      vec3 from = corner_position(s, i) - corner_position(r, j);
       if (dot3(from, from) > 0.0f) continue;
-      at = place_of_corner(s, i);
+      at = corner_position(s, i);
       return true;
     }
   }

@@ -8,6 +8,6 @@
 #include "shaders/gpu_types.h"
 
 bool is_sorted() { return control.sorted != 0u; }
-uint place_of_item(uint item) { return is_sorted() ? order[item] : item; }
+uint slot_of_item(uint item) { return is_sorted() ? order[item] : item; }
 
 #endif

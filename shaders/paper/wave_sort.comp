@@ -37,7 +37,7 @@ void main() {
   Candidate c = frontier[reading(i)];
   Bary3 corners = unpack_corners(c.corners);
   Root root = load_root(c.root);
-  uint key = morton_of(place(root, centroid_of(corners)).hi);
+  uint key = morton_of(position_of(root, centroid_of(corners)).hi);
   if ((kSwitches & kUseThin) != 0u && quality(plain_corners(root, corners)) < kThinQuality)
     key |= kKeyThin;
   bool waits = control.deferred > 0u && !not_after(key_of(c, control.select_largest != 0u),

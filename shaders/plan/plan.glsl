@@ -20,17 +20,17 @@
 
 // What the wave has raised comes in by atomics: the workgroups that did may be of this dispatch.
 struct WaveEnd {
-  uint open;             // children that are still open
-  uint largest_open;     // u of those, and of what was deferred, as bits
-  uint largest_dropped;  // u of whatever was closed so far
+  uint open;            // children that are still open
+  uint largest_open;    // u of those, and of what was deferred, as bits
+  uint largest_closed;  // u of whatever was closed so far
 };
 
 WaveEnd take_wave_end() {
   WaveEnd end;
   end.open = atomicExchange(control.count[kCountNext], 0u);
   end.largest_open = atomicExchange(control.maximum[kMaxNext], 0u);
-  end.largest_dropped = atomicOr(control.maximum[kMaxDropped], 0u);
-  control.maximum[kMaxDropped] = end.largest_dropped;
+  end.largest_closed = atomicOr(control.maximum[kMaxClosed], 0u);
+  control.maximum[kMaxClosed] = end.largest_closed;
   return end;
 }
 
@@ -42,7 +42,7 @@ void close_wave(WaveEnd end) {
   uint queries = query_count();
   // A wave that measured its witness left the frontier as it was.
   uint open = control.measuring != 0u ? control.maximum[kMaxFrontier] : end.largest_open;
-  float upper = uintBitsToFloat(max(open, max(end.largest_dropped, control.maximum[kMaxLower])));
+  float upper = uintBitsToFloat(max(open, max(end.largest_closed, control.maximum[kMaxLower])));
   control.waves[w] = WaveRecord(
       control.parents, candidates, queries, control.count[kCountSurvivors], control.deferred,
       control.base + uintBitsToFloat(control.maximum[kMaxLower]), control.base + upper);
@@ -78,7 +78,7 @@ void move_base() {
   control.rebase_lo = by.lo;
   control.tight = 1u;
   rebase_maximum(kMaxFrontier);
-  rebase_maximum(kMaxDropped);
+  rebase_maximum(kMaxClosed);
   rebase_maximum(kMaxSpilled);
   control.measuring = 1u;
   control.maximum[kMaxLower] = 0u;
@@ -99,7 +99,7 @@ void share_room() {
   parents = control.parents;
   room = capacity - held;
   bool twice = control.deferred == 0u && may_split_twice(parents, room);
-  control.twice = twice ? 1u : 0u;
+  control.split_twice = twice ? 1u : 0u;
   uint needed = (twice ? 15u : 3u) * parents;  // places besides the candidates' own
   uint roots = roots_to_admit(held, room - needed);
   control.roots = roots;
@@ -114,7 +114,7 @@ bool within_tolerance() {
 
 void end_if_done() {
   if (within_tolerance() && control.roots == 0u) {
-    control.maximum[kMaxDropped] = max(control.maximum[kMaxDropped], control.maximum[kMaxFrontier]);
+    control.maximum[kMaxClosed] = max(control.maximum[kMaxClosed], control.maximum[kMaxFrontier]);
     control.status = status_decided();
     return;
   }
@@ -129,7 +129,7 @@ void end_if_done() {
 
 void refine_nothing() {
   control.sorted = 0u;
-  control.twice = 0u;
+  control.split_twice = 0u;
   control.parents = 0u;
   control.deferred = 0u;
   control.roots = 0u;

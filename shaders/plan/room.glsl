@@ -3,7 +3,7 @@
 #ifndef VKH_SHADERS_PLAN_ROOM_GLSL
 #define VKH_SHADERS_PLAN_ROOM_GLSL
 
-#include "shaders/candidate/generations.glsl"
+#include "shaders/candidate/split_counts.glsl"
 
 // Faces of A that the wave admits, beside `held` candidates, with so much room left: while the
 // frontier is at most a quarter full, so that it can be refined as a whole.
@@ -17,12 +17,12 @@ uint roots_to_admit(uint held, uint room) {
 // children and, in a stream for three of each of a quarter of the capacity, for their new points.
 bool may_split_twice(uint held, uint room) {
   bool fits = 15u * held + kReserve < room && 20u * held <= control.capacity;
-  return kMaySplitTwice && held > 0u && held <= kTwiceParents && fits;
+  return kMaySplitTwice && held > 0u && held <= kSplitTwiceParents && fits;
 }
 
 // What a run ends with that decided all it held.
 uint status_decided() {
-  if (control.lost > 0u) return kStatusMemory;
+  if (control.spilled > 0u) return kStatusMemory;
   return control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;
 }
 

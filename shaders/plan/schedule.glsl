@@ -22,8 +22,8 @@ uint schedule(uint held, uint room) {
   bool largest = (kSwitches & kUseLargestFirst) != 0u && room > kReserve + 3u;
   control.select_largest = largest ? 1u : 0u;
   control.sorted = sorts_frontier() && held >= control.sort_from ? 1u : 0u;
-  if (may_wait() || (control.deferred == 0u && control.lost == 0u)) return held;
-  control.lost += held;
+  if (may_wait() || (control.deferred == 0u && control.spilled == 0u)) return held;
+  control.spilled += held;
   control.parents = 0u;
   control.deferred = held;
   return 0u;

@@ -45,7 +45,7 @@ float certified_distance() {
   uint i = min(item_index(), push.count - 1u);
   Witness w = control.witness;
   Root root = load_root(w.root);
-  Two3 p = place(root, uvec2(w.j, w.k));
+  Two3 p = position_of(root, uvec2(w.j, w.k));
   uvec3 f = b_faces[i];
   Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
                            View(p, norm_up(p.hi), control.base, true, false, 0.0));
@@ -54,7 +54,7 @@ float certified_distance() {
   return triangle_distance_down(s, enough);
 }
 
-float witness_slack(Witness w) { return place_corners(load_root(w.root), whole_root()).slack; }
+float witness_slack(Witness w) { return local_corners(load_root(w.root), whole_root()).slack; }
 
 bool is_running() { return control.status == kStatusRunning; }
 
@@ -70,7 +70,7 @@ uint remaining() {
 
 float upper_bound() {
   if (waiting_faces() > 0u) return 3.0e38;
-  uint bits = max(max(control.maximum[kMaxDropped], control.maximum[kMaxSpilled]),
+  uint bits = max(max(control.maximum[kMaxClosed], control.maximum[kMaxSpilled]),
                   control.maximum[kMaxFrontier]);
   return uintBitsToFloat(bits);
 }

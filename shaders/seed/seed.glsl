@@ -19,7 +19,7 @@ uint seed_count() { return push.vertex_count + (push.warm != 0u ? 1u : 0u); }
 
 Two3 seed_point(uint i) {
   if (i < push.vertex_count) return vertex_at(i);
-  return place(load_root(control.witness.root), uvec2(control.witness.j, control.witness.k));
+  return position_of(load_root(control.witness.root), uvec2(control.witness.j, control.witness.k));
 }
 
 // The triangle to start from: what the last run left there, if it is one of B.

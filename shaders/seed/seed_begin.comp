@@ -26,8 +26,8 @@ void begin() {
   control.select_largest = 0u;
   control.sort_from = push.sort_from;
   control.sorted = 0u;
-  control.lost = 0u;
-  control.twice = 0u;
+  control.spilled = 0u;
+  control.split_twice = 0u;
   control.measuring = 0u;
   control.seed_witness = kNone;
   control.offer_key = kNone;

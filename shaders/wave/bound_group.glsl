@@ -64,7 +64,7 @@ vec3 held_vector(uint word, uint child) {
 }
 
 View view_of_child(uint child) {
-  Placement p;
+  LocalCorners p;
   p.origin = Two3(held_vector(kHeldOrigin, child), held_vector(kHeldOriginLow, child));
   p.reach = held[kHeldReach][child];
   return view_of(p, (kSwitches & kUseUncertified) != 0u);
@@ -89,7 +89,7 @@ vec3 distances_of(uint child, uint k) {
 
 // Of a child whose known triangles are there already.
 void hold(uint child, Child c) {
-  Placement placed = without_low_parts(place_corners(load_root(c.root), c.at));
+  LocalCorners placed = without_low_parts(local_corners(load_root(c.root), c.at));
   hold_vector(kHeldB, child, placed.b.hi);
   hold_vector(kHeldC, child, placed.c.hi);
   hold_vector(kHeldOrigin, child, placed.origin.hi);

@@ -9,10 +9,10 @@
 #include "shaders/wave/bound_group.glsl"
 
 // Words 0 to kCullLowerRaised: children closed, by kCull*.
-const uint kTallyDropped = kCullLowerRaised + 1u;  // largest u of those, as bits
-const uint kTallyNext = kTallyDropped + 1u;        // and of those that stay open
+const uint kTallyClosed = kCullLowerRaised + 1u;  // largest u of those, as bits
+const uint kTallyNext = kTallyClosed + 1u;        // and of those that stay open
 const uint kTallyOpen =
-    kTallyNext + 1u;  // how many these are; then where their places in the stream begin
+    kTallyNext + 1u;  // how many these are; then where their slots in the stream begin
 const uint kTallies = kTallyOpen + 1u;
 
 // In the words of known triangles, which nobody reads after the cuts: shared memory is scarce.
@@ -41,26 +41,26 @@ void tally_raise(uint word, float value) {
 void give_tally() {
   uint i = gl_LocalInvocationID.x;
   if (i >= kTallies || tally_word(i) == 0u) return;
-  if (i < kTallyDropped) atomicAdd(control.culled[i], tally_word(i));
-  if (i == kTallyDropped) atomicMax(control.maximum[kMaxDropped], tally_word(i));
+  if (i < kTallyClosed) atomicAdd(control.culled[i], tally_word(i));
+  if (i == kTallyClosed) atomicMax(control.maximum[kMaxClosed], tally_word(i));
   if (i == kTallyNext) atomicMax(control.maximum[kMaxNext], tally_word(i));
   if (i == kTallyOpen) known_triangle[i] = atomicAdd(control.count[kCountNext], tally_word(i));
 }
 
-// A child that is closed, or open, or neither. Returns the place of an open one in the stream.
+// A child that is closed, or open, or neither. Returns the slot of an open one in the stream.
 uint give(bool closed, bool open, Verdict v) {
   float dropped = closed ? v.upper : 0.0;
   float next = open ? v.upper : 0.0;
   if (!kWide) {
     for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
       count_culled(why, closed && v.by == why);
-    raise(kMaxDropped, dropped);
+    raise(kMaxClosed, dropped);
     raise(kMaxNext, next);
     return stream_append(kCountNext, open);
   }
   for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
     tally_count(why, closed && v.by == why);
-  tally_raise(kTallyDropped, dropped);
+  tally_raise(kTallyClosed, dropped);
   tally_raise(kTallyNext, next);
   uint slot = tally_count(kTallyOpen, open);
   barrier();

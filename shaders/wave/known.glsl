@@ -36,10 +36,10 @@ void know_corners(uint child, Child c) {
 // The parent's samples are free: its other corners, its other new points, its centroid.
 void know_parent_samples(uint child, uint code) {
   if ((kSwitches & kUseParentSamples) == 0u || is_root(code)) return;
-  uint place = reading(splits[parent_of(code)].parent);
-  Candidate parent = frontier[place];
+  uint slot = reading(splits[parent_of(code)].parent);
+  Candidate parent = frontier[slot];
   for (uint i = 0u; i < 6u; ++i) know(child, nearest_of(parent, parent_of(code), i));
-  know(child, nearest_to_centroid(place));
+  know(child, nearest_to_centroid(slot));
 }
 
 #endif

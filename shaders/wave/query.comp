@@ -92,11 +92,11 @@ Item new_item(bool by_group, out uint i) {
     if (k == 0u && lane < each) k = lane;
   }
   Refined r = refine(item, by_group ? lane == 0u : first, group);
-  bool mine = r.place != kNone;
+  bool mine = r.slot != kNone;
   NewPoint n = NewPoint(two(vec3(0.0)), kNone, false);
   if (mine) n = new_point(k, r, group);
   keep_split(r, first, group);
-  i = each * r.place + k;
+  i = each * r.slot + k;
   mine = mine && (!by_group || lane == 0u);
   return Item(mine, mine && n.asked, n.start, -1.0, Query(n.p, control.base, control.tight != 0u));
 }

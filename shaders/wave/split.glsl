@@ -1,6 +1,6 @@
 // A wave's first step, over what the frontier holds: which candidates are refined, how each is
 // split, and where its new points are: three, or, where the wave splits twice, three of its own
-// and three of each child (candidate/generations.glsl). Midpoints, or double longest-edge
+// and three of each child (candidate/split_counts.glsl). Midpoints, or double longest-edge
 // bisection where the candidate is thin (docs/method.md, section 4); always 1 -> 4. Candidates that
 // there is no room to refine (plan/select.glsl) are copied to the next frontier. A candidate that
 // the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
@@ -16,13 +16,13 @@
 #include "shaders/candidate/dispatch.glsl"
 #include "shaders/walk/walk.glsl"
 
-shared uint place_in_group[kGroupSize];
-shared uint inner_in_group[kGroupSize];
+shared uint slot_in_group[kGroupSize];
+shared uint child_splits_in_group[kGroupSize];
 
 // What an invocation knows of its candidate.
 struct Refined {
-  uint from;   // its place in the half of the frontier being read
-  uint place;  // among the wave's parents; kNone: it is none of them
+  uint from;   // its slot in the half of the frontier being read
+  uint slot;   // among the wave's parents; kNone: it is none of them
   uint split;  // math/bary.h; kSplitNone where it ends here
   bool closed;
   float upper;
@@ -73,32 +73,33 @@ NewPoint new_point(uint k, Refined r, uint group) {
     uint which = k / 3u - 1u;
     r.at = child_of(split_points(r.at, split), child_points(split, which));
     split = choose_split(r.at, r.root);
-    if (k % 3u == 0u) atomicOr(inner_in_group[group], (split & kInnerNone) << (5u * which));
+    if (k % 3u == 0u)
+      atomicOr(child_splits_in_group[group], (split & kChildSplitNone) << (5u * which));
   }
   bool asked = split != kSplitNone;
   Bary6 six = split_points(r.at, asked ? split : kSplitMidpoint);
-  Two3 p = place(r.root, corner_of(six.fresh, k % 3u));
+  Two3 p = position_of(r.root, corner_of(six.fresh, k % 3u));
   return NewPoint(p, asked ? best_start(r, p.hi) : kNone, asked);
 }
 
 // Nothing may wait, and there is no room: the candidate is lost, but for its u.
-void lose(bool held, Candidate c, float upper) {
+void spill(bool held, Candidate c, float upper) {
   raise(kMaxSpilled, held ? upper : 0.0);
   close_area(held, c.root, unpack_corners(c.corners));
 }
 
-void defer(uint place, Refined r) {
+void defer(uint slot, Refined r) {
   r.c.upper = r.upper;
-  frontier[writing(place)] = r.c;
-  keep_nearest_to_centroid(writing(place), r.centre);
+  frontier[writing(slot)] = r.c;
+  keep_nearest_to_centroid(writing(slot), r.centre);
 }
 
 // Where the candidate of an item stands among the wave's parents; kNone if there is no room for it
 // in this wave: then it is copied to the next frontier. Where none is deferred, items are parents.
-uint place_of(uint item, bool held, Refined r) {
+uint slot_of(uint item, bool held, Refined r) {
   if (control.deferred == 0u) return held ? item : kNone;
   if ((kSwitches & kUseDefer) == 0u) {
-    lose(held, r.c, r.upper);
+    spill(held, r.c, r.upper);
     return kNone;
   }
   if (is_sorted()) {
@@ -109,28 +110,28 @@ uint place_of(uint item, bool held, Refined r) {
   }
   Key key = key_of(r.c, control.select_largest != 0u);
   bool refined = held && not_after(key, Key(control.select_key, control.select_tie));
-  uint place = stream_append(kCountRefined, refined);
-  refined = refined && place < control.parents;
+  uint parent = stream_append(kCountRefined, refined);
+  refined = refined && parent < control.parents;
   bool deferred = held && !refined;
   uint slot = stream_append(kCountDeferred, deferred);
-  // There are as many places as the plan left: no bound rests on its selection.
+  // There are as many slots as the plan left: no bound rests on its selection.
   bool fits = slot < control.deferred;
-  lose(deferred && !fits, r.c, r.upper);
+  spill(deferred && !fits, r.c, r.upper);
   raise(kMaxNext, deferred && fits ? r.upper : 0.0);
   if (deferred && fits) defer(slot, r);
-  return refined ? place : kNone;
+  return refined ? parent : kNone;
 }
 
 // The same for all invocations of a candidate: the first of them asks.
-uint shared_place_of(uint item, bool held, bool first, Refined r, uint group) {
-  uint i = place_of(item, held && first, r);
+uint shared_slot_of(uint item, bool held, bool first, Refined r, uint group) {
+  uint i = slot_of(item, held && first, r);
   if (!kWide && !kMaySplitTwice) return i;
   if (first) {
-    place_in_group[group] = i;
-    inner_in_group[group] = 0u;
+    slot_in_group[group] = i;
+    child_splits_in_group[group] = 0u;
   }
   barrier();
-  return place_in_group[group];
+  return slot_in_group[group];
 }
 
 // Whether it is rounding that holds u up, so that no split helps: the candidate is tiny; or it lies
@@ -150,15 +151,15 @@ bool is_noise(Bary3 corners, Root root, float upper) {
 Refined refine(uint item, bool first, uint group) {
   Refined r;
   bool held = item < control.count[kCountFrontier];
-  r.from = held ? place_of_item(item) : 0u;
+  r.from = held ? slot_of_item(item) : 0u;
   r.c = frontier[reading(r.from)];
   r.centre = nearest_to_centroid(reading(r.from));
   r.upper = upper_of(r.c);
-  r.place = shared_place_of(item, held, first, r, group);
+  r.slot = shared_slot_of(item, held, first, r, group);
   bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
   r.closed = r.upper <= cull_threshold(adopted_lower(), tolerant);
   r.split = kSplitNone;
-  if (r.place != kNone) {
+  if (r.slot != kNone) {
     r.at = unpack_corners(r.c.corners);
     r.root = load_root(r.c.root);
     if (!r.closed && !is_noise(r.at, r.root, r.upper)) r.split = choose_split(r.at, r.root);
@@ -170,13 +171,14 @@ Refined refine(uint item, bool first, uint group) {
 // `first`: of the candidate.
 void keep_split(Refined r, bool first, uint group) {
   if (kMaySplitTwice) barrier();
-  bool mine = first && r.place != kNone;
-  if (mine) splits[r.place] = Split(r.split, kMaySplitTwice ? inner_in_group[group] : 0u, r.from);
+  bool mine = first && r.slot != kNone;
+  if (mine)
+    splits[r.slot] = Split(r.split, kMaySplitTwice ? child_splits_in_group[group] : 0u, r.from);
   bool ended = mine && r.split == kSplitNone;
   if (ended) close_area(true, r.c.root, r.at);
   count_culled(kCullLowerRaised, ended && r.closed);
   count_culled(kCullPrecision, ended && !r.closed);
-  raise(kMaxDropped, ended ? r.upper : 0.0);
+  raise(kMaxClosed, ended ? r.upper : 0.0);
 }
 
 #endif

@@ -9,7 +9,7 @@
 void write_points(uint lane, Refined r, uint group) {
   for (uint k = lane; k < points_each(); k += split_lanes()) {
     NewPoint n = new_point(k, r, group);
-    points[points_each() * r.place + k] = Point(n.p.hi, n.start, n.p.lo, n.asked ? 0.0 : -1.0);
+    points[points_each() * r.slot + k] = Point(n.p.hi, n.start, n.p.lo, n.asked ? 0.0 : -1.0);
   }
 }
 
@@ -18,7 +18,7 @@ void subdivide() {
   uint lane = item_index() % split_lanes();
   uint group = gl_LocalInvocationID.x / split_lanes();
   Refined r = refine(item, lane == 0u, group);
-  if (r.place != kNone) write_points(lane, r, group);
+  if (r.slot != kNone) write_points(lane, r, group);
   keep_split(r, lane == 0u, group);
 }
 

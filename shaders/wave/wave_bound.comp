@@ -1,7 +1,7 @@
 // What: the cascade of bounds (wave/bound.glsl) over every child of the wave. In: the refined
 // candidates, their splits and queried points; the admitted faces of A; survivors and centroids
 // where there is a filter. Out: frontier's writing half; every closed child's u is kept
-// (kMaxDropped), every open one's too (kMaxNext); samples are offered as witnesses. Where the wave
+// (kMaxClosed), every open one's too (kMaxNext); samples are offered as witnesses. Where the wave
 // is fused, the last workgroup to end plans the next one (plan/plan.glsl): control; sizes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

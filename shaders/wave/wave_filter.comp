@@ -2,7 +2,7 @@
 // every child: exact case, u1, u2, ha with the triangles already known. In: the refined candidates,
 // their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
 // its centroid as a query that starts from the best single triangle. Every closed child's u is kept
-// (kMaxDropped).
+// (kMaxClosed).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -56,7 +56,7 @@ void measure(Patch t, uint triangle, View view, inout vec3 own, inout Verdict v,
 
 Verdict filter_child(uint code, Child c, Root root, float threshold) {
   uint child = gl_LocalInvocationID.x;
-  Placement placed = place_corners(root, c.at);
+  LocalCorners placed = local_corners(root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
   View view = view_of(placed, (kSwitches & kUseUncertified) != 0u);
   float shift = placed.slack;
@@ -98,12 +98,12 @@ void main() {
     v = Verdict(0.0, kCullExact, kNone);
     if (!shared_face) v = filter_child(code, c, root, threshold);
     close_area(v.upper <= threshold, c.root, c.at);
-    centre = place(root, centroid_of(c.at));
+    centre = position_of(root, centroid_of(c.at));
   }
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;
   for (uint why = kCullExact; why <= kCullHa; ++why) count_culled(why, closed && v.by == why);
-  raise(kMaxDropped, closed ? v.upper : 0.0);
+  raise(kMaxClosed, closed ? v.upper : 0.0);
   uint slot = stream_append(kCountSurvivors, open);
   if (open) {
     survivors[slot] = code;

@@ -27,7 +27,7 @@ bool is_new_lower(float distance) {
 }
 
 Witness witness_from(Point asked, uint root, uvec2 at) {
-  vec3 position = place(load_root(root), at).hi;
+  vec3 position = position_of(load_root(root), at).hi;
   return Witness(position, asked.distance, root, at.x, at.y, asked.nearest);
 }
 
@@ -44,7 +44,7 @@ Witness witness_at(uint s) {
   uint which = s % points_each();
   if (kMaySplitTwice && which >= 3u) {  // a child's
     uint child = (which - 3u) / 3u;
-    six = split_points(child_of(six, child_points(split.code, child)), inner_split(split, child));
+    six = split_points(child_of(six, child_points(split.code, child)), child_split(split, child));
   }
   return witness_from(points[s], parent.root, corner_of(six.fresh, which % 3u));
 }

@@ -149,8 +149,8 @@ const Words kDistanceKeys = sorted(
      "switched_on", "switched_off", "notes",   "known_lower"});
 
 // On a CPU device.
-const Words kOffUnlessAsked = {"u4",       "group_walk", "sort", "packet", "largest_first",
-                               "u3_paper", "two_levels", "wide"};
+const Words kOffUnlessAsked = {"u4",       "group_walk",  "sort", "packet", "largest_first",
+                               "u3_paper", "split_twice", "wide"};
 
 TEST_CASE("distance --json: one object of the schema and nothing else on stdout") {
   const std::string a = square_a(), b = square_b();

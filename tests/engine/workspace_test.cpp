@@ -228,7 +228,7 @@ TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same ru
     for (const uint64_t bytes : {0ull, 1ull, 64ull << 10, 256ull << 10}) {
       CAPTURE(bytes);
       SolveOptions options = with_memory(bytes);
-      options.enabled = {"wide", "group_walk", "two_levels"};
+      options.enabled = {"wide", "group_walk", "split_twice"};
       options.disabled = {"centroid", "parent_samples"};
       const Report first = check_true(pair, options);
       const Report again = check_true(pair, options);
@@ -261,7 +261,7 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
         SolveOptions options = with_memory(bytes);
         options.tolerance = tolerance;
         options.wave_limit = 400;
-        options.enabled = {"wide", "group_walk", "two_levels"};
+        options.enabled = {"wide", "group_walk", "split_twice"};
         options.disabled = {"centroid", "parent_samples"};
         const Report two = check_true(pair, options);
         CHECK(!has_stage(two, "subdivide"));
@@ -281,7 +281,7 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
 TEST_CASE("with a GPU's switches, what is lost to memory keeps its bound") {
   for (const ReferencePair& pair : pairs()) {
     SolveOptions options = with_memory(1);
-    options.enabled = {"wide", "group_walk", "two_levels"};
+    options.enabled = {"wide", "group_walk", "split_twice"};
     options.disabled = {"centroid", "parent_samples", "defer"};
     check_true(pair, options);
   }
@@ -325,8 +325,8 @@ TEST_CASE("each switch off, or all, gives a true interval") {
 }
 
 TEST_CASE("what does not pay on a CPU device is off unless asked for") {
-  const std::vector<std::string> off = {"u4",       "group_walk", "sort", "packet", "largest_first",
-                                        "u3_paper", "two_levels", "wide"};
+  const std::vector<std::string> off = {
+      "u4", "group_walk", "sort", "packet", "largest_first", "u3_paper", "split_twice", "wide"};
   for (const ReferencePair& pair : pairs()) {
     CHECK(check_true(pair, {}).switched_off == off);
     SolveOptions options;

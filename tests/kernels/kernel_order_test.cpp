@@ -138,12 +138,13 @@ void check_key(uint32_t key, const gpu::Candidate& c, const Wave& wave, const Me
       math::make_root(math::two(rounded(pa)), math::two(rounded(pb)), math::two(rounded(pc)));
   const math::Bary3 t = corners_of(c);
   CHECK(((key & gpu::kKeyDeferred) != 0) == (wave.waiting > 0 && selection_key(c) > wave.selected));
-  const float quality = math::quality(math::place_corners(root, t).at);
+  const float quality = math::quality(math::local_corners(root, t).at);
   if (std::abs(quality - gpu::kThinQuality) > 1e-5f)
     CHECK(((key & gpu::kKeyThin) != 0) == (quality < gpu::kThinQuality));
   const glm::dvec3 extent = box.hi - box.lo;
   const double side = std::max({extent.x, extent.y, extent.z});
-  const glm::dvec3 at = (glm::dvec3(math::place(root, math::centroid_of(t)).hi) - box.lo) / side;
+  const glm::dvec3 at =
+      (glm::dvec3(math::position_of(root, math::centroid_of(t)).hi) - box.lo) / side;
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const double cell = std::clamp(1024.0 * at[static_cast<int>(axis)], 0.0, 1023.0);
     const double found = axis_of(key, 2 - axis);

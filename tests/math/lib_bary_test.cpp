@@ -194,13 +194,13 @@ PlaceAnswer placed(const StoredTriangle& root, const math::Bary3& t, const glm::
   return device.run([&]() -> PlaceAnswer {
     const math::Root r = math::make_root(math::given(root.corner[0]), math::given(root.corner[1]),
                                          math::given(root.corner[2]));
-    const math::Placement at = math::place_corners(r, t);
-    const math::Placement high = math::without_low_parts(at);
+    const math::LocalCorners at = math::local_corners(r, t);
+    const math::LocalCorners high = math::without_low_parts(at);
     return {math::answer(at.origin),
             math::answer(at.b),
             math::answer(at.c),
-            math::answer(math::place(r, p)),
-            math::answer(math::place(r, math::centroid_of(t))),
+            math::answer(math::position_of(r, p)),
+            math::answer(math::position_of(r, math::centroid_of(t))),
             math::wide(at.slack),
             math::wide(at.reach),
             math::answer(high.b),
@@ -218,7 +218,7 @@ double off_from(const exact::Vector& got, const exact::Vector& exact) {
 TEST_CASE("bary.h: placed corners lie within the slack of the exact ones") {
   const uint64_t count = case_count();
   Random random(20240619);
-  Tally tally("place, place_corners");
+  Tally tally("place, local_corners");
   for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
     const StoredTriangle root = any_root(random);
     const math::Bary3 t = refined(random);

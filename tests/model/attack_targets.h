@@ -183,7 +183,7 @@ inline Wide attack_placement(Inputs& in) {
   t.a = bary();
   t.b = bary();
   t.c = t.a;
-  const math::Placement p = math::place_corners(math::make_root(a, b, c), t);
+  const math::LocalCorners p = math::local_corners(math::make_root(a, b, c), t);
   const auto at = [&](const glm::uvec2& q) {
     return exact(a) + (static_cast<Wide>(q.x) * 0x1p-20L) * (exact(b) - exact(a)) +
            (static_cast<Wide>(q.y) * 0x1p-20L) * (exact(c) - exact(a));
@@ -313,7 +313,7 @@ inline constexpr Target kTargets[] = {{"norm_up", 3, attack_norm_up},
                                       {"two_difference", 12, attack_difference},
                                       {"two_combination", 20, attack_combination},
                                       {"two_dot", 12, attack_dot},
-                                      {"place_corners", 24, attack_placement},
+                                      {"local_corners", 24, attack_placement},
                                       {"offset_from", 33, attack_offset},
                                       {"plain_distance2", 31, attack_plain},
                                       {"enclosing_radius_up", 9, attack_radius},

@@ -4,10 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "engine/vkhausdorff.h"
+#include "host/run/switches.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/kernel_bench.h"
 #include "tests/support/solver_bench.h"
 
 namespace {
@@ -163,5 +170,57 @@ TEST_CASE("a wave a submission: the same run, and the host hears of every wave")
     for (size_t i = 0; i < heard.size(); ++i) CHECK(heard[i] == i + 1);
     CHECK(heard.size() >= r.waves - 1);
     check_same(solve(pair, with("default")), r);
+  }
+}
+
+namespace {
+
+/// A row of the guide's table, `| a | b |`, without its first and last bar.
+std::vector<std::string> cells(const std::string& row) {
+  std::vector<std::string> out;
+  std::istringstream in(row.substr(1));
+  for (std::string cell; std::getline(in, cell, '|');) {
+    const size_t first = cell.find_first_not_of(" `"), last = cell.find_last_not_of(" `");
+    out.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return out;
+}
+
+std::map<std::string, std::vector<std::string>> table_of_guide() {
+  std::ifstream guide(VKH_SOURCE_DIR "/docs/guide.md");
+  std::map<std::string, std::vector<std::string>> rows;
+  bool inside = false;
+  for (std::string line; std::getline(guide, line);) {
+    if (line.starts_with("| switch |")) inside = true;
+    if (!line.starts_with("|")) inside = false;
+    if (inside && line.starts_with("| `")) rows[cells(line)[0]] = cells(line);
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("the guide's table has every switch, and where it is on") {
+  const auto rows = table_of_guide();
+  const uint32_t host = kSwitchMultiwave;
+  SolveOptions paper, baseline;
+  paper.preset = "paper";
+  baseline.preset = "baseline-gpu";
+  const uint32_t columns[] = {VKH_SWITCH_DEFAULT_WIDE | kSwitchWide | host,
+                              VKH_SWITCH_DEFAULT_NARROW | host, switches_of(paper, test_device()),
+                              switches_of(baseline, test_device())};
+  CHECK(rows.size() == switch_names().size());
+  for (size_t column = 0; column < std::size(columns); ++column) {
+    CAPTURE(column);
+    for (const std::string& name : switch_states(columns[column]).on) {
+      CAPTURE(name);
+      REQUIRE(rows.contains(name));
+      CHECK(rows.at(name)[column + 1] == "on");
+    }
+    for (const std::string& name : switch_states(columns[column]).off) {
+      CAPTURE(name);
+      REQUIRE(rows.contains(name));
+      CHECK(rows.at(name)[column + 1] == "");
+    }
   }
 }

@@ -15,7 +15,7 @@ using namespace vkh::test;
 
 SolveOptions on_a_gpu() {
   SolveOptions options;
-  options.enabled = {"wide", "group_walk", "two_levels"};
+  options.enabled = {"wide", "group_walk", "split_twice"};
   options.disabled = {"centroid", "parent_samples"};
   return options;
 }

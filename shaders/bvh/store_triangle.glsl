@@ -7,7 +7,7 @@
 
 // Returns its box. Clamped: whatever the sort did, a triangle is one of B, and upper bounds from it
 // are true.
-Box place_triangle(uint i, uint face) {
+Box store_triangle(uint i, uint face) {
   face = min(face, push.count - 1u);
   uvec3 f = faces[face];
   Vertex a = vertices[f.x];

@@ -8,17 +8,17 @@
 
 // What goes over children one by one, or over a candidate's three points, takes one generation.
 const bool kMaySplitTwice =
-    (kSwitches & (kUseTwoLevels | kUseFilter | kUsePacket)) == kUseTwoLevels;
+    (kSwitches & (kUseSplitTwice | kUseFilter | kUsePacket)) == kUseSplitTwice;
 
-bool splits_twice() { return kMaySplitTwice && control.twice != 0u; }
+bool splits_twice() { return kMaySplitTwice && control.split_twice != 0u; }
 
 uint children_each() { return splits_twice() ? 16u : 4u; }
 uint points_each() { return splits_twice() ? 15u : 3u; }
 
 // Of a candidate that is split twice: the split of its child.
-uint inner_split(Split split, uint child) {
-  uint code = (split.inner >> (5u * child)) & 31u;
-  return code == kInnerNone ? kSplitNone : code;
+uint child_split(Split split, uint child) {
+  uint code = (split.child_splits >> (5u * child)) & 31u;
+  return code == kChildSplitNone ? kSplitNone : code;
 }
 
 // The children and new points of all the wave's candidates; children of faces of A come behind.

@@ -1,0 +1,91 @@
+#include "engine/checks.h"
+
+#ifndef NDEBUG
+#include <cassert>
+#include <cmath>
+
+#include "engine/workspace.h"
+
+namespace vkh {
+namespace {
+
+// assert prints the rule, since it is a part of the expression.
+#define VKH_RULE(rule, holds) assert((rule) && (holds))
+
+bool is_index_type(VkIndexType type) {
+  return type == VK_INDEX_TYPE_UINT16 || type == VK_INDEX_TYPE_UINT32;
+}
+
+bool is_count(uint32_t count) { return count >= 1 && count <= gpu::kMaxTriangles; }
+
+void check_memory(const VkhMemory& memory) {
+  VKH_RULE("VkhMemory::buffer: not null", memory.buffer != VK_NULL_HANDLE);
+  VKH_RULE("VkhMemory::offset: a multiple of 256 bytes", memory.offset % 256 == 0);
+}
+
+bool overlap(const VkhMemory& a, const VkhMemory& b) {
+  return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+}
+
+}  // namespace
+
+void check_mesh(const VkhMesh& m) {
+  VKH_RULE("VkhMesh::vertexBuffer: not null", m.vertexBuffer != VK_NULL_HANDLE);
+  VKH_RULE("VkhMesh::vertexOffset: a multiple of 4 bytes", m.vertexOffset % 4 == 0);
+  VKH_RULE("VkhMesh::vertexStride: a multiple of 4 bytes", m.vertexStride % 4 == 0);
+  VKH_RULE("VkhMesh::vertexCount: 1 to 2^28", is_count(m.vertexCount));
+  VKH_RULE("VkhMesh::indexBuffer: not null", m.indexBuffer != VK_NULL_HANDLE);
+  VKH_RULE("VkhMesh::indexType: VK_INDEX_TYPE_UINT16 or _UINT32", is_index_type(m.indexType));
+  VKH_RULE("VkhMesh::indexOffset: a multiple of an index's size",
+           m.indexOffset % (m.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4) == 0);
+  VKH_RULE("VkhMesh::faceCount: 1 to 2^28", is_count(m.faceCount));
+  VKH_RULE("VkhMesh::vertexLowOffset: a multiple of 4 bytes", m.vertexLowOffset % 4 == 0);
+}
+
+void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch) {
+  check_mesh(mesh);
+  check_memory(hierarchy.memory);
+  VKH_RULE("VkhHierarchy::memory: at least hierarchySize bytes",
+           hierarchy.memory.size >= hierarchy_size(mesh.vertexCount, mesh.faceCount));
+  if (scratch == nullptr) {
+    VKH_RULE("vkhCmdRefitHierarchy: a mesh with the counts of the build",
+             hierarchy.vertexCount == mesh.vertexCount && hierarchy.faceCount == mesh.faceCount);
+    return;
+  }
+  check_memory(*scratch);
+  VKH_RULE("scratch: at least scratchSize bytes", scratch->size >= scratch_size(mesh.faceCount));
+  VKH_RULE("scratch and hierarchy: apart", !overlap(*scratch, hierarchy.memory));
+}
+
+void check_problem(const VkhContext_T& context, const VkhProblem& p) {
+  VKH_RULE("VkhMesh::vertexCount: 1 to 2^28", is_count(p.a.vertexCount));
+  VKH_RULE("VkhMesh::faceCount: 1 to 2^28", is_count(p.a.faceCount));
+  VKH_RULE("VkhProblem::b: a hierarchy that was built",
+           is_count(p.b.faceCount) && is_count(p.b.vertexCount));
+  check_memory(p.b.memory);
+  check_memory(p.workspace);
+  VKH_RULE("VkhProblem::workspace: at least VkhWorkspaceRequirements::minimum bytes",
+           p.workspace.size >= workspace_size(p.a.vertexCount, p.a.faceCount, kSmallestCapacity,
+                                              context.limits.switches));
+  VKH_RULE("VkhProblem::workspace and ::b: apart", !overlap(p.workspace, p.b.memory));
+  VKH_RULE("VkhProblem::cullTolerance: at least 0", p.cullTolerance >= 0);
+  VKH_RULE("VkhProblem::knownLower: at least 0", p.knownLower >= 0);
+  const bool covers = gpu::covers_area(context.limits.switches, context.limits.wide);
+  VKH_RULE("VkhProblem::coverageBuffer: with VKH_SWITCH_COVERAGE, and with no other context",
+           p.coverageBuffer == VK_NULL_HANDLE || covers);
+  VKH_RULE("VkhProblem::coverageOffset: a multiple of 256 bytes", p.coverageOffset % 256 == 0);
+}
+
+void check_report(VkBuffer buffer, VkDeviceSize offset) {
+  VKH_RULE("vkhCmdWriteReport: a buffer that is not null", buffer != VK_NULL_HANDLE);
+  VKH_RULE("vkhCmdWriteReport: an offset that is a multiple of 256 bytes", offset % 256 == 0);
+}
+
+void check_profile(const VkhProfile* profile) {
+  if (profile == nullptr) return;
+  VKH_RULE("VkhProfile::names: not null", profile->names != nullptr);
+  VKH_RULE("VkhProfile::count: at most capacity", profile->count <= profile->capacity);
+}
+
+}  // namespace vkh
+#endif

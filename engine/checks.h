@@ -1,0 +1,25 @@
+// The rules of vkhausdorff.h that the caller must keep, asserted: a debug build names the rule that
+// is broken, and a build with NDEBUG has none of this.
+#pragma once
+
+#include "engine/context.h"
+
+namespace vkh {
+
+#ifdef NDEBUG
+inline void check_mesh(const VkhMesh&) {}
+inline void check_build(const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
+inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
+inline void check_report(VkBuffer, VkDeviceSize) {}
+inline void check_profile(const VkhProfile*) {}
+#else
+void check_mesh(const VkhMesh& mesh);
+// `scratch`: of a build; null of a refit, whose hierarchy has been built.
+void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch);
+// As vkhCmdAdvance and vkhCmdWriteReport take it: all but a's buffers.
+void check_problem(const VkhContext_T& context, const VkhProblem& problem);
+void check_report(VkBuffer buffer, VkDeviceSize offset);
+void check_profile(const VkhProfile* profile);
+#endif
+
+}  // namespace vkh
