@@ -207,7 +207,7 @@ CertifiedInterval interval_of(const Answer& answer) {
 }
 
 std::string to_json(const Answer& answer) {
-  const std::string forward =
+  std::string forward =
       directed_json(answer, {answer.a_to_b, answer.file_a, answer.file_b, "mesh_a"});
   if (!answer.b_to_a) return forward;
   JsonObject json;

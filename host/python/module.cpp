@@ -127,6 +127,7 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan).";
   m.attr("__version__") = VKH_VERSION_STRING;
   py::register_exception<vkh::DeviceError>(m, "DeviceError", PyExc_RuntimeError);
+  // By value: pybind11's type of a translator. NOLINTNEXTLINE(performance-unnecessary-value-param)
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -1,4 +1,5 @@
-/* The installed header and archive from C: prints the version and the extensions that a device needs. */
+/* The installed header and archive from C: prints the version and the extensions that a device
+ * needs. */
 #include <stdio.h>
 #include <vkhausdorff.h>
 #include <vulkan/vulkan.h> /* after ours, which must not have hidden its prototypes */
