@@ -13,6 +13,7 @@ constexpr const char* kStages[] = {"morton",    "sort",  "hierarchy", "seed",  "
 template <class F>
 double median_of(const std::vector<Report>& reports, F value) {
   std::vector<double> values;
+  values.reserve(reports.size());
   for (const Report& r : reports) values.push_back(value(r));
   return median(values);
 }
