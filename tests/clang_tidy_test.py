@@ -1,6 +1,7 @@
-"""clang-tidy (.clang-tidy) finds nothing in the product, its tools and examples, as the build folder compiles them.
+"""clang-tidy 14 (.clang-tidy) finds nothing in the product, its tools and examples, as the build folder compiles them.
 
-usage: clang_tidy_test.py BUILD SOURCE [FILE...]. Exit code 77: no clang-tidy here. FILE: these alone.
+usage: clang_tidy_test.py BUILD SOURCE [FILE...]. Exit code 77: no clang-tidy 14 here; others know
+other checks. FILE: these alone.
 """
 
 import concurrent.futures
@@ -24,8 +25,16 @@ void copies(std::vector<std::string> all) { for (const std::string one : all) (v
 BITES = ("readability-function-size", "bugprone-implicit-widening-of-multiplication-result", "performance-for-range-copy")
 
 
+def program() -> str | None:
+    for name in ("clang-tidy-14", "clang-tidy"):
+        path = shutil.which(name)
+        if path and "version 14." in subprocess.run([path, "--version"], capture_output=True, text=True).stdout:
+            return path
+    return None
+
+
 def command(build: pathlib.Path, files: list[str], *more: str) -> list[str]:
-    return [shutil.which("clang-tidy"), "--quiet", "-p", str(build), *more, *files]
+    return [program(), "--quiet", "-p", str(build), *more, *files]
 
 
 def findings(build: pathlib.Path, file: str) -> str:
@@ -45,8 +54,8 @@ def missed(source: pathlib.Path) -> list[str]:
 
 def main() -> int:
     build, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    if shutil.which("clang-tidy") is None:
-        print("clang_tidy_test: skipped, no clang-tidy")
+    if program() is None:
+        print("clang_tidy_test: skipped, no clang-tidy 14")
         return 77
     silent = missed(source)
     if silent:
