@@ -77,7 +77,7 @@ step python3 -B "$here/conan_test.py" "$source" "$folder/tree" "$folder/conan"
 library=$folder/conan/lib/libvkhausdorff.so.$version
 [ -e "$library" ] || fail "no $library"
 readelf -d "$library" | grep -q "SONAME.*\[libvkhausdorff.so.${version%.*}\]" || fail "another SONAME than ${version%.*}"
-if readelf -d "$library" | grep NEEDED.*vulkan; then fail "the engine links to the Vulkan loader"; fi
+if readelf -d "$library" | grep "NEEDED.*vulkan"; then fail "the engine links to the Vulkan loader"; fi
 # As in package_test.sh: vkh* alone, and what libstdc++ forces to be visible.
 nm -D --defined-only "$library" | awk '!($2 ~ /[WVu]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
 grep -ohE '\bvkh[A-Z]\w*\(' "$folder/conan/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
