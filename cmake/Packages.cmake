@@ -2,6 +2,9 @@
 #   vkhausdorff           the program
 #   libvkhausdorff-dev    engine and host for C and C++, with what find_package and pkg-config read
 #   python3-vkhausdorff   the Python package, where it is built
+if(BUILD_SHARED_LIBS)
+  return()  # a package of its own for the shared library is not made
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The VkHausdorff authors <vkhausdorff@example.org>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
