@@ -1,13 +1,51 @@
 # cmake --install BUILD --prefix P: a package that may be moved afterwards. Every path in it is relative to itself; what it
 # depends on (Vulkan headers, GLM, tinyobjloader) is found again where it is used.
+# Components: engine; host (C++ library); program; python (host/python/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+set(VKH_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/VkHausdorff)
+set(VKH_PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# vkh_install_pc(NAME COMPONENT): from the .pc file's own folder to the prefix, so that the package may be moved.
+function(vkh_install_pc name component)
+  file(RELATIVE_PATH VKH_PC_TO_PREFIX /prefix/${VKH_PC_DIR} /prefix)
+  configure_file(cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${VKH_PC_DIR} COMPONENT ${component})
+endfunction()
+
+# The engine.
+target_include_directories(vkh_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS vkh_engine EXPORT VkHausdorffEngine
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT engine
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT engine)
+install(FILES engine/vkhausdorff.h engine/vkhausdorff_report.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT engine)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT engine)
+install(EXPORT VkHausdorffEngine NAMESPACE VkHausdorff:: DESTINATION ${VKH_PACKAGE_DIR} COMPONENT engine)
+configure_package_config_file(cmake/VkHausdorffConfig.cmake.in ${PROJECT_BINARY_DIR}/VkHausdorffConfig.cmake
+                              INSTALL_DESTINATION ${VKH_PACKAGE_DIR})
+# Before 1.0 a minor version may break what the one before it promised.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/VkHausdorffConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/VkHausdorffConfig.cmake ${PROJECT_BINARY_DIR}/VkHausdorffConfigVersion.cmake
+        DESTINATION ${VKH_PACKAGE_DIR} COMPONENT engine)
+# A C program links the C++ run-time library that an archive of C++ objects needs, and a shared one brings along.
+set(VKH_PC_LIBS)
+if(NOT BUILD_SHARED_LIBS)
+  list(TRANSFORM VKH_CXX_RUNTIME PREPEND -l OUTPUT_VARIABLE VKH_PC_LIBS)
+  list(APPEND VKH_PC_LIBS -pthread)
+  list(JOIN VKH_PC_LIBS " " VKH_PC_LIBS)
+endif()
+vkh_install_pc(vkhausdorff engine)
+
+if(NOT VKH_HOST)
+  include(Packages)
+  return()
+endif()
 
 # Headers of host/ that a user of vkh::Solver includes. Among themselves they say "host/mesh/mesh.h", in a package that is
 # <vkhausdorff/mesh.h>; the engine's header is <vkhausdorff.h>.
 set(VKH_HOST_HEADERS base/error gpu/device gpu/device_description gpu/vulkan_api mesh/mesh read/mesh_io run/solve_options
                      solve/report solve/solver)
-set(VKH_INSTALLED_HEADERS ${CMAKE_CURRENT_BINARY_DIR}/generated/include/vkhausdorff)
+set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)
 foreach(header IN LISTS VKH_HOST_HEADERS)
   get_filename_component(name ${header} NAME)
   set(from ${PROJECT_SOURCE_DIR}/host/${header}.h)
@@ -18,27 +56,10 @@ foreach(header IN LISTS VKH_HOST_HEADERS)
   file(CONFIGURE OUTPUT ${VKH_INSTALLED_HEADERS}/${name}.h CONTENT "${text}" @ONLY)
 endforeach()
 
-target_include_directories(vkh_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS vkhausdorff RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS vkh_engine vkh_host EXPORT VkHausdorffTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES engine/vkhausdorff.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY ${VKH_INSTALLED_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-
-set(VKH_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/VkHausdorff)
-install(EXPORT VkHausdorffTargets NAMESPACE VkHausdorff:: DESTINATION ${VKH_PACKAGE_DIR})
-configure_package_config_file(cmake/VkHausdorffConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/VkHausdorffConfig.cmake
-                              INSTALL_DESTINATION ${VKH_PACKAGE_DIR})
-# Before 1.0 a minor version may break what the one before it promised.
-write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/VkHausdorffConfigVersion.cmake
-                                 COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/VkHausdorffConfig.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/VkHausdorffConfigVersion.cmake DESTINATION ${VKH_PACKAGE_DIR})
-
-# From the .pc file's own folder to the prefix, so that the package may be moved.
-set(VKH_PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-file(RELATIVE_PATH VKH_PC_TO_PREFIX /prefix/${VKH_PC_DIR} /prefix)
-foreach(name IN ITEMS vkhausdorff vkhausdorff-host)
-  configure_file(cmake/${name}.pc.in ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${VKH_PC_DIR})
-endforeach()
+set_target_properties(vkhausdorff PROPERTIES INSTALL_RPATH $<$<BOOL:${BUILD_SHARED_LIBS}>:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}>)
+install(TARGETS vkhausdorff RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(TARGETS vkh_host EXPORT VkHausdorffHost ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT host)
+install(DIRECTORY ${VKH_INSTALLED_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT host)
+install(EXPORT VkHausdorffHost NAMESPACE VkHausdorff:: DESTINATION ${VKH_PACKAGE_DIR} COMPONENT host)
+vkh_install_pc(vkhausdorff-host host)
+include(Packages)

@@ -1,7 +1,7 @@
 # vkh_add_shaders(target a.comp b.comp ...): a static library that holds the SPIR-V of every kernel
 # and gives the generated headers, #include "kernels/a.h" and #include "kernels/all_kernels.h".
 # A kernel is compiled again when a file that it includes changes.
-find_program(VKH_GLSLANG glslangValidator REQUIRED)
+find_program(VKH_GLSLANG NAMES glslangValidator glslang REQUIRED)
 find_program(VKH_SPIRV_VAL spirv-val REQUIRED)
 find_program(VKH_SPIRV_OPT spirv-opt REQUIRED)
 option(VKH_FLATTEN_SHADERS "Embed kernels inlined, for drivers that do so slowly" ON)
@@ -13,7 +13,7 @@ set(VKH_RUN_EMBED ${Python3_EXECUTABLE} -B ${VKH_EMBED})  # -B: leave no __pycac
 set(VKH_RUN_ORDER ${Python3_EXECUTABLE} -B ${VKH_EMBED_DIR}/float_order.py)
 
 function(vkh_add_shaders target)
-  set(out ${CMAKE_BINARY_DIR}/generated/kernels)
+  set(out ${PROJECT_BINARY_DIR}/generated/kernels)
   file(MAKE_DIRECTORY ${out})
   set(sources ${out}/all_kernels.cpp)
   set(names)
@@ -31,7 +31,7 @@ function(vkh_add_shaders target)
                   COMMAND_ERROR_IS_FATAL ANY)
 
   add_library(${target} STATIC ${sources})
-  target_include_directories(${target} PUBLIC ${CMAKE_BINARY_DIR}/generated ${PROJECT_SOURCE_DIR})
+  target_include_directories(${target} PUBLIC ${PROJECT_BINARY_DIR}/generated ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC Vulkan::Headers)
   if(TARGET vkh_flags)
     target_link_libraries(${target} PRIVATE vkh_flags)

@@ -205,6 +205,8 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
   return VKH_SUCCESS;
 }
 
+// Six parameters, as Vulkan's own commands have.
+// NOLINTNEXTLINE(readability-function-size)
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
@@ -230,6 +232,7 @@ void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhP
   vkh::record_waves(rec, vkh::view_problem(*context, *problem), waves);
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);

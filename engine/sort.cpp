@@ -45,6 +45,7 @@ uint32_t passes_of(const Keys& keys) { return (32 - keys.first_bit) / 8; }
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
 // blocks are few.
 template <class Size>
+// NOLINTNEXTLINE(readability-function-size): two callers, in this file
 void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted counted,
                    const Size& blocks, const Size& digits) {
   const uint32_t passes = passes_of(sorted);
@@ -80,7 +81,8 @@ uint32_t record_empty_counts(Recorder& rec, const SortStreams& s, uint32_t count
                              uint32_t first_bit, Order order) {
   const Keys keys = keys_for(rec, first_bit, count);
   if (!keys.counted_ahead) return 0;
-  const uint64_t words = passes_of(keys) * sort_blocks(count, keys.rounds) * gpu::kSortDigits;
+  const uint64_t words =
+      uint64_t{passes_of(keys)} * sort_blocks(count, keys.rounds) * gpu::kSortDigits;
   rec.fill(Slice<uint32_t>{s.counts.buffer, s.counts.offset, words * sizeof(uint32_t)}, 0, order);
   return keys.rounds * gpu::kSortGroup;
 }

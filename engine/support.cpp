@@ -131,6 +131,8 @@ Limits device_limits(const VkhDeviceInfo& info) {
 
 }  // namespace vkh
 
+uint32_t vkhGetVersion(void) { return VKH_VERSION; }
+
 const char* const* vkhGetRequiredExtensions(uint32_t* count) {
   *count = static_cast<uint32_t>(std::size(vkh::kExtensions));
   return vkh::kExtensions;

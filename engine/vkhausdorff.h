@@ -61,12 +61,21 @@
 #ifndef VKHAUSDORFF_H
 #define VKHAUSDORFF_H
 
-#ifndef VK_NO_PROTOTYPES
-#define VK_NO_PROTOTYPES
-#endif
 #include <stddef.h>
 #include <stdint.h>
 #include <vulkan/vulkan_core.h>
+
+/* The version of this header. Before 1.0 a minor version may break what the one before promised. */
+#define VKH_VERSION_MAJOR 0
+#define VKH_VERSION_MINOR 2
+#define VKH_VERSION_PATCH 0
+/* To compare with: #if VKH_VERSION >= VKH_MAKE_VERSION(0, 2, 0) */
+#define VKH_MAKE_VERSION(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
+#define VKH_VERSION VKH_MAKE_VERSION(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
+#define VKH_VERSION_TEXT_(x) #x
+#define VKH_VERSION_TEXT(major, minor, patch) \
+  VKH_VERSION_TEXT_(major) "." VKH_VERSION_TEXT_(minor) "." VKH_VERSION_TEXT_(patch)
+#define VKH_VERSION_STRING VKH_VERSION_TEXT(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
 
 #ifdef __cplusplus
 extern "C" {
@@ -85,6 +94,9 @@ typedef enum VkhResult {
   VKH_ERROR_TOO_LARGE = -3 /* a mesh exceeds 2^28 vertices or faces, or what one storage buffer
                               binding of the device reaches; or it has none */
 } VkhResult;
+
+/* VKH_VERSION of the library that is linked, which a shared one may have of its own. */
+uint32_t vkhGetVersion(void);
 
 /* Parts of the method that can be switched, for ablations: a set of 0 is what pays on the device
  * and is what you want. The interval is true without any of them. */

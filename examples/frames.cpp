@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -146,10 +147,11 @@ class Bench {
 
   double quantile(size_t mode, double Sample::*member, double q) const {
     std::vector<double> sorted;
+    sorted.reserve(samples_[mode].size());
     for (const Sample& s : samples_[mode]) sorted.push_back(s.*member);
     std::sort(sorted.begin(), sorted.end());
     const auto last = static_cast<double>(sorted.size() - 1);
-    return sorted[static_cast<size_t>(q * last + 0.5)];
+    return sorted[static_cast<size_t>(std::lround(q * last))];
   }
 
   Options options_;

@@ -47,8 +47,8 @@ Glyph glyph(char character) {
   return {};
 }
 
-std::array<uint32_t, kGlyphColumns * kGlyphs> font_columns() {
-  std::array<uint32_t, kGlyphColumns * kGlyphs> columns{};
+std::array<uint32_t, size_t{kGlyphColumns} * kGlyphs> font_columns() {
+  std::array<uint32_t, size_t{kGlyphColumns} * kGlyphs> columns{};
   for (uint32_t g = 0; g < kGlyphs; ++g) {
     const Glyph rows = glyph(static_cast<char>(kFirstGlyph + static_cast<char>(g)));
     for (uint32_t x = 0; x < kGlyphColumns; ++x) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace example {
@@ -17,6 +18,6 @@ using Glyph = std::array<uint8_t, kGlyphRows>;  // rows from the top, bit 4 at t
 Glyph glyph(char character);
 
 /// Five words a character, columns from the left, bit 0 at the top: as caption.frag reads them.
-std::array<uint32_t, kGlyphColumns * kGlyphs> font_columns();
+std::array<uint32_t, size_t{kGlyphColumns} * kGlyphs> font_columns();
 
 }  // namespace example

@@ -4,15 +4,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/vkhausdorff.h"
 #include "host/answer/answer.h"
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
-
-// The build's version; the fallback is for compiling this file alone.
-#ifndef VKH_VERSION
-#define VKH_VERSION "0.1.0"
-#endif
 
 namespace vkh {
 namespace {
@@ -173,7 +169,7 @@ std::string directed_json(const Answer& answer, const Directed& d) {
 
 }  // namespace
 
-const char* program_version() { return VKH_VERSION; }
+const char* program_version() { return VKH_VERSION_STRING; }
 
 const char* stop_reason(Status status) {
   switch (status) {
@@ -202,7 +198,7 @@ CertifiedInterval interval_of(const Answer& answer) {
 }
 
 std::string to_json(const Answer& answer) {
-  const std::string forward =
+  std::string forward =
       directed_json(answer, {answer.a_to_b, answer.file_a, answer.file_b, "mesh_a"});
   if (!answer.b_to_a) return forward;
   JsonObject json;

@@ -106,12 +106,13 @@ class ProgressLine {
 
 void check_names(const char* option, const std::vector<std::string>& names,
                  const std::vector<std::string>& known) {
-  for (const std::string& name : names) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    std::string list;
-    for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
-    throw UsageError(std::string(option) + " '" + name + "': expected one of " + list);
-  }
+  const auto stranger = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) == known.end();
+  });
+  if (stranger == names.end()) return;
+  std::string list;
+  for (const std::string& k : known) list.append(list.empty() ? "" : ", ").append(k);
+  throw UsageError(std::string(option) + " '" + *stranger + "': expected one of " + list);
 }
 
 Request understand(const Arguments& arguments) {

@@ -134,6 +134,7 @@ std::vector<Choice> enumerate(const VulkanApi& vk, VkInstance instance) {
   std::vector<VkPhysicalDevice> physicals(count);
   check(vk.EnumeratePhysicalDevices(instance, &count, physicals.data()), "listing Vulkan devices");
   std::vector<Choice> choices;
+  choices.reserve(physicals.size());
   for (VkPhysicalDevice p : physicals) choices.push_back({p, describe(vk, instance, p)});
   std::stable_sort(choices.begin(), choices.end(), [](const Choice& x, const Choice& y) {
     return rank_of(x.description) < rank_of(y.description);

@@ -2,9 +2,6 @@
 // sentence, not a linker error.
 #pragma once
 
-#ifndef VK_NO_PROTOTYPES
-#define VK_NO_PROTOTYPES
-#endif
 #include <vulkan/vulkan.h>
 
 namespace vkh {

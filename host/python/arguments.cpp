@@ -37,6 +37,19 @@ bool is_bool(py::handle given) {
          std::strcmp(type, "numpy.bool") == 0;
 }
 
+std::string function_of(const Signature& signature) {
+  return std::string(signature.function) + "()";
+}
+
+[[noreturn]] void refuse_stranger(const Signature& signature, const std::string& name) {
+  throw py::type_error(function_of(signature) + " has no argument '" + name + "'; it takes " +
+                       listed(signature.names, 0, signature.names.size()));
+}
+
+[[noreturn]] void refuse_second(const Signature& signature, const std::string& name) {
+  throw py::type_error(function_of(signature) + ": '" + name + "' was given twice");
+}
+
 }  // namespace
 
 void refuse_type(const char* name, const char* expected, py::handle given) {
@@ -50,7 +63,7 @@ void refuse_value(const char* name, const char* expected, py::handle given) {
 Arguments::Arguments(const Signature& signature, const py::args& positional,
                      const py::kwargs& named)
     : signature_(signature), values_(signature.names.size()) {
-  const std::string function = std::string(signature.function) + "()";
+  const std::string function = function_of(signature);
   if (positional.size() > signature.positional)
     throw py::type_error(function + " takes " + listed(signature.names, 0, signature.positional) +
                          " by position and the rest by name; " + std::to_string(positional.size()) +
@@ -59,10 +72,8 @@ Arguments::Arguments(const Signature& signature, const py::args& positional,
   for (const auto& [key, value] : named) {
     const std::string name = py::cast<std::string>(key);
     const size_t place = place_of(name);
-    if (place == values_.size())
-      throw py::type_error(function + " has no argument '" + name + "'; it takes " +
-                           listed(signature.names, 0, values_.size()));
-    if (values_[place]) throw py::type_error(function + ": '" + name + "' was given twice");
+    if (place == values_.size()) refuse_stranger(signature, name);
+    if (values_[place]) refuse_second(signature, name);
     values_[place] = py::reinterpret_borrow<py::object>(value);
   }
   for (size_t i = 0; i < signature.required; ++i) {

@@ -75,7 +75,8 @@ void leave_at_once(int status, void*) {
   _exit(status);
 }
 
-void translate(std::exception_ptr thrown) {
+// By value: pybind11's type of a translator.
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param)
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Ended&) {

@@ -1,6 +1,7 @@
-// The Python module: vkhausdorff.distance and vkhausdorff.Solver.
+// vkhausdorff._core: what the Python package vkhausdorff has, distance and Solver.
 #include <pybind11/pybind11.h>
 
+#include "engine/vkhausdorff.h"
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
@@ -74,7 +75,7 @@ void define_distance(py::module_& m) {
   m.def(
       "distance", distance,
       "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
-      "         memory=None, disable=(), progress=None, enable=(), preset='') -> Result\n\n"
+      "         memory=None, disable=(), progress=None, enable=(), preset='')\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval.\n\n"
       "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: a\n"
@@ -88,37 +89,45 @@ void define_distance(py::module_& m) {
 
 void define_solver(py::module_& m) {
   py::class_<PythonSolver>(m, "Solver",
-                           "Solver(vb, fb, device=''): mesh B on the device, its hierarchy built\n"
-                           "once, for many A's:\n"
+                           "Mesh B on the device, its hierarchy built once, for many A's:\n"
                            "with Solver(vb, fb) as s: r = s.distance(va, fa)")
-      .def(py::init<const py::args&, const py::kwargs&>())
+      .def(py::init<const py::args&, const py::kwargs&>(),
+           "__init__(self, vb, fb, device='')\n--\n\n")
       .def(
           "distance",
           [](const py::object& self, const py::args& positional, const py::kwargs& named) {
             return made<PythonSolver>(self, "Solver").distance(positional, named);
           },
-          "distance(va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
-          "         progress=None, enable=(), preset='') -> Result\n\n"
+          "distance(self, va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
+          "         progress=None, enable=(), preset='')\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "close", [](const py::object& self) { made<PythonSolver>(self, "Solver").close(); },
-          "close()\n\nFrees the device; what is called later is a ValueError. Waits for runs of "
+          "close(self)\n--\n\n"
+          "Frees the device; what is called later is a ValueError. Waits for runs of "
           "other threads.\nIn a run's own callback it waits for nothing: that run is the last.")
-      .def("__enter__", [](py::object self) { return self; })
-      .def("__exit__", [](const py::object& self, const py::args&) {
-        made<PythonSolver>(self, "Solver").close();
-      });
+      .def(
+          "__enter__", [](py::object self) { return self; }, "__enter__(self)\n--\n\n")
+      .def(
+          "__exit__",
+          [](const py::object& self, const py::args&) {
+            made<PythonSolver>(self, "Solver").close();
+          },
+          "__exit__(self, *error)\n--\n\n");
 }
 
 }  // namespace
 }  // namespace vkh::python
 
-PYBIND11_MODULE(vkhausdorff, m) {
+PYBIND11_MODULE(_core, m) {
   namespace py = pybind11;
   using namespace vkh::python;
+  const py::object own_name = m.attr("__name__");
+  m.attr("__name__") = "vkhausdorff";  // what is defined below is the package's
   m.doc() = "Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan).";
-  m.attr("__version__") = VKH_VERSION;
+  m.attr("__version__") = VKH_VERSION_STRING;
   py::register_exception<vkh::DeviceError>(m, "DeviceError", PyExc_RuntimeError);
+  // By value: pybind11's type of a translator. NOLINTNEXTLINE(performance-unnecessary-value-param)
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -129,10 +138,12 @@ PYBIND11_MODULE(vkhausdorff, m) {
     }
   });
   py::options quiet;
-  quiet.disable_function_signatures();  // (*args, **kwargs) says nothing: the texts have them
+  // (*args, **kwargs) says nothing: the texts have them, as inspect.signature reads them.
+  quiet.disable_function_signatures();
   define_result(m);
   define_distance(m);
   define_solver(m);
+  m.attr("__name__") = own_name;
   watch_interpreter();
   py::module_::import("atexit").attr("register")(
       py::cpp_function([] { end_interpreter(free_devices); }));

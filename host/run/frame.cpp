@@ -84,12 +84,16 @@ struct Stored {
   bool has_low = false;
 };
 
+struct VertexRange {
+  size_t begin = 0, end = 0;
+};
+
 // Stops where `only_high` and a low part is needed.
-Stored store_range(const Frame& frame, const Mesh& mesh, size_t begin, size_t end, bool only_high,
+Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool only_high,
                    StoredMesh& out) {
   const Scale scale(frame.exponent);
   Stored stored;
-  for (size_t v = begin; v < end && !(only_high && stored.has_low); ++v) {
+  for (size_t v = range.begin; v < range.end && !(only_high && stored.has_low); ++v) {
     double sum = 0;  // of the three coordinates: no less than their Euclidean norm, and it does not
                      // underflow
     for (int i = 0; i < 3; ++i) {
@@ -113,8 +117,8 @@ StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
   const size_t parts = std::max<size_t>(count / kVerticesOfThread, 1);
   std::vector<Stored> stored(parts);
   for_each_index(parts, [&](size_t part) {
-    stored[part] =
-        store_range(frame, mesh, count * part / parts, count * (part + 1) / parts, only_high, out);
+    const VertexRange range{count * part / parts, count * (part + 1) / parts};
+    stored[part] = store_range(frame, mesh, range, only_high, out);
   });
   double worst = 0;
   for (const Stored& s : stored) {

@@ -25,7 +25,7 @@ install_says() {
     fail "the installation is not whole"
   case $1 in
     NO) grep -q 'Not installed: the Python module' "$folder/log" || fail "nothing is said of the Python module" ;;
-    YES) [ -n "$(find "$folder/prefix" -name 'vkhausdorff*.so')" ] || fail "the Python module is not installed" ;;
+    YES) [ -n "$(find "$folder/prefix" -name '_core*.so')" ] || fail "the Python module is not installed" ;;
   esac
 }
 built_by_hand() { step cmake -S . -B out; step cmake --build out -j "$(nproc)"; }

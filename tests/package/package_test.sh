@@ -28,7 +28,7 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$folder/b.off"
 expected="0.25 <= h($folder/a.off, B) <= 0.25"
 # check_consumers FOLDER: the two programs there.
 check_consumers() {
-  [ "$("$1/engine" | head -1)" = VK_KHR_synchronization2 ] || fail "$1/engine printed something else"
+  [ "$("$1/engine" | sed -n 2p)" = VK_KHR_synchronization2 ] || fail "$1/engine printed something else"
   local line
   line=$("$1/host" "$folder/b.off" "$folder/a.off") || fail "$1/host failed"
   awk '{exit !($1 <= 0.25 && $6 >= 0.25 && $6 - $1 < 1e-5 && $7 == "closed")}' <<<"${line/:/}" ||
@@ -38,11 +38,11 @@ check_consumers() {
 cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$package" -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
   cmake --build "$folder/cmake" >>"$folder/log" 2>&1 || { cat "$folder/log"; fail "the consumer does not build"; }
 check_consumers "$folder/cmake"
-sed 's/VkHausdorff 0.1/VkHausdorff 0.2/' "$consumer/CMakeLists.txt" >"$folder/CMakeLists.txt"
+sed 's/VkHausdorff 0.2/VkHausdorff 0.3/' "$consumer/CMakeLists.txt" >"$folder/CMakeLists.txt"
 if cmake -S "$folder" -B "$folder/newer" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" 2>&1; then
-  fail "find_package took this version for 0.2"
+  fail "find_package took this version for 0.3"
 fi
-grep -q 'version: 0.1' "$folder/log" || { cat "$folder/log"; fail "find_package failed, but not for the version"; }
+grep -q 'version: 0.2' "$folder/log" || { cat "$folder/log"; fail "find_package failed, but not for the version"; }
 
 export PKG_CONFIG_PATH=$package/lib/pkgconfig
 pkg_config() { pkg-config "$@" || fail "pkg-config $*"; }
@@ -58,9 +58,9 @@ check_consumers "$folder/pc"
 
 "$package/bin/vkhausdorff" distance "$folder/a.off" "$folder/b.off" >/dev/null || fail "the installed program"
 if [ "$python" != none ]; then
-  module=$(find "$package" -name 'vkhausdorff*.so')
-  PYTHONPATH=$(dirname "$module") "$python" "$source/tests/package/example.py" >"$folder/log" || fail "example.py"
+  module=$(find "$package" -name '_core*.so')
+  PYTHONPATH=$(dirname "$module")/.. "$python" "$source/tests/package/example.py" >"$folder/log" || fail "example.py"
   grep -c closed "$folder/log" | grep -qx 3 || { cat "$folder/log"; fail "example.py printed something else"; }
   exported=$(nm -D --defined-only "$module" | awk '$2 !~ /[WVu]/ {print $3}')
-  [ "$exported" = PyInit_vkhausdorff ] || fail "the module exports $exported"
+  [ "$exported" = PyInit__core ] || fail "the module exports $exported"
 fi

@@ -30,6 +30,7 @@ std::vector<std::string> stage_names() {
 template <class F>
 double median_of(const std::vector<Report>& reports, F value) {
   std::vector<double> values;
+  values.reserve(reports.size());
   for (const Report& r : reports) values.push_back(value(r));
   return median(values);
 }

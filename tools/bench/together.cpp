@@ -67,11 +67,16 @@ class Totals {
   std::map<std::string, double> alone_, together_;
 };
 
-int run_group(Solver& solver, const std::string& family, const std::vector<const Loaded*>& group,
-              int repeat, const SolveOptions& options, Totals& totals) {
+struct Group {
+  std::string family;
+  std::vector<const Loaded*> pairs;
+};
+
+int run_group(Solver& solver, const Group& group, int repeat, const SolveOptions& options,
+              Totals& totals) {
   std::vector<PairView> pairs;
   uint64_t faces = 0;
-  for (const Loaded* loaded : group) {
+  for (const Loaded* loaded : group.pairs) {
     pairs.push_back({loaded->a, loaded->b});
     faces += loaded->faces();
   }
@@ -85,12 +90,12 @@ int run_group(Solver& solver, const std::string& family, const std::vector<const
     together.add(longest_gpu_ms(found), found[0].times.wall_ms);
     for (size_t p = 0; p < pairs.size(); ++p) wrong += is_same(found[p], expected[p]) ? 0 : 1;
   }
-  std::printf("%s,%zu,%llu,%s,%.4f,%.4f,%.3f,%.3f\n", family.c_str(), pairs.size(),
+  std::printf("%s,%zu,%llu,%s,%.4f,%.4f,%.3f,%.3f\n", group.family.c_str(), pairs.size(),
               static_cast<unsigned long long>(faces), wrong == 0 ? "ok" : "DIFFERENT",
               median(alone.gpu_ms), median(together.gpu_ms), median(alone.wall_ms),
               median(together.wall_ms));
   std::fflush(stdout);
-  totals.add(family, median(alone.gpu_ms), median(together.gpu_ms));
+  totals.add(group.family, median(alone.gpu_ms), median(together.gpu_ms));
   return wrong;
 }
 
@@ -110,10 +115,10 @@ int run_together(Solver& solver, const std::vector<Row>& rows, const Groups& gro
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Loaded& x, const Loaded& y) { return x.faces() < y.faces(); });
     for (size_t from = 0; from < pairs.size(); from += groups.size) {
-      std::vector<const Loaded*> group;
+      Group group{family, {}};
       for (size_t i = from; i < std::min(from + groups.size, pairs.size()); ++i)
-        group.push_back(&pairs[i]);
-      wrong += run_group(solver, family, group, groups.repeat, options, totals);
+        group.pairs.push_back(&pairs[i]);
+      wrong += run_group(solver, group, groups.repeat, options, totals);
     }
   }
   totals.print();

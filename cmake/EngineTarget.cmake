@@ -1,0 +1,13 @@
+# What others link: VkHausdorff::engine, by the same name in this tree and in a package, with <vkhausdorff.h>.
+add_library(VkHausdorff::engine ALIAS vkh_engine)
+configure_file(engine/vkhausdorff.h ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff.h COPYONLY)
+target_include_directories(vkh_engine INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated/include>)
+
+# An archive of C++ objects needs the C++ run-time library. A project of C has no C++ compiler to link by, and gets it by name.
+set(VKH_CXX_RUNTIME)
+if(NOT BUILD_SHARED_LIBS)
+  set(VKH_CXX_RUNTIME ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+  list(REMOVE_ITEM VKH_CXX_RUNTIME ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
+  list(REMOVE_DUPLICATES VKH_CXX_RUNTIME)
+  target_link_libraries(vkh_engine INTERFACE "$<$<LINK_LANGUAGE:C>:${VKH_CXX_RUNTIME}>")
+endif()

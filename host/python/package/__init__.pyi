@@ -1,0 +1,84 @@
+"""Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
+
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any, Literal, SupportsFloat, SupportsIndex, Union
+
+import numpy.typing as npt
+
+__all__ = ["DeviceError", "Result", "Solver", "__version__", "distance"]
+__version__: str
+
+_Names = Union[list[str], tuple[str, ...], set[str], frozenset[str]]
+_Number = Union[SupportsFloat, SupportsIndex]
+_Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled"]
+_Preset = Literal["", "default", "paper", "baseline-gpu"]
+# progress(wave, lower, upper): False cancels the run.
+_Progress = Callable[[int, float, float], Any]
+
+class DeviceError(RuntimeError): ...
+
+class Result:
+    """A certified interval and what proves its lower end."""
+
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def closed(self) -> bool: ...
+    @property
+    def status(self) -> _Status: ...
+    @property
+    def witness_a(self) -> tuple[float, float, float]: ...
+    @property
+    def witness_b(self) -> tuple[float, float, float]: ...
+    @property
+    def face_a(self) -> int: ...
+    @property
+    def face_b(self) -> int: ...
+    @property
+    def stats(self) -> dict[str, Any]: ...
+
+class Solver:
+    """Mesh B on the device, its hierarchy built once, for many A's."""
+
+    def __init__(self, vb: npt.ArrayLike, fb: npt.ArrayLike, device: str = "") -> None: ...
+    def distance(
+        self,
+        va: npt.ArrayLike,
+        fa: npt.ArrayLike,
+        tol: _Number | str = 1e-6,
+        *,
+        time: _Number | None = None,
+        waves: SupportsIndex | None = None,
+        memory: SupportsIndex | str | None = None,
+        disable: _Names = (),
+        progress: _Progress | None = None,
+        enable: _Names = (),
+        preset: _Preset = "",
+    ) -> Result: ...
+    def close(self) -> None: ...
+    def __enter__(self) -> Solver: ...
+    def __exit__(
+        self,
+        *error: type[BaseException] | BaseException | TracebackType | None,
+    ) -> None: ...
+
+def distance(
+    va: npt.ArrayLike,
+    fa: npt.ArrayLike,
+    vb: npt.ArrayLike,
+    fb: npt.ArrayLike,
+    tol: _Number | str = 1e-6,
+    symmetric: bool = False,
+    *,
+    device: str = "",
+    time: _Number | None = None,
+    waves: SupportsIndex | None = None,
+    memory: SupportsIndex | str | None = None,
+    disable: _Names = (),
+    progress: _Progress | None = None,
+    enable: _Names = (),
+    preset: _Preset = "",
+) -> Result: ...

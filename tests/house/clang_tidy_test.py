@@ -1,0 +1,81 @@
+"""clang-tidy 14 (.clang-tidy) finds nothing in the product, its tools and examples, as the build folder compiles them.
+
+usage: clang_tidy_test.py BUILD SOURCE [FILE...]. Exit code 77: no clang-tidy 14 here; others know
+other checks. FILE: these alone.
+"""
+
+import concurrent.futures
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+FOLDERS = ("engine", "host", "tools", "examples")  # not the tests: they would take as long again
+# What the checks must find, so that a configuration that finds nothing is noticed.
+BAIT = """\
+#include <string>
+#include <vector>
+int f(int a, int b, int c, int d, int e, int g) { return a + b + c + d + e + g; }
+long long wide(int a, int b) { return a * b; }
+void copies(std::vector<std::string> all) { for (const std::string one : all) (void)one.size(); }
+"""
+BITES = ("readability-function-size", "bugprone-implicit-widening-of-multiplication-result", "performance-for-range-copy")
+
+
+def program() -> str | None:
+    for name in ("clang-tidy-14", "clang-tidy"):
+        path = shutil.which(name)
+        if path and "version 14." in subprocess.run([path, "--version"], capture_output=True, text=True).stdout:
+            return path
+    return None
+
+
+def command(build: pathlib.Path, files: list[str], *more: str) -> list[str]:
+    return [program(), "--quiet", "-p", str(build), *more, *files]
+
+
+def findings(build: pathlib.Path, file: str) -> str:
+    done = subprocess.run(command(build, [file]), capture_output=True, text=True)
+    return (done.stdout or done.stderr) if done.returncode else ""
+
+
+def missed(source: pathlib.Path) -> list[str]:
+    """The checks that find nothing in what is wrong on purpose."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "bait.cpp"
+        file.write_text(BAIT)
+        done = subprocess.run(command(source, [str(file)], f"--config-file={source / '.clang-tidy'}")
+                              + ["--", "-std=c++20"], capture_output=True, text=True)
+        return [check for check in BITES if check not in done.stdout] if done.returncode else list(BITES)
+
+
+def main() -> int:
+    build, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    if program() is None:
+        print("clang_tidy_test: skipped, no clang-tidy 14")
+        return 77
+    silent = missed(source)
+    if silent:
+        print("clang_tidy_test: finds nothing in a file that breaks", *silent)
+        return 1
+    files = {entry["file"] for entry in json.loads((build / "compile_commands.json").read_text())}
+    ours = [f for f in files for folder in FOLDERS if pathlib.Path(f).is_relative_to(source / folder)]
+    if len(ours) < 40:
+        print(f"clang_tidy_test: {build} compiles {len(ours)} sources of {source}: too few to be all")
+        return 1
+    wanted = [str(pathlib.Path(word).resolve()) for word in sys.argv[3:]] or ours
+    largest_first = sorted(wanted, key=lambda f: -pathlib.Path(f).stat().st_size)
+    with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("VKH_JOBS", os.cpu_count()))) as pool:
+        wrong = 0
+        for text in filter(None, pool.map(lambda f: findings(build, f), largest_first)):
+            print(text, flush=True)
+            wrong += 1
+    print(f"clang_tidy_test: {len(wanted)} sources, {wrong} with findings")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,2 @@
+def stdcpp_library(conanfile):
+    return "stdc++"  # as for GCC's

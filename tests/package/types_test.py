@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""The package's types (__init__.pyi) say what the module has: names, signatures, properties; mypy agrees where it is there.
+
+usage: types_test.py; vkhausdorff is imported from PYTHONPATH. Exit code 1: they disagree.
+"""
+
+import ast
+import importlib.util
+import inspect
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import vkhausdorff as vkh
+
+PACKAGE = pathlib.Path(vkh.__file__).parent
+STUB = ast.parse((PACKAGE / "__init__.pyi").read_text())
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64), np.array([[0, 1, 2]])
+
+# Right and wrong uses, for a type checker: the wrong lines, and no others, are errors.
+USES = """\
+import numpy as np
+import vkhausdorff as vkh
+v, f = np.zeros((3, 3)), np.array([[0, 1, 2]])
+r = vkh.distance(v, f, v, f, tol="0.1%", symmetric=True, time=1, memory="2GiB", disable=["u3"])
+lower: float = r.lower
+x, y, z = r.witness_a
+with vkh.Solver(v, f, "cpu") as solver:
+    face: int = solver.distance(v, f, 1e-3, progress=lambda wave, lower, upper: True).face_a
+vkh.distance(v, f, v)  # wrong
+vkh.distance(v, f, v, f, tolerance=1)  # wrong
+r.lower = 1.0  # wrong
+text: str = r.upper  # wrong
+r.middle  # wrong
+"""
+
+
+def signature_text(arguments: ast.arguments) -> str:
+    """As inspect.signature writes it, without the types."""
+    bare = ast.parse(ast.unparse(arguments).join(("def f(", "): ..."))).body[0].args
+    for argument in (*bare.args, *bare.kwonlyargs, bare.vararg, bare.kwarg):
+        if argument is not None:
+            argument.annotation = None
+    namespace = {}
+    exec(f"def f({ast.unparse(bare)}): ...", namespace)
+    return str(inspect.signature(namespace["f"]))
+
+
+def stub_of(body: list) -> dict:
+    return {node.name: node for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
+
+
+def is_property(node: ast.AST) -> bool:
+    return any(isinstance(d, ast.Name) and d.id == "property" for d in node.decorator_list)
+
+
+# What every class of pybind11 has.
+COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__"}
+
+
+class Types(unittest.TestCase):
+    def test_the_names_are_those_of_the_module(self):
+        public = {name for name in dir(vkh) if not name.startswith("_")}
+        core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
+        said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
+        self.assertEqual(said, public)
+        self.assertEqual(core, public, "the package does not pass on what the module has")
+        self.assertEqual(set(vkh.__all__), public | {"__version__"})
+
+    def test_functions_have_its_signatures(self):
+        for name, node in stub_of(STUB.body).items():
+            if isinstance(node, ast.FunctionDef):
+                self.assertEqual(signature_text(node.args), str(inspect.signature(getattr(vkh, name))), name)
+
+    def test_classes_have_its_members(self):
+        for name, node in stub_of(STUB.body).items():
+            if not isinstance(node, ast.ClassDef) or name == "DeviceError":
+                continue
+            cls = getattr(vkh, name)
+            members = stub_of(node.body)
+            there = {key for key in vars(cls) if not key.startswith("__") or key in ("__enter__", "__exit__")}
+            self.assertEqual(set(members) - COMMON, there, name)
+            for key, member in members.items():
+                with self.subTest(f"{name}.{key}"):
+                    if is_property(member):
+                        self.assertIsInstance(inspect.getattr_static(cls, key), property)
+                    else:
+                        self.assertEqual(signature_text(member.args), str(inspect.signature(getattr(cls, key))))
+
+    def test_the_module_takes_what_its_signatures_say(self):
+        """The signatures are texts: the parser's own list is in what it says to a stranger."""
+        with vkh.Solver(*SQUARE) as solver:
+            for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance)):
+                with self.assertRaises(TypeError) as refused:
+                    function(stranger=1)
+                taken = re.search(r"it takes (.*)$", str(refused.exception))[1].split(", ")
+                self.assertEqual(sorted(taken), sorted(inspect.signature(said).parameters), function)
+
+    def test_properties_have_the_types_that_they_say(self):
+        result = vkh.distance(*SQUARE, *SQUARE)
+        for key, member in stub_of(stub_of(STUB.body)["Result"].body).items():
+            said, value = ast.unparse(member.returns), getattr(result, key)
+            with self.subTest(key):
+                if said == "_Status":
+                    literal = next(n for n in STUB.body if isinstance(n, ast.Assign) and n.targets[0].id == "_Status")
+                    self.assertIn(value, ast.literal_eval(literal.value.slice))
+                else:
+                    self.assertIs(type(value), eval(said.split("[")[0], {}))
+
+    def test_it_is_marked_as_typed(self):
+        self.assertTrue((PACKAGE / "py.typed").exists())
+
+    def test_mypy_reads_it(self):
+        if importlib.util.find_spec("mypy") is None:
+            self.skipTest("no mypy here")
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "uses.py"
+            file.write_text(USES)
+            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", folder, str(file)],
+                                  cwd=folder, capture_output=True, text=True)
+            wrong = {int(line) for line in re.findall(r"^uses\.py:(\d+): error", done.stdout, re.M)}
+            expected = {i for i, line in enumerate(USES.splitlines(), 1) if line.endswith("# wrong")}
+            self.assertEqual(wrong, expected, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
