@@ -72,10 +72,7 @@
 /* To compare with: #if VKH_VERSION >= VKH_MAKE_VERSION(0, 2, 0) */
 #define VKH_MAKE_VERSION(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
 #define VKH_VERSION VKH_MAKE_VERSION(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
-#define VKH_VERSION_TEXT_(x) #x
-#define VKH_VERSION_TEXT(major, minor, patch) \
-  VKH_VERSION_TEXT_(major) "." VKH_VERSION_TEXT_(minor) "." VKH_VERSION_TEXT_(patch)
-#define VKH_VERSION_STRING VKH_VERSION_TEXT(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
+#define VKH_VERSION_STRING "0.2.0"
 
 #ifdef __cplusplus
 extern "C" {
@@ -91,15 +88,14 @@ typedef enum VkhResult {
   VKH_SUCCESS = 0,
   VKH_ERROR_UNSUPPORTED = -1, /* the device lacks something; vkhQuerySupport says what */
   VKH_ERROR_PIPELINE = -2, /* the driver refused a pipeline or ran out of host or device memory */
-  VKH_ERROR_TOO_LARGE = -3 /* a mesh exceeds 2^28 vertices or faces, or what one storage buffer
-                              binding of the device reaches; or it has none */
+  VKH_ERROR_TOO_LARGE = -3 /* a mesh exceeds 2^28, or one storage buffer binding; or is empty */
 } VkhResult;
 
 /* VKH_VERSION of the library that is linked, which a shared one may have of its own. */
 uint32_t vkhGetVersion(void);
 
-/* Parts of the method that can be switched, for ablations: a set of 0 is what pays on the device
- * and is what you want. The interval is true without any of them. */
+/* Parts of the method, for ablations: 0 is what pays on the device, and what you want. The interval
+ * is true without any of them. */
 typedef enum VkhSwitchBits {
   VKH_SWITCH_CENTROID = 1,       /* the triangle closest to a candidate's centroid, in ha and u3 */
   VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, likewise */
@@ -110,20 +106,16 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
   VKH_SWITCH_COVERAGE = 128,     /* no part of the method: VkhProblem::coverageBuffer is written */
   VKH_SWITCH_GROUP_WALK = 256,   /* few queries: a workgroup walks for each; wide devices only */
-  VKH_SWITCH_SHARED_FACES =
-      512, /* faces of A that are faces of B are closed: h(A, A) is 0 at once */
-  /* Bounds in plain floats: NOTHING IS CERTIFIED, and VkhReport::certified says so. To measure what
-   * the certificate costs. */
+  VKH_SWITCH_SHARED_FACES = 512, /* faces of A that B has are closed: h(A, A) is 0 at once */
+  /* Plain floats: NOTHING IS CERTIFIED, and VkhReport::certified says so; to measure the price. */
   VKH_SWITCH_UNCERTIFIED = 1024,
   /* What the method of the paper has and this one does without, or in another form. */
   VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
   VKH_SWITCH_PACKET = 4096, /* one walk for a candidate's three new points */
-  VKH_SWITCH_DEFER = 8192,  /* candidates wait where there is no room; off: what does not fit is
-                               lost, the run ends as VKH_STATUS_MEMORY */
+  VKH_SWITCH_DEFER = 8192,  /* what has no room waits; off: it ends the run as VKH_STATUS_MEMORY */
   VKH_SWITCH_LARGEST_FIRST = 16384, /* those with the largest u are refined first */
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
-  /* Few candidates are split twice in a wave; for GPUs. Without effect where CENTROID, PACKET or
-   * U3_PAPER is on. */
+  /* Few candidates are split twice in a wave, unless CENTROID, PACKET or U3_PAPER is on. */
   VKH_SWITCH_SPLIT_TWICE = 65536,
   /* Nothing is switched by this bit: a set that is empty but for it is an empty set, not 0. */
   VKH_SWITCH_NONE = 1 << 30,
@@ -134,8 +126,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_DEFAULT_WIDE = 4 + 8 + 16 + 64 + 256 + 512 + 8192 + 65536
 } VkhSwitchBits;
 
-/* How a device runs. It decides on kernels and on how a wave is divided into dispatches; no bound
- * depends on it. */
+/* How a device runs: decides on kernels and dispatches. The interval is as true either way. */
 typedef enum VkhDeviceKind {
   VKH_DEVICE_KIND_AUTO = 0,  /* narrow for VK_PHYSICAL_DEVICE_TYPE_CPU, wide for all others */
   VKH_DEVICE_KIND_WIDE = 1,  /* many workgroups at once: a small wave is given more invocations */
@@ -171,8 +162,8 @@ typedef struct VkhContextCreateInfo {
   VkhDeviceKind deviceKind;      /* 0: by the device's type */
 } VkhContextCreateInfo;
 
-/* A structure of zeros but for `device` is right: certified, and what pays on the device. Creates
- * the pipelines, on up to 8 threads of its own while it runs; this is the one slow call
+/* Zeros but for `device` are right: certified, and what pays on the device. Creates the pipelines,
+ * on up to 8 threads of its own while it runs; this is the one slow call
  * (seconds where the driver has not compiled them before, so keep a pipeline cache). Nothing of
  * `info` but the handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
  * VKH_ERROR_UNSUPPORTED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left. */
@@ -185,10 +176,9 @@ void vkhDestroyContext(VkhContext context);
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount:
  * indices out of range and coordinates that are not finite are not checked on the GPU and give
  * undefined results (an interval, but not a true one). Vertices that no face uses are not part of
- * the mesh. Degenerate faces are segments or points. Both buffers:
- * VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; each range is at most maxStorageBufferRange less 256 bytes.
- * Indices are read in words of 4 bytes: with 16-bit indices the buffer must reach to the end of the
- * last index's word. A and B may share buffers. The engine never writes them. */
+ * the mesh. Degenerate faces are segments or points. Both buffers: usage STORAGE_BUFFER; each range
+ * is at most maxStorageBufferRange less 256 bytes, and with 16-bit indices it must reach to the end
+ * of the last index's 4-byte word. A and B may share buffers. The engine never writes them. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */
@@ -363,16 +353,14 @@ typedef struct VkhReport {
   uint32_t candidateTotal;
   uint32_t queryTotal;
   uint32_t peakFrontier;
-  uint32_t culled[VKH_MAX_CULLS]; /* candidates closed: exact, u1, u2, ha, u3, u4, lower raised,
-                                     precision; the rest is 0 */
+  uint32_t culled[VKH_MAX_CULLS]; /* by exact, u1, u2, ha, u3, u4, lower raised, precision */
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
 } VkhReport;
 
 /* Certifies the witness against every triangle of B and writes the report at `offset` (a multiple
  * of 256 bytes) of `buffer` (usage STORAGE_BUFFER; TRANSFER_SRC if you copy it), in COMPUTE_SHADER
  * with SHADER_STORAGE_WRITE: your next shader can read it without the host. Costs a pass over B's
- * triangles. The run can be advanced further afterwards; while faces of A wait for a bound upper is
- * 3e38. */
+ * triangles. The run can be advanced further afterwards. */
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 

@@ -23,6 +23,7 @@ header = (source / "engine" / "vkhausdorff.h").read_text()
 parts = [found(source / "engine" / "vkhausdorff.h", rf"^#define VKH_VERSION_{part} (\d+)$") for part in ("MAJOR", "MINOR", "PATCH")]
 version = ".".join(parts)
 said = {
+    "VKH_VERSION_STRING": found(source / "engine" / "vkhausdorff.h", r'^#define VKH_VERSION_STRING "(.*)"$'),
     "CMake": found(build / "CMakeCache.txt", r"^CMAKE_PROJECT_VERSION:STATIC=(.*)$"),
     "find_package": found(build / "VkHausdorffConfigVersion.cmake", r'^set\(PACKAGE_VERSION "(.*)"\)'),
     "vkhausdorff.pc": found(build / "vkhausdorff.pc", r"^Version: (.*)$"),
