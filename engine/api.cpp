@@ -89,7 +89,7 @@ void record_hierarchy(Recorder& rec, const VkhMesh& mesh, VkhHierarchy& hierarch
 // `p`: a view of `problem`.
 void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
   // Without twoFloat, B is measured by its high parts alone: A must be, too.
-  check_mesh(problem.a);
+  check_begin(problem);
   VkhMesh a = problem.a;
   if (problem.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   record_load(rec, a, p.ws.vertices, p.ws.faces);

@@ -27,8 +27,6 @@ bool overlap(const VkhMemory& a, const VkhMemory& b) {
   return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
 }
 
-}  // namespace
-
 void check_mesh(const VkhMesh& m) {
   VKH_RULE("VkhMesh::vertexBuffer: not null", m.vertexBuffer != VK_NULL_HANDLE);
   VKH_RULE("VkhMesh::vertexOffset: a multiple of 4 bytes", m.vertexOffset % 4 == 0);
@@ -41,6 +39,8 @@ void check_mesh(const VkhMesh& m) {
   VKH_RULE("VkhMesh::faceCount: 1 to 2^28", is_count(m.faceCount));
   VKH_RULE("VkhMesh::vertexLowOffset: a multiple of 4 bytes", m.vertexLowOffset % 4 == 0);
 }
+
+}  // namespace
 
 void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch) {
   check_mesh(mesh);
@@ -57,6 +57,12 @@ void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMe
   VKH_RULE("scratch and hierarchy: apart", !overlap(*scratch, hierarchy.memory));
 }
 
+void check_begin(const VkhProblem& p) {
+  check_mesh(p.a);
+  VKH_RULE("VkhProblem::cullTolerance: at least 0", p.cullTolerance >= 0);
+  VKH_RULE("VkhProblem::knownLower: at least 0", p.knownLower >= 0);
+}
+
 void check_problem(const VkhContext_T& context, const VkhProblem& p) {
   VKH_RULE("VkhMesh::vertexCount: 1 to 2^28", is_count(p.a.vertexCount));
   VKH_RULE("VkhMesh::faceCount: 1 to 2^28", is_count(p.a.faceCount));
@@ -68,11 +74,9 @@ void check_problem(const VkhContext_T& context, const VkhProblem& p) {
            p.workspace.size >= workspace_size(p.a.vertexCount, p.a.faceCount, kSmallestCapacity,
                                               context.limits.switches));
   VKH_RULE("VkhProblem::workspace and ::b: apart", !overlap(p.workspace, p.b.memory));
-  VKH_RULE("VkhProblem::cullTolerance: at least 0", p.cullTolerance >= 0);
-  VKH_RULE("VkhProblem::knownLower: at least 0", p.knownLower >= 0);
   const bool covers = gpu::covers_area(context.limits.switches, context.limits.wide);
-  VKH_RULE("VkhProblem::coverageBuffer: with VKH_SWITCH_COVERAGE, and with no other context",
-           p.coverageBuffer == VK_NULL_HANDLE || covers);
+  VKH_RULE("VkhProblem::coverageBuffer: with a context of VKH_SWITCH_COVERAGE, and with no other",
+           (p.coverageBuffer != VK_NULL_HANDLE) == covers);
   VKH_RULE("VkhProblem::coverageOffset: a multiple of 256 bytes", p.coverageOffset % 256 == 0);
 }
 

@@ -7,16 +7,16 @@
 namespace vkh {
 
 #ifdef NDEBUG
-inline void check_mesh(const VkhMesh&) {}
 inline void check_build(const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
+inline void check_begin(const VkhProblem&) {}
 inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
 inline void check_report(VkBuffer, VkDeviceSize) {}
 inline void check_profile(const VkhProfile*) {}
 #else
-void check_mesh(const VkhMesh& mesh);
 // `scratch`: of a build; null of a refit, whose hierarchy has been built.
 void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch);
-// As vkhCmdAdvance and vkhCmdWriteReport take it: all but a's buffers.
+// What the begin alone reads; and what the rest of a run does, too.
+void check_begin(const VkhProblem& problem);
 void check_problem(const VkhContext_T& context, const VkhProblem& problem);
 void check_report(VkBuffer buffer, VkDeviceSize offset);
 void check_profile(const VkhProfile* profile);

@@ -53,6 +53,7 @@ struct Limits {
   VkDeviceSize storage_range = 0;  // bytes of one binding
   uint32_t switches = 0;           // of the context: some have streams of their own
   bool wide = true;                // many workgroups run at once (base/switches.glsl)
+  bool cpu = false;                // the device is a CPU
 };
 
 }  // namespace vkh

@@ -27,12 +27,13 @@ constexpr uint32_t push_size<NoPush>() {
   return 0;
 }
 
-// A device that is not wide has kernels of its own: without what they would never run, and slower
-// to run where they are unrolled.
-std::array<KernelSource, kKernelCount> kernel_sources(bool wide) {
+// A CPU has kernels of its own, unless it is to run as a wide device: without what it would never
+// run, their loops kept as they are. Others have one set, which kWide specialises.
+std::array<KernelSource, kKernelCount> kernel_sources(const Limits& limits) {
+  const bool for_cpu = limits.cpu && !limits.wide;
   return {{
 #define VKH_SOURCE(K) \
-  {wide ? k::K::words() : k::K::words_for_cpu(), k::K::kBindings, push_size<k::K::Push>()},
+  {for_cpu ? k::K::words_for_cpu() : k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
       VKH_KERNELS(VKH_SOURCE)
 #undef VKH_SOURCE
   }};
@@ -139,7 +140,7 @@ bool is_needed(uint32_t kernel, const Limits& limits) {
 }  // namespace
 
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache) {
-  const auto sources = kernel_sources(context.limits.wide);
+  const auto sources = kernel_sources(context.limits);
   const auto order = costliest_first(sources);
   std::atomic<uint32_t> next = 0;
   std::atomic<VkResult> outcome = VK_SUCCESS;

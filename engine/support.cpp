@@ -126,7 +126,8 @@ Limits device_limits(const VkhDeviceInfo& info) {
   query_properties(info, facts);
   const VkPhysicalDeviceProperties& properties = facts.properties.properties;
   return {.storage_range = properties.limits.maxStorageBufferRange,
-          .wide = properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU};
+          .wide = properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU,
+          .cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
 }
 
 }  // namespace vkh

@@ -117,8 +117,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
   /* Few candidates are split twice in a wave, unless CENTROID, PACKET or U3_PAPER is on. */
   VKH_SWITCH_SPLIT_TWICE = 65536,
-  /* Nothing is switched by this bit: a set that is empty but for it is an empty set, not 0. */
-  VKH_SWITCH_NONE = 1 << 30,
+  VKH_SWITCH_NONE = 1 << 30, /* switches nothing: the set that is empty, which 0 is not */
   /* What 0 stands for, by the kind of device. U4 decides no candidate that u3 over all pairs leaves
    * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a wide device, where
    * a wave is a chain of short steps, more candidates at once are cheaper than another step. */
@@ -257,14 +256,15 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
  * its indices are read again and should be the same faces in the same order. Reads the mesh's
  * buffers in compute shaders; reads and writes the hierarchy. A report after a refit is as true as
  * after a build: the certificate rests on the copy of B that the refit replaces. Faces that A
- * shares with B are looked for where they were when B was built, and those that have moved are
- * treated as any other. Boxes overlap more the further B is from the shape that it was built for,
- * so that walks take longer: build again when the time a frame takes says so. */
+ * shares with B are found only where they have not moved since the build. Boxes overlap more the
+ * further B is from the shape that it was built for, so that walks take longer: build again when
+ * the time a frame takes says so. */
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile);
 
-/* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport;
- * after the begin only `b`, `workspace`, a's counts and twoFloat are read. */
+/* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport, and
+ * the same context; after the begin `b`, `workspace`, a's counts and the coverage buffer are read.
+ */
 typedef struct VkhProblem {
   VkhMesh a;
   VkhHierarchy b;
@@ -287,11 +287,11 @@ typedef struct VkhProblem {
    * the interval is as true, and takes longer. Zero it for a first frame, and where a run must
    * repeat to the last bit. */
   VkBool32 warm;
-  /* Null, or, with a context of VKH_SWITCH_COVERAGE and with no other, 16 bytes a face of A, usage
-   * STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute shaders
-   * and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport what is
-   * open. It holds faceCount 64-bit integers (two little-endian words each), what of each face has
-   * been closed, and faceCount more, what is open, in units of 2^-40 of the face. After
+  /* With a context of VKH_SWITCH_COVERAGE, and with no other (then null): 16 bytes a face of A,
+   * usage STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute
+   * shaders and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport
+   * what is open. It holds faceCount 64-bit integers (two little-endian words each), what of each
+   * face has been closed, and faceCount more, what is open, in units of 2^-40 of the face. After
    * vkhCmdWriteReport the two are 2^40 together, or both 0 for a face that waits for its first
    * bound. */
   VkBuffer coverageBuffer;
@@ -321,7 +321,7 @@ typedef enum VkhStatus {
   VKH_STATUS_RUNNING = 0, /* candidates are left: advance further, or take the interval as it is */
   VKH_STATUS_DECIDED = 1, /* none is left: upper - lower is at most cullTolerance and rounding */
   VKH_STATUS_PRECISION = 2, /* none is left, but some could not be decided in float32 */
-  VKH_STATUS_MEMORY = 3     /* the workspace is full and nothing in it can be refined in place */
+  VKH_STATUS_MEMORY = 3     /* no room for some, and nothing could wait: their u is in upper */
 } VkhStatus;
 
 enum { VKH_MAX_WAVE_RECORDS = 64, VKH_MAX_CULLS = 16 };

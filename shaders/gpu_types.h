@@ -54,7 +54,7 @@ VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group hold
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
-// bvh_box: faces of an invocation.
+// bvh_box: its workgroup, and faces of an invocation.
 VKH_CONST uint kBoxGroup = 256u;
 VKH_CONST uint kBoxFaces = 4u;
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
@@ -75,7 +75,7 @@ VKH_CONST uint kStackDepth = 60u;
   X(kUseParentSamples, 1u, PARENT_SAMPLES, parent_samples) /* the parent's six points', too */    \
   X(kUseToleranceCull, 2u, TOLERANCE_CULL, tolerance_cull) /* cull at lower + tolerance */        \
   X(kUseThin, 3u, THIN, thin) /* bisect longest edges twice where q(T) < kThinQuality */          \
-  X(kUsePairs, 4u, PAIRS, u3) /* u3 over every pair of candidate triangles */                     \
+  X(kUsePairs, 4u, PAIRS, u3) /* u3 over every pair of known triangles */                         \
   X(kUseU4, 5u, U4, u4)       /* the point-point bisector */                                      \
   X(kUseWarmStart, 6u, WARM_START, warm_start) /* queries start from the parent's triangles */    \
   X(kUseGroupWalk, 8u, GROUP_WALK, group_walk) /* few queries: a workgroup walks for each */      \
@@ -98,7 +98,7 @@ VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wav
 VKH_CONST uint kUseBesides = kUseU4 | kUsePaperU3;       // either brings in paper_bound
 // Any of them: a wave is more than two dispatches (is_fused in stages.h).
 VKH_CONST uint kUseApart = kUseFilter | kUseBesides | kUsePacket | kUseSort;
-// All of this method: without what the paper has in another place.
+// All parts that go together; no device's default (VKH_SWITCH_DEFAULT_*).
 VKH_CONST uint kUseAll = kUseCentroid | kUseParentSamples | kUseToleranceCull | kUseThin |
                          kUsePairs | kUseU4 | kUseWarmStart | kUseGroupWalk | kUseSharedFaces |
                          kUseDefer | kUseSplitTwice;
@@ -176,8 +176,7 @@ VKH_CONST uint kSelectDigits = 256u;  // of a key, where a plan selects: 8 bits
 // The distance of a witness that is to be measured again.
 VKH_CONST float kUnmeasured = 3.0e38f;
 
-// wave_subdivide: invocations of a candidate of a wide device, and where it is split
-// twice.
+// wave_subdivide: invocations of a candidate on a wide device, and where it is split twice.
 VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
 // Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
@@ -203,7 +202,7 @@ VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
   X(kStatusRunning, 0u, RUNNING)     /* candidates are left: advance, or take what there is */ \
   X(kStatusDecided, 1u, DECIDED)     /* none is left */                                        \
   X(kStatusPrecision, 2u, PRECISION) /* none, but some closed at a u above the tolerance */    \
-  X(kStatusMemory, 3u, MEMORY) /* the frontier is full, nothing in it can be refined in place */
+  X(kStatusMemory, 3u, MEMORY) /* candidates were spilled: nothing could wait, or be refined */
 #define VKH_STATUS(constant, value, api) VKH_CONST uint constant = value;
 VKH_STATUSES(VKH_STATUS)
 #undef VKH_STATUS
@@ -273,7 +272,7 @@ struct Split {
 // One closest-point query: in, a position and triangles to start from; out, the closest triangle
 // found.
 struct Point {
-  vec3 position;  // and its low part: not of the points of a fused query
+  vec3 position;  // with position_lo; a fused query does not write them
   uint nearest;   // in: start triangle or kNone; out: closest triangle
   vec3 position_lo;
   float distance;  // above Control::base, at least 0; negative: not to be queried
@@ -336,6 +335,7 @@ struct Control {
   // The old base less the new one, in two floats: what the frontier being read is to be moved by. 0
   // but in the wave that follows a change of base.
   float rebase_hi, rebase_lo;
+  uint certified;  // 0: a wave of the run, or its begin, was in plain floats
   uint two_float;  // the meshes have low parts
   uint tight;      // samples are compared to 48 bits
   Witness witness;

@@ -46,7 +46,8 @@ VKH_PREDICATE(packs_points, (kSwitches & kUsePacket) != 0u)
 VKH_PREDICATE(bisects, (kSwitches & kUsePaperU3) != 0u)
 VKH_PREDICATE(bounds_besides, (kSwitches & kUseBesides) != 0u)
 
-// The frontier in the order in which it is refined (engine/paper.cpp).
+// The frontier in the order in which it is refined: sizes and times alone. engine/paper.cpp records
+// the sort, whose passes repeat, and engine/kernels.cpp names WaveSort.
 #define VKH_ORDER_STAGES(SIZED)                                                            \
   SIZED(WaveSort, wave, sort_keys, sorts_frontier, order, groups_for(keys))                \
   SIZED(SortCount, wave, sort_blocks, sorts_frontier, order, groups_of(sort_blocks(keys))) \

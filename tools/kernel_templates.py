@@ -19,7 +19,7 @@ struct {type} {{
   static constexpr const char* kName = "{name}";
   static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
   static std::span<const uint32_t> words();
-  static std::span<const uint32_t> words_for_cpu();  // kWide is false
+  static std::span<const uint32_t> words_for_cpu();  // not wide: kWide is false
   static uint32_t fingerprint();                     // of the words
   static constexpr uint32_t kSharedBytes = {shared_bytes};  // of a workgroup, whatever the switches
 

@@ -102,7 +102,7 @@ class SelfTestKernel {
 template <class T>
 Buffer shared_buffer(const Device& device, const T* content, size_t count) {
   Buffer buffer(device, count * sizeof(T), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                LocalCorners::kReadback);
+                Placement::kReadback);
   if (content != nullptr) std::memcpy(buffer.mapped(), content, count * sizeof(T));
   return buffer;
 }

@@ -7,21 +7,21 @@
 namespace vkh {
 namespace {
 
-VkMemoryPropertyFlags wanted(LocalCorners placement) {
+VkMemoryPropertyFlags wanted(Placement placement) {
   constexpr VkMemoryPropertyFlags visible =
       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   switch (placement) {
-    case LocalCorners::kDevice:
+    case Placement::kDevice:
       return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    case LocalCorners::kUpload:
+    case Placement::kUpload:
       return visible;
-    case LocalCorners::kReadback:
+    case Placement::kReadback:
       return visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
   }
   return 0;
 }
 
-uint32_t memory_type(const Device& device, uint32_t allowed, LocalCorners placement) {
+uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement) {
   VkPhysicalDeviceMemoryProperties memory;
   device.vk().GetPhysicalDeviceMemoryProperties(device.physical(), &memory);
   // Cached memory is a wish, the rest a must.
@@ -40,7 +40,7 @@ uint32_t memory_type(const Device& device, uint32_t allowed, LocalCorners placem
 
 // Delegating, here and below: what was created is destroyed if a later step throws.
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-               LocalCorners placement)
+               Placement placement)
     : Buffer() {
   device_ = &device;
   size_ = size;
@@ -59,7 +59,7 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
   check(result, ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
   check(vk.BindBufferMemory(device.handle(), buffer_, memory_, 0), "binding a buffer");
-  if (placement != LocalCorners::kDevice) {
+  if (placement != Placement::kDevice) {
     check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
   }
 }
@@ -79,7 +79,7 @@ void Buffer::swap(Buffer& other) noexcept {
 }
 
 void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-          LocalCorners placement) {
+          Placement placement) {
   if (buffer.size() >= size) return;
   buffer = Buffer();  // free first: the two need not fit at the same time
   buffer = Buffer(device, size, usage, placement);

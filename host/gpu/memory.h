@@ -9,14 +9,14 @@
 
 namespace vkh {
 
-enum class LocalCorners { kDevice, kUpload, kReadback };
+enum class Placement { kDevice, kUpload, kReadback };
 
 /// A buffer bound to its own allocation; move-only. Host-visible ones stay mapped.
 class Buffer {
  public:
   Buffer() = default;
   /// Throws DeviceError if the device has not the memory.
-  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, LocalCorners placement);
+  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
   Buffer& operator=(Buffer&& other) noexcept {
@@ -39,7 +39,7 @@ class Buffer {
 
 /// Makes `buffer` at least `size` bytes; its content is lost if it grows.
 void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-          LocalCorners placement);
+          Placement placement);
 
 /// One command buffer, one fence, one pool of timestamps.
 class Submitter {

@@ -78,8 +78,8 @@ void Seat::upload(const MeshData& a, const MeshData& b) {
   const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
   grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-       LocalCorners::kUpload);
-  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, LocalCorners::kDevice);
+       Placement::kUpload);
+  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
   if (bytes_a > 0) write(staging_.mapped(), a);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
   if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
@@ -94,7 +94,7 @@ VkDeviceSize Seat::place_b(VkhContext context, const RunInput& in) {
     return 0;
   }
   const VkhHierarchyRequirements needed = hierarchy_requirements(context);
-  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, LocalCorners::kDevice);
+  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
   problem_.b = {
       {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
   return needed.scratchSize;
@@ -111,10 +111,10 @@ void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
   bytes = std::clamp(bytes, workspace.minimum, workspace.maximum);
   out.workspace_bytes = bytes;
   const VkDeviceSize scratch = place_b(context, in);
-  grow(workspace_, device_, std::max(bytes, scratch), kWorking, LocalCorners::kDevice);
-  grow(report_, device_, sizeof(VkhReport), kWorking, LocalCorners::kDevice);
+  grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
+  grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
   grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-       LocalCorners::kReadback);
+       Placement::kReadback);
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
   problem_.knownLower = in.known_lower;
@@ -127,9 +127,9 @@ void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
 ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {
   upload({}, b);
   const VkhHierarchyRequirements needed = hierarchy_requirements(context);
-  ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, LocalCorners::kDevice),
+  ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),
                         mesh_b_.vertexCount, mesh_b_.faceCount};
-  grow(workspace_, device_, needed.scratchSize, kWorking, LocalCorners::kDevice);
+  grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
   is_resident_ = false;
   return resident;
@@ -140,8 +140,8 @@ void Seat::place_areas(const RunInput& in, RunOutput& out) {
   if (!in.coverage) return;
   out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
-  grow(areas_, device_, bytes, kWorking, LocalCorners::kDevice);
-  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, LocalCorners::kReadback);
+  grow(areas_, device_, bytes, kWorking, Placement::kDevice);
+  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
   problem_.coverageBuffer = areas_.handle();
 }
 

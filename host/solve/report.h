@@ -39,7 +39,7 @@ struct SurfacePoint {
 struct StageStats {
   std::string name;
   double gpu_ms = 0;
-  uint64_t times = 0;  ///< how often it ran
+  uint64_t times = 0;  ///< how many parts of it were timed
 };
 
 /// How many candidates a bound of the cascade closed; "lower_raised": later, because lower had

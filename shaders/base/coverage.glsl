@@ -1,7 +1,7 @@
 // For --verify: what of each face of A has been closed, as an exact 64-bit integer, in units of
 // 2^-40 of the face. Nothing is left of it where kUseCoverage is off. The kernel declares `areas`.
-#ifndef VKH_SHADERS_LIB_COVERAGE_GLSL
-#define VKH_SHADERS_LIB_COVERAGE_GLSL
+#ifndef VKH_SHADERS_BASE_COVERAGE_GLSL
+#define VKH_SHADERS_BASE_COVERAGE_GLSL
 
 #include "shaders/base/switches.glsl"
 #include "shaders/math/bary.h"

@@ -1,7 +1,7 @@
 // Where a face stands in Morton order: by the middle of its box, which does not depend on the order
 // of its corners. Order only: nothing certified rests on it.
-#ifndef VKH_SHADERS_LIB_FACE_CODE_GLSL
-#define VKH_SHADERS_LIB_FACE_CODE_GLSL
+#ifndef VKH_SHADERS_BASE_FACE_CODE_GLSL
+#define VKH_SHADERS_BASE_FACE_CODE_GLSL
 
 #include "shaders/math/morton.h"
 

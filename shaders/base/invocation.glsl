@@ -1,7 +1,7 @@
 // Which item of a kernel in workgroups of kGroupSize this invocation works on: a dispatch longer
 // than kMaxGroupsX workgroups continues on y.
-#ifndef VKH_SHADERS_LIB_INVOCATION_GLSL
-#define VKH_SHADERS_LIB_INVOCATION_GLSL
+#ifndef VKH_SHADERS_BASE_INVOCATION_GLSL
+#define VKH_SHADERS_BASE_INVOCATION_GLSL
 
 #include "shaders/gpu_types.h"
 

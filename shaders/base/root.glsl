@@ -1,6 +1,6 @@
 // Faces of A as roots. The kernel declares `vertices`, `faces`.
-#ifndef VKH_SHADERS_LIB_ROOT_GLSL
-#define VKH_SHADERS_LIB_ROOT_GLSL
+#ifndef VKH_SHADERS_BASE_ROOT_GLSL
+#define VKH_SHADERS_BASE_ROOT_GLSL
 
 #include "shaders/math/bary.h"
 

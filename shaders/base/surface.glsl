@@ -1,7 +1,7 @@
 // Triangles of B as surfaces to measure against, low parts included where the meshes have them.
 // The kernel declares `triangles`, `triangle_lows`, `control`.
-#ifndef VKH_SHADERS_LIB_SURFACE_GLSL
-#define VKH_SHADERS_LIB_SURFACE_GLSL
+#ifndef VKH_SHADERS_BASE_SURFACE_GLSL
+#define VKH_SHADERS_BASE_SURFACE_GLSL
 
 #include "shaders/base/fetch.glsl"
 

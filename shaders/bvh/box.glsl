@@ -1,6 +1,6 @@
 // Boxes of sorted triangles.
-#ifndef VKH_SHADERS_LIB_BOX_GLSL
-#define VKH_SHADERS_LIB_BOX_GLSL
+#ifndef VKH_SHADERS_BVH_BOX_GLSL
+#define VKH_SHADERS_BVH_BOX_GLSL
 
 Box empty_box() { return Box(vec3(3.0e38), vec3(-3.0e38)); }
 

@@ -2,8 +2,8 @@
 // and 256 of them; and by the last workgroup to end, where a run holds all of the level over 256,
 // those over them. The workgroup has kRun invocations. The kernel declares `boxes`, coherent, and
 // `groups_done`.
-#ifndef VKH_SHADERS_LIB_RUN_BOXES_GLSL
-#define VKH_SHADERS_LIB_RUN_BOXES_GLSL
+#ifndef VKH_SHADERS_BVH_RUN_BOXES_GLSL
+#define VKH_SHADERS_BVH_RUN_BOXES_GLSL
 
 #include "shaders/bvh/box.glsl"
 #include "shaders/base/invocation.glsl"

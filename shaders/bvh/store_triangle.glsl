@@ -1,7 +1,7 @@
 // A triangle of B at its place in Morton order. The kernel declares `vertices`, `faces`,
 // `triangles` (Triangle), `triangle_lows`, `push` (with a count).
-#ifndef VKH_SHADERS_LIB_PLACE_GLSL
-#define VKH_SHADERS_LIB_PLACE_GLSL
+#ifndef VKH_SHADERS_BVH_STORE_TRIANGLE_GLSL
+#define VKH_SHADERS_BVH_STORE_TRIANGLE_GLSL
 
 #include "shaders/bvh/box.glsl"
 

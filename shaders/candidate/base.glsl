@@ -1,7 +1,7 @@
 // The base of a run: a float under the largest distance of a vertex of A, so that what distances
 // are above it has more bits than they have themselves. The kernel declares `control`.
-#ifndef VKH_SHADERS_LIB_BASE_GLSL
-#define VKH_SHADERS_LIB_BASE_GLSL
+#ifndef VKH_SHADERS_CANDIDATE_BASE_GLSL
+#define VKH_SHADERS_CANDIDATE_BASE_GLSL
 
 #include "shaders/math/bounds.h"
 

@@ -1,7 +1,7 @@
 // Candidates in a wave: where they stand in the frontier, their geometry in their root's frame,
 // and what closes them. The kernel declares `control`, `frontier`, `vertices`, `faces`.
-#ifndef VKH_SHADERS_LIB_CANDIDATE_GLSL
-#define VKH_SHADERS_LIB_CANDIDATE_GLSL
+#ifndef VKH_SHADERS_CANDIDATE_CANDIDATE_GLSL
+#define VKH_SHADERS_CANDIDATE_CANDIDATE_GLSL
 
 #include "shaders/math/bary.h"
 #include "shaders/candidate/base.glsl"

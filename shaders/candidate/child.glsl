@@ -2,8 +2,8 @@
 // splits twice, or a face of A admitted whole. Children are not stored: a code names them, and
 // this page derives their corners and the triangles of B that are known to be near. The kernel
 // declares `splits`, `points`, `vertex_nearest`, and what candidate/candidate.glsl needs.
-#ifndef VKH_SHADERS_LIB_CHILD_GLSL
-#define VKH_SHADERS_LIB_CHILD_GLSL
+#ifndef VKH_SHADERS_CANDIDATE_CHILD_GLSL
+#define VKH_SHADERS_CANDIDATE_CHILD_GLSL
 
 #include "shaders/candidate/candidate.glsl"
 #include "shaders/candidate/split_counts.glsl"

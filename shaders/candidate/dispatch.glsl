@@ -1,7 +1,7 @@
 // The sizes of indirect dispatches: one invocation an item, or as `query` takes its points. The
 // kernel declares `control`.
-#ifndef VKH_SHADERS_LIB_DISPATCH_GLSL
-#define VKH_SHADERS_LIB_DISPATCH_GLSL
+#ifndef VKH_SHADERS_CANDIDATE_DISPATCH_GLSL
+#define VKH_SHADERS_CANDIDATE_DISPATCH_GLSL
 
 #include "shaders/base/switches.glsl"
 #include "shaders/candidate/split_counts.glsl"

@@ -1,7 +1,7 @@
 // How many children and new points a refined candidate has in this wave: 4 and 3 or, where it is
 // split twice, 16 and 15: three of its own and three of each child. The kernel declares `control`.
-#ifndef VKH_SHADERS_LIB_GENERATIONS_GLSL
-#define VKH_SHADERS_LIB_GENERATIONS_GLSL
+#ifndef VKH_SHADERS_CANDIDATE_SPLIT_COUNTS_GLSL
+#define VKH_SHADERS_CANDIDATE_SPLIT_COUNTS_GLSL
 
 #include "shaders/base/switches.glsl"
 #include "shaders/math/bary.h"

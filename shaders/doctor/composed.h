@@ -1,7 +1,7 @@
 // The expressions that bounds are composed of, once each, for the doctor: what a driver that
 // regroups sums would falsify, though every single operation of it rounds as it should.
-#ifndef VKH_SHADERS_LIB_COMPOSED_H
-#define VKH_SHADERS_LIB_COMPOSED_H
+#ifndef VKH_SHADERS_DOCTOR_COMPOSED_H
+#define VKH_SHADERS_DOCTOR_COMPOSED_H
 
 #include "shaders/math/lower.h"
 

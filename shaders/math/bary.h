@@ -1,7 +1,7 @@
 // A candidate's corners: dyadic barycentric integers in its root triangle, so that subdivision is
 // exact. A corner is (j, k): root.a + (j ab + k ac) / kBaryOne.
-#ifndef VKH_SHADERS_LIB_BARY_H
-#define VKH_SHADERS_LIB_BARY_H
+#ifndef VKH_SHADERS_MATH_BARY_H
+#define VKH_SHADERS_MATH_BARY_H
 
 #include "shaders/math/choose.h"
 #include "shaders/math/triangle.h"
@@ -57,7 +57,7 @@ VKH_FN Root make_root(Two3 a, Two3 b, Two3 c) {
 VKH_CONST float kBaryUnit = 9.5367431640625e-7f;  // 2^-20 = 1 / kBaryOne
 
 // A point of the root in the frame of the meshes; off by 8 kUlp2 of the root's coordinates (`reach`
-// of make_placement).
+// of local_corners).
 VKH_FN Two3 position_of(Root r, uvec2 point) {
   return two_combination(r.origin, float(point.x) * kBaryUnit, r.ab, float(point.y) * kBaryUnit,
                          r.ac);
@@ -94,7 +94,7 @@ VKH_FN Corners plain_corners(Root r, Bary3 t) {
   return c;
 }
 
-// Corners are off by 8 kUlp2 reach (place), steps by as much, cuts by 6 kUlp2 of a step more.
+// Corners are off by 8 kUlp2 reach (position_of), steps by as much, cuts by 6 kUlp2 of a step more.
 VKH_FN LocalCorners local_corners(Root r, Bary3 t) {
   LocalCorners p;
   p.origin = position_of(r, t.a);

@@ -2,12 +2,12 @@
 // (docs/method.md, section 3; equations are cited by its numbers).
 //
 // T is a sub-triangle of A as computed in a local frame, S a triangle of B in the same frame. Each
-// bound holds in exact arithmetic for the computed T; the caller adds position_slack for the
+// bound holds in exact arithmetic for the computed T; the caller adds LocalCorners::slack for the
 // distance from it to the exact one. Distances and bounds are what they are above one base
 // (View::base), and may be negative. All of them rest on three facts. d(., B) <= d(., S). d(., S)
 // is convex, since S is, so its maximum over a polygon is at a corner. d(., B) is 1-Lipschitz.
-#ifndef VKH_SHADERS_LIB_BOUNDS_H
-#define VKH_SHADERS_LIB_BOUNDS_H
+#ifndef VKH_SHADERS_MATH_BOUNDS_H
+#define VKH_SHADERS_MATH_BOUNDS_H
 
 #include "shaders/math/triangle.h"
 
@@ -101,7 +101,7 @@ VKH_FN Cut cut_by(vec3 side) {
 
 // Where the edge to the first (k = 0) or second other corner is cut: where `side` would be 0 if it
 // were linear. Any cut is right, as both pieces use it. It is off by 6 kUlp2 of T's radius, which
-// is under 2^-41 of the surfaces' slack and of T: placement_slack takes it.
+// is under 2^-41 of the surfaces' slack and of T: LocalCorners::slack takes it.
 VKH_FN Two3 cut_point(Patch t, Cut cut, uint k, vec3 side) {
   uint end = choose(k == 0u, cut.first, cut.second);
   Two3 from = corner_at(t, cut.alone);

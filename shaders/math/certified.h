@@ -9,8 +9,8 @@
 //   results below 2^-126 may be flushed to zero, and a zero may have either sign
 // One ulp is at most kUlp times the value. The build decorates every operation, so that drivers
 // neither regroup sums nor contract a product and a sum (tools/float_order.py).
-#ifndef VKH_SHADERS_LIB_CERTIFIED_H
-#define VKH_SHADERS_LIB_CERTIFIED_H
+#ifndef VKH_SHADERS_MATH_CERTIFIED_H
+#define VKH_SHADERS_MATH_CERTIFIED_H
 
 #include "shaders/math/choose.h"
 #include "shaders/math/two_float.h"
@@ -47,7 +47,7 @@ VKH_FN float root(float x) { return sqrt(max(x, kLeastNormal)); }
 // The bits of x >= 0, which order as floats do. A zero may have either sign: it is taken off.
 VKH_FN uint bits_of(float x) { return floatBitsToUint(x) & 0x7fffffffu; }
 
-// >= sqrt(x) for x >= 0 that is itself >= the square that is meant (see dot_up).
+// >= sqrt(x) for x >= 0 that is itself >= the square that is meant (see norm_up).
 VKH_FN float sqrt_up(float x) { return round_up(root(x), 6.0f); }
 
 // <= sqrt(x), likewise.

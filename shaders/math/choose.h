@@ -1,7 +1,7 @@
 // Choices without branches: `?:`, && and || become branches, and a driver takes longer for hundreds
 // of them than for the arithmetic between (docs/log/startup.md). All operands are evaluated.
-#ifndef VKH_SHADERS_LIB_CHOOSE_H
-#define VKH_SHADERS_LIB_CHOOSE_H
+#ifndef VKH_SHADERS_MATH_CHOOSE_H
+#define VKH_SHADERS_MATH_CHOOSE_H
 
 #include "shaders/math/glsl.h"
 #ifdef __cplusplus

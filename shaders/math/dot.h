@@ -1,7 +1,7 @@
 // Products of vectors, written out: the built-in ones are sums whose order a driver may choose,
 // which no decoration forbids (docs/certificate.md). Use these alone: the build refuses the others.
-#ifndef VKH_SHADERS_LIB_DOT_H
-#define VKH_SHADERS_LIB_DOT_H
+#ifndef VKH_SHADERS_MATH_DOT_H
+#define VKH_SHADERS_MATH_DOT_H
 
 #include "shaders/math/glsl.h"
 

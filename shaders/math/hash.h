@@ -1,6 +1,6 @@
 // A hash of words, for choosing among equals.
-#ifndef VKH_SHADERS_LIB_HASH_H
-#define VKH_SHADERS_LIB_HASH_H
+#ifndef VKH_SHADERS_MATH_HASH_H
+#define VKH_SHADERS_MATH_HASH_H
 
 #include "shaders/math/glsl.h"
 

@@ -3,8 +3,8 @@
 // For any direction r, d(p, S) >= min over the corners s of S of (p - s).r / |r|: the plane through
 // the corner that is farthest along r separates p from S. So directions may come from anywhere;
 // only this quotient is rounded with care.
-#ifndef VKH_SHADERS_LIB_LOWER_H
-#define VKH_SHADERS_LIB_LOWER_H
+#ifndef VKH_SHADERS_MATH_LOWER_H
+#define VKH_SHADERS_MATH_LOWER_H
 
 #include "shaders/math/triangle.h"
 

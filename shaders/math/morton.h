@@ -1,6 +1,6 @@
 // Morton codes and order-preserving bits of floats.
-#ifndef VKH_SHADERS_LIB_MORTON_H
-#define VKH_SHADERS_LIB_MORTON_H
+#ifndef VKH_SHADERS_MATH_MORTON_H
+#define VKH_SHADERS_MATH_MORTON_H
 
 #include "shaders/math/certified.h"
 

@@ -1,6 +1,6 @@
 // A triangle in a local frame: closest point, distance upper and lower bounds, quality.
-#ifndef VKH_SHADERS_LIB_TRIANGLE_H
-#define VKH_SHADERS_LIB_TRIANGLE_H
+#ifndef VKH_SHADERS_MATH_TRIANGLE_H
+#define VKH_SHADERS_MATH_TRIANGLE_H
 
 #include "shaders/math/certified.h"
 

@@ -5,8 +5,8 @@
 // No step relies on fma: lavapipe's is not fused, and a contracted product is only more accurate.
 // Where + and - round to nearest, two_sum and two_product are exact; where they round in another
 // direction, they are off by at most kUlp2 / 2 of their operands, and so they are taken to be.
-#ifndef VKH_SHADERS_LIB_TWO_FLOAT_H
-#define VKH_SHADERS_LIB_TWO_FLOAT_H
+#ifndef VKH_SHADERS_MATH_TWO_FLOAT_H
+#define VKH_SHADERS_MATH_TWO_FLOAT_H
 
 #include "shaders/math/dot.h"
 

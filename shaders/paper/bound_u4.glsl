@@ -1,7 +1,7 @@
 // u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the
 // shortest edge. The kernel declares what candidate/candidate.glsl and base/surface.glsl need.
-#ifndef VKH_SHADERS_LIB_BOUND_U4_GLSL
-#define VKH_SHADERS_LIB_BOUND_U4_GLSL
+#ifndef VKH_SHADERS_PAPER_BOUND_U4_GLSL
+#define VKH_SHADERS_PAPER_BOUND_U4_GLSL
 
 #include "shaders/base/surface.glsl"
 #include "shaders/candidate/candidate.glsl"

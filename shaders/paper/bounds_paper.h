@@ -2,8 +2,8 @@
 // triangles' supporting planes, or into three quadrilaterals by midpoints and centroid. As in
 // bounds.h any cut is right, since the pieces share its points: the plane and the centroid only
 // steer, and distances at the corners of the pieces bound them.
-#ifndef VKH_SHADERS_LIB_BOUNDS_PAPER_H
-#define VKH_SHADERS_LIB_BOUNDS_PAPER_H
+#ifndef VKH_SHADERS_PAPER_BOUNDS_PAPER_H
+#define VKH_SHADERS_PAPER_BOUNDS_PAPER_H
 
 #include "shaders/math/bounds.h"
 

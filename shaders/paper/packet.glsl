@@ -1,8 +1,8 @@
 // The packet walk (docs/method.md, section 6): one walk through B's hierarchy for the three new
 // points of a candidate, each a bit of a mask. It finds for each what nearest_triangle finds. The
 // kernel declares what walk/walk.glsl needs.
-#ifndef VKH_SHADERS_LIB_PACKET_GLSL
-#define VKH_SHADERS_LIB_PACKET_GLSL
+#ifndef VKH_SHADERS_PAPER_PACKET_GLSL
+#define VKH_SHADERS_PAPER_PACKET_GLSL
 
 #include "shaders/walk/walk.glsl"
 

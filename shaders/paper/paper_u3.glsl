@@ -1,7 +1,7 @@
 // The paper's u3 of a candidate by the triangles closest to its corners. The kernel declares what
 // base/surface.glsl needs.
-#ifndef VKH_SHADERS_LIB_PAPER_U3_GLSL
-#define VKH_SHADERS_LIB_PAPER_U3_GLSL
+#ifndef VKH_SHADERS_PAPER_PAPER_U3_GLSL
+#define VKH_SHADERS_PAPER_PAPER_U3_GLSL
 
 #include "shaders/base/surface.glsl"
 #include "shaders/paper/bounds_paper.h"

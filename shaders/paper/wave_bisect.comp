@@ -1,6 +1,5 @@
-// What: the paper's u3 of each of the wave's survivors, for wave_bound to take into account; a
-// kernel of its own, so that wave_bound is no longer to compile for those who do without. In:
-// survivors. Out: u3_bounds[i], above the base, rounding included.
+// What: the paper's u3 of each of the wave's survivors, for paper_bound. In: survivors. Out:
+// u3_bounds[i], above the base, rounding included.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
 // A workgroup adopts the wave's witness. The kernel declares `plan_words`, `control`.
-#ifndef VKH_SHADERS_LIB_ADOPT_GLSL
-#define VKH_SHADERS_LIB_ADOPT_GLSL
+#ifndef VKH_SHADERS_PLAN_ADOPT_GLSL
+#define VKH_SHADERS_PLAN_ADOPT_GLSL
 
 #include "shaders/plan/plan_words.glsl"
 

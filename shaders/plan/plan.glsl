@@ -7,8 +7,8 @@
 // are split twice, and their new points fit the stream of points; so no stream of the wave can
 // overflow. The kernel declares `plan_words` (plan/plan_words.glsl), `sizes`, and what
 // candidate/candidate.glsl needs.
-#ifndef VKH_SHADERS_LIB_PLAN_GLSL
-#define VKH_SHADERS_LIB_PLAN_GLSL
+#ifndef VKH_SHADERS_PLAN_PLAN_GLSL
+#define VKH_SHADERS_PLAN_PLAN_GLSL
 
 #include "shaders/candidate/candidate.glsl"
 #include "shaders/plan/adopt.glsl"
@@ -85,9 +85,9 @@ void move_base() {
   control.witness.distance = kUnmeasured;
 }
 
-// A refined candidate leaves at most four where it was one. While more than the reserve is free, as
-// many are refined as surely fit; else one alone, whose descendants fit the reserve (kReserve), so
-// that the run always goes on.
+// Split once, a candidate leaves at most four where it was one. While more than the reserve is
+// free, as many are refined as surely fit; else one alone, whose descendants fit the reserve
+// (kReserve), so that the run always goes on.
 void share_room() {
   uint held = control.count[kCountFrontier];
   uint capacity = control.capacity;
@@ -149,6 +149,7 @@ void write_sizes() {
 }
 
 void plan() {
+  if ((kSwitches & kUseUncertified) != 0u) control.certified = 0u;
   if (control.status == kStatusRunning) {
     WaveEnd end = take_wave_end();
     close_wave(end);

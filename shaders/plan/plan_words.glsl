@@ -1,7 +1,7 @@
 // The shared words of the workgroup that plans: `plan_words`, kPlanWords of them, which the kernel
 // has to spare.
-#ifndef VKH_SHADERS_LIB_PLAN_WORDS_GLSL
-#define VKH_SHADERS_LIB_PLAN_WORDS_GLSL
+#ifndef VKH_SHADERS_PLAN_PLAN_WORDS_GLSL
+#define VKH_SHADERS_PLAN_PLAN_WORDS_GLSL
 
 #include "shaders/gpu_types.h"
 

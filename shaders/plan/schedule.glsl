@@ -15,7 +15,7 @@ bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
 // that begins the whole reserve is free, a candidate is gone through with all its descendants, and
 // its place is won; every wave refines at least one, and there are finitely many.
 //
-// Where nothing may wait, a frontier that does not fit is lost as a whole: wave/split.glsl keeps
+// Where nothing may wait, a frontier that does not fit is spilled as a whole: wave/split.glsl keeps
 // the u of each, and so it goes with what A's other faces leave, so that at the end every face has
 // a bound.
 uint schedule(uint held, uint room) {

@@ -2,8 +2,8 @@
 // the smallest keys (candidate/candidate.glsl), by digits of 8 bits from the top. A boundary that
 // leaves at least half of the room used will do. The workgroup has kGroupSize invocations. The
 // kernel declares `plan_words`, and what candidate/candidate.glsl needs.
-#ifndef VKH_SHADERS_LIB_SELECT_GLSL
-#define VKH_SHADERS_LIB_SELECT_GLSL
+#ifndef VKH_SHADERS_PLAN_SELECT_GLSL
+#define VKH_SHADERS_PLAN_SELECT_GLSL
 
 #include "shaders/candidate/candidate.glsl"
 #include "shaders/plan/plan_words.glsl"

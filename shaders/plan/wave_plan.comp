@@ -1,5 +1,5 @@
-// What: the next wave's plan (plan/plan.glsl) where wave_bound does not end with it: on CPU
-// devices, where a dispatch costs next to nothing, and both sides of a branch are gone through. One
+// What: the next wave's plan (plan/plan.glsl) where wave_bound does not end with it: on narrow
+// devices, where a dispatch costs next to nothing, and where a switch of kUseApart is on. One
 // workgroup. In: control, the frontier. Out: control; sizes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

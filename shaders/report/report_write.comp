@@ -3,7 +3,7 @@
 // the walks that found the witness. The last workgroup to end writes, one invocation all but the
 // waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
 // 48-bit position can lie from the point of A that it stands for. upper: the largest u of
-// everything that was dropped, spilled or is still open; without bound while faces of A wait. Both
+// everything that was closed, spilled or is still open; without bound while faces of A wait. Both
 // as float32, and to more bits above the base. lower_bits, ordered bits (math/morton.h), and
 // groups_done are kNone and 0 again.
 #version 460
@@ -12,7 +12,6 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shaders/base/invocation.glsl"
-#include "shaders/base/switches.glsl"
 #include "shaders/math/bary.h"
 #include "shaders/math/lower.h"
 #include "shaders/math/morton.h"
@@ -91,7 +90,7 @@ void write_report() {
   report.lower = max(lowered(control.base + lower), 0.0);
   report.upper = raised(control.base + upper);
   report.status = control.status;
-  report.certified = (kSwitches & kUseUncertified) == 0u ? 1u : 0u;
+  report.certified = control.certified;
   report.wave = is_running() ? control.wave - 1u : control.wave;  // one is planned
   report.witness = w;
   report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);

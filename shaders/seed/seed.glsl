@@ -5,8 +5,8 @@
 // the vertex. Again also for the witness alone, after a plan that has moved the base. The kernel
 // declares `vertices`, `faces`, `vertex_nearest`, `vertex_distance`, `push` (QueryPush), and what
 // walk/query.glsl needs.
-#ifndef VKH_SHADERS_LIB_SEED_GLSL
-#define VKH_SHADERS_LIB_SEED_GLSL
+#ifndef VKH_SHADERS_SEED_SEED_GLSL
+#define VKH_SHADERS_SEED_SEED_GLSL
 
 #include "shaders/base/root.glsl"
 #include "shaders/candidate/base.glsl"

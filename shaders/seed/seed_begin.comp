@@ -4,7 +4,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/gpu_types.h"
+#include "shaders/base/switches.glsl"
 
 layout(local_size_x = kMaxWaveRecords) in;
 layout(scalar, binding = 0) buffer ControlBlock { Control control; };
@@ -37,6 +37,7 @@ void begin() {
   control.base = 0.0;
   control.rebase_hi = 0.0;
   control.rebase_lo = 0.0;
+  control.certified = (kSwitches & kUseUncertified) == 0u ? 1u : 0u;
   control.two_float = push.two_float;
   control.tight = 0u;
   if (push.warm == 0u) control.witness = Witness(vec3(0.0), -1.0, kNone, 0u, 0u, kNone);

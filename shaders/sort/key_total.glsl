@@ -1,7 +1,7 @@
 // How many keys there are: as the host says, or where the device alone knows, in a buffer. The
 // kernel declares `push` (SortPush), `key_count`.
-#ifndef VKH_SHADERS_LIB_KEY_TOTAL_GLSL
-#define VKH_SHADERS_LIB_KEY_TOTAL_GLSL
+#ifndef VKH_SHADERS_SORT_KEY_TOTAL_GLSL
+#define VKH_SHADERS_SORT_KEY_TOTAL_GLSL
 
 #include "shaders/gpu_types.h"
 

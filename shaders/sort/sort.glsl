@@ -1,6 +1,6 @@
 // What the radix sort's three kernels share.
-#ifndef VKH_SHADERS_LIB_SORT_GLSL
-#define VKH_SHADERS_LIB_SORT_GLSL
+#ifndef VKH_SHADERS_SORT_SORT_GLSL
+#define VKH_SHADERS_SORT_SORT_GLSL
 
 #include "shaders/gpu_types.h"
 

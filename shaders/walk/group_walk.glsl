@@ -3,8 +3,8 @@
 // all triangles of the runs that are left. It finds what nearest_triangle finds. The workgroup has
 // kQueryGroup invocations. The kernel declares `boxes`, `push` (QueryPush), and what
 // walk/walk.glsl needs.
-#ifndef VKH_SHADERS_LIB_GROUP_WALK_GLSL
-#define VKH_SHADERS_LIB_GROUP_WALK_GLSL
+#ifndef VKH_SHADERS_WALK_GROUP_WALK_GLSL
+#define VKH_SHADERS_WALK_GROUP_WALK_GLSL
 
 #include "shaders/candidate/dispatch.glsl"
 #include "shaders/walk/walk.glsl"

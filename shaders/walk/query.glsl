@@ -1,6 +1,6 @@
 // Queries of a stream of points. The kernel declares `points`, and what walk/walk.glsl needs.
-#ifndef VKH_SHADERS_LIB_QUERY_GLSL
-#define VKH_SHADERS_LIB_QUERY_GLSL
+#ifndef VKH_SHADERS_WALK_QUERY_GLSL
+#define VKH_SHADERS_WALK_QUERY_GLSL
 
 #include "shaders/walk/walk.glsl"
 

@@ -2,8 +2,8 @@
 // (docs/method.md, section 6), and no lower bound rests on it (report_write.comp visits every
 // triangle), so it needs no rounding analysis. The kernel declares `nodes`, `triangles`,
 // `triangle_lows`, `control`.
-#ifndef VKH_SHADERS_LIB_BVH_GLSL
-#define VKH_SHADERS_LIB_BVH_GLSL
+#ifndef VKH_SHADERS_WALK_WALK_GLSL
+#define VKH_SHADERS_WALK_WALK_GLSL
 
 #include "shaders/base/surface.glsl"
 #include "shaders/math/lower.h"

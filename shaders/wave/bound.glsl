@@ -18,11 +18,11 @@
 #include "shaders/wave/bound_tally.glsl"
 #include "shaders/wave/witness.glsl"
 
-// By what the kernel has besides.
+// More bounds of the kernel: none in wave_bound; the paper's u3, and u4, in paper_bound.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold);
 
-// Of the tolerance, the slack that plain floats may have: they are quicker, and a candidate is
-// closed by them all the same, unless it is as close to the threshold as that. Not on CPU devices,
+// Plain floats are used where their slack is at most this part of the tolerance: they are quicker,
+// and close a candidate unless it is as close to the threshold as that. Not on narrow devices,
 // which go through both kinds wherever a few invocations of a subgroup have one of them each.
 const float kEnough = 0.25;
 

@@ -1,8 +1,8 @@
 // The cascade for some children at once, by a whole workgroup: who holds what, and how the
 // distances are shared out. The workgroup has kGroupSize invocations. The kernel declares what
 // base/surface.glsl, candidate/child.glsl and candidate/centroid.glsl need.
-#ifndef VKH_SHADERS_LIB_BOUND_GROUP_GLSL
-#define VKH_SHADERS_LIB_BOUND_GROUP_GLSL
+#ifndef VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
+#define VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
 
 #include "shaders/base/surface.glsl"
 #include "shaders/candidate/candidate.glsl"
@@ -17,8 +17,8 @@ const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;
 // A child as all invocations need it, each word beside the same one of other children: invocations
 // of a subgroup read those at once, and as structs they would be in few of the banks of shared
 // memory. How much of it a workgroup takes decides how many run at once: an H200 runs four of
-// 10 KiB on each of its processors; of 8 KiB, as it is without centroids, bounds come a tenth
-// sooner.
+// 10 KiB on each of its processors; of 8 KiB, as it is where only the corners' triangles are known,
+// bounds come a tenth sooner.
 const uint kHeldB = 0u;  // corners around the first
 const uint kHeldC = 3u;
 const uint kHeldOrigin = 6u;

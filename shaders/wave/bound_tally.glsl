@@ -2,8 +2,8 @@
 // words are in a cache line or two, where the atomics of all workgroups wait for each other. On
 // CPU devices a barrier costs more than an atomic. The kernel declares what wave/bound_group.glsl
 // needs.
-#ifndef VKH_SHADERS_LIB_BOUND_TALLY_GLSL
-#define VKH_SHADERS_LIB_BOUND_TALLY_GLSL
+#ifndef VKH_SHADERS_WAVE_BOUND_TALLY_GLSL
+#define VKH_SHADERS_WAVE_BOUND_TALLY_GLSL
 
 #include "shaders/base/stream.glsl"
 #include "shaders/wave/bound_group.glsl"
@@ -49,18 +49,18 @@ void give_tally() {
 
 // A child that is closed, or open, or neither. Returns the slot of an open one in the stream.
 uint give(bool closed, bool open, Verdict v) {
-  float dropped = closed ? v.upper : 0.0;
+  float closed_u = closed ? v.upper : 0.0;
   float next = open ? v.upper : 0.0;
   if (!kWide) {
     for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
       count_culled(why, closed && v.by == why);
-    raise(kMaxClosed, dropped);
+    raise(kMaxClosed, closed_u);
     raise(kMaxNext, next);
     return stream_append(kCountNext, open);
   }
   for (uint why = kCullExact; why <= kCullLowerRaised; ++why)
     tally_count(why, closed && v.by == why);
-  tally_raise(kTallyClosed, dropped);
+  tally_raise(kTallyClosed, closed_u);
   tally_raise(kTallyNext, next);
   uint slot = tally_count(kTallyOpen, open);
   barrier();

@@ -1,8 +1,8 @@
 // Triangles of B that are known to be near a child: of the children that a workgroup looks at. The
 // kernel declares kKnowers, how many children these are, candidate/centroid.glsl, and what
 // candidate/child.glsl needs.
-#ifndef VKH_SHADERS_LIB_KNOWN_GLSL
-#define VKH_SHADERS_LIB_KNOWN_GLSL
+#ifndef VKH_SHADERS_WAVE_KNOWN_GLSL
+#define VKH_SHADERS_WAVE_KNOWN_GLSL
 
 #include "shaders/candidate/child.glsl"
 #include "shaders/candidate/dispatch.glsl"

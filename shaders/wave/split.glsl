@@ -7,8 +7,8 @@
 // A workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
 // declares `frontier`, `splits`, `areas`, what walk/walk.glsl and candidate/candidate.glsl need,
 // candidate/centroid.glsl or no_centroid.glsl, and candidate/unsorted.glsl or paper/sorted.glsl.
-#ifndef VKH_SHADERS_LIB_SPLIT_GLSL
-#define VKH_SHADERS_LIB_SPLIT_GLSL
+#ifndef VKH_SHADERS_WAVE_SPLIT_GLSL
+#define VKH_SHADERS_WAVE_SPLIT_GLSL
 
 #include "shaders/base/coverage.glsl"
 #include "shaders/base/stream.glsl"
@@ -68,8 +68,8 @@ struct NewPoint {
 // the `group` of the workgroup that the candidate is.
 NewPoint new_point(uint k, Refined r, uint group) {
   uint split = r.split;
-  bool inner = kMaySplitTwice && k >= 3u && split != kSplitNone;
-  if (inner) {
+  bool of_child = kMaySplitTwice && k >= 3u && split != kSplitNone;
+  if (of_child) {
     uint which = k / 3u - 1u;
     r.at = child_of(split_points(r.at, split), child_points(split, which));
     split = choose_split(r.at, r.root);
@@ -82,7 +82,7 @@ NewPoint new_point(uint k, Refined r, uint group) {
   return NewPoint(p, asked ? best_start(r, p.hi) : kNone, asked);
 }
 
-// Nothing may wait, and there is no room: the candidate is lost, but for its u.
+// Nothing may wait, and there is no room: the candidate is spilled, and its u kept.
 void spill(bool held, Candidate c, float upper) {
   raise(kMaxSpilled, held ? upper : 0.0);
   close_area(held, c.root, unpack_corners(c.corners));

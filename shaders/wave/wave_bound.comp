@@ -33,6 +33,7 @@ layout(scalar, binding = 15) buffer GroupsDone { uint groups_done; };
 #define plan_words corner_bits
 #include "shaders/plan/plan.glsl"
 
+// There is none.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) { return v; }
 
 void main() {

@@ -1,7 +1,8 @@
-// What: the wave's first step (wave/split.glsl) where `query` does not do it: on CPU devices, and
-// where points are asked for in packets. In: the frontier's reading half.
-// Out: splits; points[points_each() i + k], started from the best triangle known to the candidate,
-// a negative distance where it is not to be queried; deferred candidates and kMaxNext.
+// What: the wave's first step (wave/split.glsl) where `query` does not do it: on narrow devices,
+// and where a switch of kUseApart is on, but for `sort` (paper_subdivide). In: the frontier's
+// reading half. Out: splits; points[points_each() i + k], started from the best triangle known to
+// the candidate, a negative distance where it is not to be queried; deferred candidates and
+// kMaxNext.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -4,8 +4,8 @@
 // report, but for one chance in 2^32 a pair of them. wave_bound, by when all are measured, offers
 // them; the plan adopts one (plan/adopt.glsl). The kernel declares `survivors`, `centroids`, and
 // what candidate/child.glsl needs.
-#ifndef VKH_SHADERS_LIB_WITNESS_GLSL
-#define VKH_SHADERS_LIB_WITNESS_GLSL
+#ifndef VKH_SHADERS_WAVE_WITNESS_GLSL
+#define VKH_SHADERS_WAVE_WITNESS_GLSL
 
 #include "shaders/base/invocation.glsl"
 #include "shaders/candidate/child.glsl"

@@ -211,3 +211,25 @@ TEST_CASE("one context records on several threads at once") {
     CHECK(std::memcmp(&report, &first, sizeof(report)) == 0);
   }
 }
+
+TEST_CASE("a report says whether all of its run is certified") {
+  KernelBench plain(VKH_SWITCH_DEFAULT_WIDE | VKH_SWITCH_UNCERTIFIED);
+  ApiMesh a(icosphere(1.0, 2)), b(translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}));
+  ApiPair on(a, b, kTolerance);
+  for (const bool plain_begin : {false, true}) {
+    for (const bool plain_wave : {false, true}) {
+      CAPTURE(plain_begin);
+      CAPTURE(plain_wave);
+      // Both contexts lay a workspace out in the same way.
+      on.run([&](VkCommandBuffer commands) {
+        on.build(commands);
+        vkhCmdBegin(plain_begin ? plain.context() : on.context(), commands, &on.problem(), nullptr);
+        vkhCmdAdvance(plain_wave ? plain.context() : on.context(), commands, &on.problem(), 4,
+                      nullptr);
+        on.report(commands);
+      });
+      CHECK(on.read().waves > 1);
+      CHECK(on.read().certified == (plain_begin || plain_wave ? 0 : 1));
+    }
+  }
+}

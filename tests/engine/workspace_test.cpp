@@ -277,8 +277,8 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
   }
 }
 
-/// Where nothing may wait, a frontier that does not fit is lost as a whole.
-TEST_CASE("with a GPU's switches, what is lost to memory keeps its bound") {
+/// Where nothing may wait, a frontier that does not fit is spilled as a whole.
+TEST_CASE("with a GPU's switches, what is spilled for want of memory keeps its bound") {
   for (const ReferencePair& pair : pairs()) {
     SolveOptions options = with_memory(1);
     options.enabled = {"wide", "group_walk", "split_twice"};

@@ -254,7 +254,7 @@ void check_sample(const Sampler& sampler, Weights w, const Bounds& bound, Tally&
   };
   tally.require(at_most(bound.u1), "d(x, S + R) <= bound_u1", describe);
   tally.require(at_most(bound.u2), "d(x, S + R) <= bound_u2", describe);
-  // 6 kUlp2 of T's radius: what the cut may be off by, left to placement_slack.
+  // 6 kUlp2 of T's radius: what the cut may be off by, left to LocalCorners::slack.
   const double cut = 6.0 * math::wide(math::kUlp2) * bound.radius;
   tally.require(at_most(bound.pair + cut), "d(x, S + R) <= bound_pair", describe);
   tally.require(at_most(bound.bisector + cut), "d(x, S + R) <= bound_bisector", describe);

@@ -5,10 +5,10 @@
 // Stands in for shaders/math/glsl.h, whose include guard it takes.
 #pragma once
 
-#ifdef VKH_SHADERS_LIB_GLSL_H
+#ifdef VKH_SHADERS_MATH_GLSL_H
 #error "include tests/model/vulkan_model.h before shaders/math"
 #endif
-#define VKH_SHADERS_LIB_GLSL_H
+#define VKH_SHADERS_MATH_GLSL_H
 
 #include <array>
 #include <bit>

@@ -19,7 +19,7 @@ constexpr VkBufferUsageFlags kWorking =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 Buffer garbage(VkDeviceSize size, VkBufferUsageFlags usage) {
-  Buffer buffer(test_device(), size, usage, LocalCorners::kReadback);
+  Buffer buffer(test_device(), size, usage, Placement::kReadback);
   std::memset(buffer.mapped(), kGarbage, size);
   return buffer;
 }

@@ -60,7 +60,7 @@ VkBuffer KernelBench::reserve_bytes(const void* content, size_t bytes) {
   constexpr VkBufferUsageFlags usage =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  buffers_.emplace_back(test_device(), bytes + kGuardBytes, usage, LocalCorners::kReadback);
+  buffers_.emplace_back(test_device(), bytes + kGuardBytes, usage, Placement::kReadback);
   std::memset(buffers_.back().mapped(), kGarbage, bytes + kGuardBytes);
   if (content != nullptr) std::memcpy(buffers_.back().mapped(), content, bytes);
   return buffers_.back().handle();
