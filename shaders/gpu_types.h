@@ -86,7 +86,7 @@ VKH_CONST uint kStackDepth = 60u;
   X(kUseLargestFirst, 14u, LARGEST_FIRST, largest_first) /* the largest u are refined first */    \
   X(kUsePaperU3, 15u, U3_PAPER, u3_paper)                /* u3 as the paper has it */             \
   X(kUseSplitTwice, 16u, SPLIT_TWICE, split_twice) /* few candidates are split twice in a wave */
-#define VKH_SWITCH(constant, bit, api, name) VKH_CONST uint constant = 1u << bit;
+#define VKH_SWITCH(constant, bit, api, name) VKH_CONST uint constant = 1u << (bit);
 VKH_SWITCHES(VKH_SWITCH)
 #undef VKH_SWITCH
 // No parts of the method: record what was closed (base/coverage.glsl); bounds in plain floats, by
@@ -119,10 +119,8 @@ VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge: docs/metho
 #define VKH_CULL(constant, value, name) VKH_CONST uint constant = value;
 VKH_CULLS(VKH_CULL)
 #undef VKH_CULL
-#define VKH_ONE(constant, value, name) +1u
-VKH_CONST uint kCullCount = 0u VKH_CULLS(VKH_ONE);
-#undef VKH_ONE
-VKH_CONST uint kMostCulls = 16u;  // room for them in what the host reads
+VKH_CONST uint kCullCount = kCullPrecision + 1u;  // it stays the last
+VKH_CONST uint kMostCulls = 16u;                  // room for them in what the host reads
 
 // Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax
 // orders them. Distances are what they are above Control::base.
