@@ -147,17 +147,6 @@ TEST_CASE("budgets hold for a prepared B, too") {
 
 namespace {
 
-AdoptedDevice handles_of(const Device& d) {
-  const VkhDeviceInfo info = d.engine_info();
-  return {.get_instance_proc_addr = info.getInstanceProcAddr,
-          .instance = info.instance,
-          .physical = info.physicalDevice,
-          .device = info.device,
-          .queue = d.queue(),
-          .queue_family = d.queue_family(),
-          .queue_mutex = nullptr};
-}
-
 void check_refused(const AdoptedDevice& adopted, const std::string& reason) {
   try {
     const Device device(adopted);

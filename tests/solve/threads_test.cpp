@@ -60,17 +60,6 @@ const Pairs& pairs() {
   return made;
 }
 
-AdoptedDevice handles_of(const Device& d) {
-  const VkhDeviceInfo info = d.engine_info();
-  return {.get_instance_proc_addr = info.getInstanceProcAddr,
-          .instance = info.instance,
-          .physical = info.physicalDevice,
-          .device = info.device,
-          .queue = d.queue(),
-          .queue_family = d.queue_family(),
-          .queue_mutex = nullptr};
-}
-
 void check_one_device(Device& device) {
   const uint32_t before = test_device().validation_messages();
   std::vector<std::vector<Report>> reports(kThreads);

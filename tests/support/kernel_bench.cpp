@@ -51,6 +51,17 @@ Device& test_device() {
   return made()->device;
 }
 
+AdoptedDevice handles_of(const Device& device) {
+  const VkhDeviceInfo info = device.engine_info();
+  return {.get_instance_proc_addr = info.getInstanceProcAddr,
+          .instance = info.instance,
+          .physical = info.physicalDevice,
+          .device = info.device,
+          .queue = device.queue(),
+          .queue_family = device.queue_family(),
+          .queue_mutex = nullptr};
+}
+
 uint32_t validation_messages() { return made() ? made()->device.validation_messages() : 0; }
 
 KernelBench::KernelBench(uint32_t switches, bool wide)

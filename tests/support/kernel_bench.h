@@ -16,6 +16,9 @@ namespace vkh::test {
 /// and not empty. VKH_TEST_DEVICE selects another than the best one.
 vkh::Device& test_device();
 
+/// A device as somebody else's, to be adopted.
+AdoptedDevice handles_of(const Device& device);
+
 /// What the layer has said so far; 0 if no device was made. Any message fails the program
 /// (main.cpp).
 uint32_t validation_messages();
