@@ -42,15 +42,27 @@ Limits chosen(const VkhContextCreateInfo& info) {
   return limits;
 }
 
-bool load_functions(const VkhDeviceInfo& info, DeviceFunctions& vk) {
+bool load_functions(const VkhDeviceInfo& info, bool pushes, DeviceFunctions& vk) {
   const auto get_device_proc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
       info.getInstanceProcAddr(info.instance, "vkGetDeviceProcAddr"));
-  bool complete = get_device_proc != nullptr;
-#define VKH_LOAD(name)                                                                         \
-  vk.name = reinterpret_cast<PFN_vk##name>(complete ? get_device_proc(info.device, "vk" #name) \
-                                                    : nullptr);                                \
+  if (get_device_proc == nullptr) return false;
+  bool complete = true;
+#define VKH_LOAD(name)                                                                \
+  vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, "vk" #name)); \
   complete = complete && vk.name != nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_LOAD)
+  if (pushes) {
+    VKH_PUSH_FUNCTIONS(VKH_LOAD)
+  } else {
+    VKH_SET_FUNCTIONS(VKH_LOAD)
+  }
+#undef VKH_LOAD
+#define VKH_LOAD(name)                                                                      \
+  vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, "vk" #name "KHR")); \
+  if (vk.name == nullptr)                                                                   \
+    vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, "vk" #name));     \
+  complete = complete && vk.name != nullptr;
+  VKH_PROMOTED_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
   // By the instance: a layer may give the device's functions out though the extension is not
   // enabled.
@@ -123,7 +135,7 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
 }
 
 // False where the host has no memory to keep the commands in.
-bool record_in_step(const VkhContext_T& context, VkCommandBuffer commands, const VkhTask* tasks,
+bool record_in_step(Recorder& together, const VkhContext_T& context, const VkhTask* tasks,
                     uint32_t count) {
   std::vector<Track> tracks;
   try {
@@ -132,7 +144,7 @@ bool record_in_step(const VkhContext_T& context, VkCommandBuffer commands, const
       Recorder rec(context, tracks[i]);
       record_task(rec, context, tasks[i]);
     }
-    write_in_step(context, commands, tracks);
+    together.put_in_step(tracks);
   } catch (...) {  // no exception may cross a C interface; nothing has been written yet
     return false;
   }
@@ -149,19 +161,24 @@ bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize face_byt
 }  // namespace
 }  // namespace vkh
 
+VkhContext_T::VkhContext_T() = default;
+VkhContext_T::~VkhContext_T() = default;
+
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context) {
   *context = nullptr;
   if (vkhQuerySupport(&info->device, nullptr, 0) != VKH_SUCCESS) return VKH_ERROR_UNSUPPORTED;
   auto* created = new (std::nothrow) VkhContext_T;
   if (created == nullptr) return VKH_ERROR_PIPELINE;
   created->device = info->device.device;
-  if (!vkh::load_functions(info->device, created->vk)) {
-    delete created;
-    return VKH_ERROR_UNSUPPORTED;
-  }
   VkResult result = VK_ERROR_OUT_OF_HOST_MEMORY;
   try {
     created->limits = vkh::chosen(*info);
+    const bool pushes = created->limits.pushes;
+    if (!vkh::load_functions(info->device, pushes, created->vk)) {
+      delete created;
+      return VKH_ERROR_UNSUPPORTED;
+    }
+    if (!pushes) created->sets = std::make_unique<vkh::SetStore>(*created);
     result = vkh::create_kernels(*created, info->pipelineCache);
   } catch (...) {  // no exception may cross a C interface
   }
@@ -177,6 +194,15 @@ void vkhDestroyContext(VkhContext context) {
   if (context == nullptr) return;
   vkh::destroy_kernels(*context);
   delete context;
+}
+
+VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer) {
+  const bool complete = context->sets == nullptr || context->sets->is_complete(commandBuffer);
+  return complete ? VKH_SUCCESS : VKH_ERROR_MEMORY;
+}
+
+void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer) {
+  if (context->sets != nullptr) context->sets->release(commandBuffer);
 }
 
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
@@ -243,7 +269,7 @@ void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t 
                     const VkhTask* tasks, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
   const auto scope = rec.scope("tasks");
-  if (taskCount > 1 && vkh::record_in_step(*context, commandBuffer, tasks, taskCount)) {
+  if (taskCount > 1 && vkh::record_in_step(rec, *context, tasks, taskCount)) {
     rec.stage("tasks");
     return;
   }

@@ -33,15 +33,16 @@ struct Command {
   Slice<gpu::Dispatch> size;  // of an indirect one: one of them
 };
 
+class Binder;  // engine/descriptors.h
+
 // Writes the command, with the barrier that its order asks for.
-void write(const VkhContext_T& context, VkCommandBuffer commands, const Command& command);
+void write(Binder& binder, const Command& command);
 
 // Commands in their order. From one that is kAfterAll to the next is a step.
 using Track = std::vector<Command>;
 
 // Writes the tracks in step: one barrier, then the next step of each. What one track writes no
 // other may use.
-void write_in_step(const VkhContext_T& context, VkCommandBuffer commands,
-                   const std::vector<Track>& tracks);
+void write_in_step(Binder& binder, const std::vector<Track>& tracks);
 
 }  // namespace vkh

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "engine/slice.h"
 #include "engine/vkhausdorff.h"
@@ -23,10 +24,19 @@ namespace vkh {
   X(CmdDispatch)                \
   X(CmdDispatchIndirect)        \
   X(CmdFillBuffer)              \
-  X(CmdPushConstants)           \
-  X(CmdPushDescriptorSetKHR)    \
-  X(CmdPipelineBarrier2KHR)     \
-  X(CmdWriteTimestamp2KHR)
+  X(CmdPushConstants)
+// Of Vulkan 1.3; of VK_KHR_synchronization2 before.
+#define VKH_PROMOTED_FUNCTIONS(X) \
+  X(CmdPipelineBarrier2)          \
+  X(CmdWriteTimestamp2)
+#define VKH_PUSH_FUNCTIONS(X) X(CmdPushDescriptorSetKHR)
+// Where descriptors cannot be pushed.
+#define VKH_SET_FUNCTIONS(X) \
+  X(CreateDescriptorPool)    \
+  X(DestroyDescriptorPool)   \
+  X(AllocateDescriptorSets)  \
+  X(UpdateDescriptorSets)    \
+  X(CmdBindDescriptorSets)
 
 // Labels for captures; null where the caller has not enabled VK_EXT_debug_utils.
 #define VKH_OPTIONAL_FUNCTIONS(X) \
@@ -37,6 +47,9 @@ namespace vkh {
 struct DeviceFunctions {
 #define VKH_DECLARE(name) PFN_vk##name name = nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_DECLARE)
+  VKH_PROMOTED_FUNCTIONS(VKH_DECLARE)
+  VKH_PUSH_FUNCTIONS(VKH_DECLARE)
+  VKH_SET_FUNCTIONS(VKH_DECLARE)
   VKH_OPTIONAL_FUNCTIONS(VKH_DECLARE)
 #undef VKH_DECLARE
 };
@@ -54,7 +67,10 @@ struct Limits {
   uint32_t switches = 0;           // of the context: some have streams of their own
   bool wide = true;                // many workgroups run at once (base/switches.glsl)
   bool cpu = false;                // the device is a CPU
+  bool pushes = true;              // it has push descriptors
 };
+
+class SetStore;  // engine/descriptors.h
 
 }  // namespace vkh
 
@@ -63,4 +79,8 @@ struct VkhContext_T {
   vkh::DeviceFunctions vk;
   vkh::Limits limits;
   std::array<vkh::KernelPipeline, vkh::kMaxKernels> kernels{};
+  std::unique_ptr<vkh::SetStore> sets;  // null where descriptors are pushed
+
+  VkhContext_T();
+  ~VkhContext_T();
 };

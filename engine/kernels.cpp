@@ -48,7 +48,7 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
   }
   VkDescriptorSetLayoutCreateInfo set{};
   set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+  if (c.limits.pushes) set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
   set.bindingCount = count;
   set.pBindings = bindings.data();
   VkResult result = c.vk.CreateDescriptorSetLayout(c.device, &set, nullptr, &out.set_layout);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "engine/command.h"
+#include "engine/descriptors.h"
 #include "engine/kernels.h"
 
 namespace vkh {
@@ -37,7 +37,8 @@ class Recorder {
 
   Recorder(const VkhContext_T& context, VkCommandBuffer commands, VkhProfile* profile);
   // Keeps the commands instead, without labels and timestamps.
-  Recorder(const VkhContext_T& context, Track& track) : context_(context), track_(&track) {}
+  Recorder(const VkhContext_T& context, Track& track)
+      : context_(context), binder_(context, VK_NULL_HANDLE), track_(&track) {}
 
   // `given` is any struct whose members are called as the kernel's buffers are, with a member
   // `push` where the kernel has push constants. A name that is missing does not compile.
@@ -71,6 +72,8 @@ class Recorder {
     command.word = word;
     put(command);
   }
+  // Writes the tracks in step (engine/command.h).
+  void put_in_step(const std::vector<Track>& tracks) { write_in_step(binder_, tracks); }
   bool is_wide() const { return context_.limits.wide; }
   // Ends a stage: what ran since the last call is timed under this name (a static string).
   void stage(const char* name);
@@ -101,12 +104,12 @@ class Recorder {
     if (track_ != nullptr) {
       track_->push_back(command);
     } else {
-      write(context_, commands_, command);
+      write(binder_, command);
     }
   }
 
   const VkhContext_T& context_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  Binder binder_;
   VkhProfile* profile_ = nullptr;
   Track* track_ = nullptr;
 };

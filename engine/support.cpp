@@ -12,6 +12,8 @@
 namespace vkh {
 namespace {
 
+// Of these what a device has: without the first it needs Vulkan 1.3, without the second it is given
+// descriptor sets.
 constexpr const char* kExtensions[] = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
                                        VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
 
@@ -43,26 +45,6 @@ F load(const VkhDeviceInfo& info, const char* name) {
   return reinterpret_cast<F>(info.getInstanceProcAddr(info.instance, name));
 }
 
-void query_properties(const VkhDeviceInfo& info, DeviceFacts& facts) {
-  facts.properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  facts.subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
-  facts.push.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR;
-  facts.properties.pNext = &facts.subgroup;
-  facts.subgroup.pNext = &facts.push;
-  load<PFN_vkGetPhysicalDeviceProperties2>(info, "vkGetPhysicalDeviceProperties2")(
-      info.physicalDevice, &facts.properties);
-}
-
-void query_features(const VkhDeviceInfo& info, DeviceFacts& facts) {
-  facts.features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  facts.scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
-  facts.synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
-  facts.features.pNext = &facts.scalar;
-  facts.scalar.pNext = &facts.synchronization;
-  load<PFN_vkGetPhysicalDeviceFeatures2>(info, "vkGetPhysicalDeviceFeatures2")(info.physicalDevice,
-                                                                               &facts.features);
-}
-
 void query_extensions(const VkhDeviceInfo& info, DeviceFacts& facts) {
   const auto enumerate =
       load<PFN_vkEnumerateDeviceExtensionProperties>(info, "vkEnumerateDeviceExtensionProperties");
@@ -77,6 +59,41 @@ bool has_extension(const DeviceFacts& facts, const char* name) {
     if (std::strcmp(e.extensionName, name) == 0) return true;
   }
   return false;
+}
+
+void query_properties(const VkhDeviceInfo& info, DeviceFacts& facts) {
+  facts.properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  facts.subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  facts.push.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR;
+  facts.properties.pNext = &facts.subgroup;
+  // Structs of extensions that it has not are a warning on stderr for some drivers.
+  if (has_extension(facts, kExtensions[1])) facts.subgroup.pNext = &facts.push;
+  load<PFN_vkGetPhysicalDeviceProperties2>(info, "vkGetPhysicalDeviceProperties2")(
+      info.physicalDevice, &facts.properties);
+}
+
+void query_facts(const VkhDeviceInfo& info, DeviceFacts& facts) {
+  query_extensions(info, facts);
+  query_properties(info, facts);
+}
+
+void query_features(const VkhDeviceInfo& info, DeviceFacts& facts) {
+  facts.features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  facts.scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
+  facts.synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
+  facts.features.pNext = &facts.scalar;
+  facts.scalar.pNext = &facts.synchronization;
+  load<PFN_vkGetPhysicalDeviceFeatures2>(info, "vkGetPhysicalDeviceFeatures2")(info.physicalDevice,
+                                                                               &facts.features);
+}
+
+bool has_synchronization2(const DeviceFacts& facts) {
+  return has_extension(facts, kExtensions[0]) ||
+         facts.properties.properties.apiVersion >= VK_API_VERSION_1_3;
+}
+
+bool pushes_descriptors(const DeviceFacts& facts) {
+  return has_extension(facts, kExtensions[1]) && facts.push.maxPushDescriptors >= kDescriptors;
 }
 
 class Reasons {
@@ -96,14 +113,14 @@ void check_limits(const DeviceFacts& facts, Reasons& reasons) {
   const VkPhysicalDeviceLimits& limits = facts.properties.properties.limits;
   reasons.unless(facts.properties.properties.apiVersion >= VK_API_VERSION_1_2,
                  "Vulkan 1.2 is missing");
-  reasons.unless(limits.maxComputeWorkGroupInvocations >= gpu::kSortGroup,
+  reasons.unless(limits.maxComputeWorkGroupInvocations >= gpu::kSortGroup &&
+                     limits.maxComputeWorkGroupSize[0] >= gpu::kSortGroup,
                  "workgroups of 256 are not possible");
   reasons.unless(limits.maxComputeSharedMemorySize >= kSharedBytes,
                  std::to_string(kSharedBytes) + " bytes of shared memory are missing");
   reasons.unless(limits.minStorageBufferOffsetAlignment <= 256,
                  "storage buffer offsets need more than 256 bytes");
-  reasons.unless(limits.maxPerStageDescriptorStorageBuffers >= kDescriptors &&
-                     facts.push.maxPushDescriptors >= kDescriptors,
+  reasons.unless(limits.maxPerStageDescriptorStorageBuffers >= kDescriptors,
                  std::to_string(kDescriptors) + " storage buffers a kernel are not possible");
 }
 
@@ -115,27 +132,35 @@ void check_subgroups(const DeviceFacts& facts, Reasons& reasons) {
   reasons.unless((s.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                      (s.supportedOperations & needed) == needed,
                  "subgroup ballot, arithmetic and shuffle in compute shaders are missing");
-  reasons.unless(s.subgroupSize >= 8 && s.subgroupSize <= 64,
-                 "subgroups are " + std::to_string(s.subgroupSize) + " wide, not 8 to 64");
+  reasons.unless(s.subgroupSize >= gpu::kNarrowestSubgroup && s.subgroupSize <= 64,
+                 "subgroups are " + std::to_string(s.subgroupSize) + " wide, not 4 to 64");
 }
 
 }  // namespace
 
 Limits device_limits(const VkhDeviceInfo& info) {
   DeviceFacts facts;
-  query_properties(info, facts);
+  query_facts(info, facts);
   const VkPhysicalDeviceProperties& properties = facts.properties.properties;
   return {.storage_range = properties.limits.maxStorageBufferRange,
           .wide = properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU,
-          .cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+          .cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
+          .pushes = pushes_descriptors(facts)};
 }
 
 }  // namespace vkh
 
 uint32_t vkhGetVersion(void) { return VKH_VERSION; }
 
-const char* const* vkhGetRequiredExtensions(uint32_t* count) {
-  *count = static_cast<uint32_t>(std::size(vkh::kExtensions));
+const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count) try {
+  vkh::DeviceFacts facts;
+  vkh::query_facts(*info, facts);
+  const bool first = vkh::has_extension(facts, vkh::kExtensions[0]);
+  const bool second = vkh::pushes_descriptors(facts);
+  *count = (first ? 1u : 0u) + (second ? 1u : 0u);
+  return vkh::kExtensions + (first ? 0 : 1);
+} catch (...) {  // out of host memory: no exception may cross a C interface
+  *count = 0;
   return vkh::kExtensions;
 }
 
@@ -146,17 +171,14 @@ std::string reasons_against(const VkhDeviceInfo& info) {
   if (load<PFN_vkVoidFunction>(info, "vkGetPhysicalDeviceProperties2") == nullptr)
     return "Vulkan 1.2 is missing";
   DeviceFacts facts;
-  query_properties(info, facts);
+  query_facts(info, facts);
   query_features(info, facts);
-  query_extensions(info, facts);
   Reasons why;
   check_limits(facts, why);
   check_subgroups(facts, why);
   why.unless(facts.scalar.scalarBlockLayout == VK_TRUE, "scalarBlockLayout is missing");
-  why.unless(facts.synchronization.synchronization2 == VK_TRUE, "synchronization2 is missing");
-  for (const char* name : kExtensions) {
-    why.unless(has_extension(facts, name), std::string(name) + " is missing");
-  }
+  why.unless(facts.synchronization.synchronization2 == VK_TRUE && has_synchronization2(facts),
+             "synchronization2 is missing");
   return why.text();
 }
 

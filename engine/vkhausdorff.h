@@ -7,8 +7,8 @@
  * coordinates. Every recorded step narrows the interval; you may stop after any.
  *
  * What it does not do. It never submits, waits, allocates device memory, creates a device, opens a
- * file, prints or reads the environment. It exports no symbol but vkh*. Recording cannot fail;
- * sizes and support are asked first.
+ * file, prints or reads the environment. It exports no symbol but vkh*. Recording cannot fail where
+ * descriptors can be pushed; sizes and support are asked first.
  *
  * Order of use, once a device:      vkhQuerySupport, vkhCreateContext
  *               once a mesh B:      vkhGetHierarchyRequirements, vkhCmdBuildHierarchy
@@ -54,10 +54,10 @@
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
  *
  * Errors. Functions that can fail return VkhResult and then leave their output as it was (a context
- * becomes null). Recording cannot fail: what could go wrong is refused before by the Get functions
- * or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the engine without
- * NDEBUG asserts the rules that it can see (strides, offsets, sizes, counts, types) and names the
- * one that is broken. The validation layers see the engine's commands as yours. */
+ * becomes null). Recording cannot fail (but see vkhGetRecordingResult): what could go wrong is
+ * refused before, or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the
+ * engine without NDEBUG asserts the rules that it can see (strides, offsets, sizes, counts, types)
+ * and names the one that is broken. The validation layers see the engine's commands as yours. */
 #ifndef VKHAUSDORFF_H
 #define VKHAUSDORFF_H
 
@@ -87,8 +87,9 @@ typedef struct VkhContext_T* VkhContext;
 typedef enum VkhResult {
   VKH_SUCCESS = 0,
   VKH_ERROR_UNSUPPORTED = -1, /* the device lacks something; vkhQuerySupport says what */
-  VKH_ERROR_PIPELINE = -2, /* the driver refused a pipeline or ran out of host or device memory */
-  VKH_ERROR_TOO_LARGE = -3 /* a mesh exceeds 2^28, or one storage buffer binding; or is empty */
+  VKH_ERROR_PIPELINE = -2,  /* the driver refused a pipeline or ran out of host or device memory */
+  VKH_ERROR_TOO_LARGE = -3, /* a mesh exceeds 2^28, or one storage buffer binding; or is empty */
+  VKH_ERROR_MEMORY = -4     /* no host or device memory for descriptor sets */
 } VkhResult;
 
 /* VKH_VERSION of the library that is linked, which a shared one may have of its own. */
@@ -118,9 +119,8 @@ typedef enum VkhSwitchBits {
   /* Few candidates are split twice in a wave, unless CENTROID, PACKET or U3_PAPER is on. */
   VKH_SWITCH_SPLIT_TWICE = 65536,
   VKH_SWITCH_NONE = 1 << 30, /* switches nothing: the set that is empty, which 0 is not */
-  /* What 0 stands for, by the kind of device. U4 decides no candidate that u3 over all pairs leaves
-   * (measured, 0 of 400,000). Fewer candidates are worth a query on a CPU; on a wide device, where
-   * a wave is a chain of short steps, more candidates at once are cheaper than another step. */
+  /* What 0 stands for, by the kind of device. Fewer candidates are worth a query on a CPU; on a
+   * wide device, a chain of short steps, more candidates at once are cheaper than another step. */
   VKH_SWITCH_DEFAULT_NARROW = 1 + 2 + 4 + 8 + 16 + 64 + 512 + 8192,
   VKH_SWITCH_DEFAULT_WIDE = 4 + 8 + 16 + 64 + 256 + 512 + 8192 + 65536
 } VkhSwitchBits;
@@ -133,7 +133,7 @@ typedef enum VkhDeviceKind {
 } VkhDeviceKind;
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader
- * may be opened by you, or be somebody's layer. `device` may be null for vkhQuerySupport. Labels
+ * may be opened by you, or be somebody's layer. `device` may be null before it is created. Labels
  * for captures are recorded where VK_EXT_debug_utils is enabled. */
 typedef struct VkhDeviceInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
@@ -142,11 +142,12 @@ typedef struct VkhDeviceInfo {
   VkDevice device; /* created with what vkhGetRequiredExtensions and vkhQuerySupport name */
 } VkhDeviceInfo;
 
-/* Device extensions that must be enabled, a static array of `count` static strings:
- * VK_KHR_synchronization2 and VK_KHR_push_descriptor. The features scalarBlockLayout (Vulkan 1.2)
+/* Device extensions that must be enabled, a static array of `count` static strings: those of
+ * VK_KHR_synchronization2 (if none: Vulkan 1.3, device and instance) and VK_KHR_push_descriptor (if
+ * none: vkhReleaseCommandBuffer) that the device has. The features scalarBlockLayout (Vulkan 1.2)
  * and synchronization2 must be enabled too. Nothing else is: no fp64, no 64-bit or float atomics,
  * no ray queries, no fixed subgroup size. */
-const char* const* vkhGetRequiredExtensions(uint32_t* count);
+const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count);
 
 /* Whether a physical device can run the engine: extensions, features, limits, subgroup operations.
  * Writes the reasons why not, separated by "; " and cut at `capacity` bytes including the end;
@@ -169,6 +170,13 @@ typedef struct VkhContextCreateInfo {
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context);
 /* No command buffer that was recorded with the context may still be pending. Null is fine. */
 void vkhDestroyContext(VkhContext context);
+
+/* For devices without VK_KHR_push_descriptor; on others both do nothing. There a command buffer
+ * binds descriptor sets, which the context keeps. The first, after recording: VKH_ERROR_MEMORY if
+ * one could not be had; dispatches are missing, do not submit. The second frees them: once the
+ * command buffer has run, and is freed or to be recorded anew. */
+VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
+void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
 /* A triangle mesh in the caller's buffers. Positions are three float32 at vertexOffset + i *
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
@@ -235,8 +243,7 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
 /* Timestamps, for those who want them: one is written at the start of each vkhCmd* function and one
  * after each stage (at ALL_COMMANDS), from query `count` on; names[i] is the stage that ends with
  * query i, null where a function starts. The caller resets the pool and provides `capacity` names;
- * recording stops to write when it is full. `profile` may be null everywhere. Needs a queue family
- * with timestampValidBits > 0. */
+ * recording stops to write when it is full. May be null. Needs timestampValidBits > 0. */
 typedef struct VkhProfile {
   VkQueryPool pool;
   uint32_t capacity;

@@ -86,7 +86,7 @@ void Gpu::create_instance(bool validation) {
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-  app.apiVersion = VK_API_VERSION_1_2;
+  app.apiVersion = VK_API_VERSION_1_3;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pNext = validation ? &listen : nullptr;
@@ -158,7 +158,8 @@ void Gpu::create_device(bool graphics) {
   info.pNext = &scalar;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&info.enabledExtensionCount);
+  const VkhDeviceInfo engine{vkGetInstanceProcAddr, instance_, physical_, VK_NULL_HANDLE};
+  info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&engine, &info.enabledExtensionCount);
   check(vkCreateDevice(physical_, &info, nullptr, &device_), "creating a device");
   keep([this] { vkDestroyDevice(device_, nullptr); });
   vkGetDeviceQueue(device_, family_, 0, &queue_);
@@ -190,6 +191,7 @@ void Gpu::create_queue_objects() {
 }
 
 void Gpu::create_layout() {
+  if (push_descriptors_ == nullptr) return;
   std::array<VkDescriptorSetLayoutBinding, kBuffers> bindings{};
   for (uint32_t i = 0; i < kBuffers; ++i)
     bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr};
@@ -256,6 +258,8 @@ Buffer Gpu::buffer(VkDeviceSize size, Memory memory) {
 }
 
 VkShaderModule Gpu::shader(std::span<const uint32_t> words) {
+  if (layout_ == VK_NULL_HANDLE)
+    throw std::runtime_error("the example's own shaders need VK_KHR_push_descriptor");
   VkShaderModuleCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   info.codeSize = words.size_bytes();
@@ -304,10 +308,13 @@ double Gpu::run(const std::function<void(VkCommandBuffer)>& record) {
   VkCommandBufferBeginInfo begin{};
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   check(vkBeginCommandBuffer(commands_, &begin), "beginning commands");
+  vkhReleaseCommandBuffer(context_, commands_);
   vkCmdResetQueryPool(commands_, timestamps_, 0, 2);
   vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, timestamps_, 0);
   record(commands_);
   vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps_, 1);
+  if (vkhGetRecordingResult(context_, commands_) != VKH_SUCCESS)
+    throw std::runtime_error("no memory for the engine's descriptor sets");
   check(vkEndCommandBuffer(commands_), "recording");
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The house rules that a search can check; prints 'file:line: rule' for each breach and exits 1 if there is any.
 #   - calls of vkCmdPipelineBarrier in engine/: only in engine/command.cpp.
-#   - 400 lines a file, 250 a kernel (*.comp).
+#   - 400 lines a file, 250 a kernel (*.comp); 500 the C header, most of which is contract.
 #   - clang-format, where it is the version that the project is written with (others disagree in details).
 # usage: tools/check_style.sh [ROOT]
 set -euo pipefail
@@ -25,7 +25,7 @@ files() {
 
 mapfile -t recording < <(files engine -- cpp h)
 mapfile -t formatted < <(files shaders engine host examples tests tools -- comp vert frag glsl h c cpp)
-mapfile -t counted < <(files engine host examples tests tools cmake -- cpp h py sh cmake)
+mapfile -t counted < <(files engine host examples tests tools cmake -- cpp h py sh cmake | grep -v '^engine/vkhausdorff\.h$')
 
 # Prints 'file:line:<tab>code' for every line with code on it, comments and #includes taken out.
 code_lines() {
@@ -84,6 +84,7 @@ check_format() {
   check_barriers
   check_length 250 shaders/*/*.comp
   check_length 400 "${counted[@]}"
+  [ ! -e engine/vkhausdorff.h ] || check_length 500 engine/vkhausdorff.h
   check_format
 } >"$failures"
 

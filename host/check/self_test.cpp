@@ -22,26 +22,20 @@ class SelfTestKernel {
     const VulkanApi& vk = device_.vk();
     vk.DestroyPipeline(device_.handle(), pipeline_, nullptr);
     vk.DestroyPipelineLayout(device_.handle(), layout_, nullptr);
+    vk.DestroyDescriptorPool(device_.handle(), pool_, nullptr);
     vk.DestroyDescriptorSetLayout(device_.handle(), set_layout_, nullptr);
     vk.DestroyShaderModule(device_.handle(), shader_, nullptr);
   }
   SelfTestKernel(const SelfTestKernel&) = delete;
   SelfTestKernel& operator=(const SelfTestKernel&) = delete;
 
+  // What was recorded before has run.
   void record(VkCommandBuffer commands, const k::SelfTest::Args& args, uint32_t items) const {
+    bind(args);
     const VulkanApi& vk = device_.vk();
-    const auto buffers = k::SelfTest::descriptors(args);
-    std::array<VkWriteDescriptorSet, kBuffers> writes{};
-    for (uint32_t i = 0; i < kBuffers; ++i) {
-      writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-      writes[i].dstBinding = i;
-      writes[i].descriptorCount = 1;
-      writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-      writes[i].pBufferInfo = &buffers[i];
-    }
     vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
-    vk.CmdPushDescriptorSetKHR(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, kBuffers,
-                               writes.data());
+    vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0,
+                             nullptr);
     vk.CmdDispatch(commands, items / gpu::kGroupSize, 1, 1);
   }
 
@@ -49,9 +43,24 @@ class SelfTestKernel {
   static constexpr uint32_t kBuffers = 5;
   static_assert(sizeof(k::SelfTest::kBindings) == kBuffers * sizeof(Binding));
 
+  void bind(const k::SelfTest::Args& args) const {
+    const auto buffers = k::SelfTest::descriptors(args);
+    std::array<VkWriteDescriptorSet, kBuffers> writes{};
+    for (uint32_t i = 0; i < kBuffers; ++i) {
+      writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+      writes[i].dstSet = set_;
+      writes[i].dstBinding = i;
+      writes[i].descriptorCount = 1;
+      writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+      writes[i].pBufferInfo = &buffers[i];
+    }
+    device_.vk().UpdateDescriptorSets(device_.handle(), kBuffers, writes.data(), 0, nullptr);
+  }
+
   // What was made before a step that throws stays: the program ends with it.
   void create() {
     create_layouts();
+    create_set();
     const VulkanApi& vk = device_.vk();
     VkShaderModuleCreateInfo code{};
     code.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -79,7 +88,6 @@ class SelfTestKernel {
     }
     VkDescriptorSetLayoutCreateInfo set{};
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = kBuffers;
     set.pBindings = bindings.data();
     check(vk.CreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_layout_),
@@ -92,7 +100,27 @@ class SelfTestKernel {
           "the self-test's layout");
   }
 
+  void create_set() {
+    const VulkanApi& vk = device_.vk();
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBuffers};
+    VkDescriptorPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = 1;
+    pool.poolSizeCount = 1;
+    pool.pPoolSizes = &size;
+    check(vk.CreateDescriptorPool(device_.handle(), &pool, nullptr, &pool_),
+          "the self-test's descriptor pool");
+    VkDescriptorSetAllocateInfo set{};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    set.descriptorPool = pool_;
+    set.descriptorSetCount = 1;
+    set.pSetLayouts = &set_layout_;
+    check(vk.AllocateDescriptorSets(device_.handle(), &set, &set_), "the self-test's descriptors");
+  }
+
   const Device& device_;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkShaderModule shader_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;

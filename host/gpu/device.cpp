@@ -49,7 +49,7 @@ VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation)
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   app.pApplicationName = "vkhausdorff";
-  app.apiVersion = VK_API_VERSION_1_2;
+  app.apiVersion = VK_API_VERSION_1_3;  // a device may have synchronization2 by that alone
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
@@ -269,7 +269,8 @@ void Device::create_device() {
   info.pNext = &scalar;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&info.enabledExtensionCount);
+  const VkhDeviceInfo chosen = engine_info();
+  info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&chosen, &info.enabledExtensionCount);
   check(vk_.CreateDevice(physical_, &info, nullptr, &device_), "creating the device");
   load_device(vk_, device_);
   vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);

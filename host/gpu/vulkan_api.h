@@ -40,12 +40,16 @@ namespace vkh {
   X(CmdResetQueryPool)           \
   X(CmdWriteTimestamp)           \
   X(CmdBindPipeline)             \
-  X(CmdPushDescriptorSetKHR)     \
+  X(CmdBindDescriptorSets)       \
   X(CmdDispatch)                 \
   X(CreateShaderModule)          \
   X(DestroyShaderModule)         \
   X(CreateDescriptorSetLayout)   \
   X(DestroyDescriptorSetLayout)  \
+  X(CreateDescriptorPool)        \
+  X(DestroyDescriptorPool)       \
+  X(AllocateDescriptorSets)      \
+  X(UpdateDescriptorSets)        \
   X(CreatePipelineLayout)        \
   X(DestroyPipelineLayout)       \
   X(CreateComputePipelines)      \

@@ -96,6 +96,7 @@ void Runner::seat(size_t count, const std::function<void()>& take) {
 
 VkCommandBuffer Runner::begin() {
   const VkCommandBuffer commands = submitter_.begin();
+  vkhReleaseCommandBuffer(context_, commands);
   profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
   return commands;
 }
@@ -120,8 +121,13 @@ ResidentMesh Runner::build(const MeshData& b) {
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
   vkhCmdBuildHierarchy(context_, commands, seats_[0]->mesh_b(), &hierarchy, seats_[0]->scratch(),
                        nullptr);
-  submitter_.submit_and_wait({});
+  submit_and_wait(commands);
   return resident;
+}
+
+void Runner::submit_and_wait(VkCommandBuffer commands) {
+  check_engine(vkhGetRecordingResult(context_, commands), "recording");
+  submitter_.submit_and_wait({});
 }
 
 // With its hierarchy timed apart.
@@ -157,7 +163,7 @@ void Runner::record_together(VkCommandBuffer commands, const Round& round) {
   stamp(commands, "solve");
 }
 
-void Runner::record(const Round& round, const std::vector<RunOutput>& outputs) {
+VkCommandBuffer Runner::record(const Round& round, const std::vector<RunOutput>& outputs) {
   const VkCommandBuffer commands = begin();
   if (round.first) {
     for (const size_t i : round.running) seats_[i]->record_upload(commands);
@@ -171,6 +177,7 @@ void Runner::record(const Round& round, const std::vector<RunOutput>& outputs) {
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
   for (const size_t i : round.running) seats_[i]->record_readback(commands, outputs[i]);
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+  return commands;
 }
 
 void Runner::read_stages(const Round& round, std::vector<RunOutput>& outputs) {
@@ -211,8 +218,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
       round.waves =
           std::min(round.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);
     const double submitted = now_ms();
-    record(round, outputs);
-    submitter_.submit_and_wait({});
+    submit_and_wait(record(round, outputs));
     for (const size_t i : round.running) seats_[i]->read(outputs[i]);
     read_stages(round, outputs);
     round.waves = next_waves(++submissions, round.waves, now_ms() - submitted);

@@ -35,7 +35,8 @@ class Runner {
   void stamp(VkCommandBuffer commands, const char* name);
   void record_one(VkCommandBuffer commands, const Round& round);
   void record_together(VkCommandBuffer commands, const Round& round);
-  void record(const Round& round, const std::vector<RunOutput>& outputs);
+  VkCommandBuffer record(const Round& round, const std::vector<RunOutput>& outputs);
+  void submit_and_wait(VkCommandBuffer commands);
   void read_stages(const Round& round, std::vector<RunOutput>& outputs);
 
   const Device& device_;

@@ -60,6 +60,7 @@ void check_engine(VkhResult result, const char* what) {
   if (result == VKH_SUCCESS) return;
   const char* reason = result == VKH_ERROR_TOO_LARGE ? "too large for the device's buffer bindings"
                        : result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
+                       : result == VKH_ERROR_MEMORY      ? "no memory for descriptor sets"
                                                          : "the driver refused a pipeline";
   throw DeviceError(std::string(what) + ": " + reason);
 }

@@ -14,8 +14,8 @@ layout(scalar, binding = 1) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 2) buffer BoxBlock { CentroidBox box; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
-const uint kMaxSubgroups = kBoxGroup / 8u;  // They are 8 wide or wider.
-shared float sides[6][kMaxSubgroups];       // lo, and hi with its sign turned
+const uint kMaxSubgroups = kBoxGroup / kNarrowestSubgroup;
+shared float sides[6][kMaxSubgroups];  // lo, and hi with its sign turned
 
 vec3 middle_of(uint face) {
   uvec3 f = faces[min(face, push.count - 1u)];  // past the end, the last face again

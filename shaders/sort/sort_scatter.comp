@@ -2,8 +2,9 @@
 // In: keys_in, values_in; counts and totals from sort_scan, or, of few blocks, counts from
 // sort_count, from who wrote the keys or from the pass before. Out: keys_out, values_out, and the
 // next pass's counts where this one counts for it. Each subgroup owns a contiguous run of the
-// block, so that its own counters, taken round by round, keep the order; lanes of equal digit find
-// each other by ballots. 16-bit counters, two a word: a block has 2048 keys at most.
+// block, so that its counters, taken round by round, keep the order; lanes of equal digit find each
+// other by ballots. 16-bit counters, two a word: a block has 2048 keys at most. More subgroups than
+// there are counters for share them, neighbours one after the other.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -27,10 +28,11 @@ layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 
 #include "shaders/sort/key_total.glsl"
 
-const uint kMaxSubgroups = kSortGroup / 8u;  // Subgroups are 8 wide or wider.
+const uint kMaxSubgroups = kSortGroup / kNarrowestSubgroup;
+const uint kRows = 32u;  // of counters, 16 KiB: one each for subgroups that are 8 wide or wider
 const uint kRow = kSortDigits / 2u;
 const uint kBatch = 8u;  // loads of counts that do not wait for each other
-shared uint counters[kMaxSubgroups * kRow];
+shared uint counters[kRows * kRow];
 shared uint digit_base[kSortDigits];  // where the block's keys of a digit go
 shared uint subgroup_sum[kMaxSubgroups];
 
@@ -87,12 +89,19 @@ void scan_totals(uint digit, uint block) {
   digit_base[digit] = before + own.earlier;
 }
 
-// Turns the subgroups' counters of one digit into exclusive sums over the subgroups.
-void scan_subgroups(uint word) {
+// How many neighbours share a row of counters.
+uint sharers() { return (gl_NumSubgroups + kRows - 1u) / kRows; }
+
+uint row_of_subgroup() { return gl_SubgroupID / sharers(); }
+
+uint used_rows() { return (gl_NumSubgroups + sharers() - 1u) / sharers(); }
+
+// Turns the counters of one digit into exclusive sums over the rows.
+void scan_rows(uint word) {
   uint running = 0u;
-  for (uint s = 0u; s < gl_NumSubgroups; ++s) {
-    uint here = counters[s * kRow + word];
-    counters[s * kRow + word] = running;
+  for (uint r = 0u; r < used_rows(); ++r) {
+    uint here = counters[r * kRow + word];
+    counters[r * kRow + word] = running;
     running += here;
   }
 }
@@ -107,8 +116,9 @@ void load_run(uint run) {
   }
 }
 
-// Of each key, how many of its digit stand before it in its subgroup's run.
+// Of each key, how many of its digit stand before it in the runs of those that share its row.
 void rank_run(uint run) {
+  uint row = row_of_subgroup() * kRow;
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds) continue;
     // Past the end every key counts as the last digit: such lanes stand after all others and push
@@ -120,13 +130,19 @@ void rank_run(uint run) {
     uint shift = 16u * (digit & 1u);
     uint before = 0u;
     if (gl_SubgroupInvocationID == leader) {
-      before = atomicAdd(counters[gl_SubgroupID * kRow + (digit >> 1)],
-                         subgroupBallotBitCount(peers) << shift);
+      before = atomicAdd(counters[row + (digit >> 1)], subgroupBallotBitCount(peers) << shift);
     }
     before = (subgroupShuffle(before, leader) >> shift) & 0xffffu;
     rank[round] = before + subgroupBallotExclusiveBitCount(peers);
     subgroupMemoryBarrierShared();
     subgroupBarrier();
+  }
+}
+
+void rank_in_turn(uint run) {
+  for (uint turn = 0u; turn < sharers(); ++turn) {
+    if (gl_SubgroupID % sharers() == turn) rank_run(run);
+    barrier();
   }
 }
 
@@ -141,7 +157,7 @@ void write_run(uint run) {
     if (round >= push.rounds || run + round * gl_SubgroupSize >= total) continue;
     uint digit = (key[round] >> push.shift) & 255u;
     uint earlier =
-        (counters[gl_SubgroupID * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
+        (counters[row_of_subgroup() * kRow + (digit >> 1)] >> (16u * (digit & 1u))) & 0xffffu;
     uint place = digit_base[digit] + earlier + rank[round];
     keys_out[place] = key[round];
     values_out[place] = value[round];
@@ -158,12 +174,11 @@ void main() {
   uint run = block * push.rounds * kSortGroup + gl_SubgroupID * (gl_SubgroupSize * push.rounds) +
              gl_SubgroupInvocationID;
   load_run(run);
-  for (uint i = lane; i < gl_NumSubgroups * kRow; i += kSortGroup) counters[i] = 0u;
+  for (uint i = lane; i < used_rows() * kRow; i += kSortGroup) counters[i] = 0u;
   scan_totals(lane, block);
   barrier();
-  rank_run(run);
-  barrier();
-  if (lane < kRow) scan_subgroups(lane);
+  rank_in_turn(run);
+  if (lane < kRow) scan_rows(lane);
   barrier();
   write_run(run);
 }

@@ -95,6 +95,7 @@ void KernelBench::check_guards() const {
 
 void KernelBench::run(const std::function<void(Recorder&)>& record) {
   const VkCommandBuffer commands = submitter_.begin();
+  vkhReleaseCommandBuffer(context_, commands);
   Recorder rec(*context_, commands, nullptr);
   record(rec);
   VkMemoryBarrier barrier{};
