@@ -14,6 +14,8 @@ set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
 set(VKH_RUN_EMBED ${Python3_EXECUTABLE} -B ${VKH_EMBED})  # -B: leave no __pycache__ in the sources
 # Every float operation is decorated before anything else looks at it; embedding asserts that all of them still are.
 set(VKH_RUN_ORDER ${Python3_EXECUTABLE} -B ${VKH_EMBED_DIR}/float_order.py)
+set(VKH_RUN_LAYOUT ${Python3_EXECUTABLE} -B ${VKH_EMBED_DIR}/explicit_layout.py)
+set(VKH_PASSES ${VKH_EMBED_DIR}/float_order.py ${VKH_EMBED_DIR}/explicit_layout.py ${VKH_EMBED_DIR}/spirv_module.py)
 
 function(vkh_add_shaders target)
   set(out ${PROJECT_BINARY_DIR}/generated/kernels)
@@ -77,9 +79,10 @@ function(vkh_add_kernel name shader out)
     COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR} --depfile ${spv}.d
             -o ${spv} ${shader}
     COMMAND ${VKH_RUN_ORDER} ${spv}
+    COMMAND ${VKH_RUN_LAYOUT} ${spv}
     COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
     ${flatten}
-    DEPENDS ${shader} ${VKH_EMBED_DIR}/float_order.py ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED}
+    DEPENDS ${shader} ${VKH_PASSES} ${VKH_EMBED}
     DEPFILE ${spv}.d
     COMMENT "Compiling ${name}.comp"
     VERBATIM)
@@ -88,8 +91,7 @@ function(vkh_add_kernel name shader out)
     OUTPUT ${out}/${name}.cpp
     BYPRODUCTS ${out}/${name}.h
     COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
-    DEPENDS ${spv} ${VKH_EMBED} ${VKH_EMBED_DIR}/spirv_module.py ${VKH_EMBED_DIR}/float_order.py
-            ${VKH_EMBED_DIR}/kernel_templates.py ${VKH_EMBED_DIR}/shared_memory.py
+    DEPENDS ${spv} ${VKH_EMBED} ${VKH_PASSES} ${VKH_EMBED_DIR}/kernel_templates.py ${VKH_EMBED_DIR}/shared_memory.py
     COMMENT "Embedding ${name}"
     VERBATIM)
 endfunction()

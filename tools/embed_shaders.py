@@ -11,7 +11,8 @@
 The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... without a gap, storage
 buffers only, one member a block, and that member's name is the argument's name in C++. Push
 constants are one struct in a block of their own, 128 bytes at most. Everything is layout(scalar).
-Float operations have one order, which no driver may change (float_order.py).
+Float operations have one order, which no driver may change (float_order.py). Nothing but buffers has
+an explicit layout (explicit_layout.py).
 """
 
 import struct
@@ -20,6 +21,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
+import explicit_layout
 import float_order
 import shared_memory
 import spirv_module as spirv
@@ -330,7 +332,7 @@ def embed_kernel(spv, out_dir, flat=None, cpu=None):
     flat_words = spirv.read_words(flat) if flat else words
     cpu_words = spirv.with_loops_kept(spirv.read_words(cpu)) if cpu else flat_words
     for embedded in (flat_words, cpu_words):
-        if breach := float_order.breach(embedded):
+        if breach := float_order.breach(embedded) or explicit_layout.breach(embedded):
             sys.exit(f"{spv.stem}.comp: {breach}")
     write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
     # Always: it is the output by which a Makefile knows that this ran.
