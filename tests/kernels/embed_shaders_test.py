@@ -264,8 +264,8 @@ class EmbedShaders(unittest.TestCase):
         # glslang 12 gives `own` the buffer's type, with its stride; later ones do not.
         declarations = ("layout(scalar, set = 0, binding = 0) buffer Block { uint theirs[16]; };"
                         "uint own[16]; shared uint shared_own[16];")
-        result = self.embed(declarations, "own[theirs[1]] = 1u; shared_own[theirs[2]] = own[theirs[3]];"
-                                          "theirs[0] = own[theirs[4]] + shared_own[theirs[5]];")
+        result = self.embed(declarations, "uint i = theirs[0]; own[i] = 1u; shared_own[i] = own[i + 1u];"
+                                          "theirs[0] = own[i + 2u] + shared_own[i + 3u];")
         spv = self.dir / "try_it.spv"
         words = spirv_module.read_words(spv)
         if explicit_layout.breach(words) is None:
