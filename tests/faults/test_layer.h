@@ -32,7 +32,7 @@ class TestLayer {
     find("vkhLayerErrorsOf", errors_of_);
   }
 
-  /// As VKH_LAYER_FAIL; forgets what was counted, logged and violated.
+  /// As VKH_LAYER_FAIL; forgets what was counted, logged, violated and lost. Between two runs.
   void arm(const std::string& faults) const {
     if (!arm_(faults.c_str())) throw std::runtime_error("the test layer cannot '" + faults + "'");
   }

@@ -140,8 +140,9 @@ bool arm(const char* faults) {
   std::vector<Fault> parsed;
   if (!parse_faults(faults, parsed)) return false;
   Calls& calls = only<Calls>();
-  const std::lock_guard lock(calls.mutex);
+  const std::scoped_lock lock(calls.mutex, only<Tables>().mutex);
   settings().faults = parsed;
+  for (const auto& [key, table] : only<Tables>().by_key) table->is_lost = false;
   calls.by_name.clear();
   calls.by_error.clear();
   calls.log.clear();
