@@ -52,7 +52,10 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
   set.bindingCount = count;
   set.pBindings = bindings.data();
   VkResult result = c.vk.CreateDescriptorSetLayout(c.device, &set, nullptr, &out.set_layout);
-  if (result != VK_SUCCESS) return result;
+  if (result != VK_SUCCESS) {
+    out.set_layout = VK_NULL_HANDLE;  // Vulkan leaves open what a call that failed has written
+    return result;
+  }
 
   const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, source.push_bytes};
   VkPipelineLayoutCreateInfo layout{};
@@ -61,7 +64,9 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
   layout.pSetLayouts = &out.set_layout;
   layout.pushConstantRangeCount = source.push_bytes > 0 ? 1 : 0;
   layout.pPushConstantRanges = &push;
-  return c.vk.CreatePipelineLayout(c.device, &layout, nullptr, &out.layout);
+  result = c.vk.CreatePipelineLayout(c.device, &layout, nullptr, &out.layout);
+  if (result != VK_SUCCESS) out.layout = VK_NULL_HANDLE;
+  return result;
 }
 
 VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,

@@ -17,7 +17,8 @@ constexpr uint32_t kComposed = kItems / 16;  // judged in 113 bits, which takes 
 
 class SelfTestKernel {
  public:
-  explicit SelfTestKernel(const Device& device) : device_(device) { create(); }
+  // Delegating: what was made is destroyed if a later step throws.
+  explicit SelfTestKernel(const Device& device) : SelfTestKernel(device, Empty{}) { create(); }
   ~SelfTestKernel() {
     const VulkanApi& vk = device_.vk();
     vk.DestroyPipeline(device_.handle(), pipeline_, nullptr);
@@ -57,7 +58,9 @@ class SelfTestKernel {
     device_.vk().UpdateDescriptorSets(device_.handle(), kBuffers, writes.data(), 0, nullptr);
   }
 
-  // What was made before a step that throws stays: the program ends with it.
+  struct Empty {};
+  SelfTestKernel(const Device& device, Empty) : device_(device) {}
+
   void create() {
     create_layouts();
     create_set();
@@ -66,8 +69,8 @@ class SelfTestKernel {
     code.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     code.codeSize = k::SelfTest::words().size_bytes();
     code.pCode = k::SelfTest::words().data();
-    check(vk.CreateShaderModule(device_.handle(), &code, nullptr, &shader_),
-          "the self-test's shader");
+    check_made(vk.CreateShaderModule(device_.handle(), &code, nullptr, &shader_), shader_,
+               "the self-test's shader");
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -75,9 +78,9 @@ class SelfTestKernel {
     info.stage.module = shader_;
     info.stage.pName = "main";
     info.layout = layout_;
-    check(
+    check_made(
         vk.CreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
-        "the self-test's pipeline");
+        pipeline_, "the self-test's pipeline");
   }
 
   void create_layouts() {
@@ -90,14 +93,14 @@ class SelfTestKernel {
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set.bindingCount = kBuffers;
     set.pBindings = bindings.data();
-    check(vk.CreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_layout_),
-          "the self-test's buffers");
+    check_made(vk.CreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_layout_),
+               set_layout_, "the self-test's buffers");
     VkPipelineLayoutCreateInfo layout{};
     layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     layout.setLayoutCount = 1;
     layout.pSetLayouts = &set_layout_;
-    check(vk.CreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_),
-          "the self-test's layout");
+    check_made(vk.CreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_), layout_,
+               "the self-test's layout");
   }
 
   void create_set() {
@@ -108,8 +111,8 @@ class SelfTestKernel {
     pool.maxSets = 1;
     pool.poolSizeCount = 1;
     pool.pPoolSizes = &size;
-    check(vk.CreateDescriptorPool(device_.handle(), &pool, nullptr, &pool_),
-          "the self-test's descriptor pool");
+    check_made(vk.CreateDescriptorPool(device_.handle(), &pool, nullptr, &pool_), pool_,
+               "the self-test's descriptor pool");
     VkDescriptorSetAllocateInfo set{};
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     set.descriptorPool = pool_;

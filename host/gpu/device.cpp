@@ -60,7 +60,7 @@ VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation)
   info.enabledExtensionCount = validation ? 1 : 0;
   info.ppEnabledExtensionNames = &extension;
   VkInstance instance = VK_NULL_HANDLE;
-  check(vk.CreateInstance(&info, nullptr, &instance), "creating a Vulkan instance");
+  check_made(vk.CreateInstance(&info, nullptr, &instance), instance, "creating a Vulkan instance");
   return instance;
 }
 
@@ -235,7 +235,8 @@ void Device::create_instance(bool validation) {
   messenger.pNext = nullptr;
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vk_.GetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-  check(create(instance_, &messenger, nullptr, &messenger_), "creating the validation messenger");
+  check_made(create(instance_, &messenger, nullptr, &messenger_), messenger_,
+             "creating the validation messenger");
 }
 
 void Device::choose(const std::string& selector) {
@@ -271,7 +272,7 @@ void Device::create_device() {
   info.pQueueCreateInfos = &queue;
   const VkhDeviceInfo chosen = engine_info();
   info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&chosen, &info.enabledExtensionCount);
-  check(vk_.CreateDevice(physical_, &info, nullptr, &device_), "creating the device");
+  check_made(vk_.CreateDevice(physical_, &info, nullptr, &device_), device_, "creating the device");
   load_device(vk_, device_);
   vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
   read_limits();
@@ -318,12 +319,10 @@ VkhDeviceInfo Device::engine_info() const {
 
 std::vector<DeviceDescription> list_devices() {
   const FloatEnvironment ours;
-  VulkanApi vk = load_vulkan();
-  const VkInstance instance = make_instance(vk, nullptr, false);
-  load_instance(vk, instance);
+  Device none{Device::Empty{}};  // whatever happens, it takes its instance with it
+  none.create_instance(false);
   std::vector<DeviceDescription> descriptions;
-  for (const Choice& c : enumerate(vk, instance)) descriptions.push_back(c.description);
-  vk.DestroyInstance(instance, nullptr);
+  for (const Choice& c : enumerate(none.vk_, none.instance_)) descriptions.push_back(c.description);
   return descriptions;
 }
 

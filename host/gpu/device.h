@@ -64,6 +64,7 @@ class Device {
   VkhDeviceInfo engine_info() const;
 
  private:
+  friend std::vector<DeviceDescription> list_devices();
   struct Empty {};
   /// Delegated to, so that what was created is destroyed if a later step throws.
   explicit Device(Empty);

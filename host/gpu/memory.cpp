@@ -1,6 +1,8 @@
 #include "host/gpu/memory.h"
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "host/base/error.h"
 
@@ -49,7 +51,8 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size;
   info.usage = usage;
-  check(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), "creating a buffer");
+  check_made(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), buffer_,
+             "creating a buffer");
   VkMemoryRequirements requirements;
   vk.GetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
   VkMemoryAllocateInfo allocate{};
@@ -57,7 +60,8 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   allocate.allocationSize = requirements.size;
   allocate.memoryTypeIndex = memory_type(device, requirements.memoryTypeBits, placement);
   const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
-  check(result, ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
+  check_made(result, memory_,
+             ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
   check(vk.BindBufferMemory(device.handle(), buffer_, memory_, 0), "binding a buffer");
   if (placement != Placement::kDevice) {
     check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
@@ -90,7 +94,8 @@ Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {
   VkCommandPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   pool.queueFamilyIndex = device.queue_family();
-  check(vk.CreateCommandPool(device.handle(), &pool, nullptr, &pool_), "creating a command pool");
+  check_made(vk.CreateCommandPool(device.handle(), &pool, nullptr, &pool_), pool_,
+             "creating a command pool");
   VkCommandBufferAllocateInfo commands{};
   commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   commands.commandPool = pool_;
@@ -100,23 +105,36 @@ Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {
         "allocating a command buffer");
   VkFenceCreateInfo fence{};
   fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-  check(vk.CreateFence(device.handle(), &fence, nullptr, &fence_), "creating a fence");
+  check_made(vk.CreateFence(device.handle(), &fence, nullptr, &fence_), fence_, "creating a fence");
   if (!device.has_timestamps()) return;
   VkQueryPoolCreateInfo queries{};
   queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
   queries.queryCount = kTimestamps;
-  check(vk.CreateQueryPool(device.handle(), &queries, nullptr, &timestamps_),
-        "creating a query pool");
+  check_made(vk.CreateQueryPool(device.handle(), &queries, nullptr, &timestamps_), timestamps_,
+             "creating a query pool");
 }
 
 Submitter::~Submitter() {
   const VulkanApi& vk = device_.vk();
-  // Not vkDeviceWaitIdle: the device may be somebody else's, with queues in use on other threads.
-  if (pending_) vk.WaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
+  finish();
   vk.DestroyQueryPool(device_.handle(), timestamps_, nullptr);
   vk.DestroyFence(device_.handle(), fence_, nullptr);
   vk.DestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+// A wait may fail for want of memory while the device works on, and nothing that it uses may go
+// before it has ended. Not vkDeviceWaitIdle: the device may be somebody else's, with queues in use
+// on other threads.
+void Submitter::finish() {
+  constexpr int kMostTries = 100;
+  constexpr std::chrono::milliseconds kPause(10);
+  for (int i = 0; pending_ && i < kMostTries; ++i) {
+    const VkResult result =
+        device_.vk().WaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
+    pending_ = result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST;
+    if (pending_) std::this_thread::sleep_for(kPause);
+  }
 }
 
 VkCommandBuffer Submitter::begin() {
@@ -133,6 +151,8 @@ VkCommandBuffer Submitter::begin() {
 void Submitter::submit_and_wait(const std::function<void()>& waiting) {
   const VulkanApi& vk = device_.vk();
   check(vk.EndCommandBuffer(commands_), "recording");
+  // Here and not behind the wait: a reset that fails leaves nothing that the next wait believes.
+  check(vk.ResetFences(device_.handle(), 1, &fence_), "resetting a fence");
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   submit.commandBufferCount = 1;
@@ -148,9 +168,12 @@ void Submitter::submit_and_wait(const std::function<void()>& waiting) {
     result = vk.WaitForFences(device_.handle(), 1, &fence_, VK_TRUE, slice_ns);
     if (waiting) waiting();
   }
+  if (result == VK_SUCCESS) {
+    pending_ = false;
+  } else {
+    finish();
+  }
   check(result, "waiting for the device");
-  pending_ = false;
-  check(vk.ResetFences(device_.handle(), 1, &fence_), "resetting a fence");
 }
 
 std::vector<double> Submitter::read_timestamps(uint32_t count) const {

@@ -62,6 +62,7 @@ class Submitter {
  private:
   struct Empty {};
   Submitter(const Device& device, Empty) : device_(device) {}
+  void finish();  // what was submitted and not waited for
 
   const Device& device_;
   VkCommandPool pool_ = VK_NULL_HANDLE;

@@ -2,7 +2,10 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include "host/base/error.h"
 
@@ -45,26 +48,21 @@ void load_device(VulkanApi& vk, VkDevice device) {
 
 void check(VkResult result, const char* what) {
   if (result == VK_SUCCESS) return;
-  std::string reason = "error " + std::to_string(static_cast<int>(result));
-  switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-      reason = "out of host memory";
-      break;
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      reason = "out of device memory";
-      break;
-    case VK_ERROR_DEVICE_LOST:
-      reason = "the device was lost";
-      break;
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-      reason = "no compatible driver";
-      break;
-    case VK_ERROR_INITIALIZATION_FAILED:
-      reason = "initialization failed";
-      break;
-    default:
-      break;
-  }
+  static constexpr std::array<std::pair<VkResult, const char*>, 10> kReasons{
+      {{VK_ERROR_OUT_OF_HOST_MEMORY, "out of host memory"},
+       {VK_ERROR_OUT_OF_DEVICE_MEMORY, "out of device memory"},
+       {VK_ERROR_DEVICE_LOST, "the device was lost"},
+       {VK_ERROR_INCOMPATIBLE_DRIVER, "no compatible driver"},
+       {VK_ERROR_INITIALIZATION_FAILED, "initialization failed"},
+       {VK_ERROR_MEMORY_MAP_FAILED, "the memory cannot be mapped"},
+       {VK_ERROR_LAYER_NOT_PRESENT, "a layer is missing"},
+       {VK_ERROR_EXTENSION_NOT_PRESENT, "an extension is missing"},
+       {VK_ERROR_FEATURE_NOT_PRESENT, "a feature is missing"},
+       {VK_ERROR_TOO_MANY_OBJECTS, "the driver has too many objects"}}};
+  const auto* known = std::find_if(kReasons.begin(), kReasons.end(),
+                                   [&](const auto& reason) { return reason.first == result; });
+  const std::string reason =
+      known != kReasons.end() ? known->second : "error " + std::to_string(static_cast<int>(result));
   throw DeviceError(std::string(what) + " failed: " + reason);
 }
 

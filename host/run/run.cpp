@@ -72,8 +72,9 @@ VkhContext Runner::context_for(uint32_t switches) {
                                   wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW};
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
+  ContextHandle kept(context, vkhDestroyContext);
   cache_.save();
-  contexts_.emplace(switches, ContextHandle(context, vkhDestroyContext));
+  contexts_.emplace(switches, std::move(kept));
   return context;
 }
 

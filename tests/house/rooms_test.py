@@ -19,11 +19,11 @@ ROOMS = {
                 "report", "doctor"],
     "host": ["base", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve",
-              "cli", "python", "house", "malformed", "fuzz", "sanitize"],
+              "cli", "faults", "python", "house", "malformed", "fuzz", "sanitize"],
 }
 FLOORS = list(ROOMS)
 OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room
-BESIDE = {"host/python", "tests/package"}  # with builds of their own: after all of the floor's rooms
+BESIDE = {"host/python", "tests/package", "tests/layer"}  # with builds of their own: after all of the floor's rooms
 MOST_FILES = 12
 INCLUDING = {".h", ".c", ".cpp", ".glsl", ".comp"}
 SOURCES = {*INCLUDING, ".py", ".sh"}

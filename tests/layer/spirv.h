@@ -1,0 +1,22 @@
+// What a compute shader takes of a device, read from its SPIR-V with its specialisation.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace vkh::layer {
+
+struct ShaderNeeds {
+  std::array<uint32_t, 3> local_size{1, 1, 1};
+  uint64_t shared_bytes = 0;
+};
+
+/// Nothing where the module holds an operation on constants that this page does not know.
+std::optional<ShaderNeeds> needs_of(std::span<const uint32_t> words,
+                                    const VkSpecializationInfo* specialisation);
+
+}  // namespace vkh::layer
