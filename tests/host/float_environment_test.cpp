@@ -10,7 +10,7 @@
 
 #include "host/read/mesh_io.h"
 #include "tests/shapes/shapes.h"
-#include "tests/support/program.h"
+#include "tests/support/files.h"
 #include "tests/support/solver_bench.h"
 #include "tests/support/tally.h"
 

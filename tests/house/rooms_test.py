@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
-    "host": ["base", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
+    "host": ["base", "system", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve",
               "cli", "faults", "python", "house", "malformed", "fuzz", "sanitize"],
 }
