@@ -20,6 +20,7 @@
 #include "host/base/float_environment.h"
 #include "host/check/verify.h"
 #include "host/cli/doctor.h"
+#include "host/cli/progress_line.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
 #include "host/gpu/device.h"
@@ -65,35 +66,6 @@ using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-/// A line on stderr that rewrites itself, on a terminal only.
-class ProgressLine {
- public:
-  ProgressLine() : shown_(can_redraw_errors()) {}
-  ~ProgressLine() {
-    if (drawn_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const Progress& p) {
-    constexpr double kRedrawMs = 100;
-    if (!shown_ || (drawn_ && ms_since(last_) < kRedrawMs)) return;
-    std::fprintf(stderr, "\r\033[K%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
-                 p.back ? "h(B,A)" : "h(A,B)", p.wave,
-                 static_cast<unsigned long long>(p.candidates),
-                 decimal(p.lower, 7, Rounding::kDown).c_str(),
-                 decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
-    std::fflush(stderr);
-    drawn_ = true;
-    last_ = Clock::now();
-  }
-
- private:
-  bool shown_;
-  bool drawn_ = false;
-  Clock::time_point last_;
-};
 
 void check_names(const char* option, const std::vector<std::string>& names,
                  const std::vector<std::string>& known) {
@@ -169,6 +141,7 @@ Answer answer_for(const Arguments& arguments, const Request& request, const Mesh
 int complain(std::string message, ExitCode code) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "vkhausdorff: %s\n", message.c_str());
+  std::fflush(stderr);
   return code;
 }
 

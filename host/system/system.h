@@ -22,7 +22,7 @@ inline std::string name_of(const std::filesystem::path& path) {
 std::vector<std::string> command_line(int argc, const char* const* argv);
 
 /// While it lives, standard output and error take UTF-8, and lines that end in LF alone. A console
-/// is then left as it was found.
+/// is then left as it was found. Standard error may be buffered.
 class Console {
  public:
   Console();
@@ -31,9 +31,8 @@ class Console {
   Console& operator=(const Console&) = delete;
 };
 
-/// Whether standard error is a terminal where a line can be drawn anew. Asked while a Console
-/// lives.
-bool can_redraw_errors();
+/// Whether standard error is a terminal.
+bool is_error_terminal();
 
 /// From now on the first Ctrl-C is noted, and the second one ends the program.
 void note_interrupts();

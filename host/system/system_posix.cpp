@@ -50,7 +50,7 @@ std::vector<std::string> command_line(int argc, const char* const* argv) {
 Console::Console() = default;
 Console::~Console() = default;
 
-bool can_redraw_errors() { return isatty(STDERR_FILENO) == 1; }
+bool is_error_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 void note_interrupts() { std::signal(SIGINT, on_interrupt); }
 bool is_interrupted() { return g_interrupted != 0; }

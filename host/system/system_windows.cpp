@@ -13,20 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the console was like, for it outlives the program.
-struct ConsoleState {
-  UINT code_page = 0;     ///< 0: not changed
-  DWORD error_modes = 0;  ///< of standard error, where that is a console
-  bool is_error_console = false, can_redraw = false;
-};
-ConsoleState g_console;
-
-HANDLE error_handle() { return GetStdHandle(STD_ERROR_HANDLE); }
+// The console's, which outlives the program; 0: there is none, or it was given back.
+std::atomic<UINT> g_code_page = 0;
 
 void leave_console() {
-  if (g_console.code_page != 0) SetConsoleOutputCP(g_console.code_page);
-  if (g_console.is_error_console) SetConsoleMode(error_handle(), g_console.error_modes);
-  g_console = {};
+  const UINT before = g_code_page.exchange(0);
+  if (before != 0) SetConsoleOutputCP(before);
 }
 
 std::atomic<bool> g_interrupted = false;
@@ -70,19 +62,22 @@ std::vector<std::string> command_line(int, const char* const*) {
 }
 
 Console::Console() {
-  for (std::FILE* file : {stdout, stderr}) _setmode(_fileno(file), _O_BINARY);
-  g_console.code_page = GetConsoleOutputCP();
-  if (g_console.code_page != 0) SetConsoleOutputCP(CP_UTF8);
-  g_console.is_error_console = GetConsoleMode(error_handle(), &g_console.error_modes) != 0;
-  g_console.can_redraw =
-      g_console.is_error_console &&
-      SetConsoleMode(error_handle(), g_console.error_modes | ENABLE_PROCESSED_OUTPUT |
-                                         ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+  // The C library writes to a console byte by byte if it may, and a character must not be cut.
+  constexpr size_t kBuffer = size_t{1} << 16;
+  for (std::FILE* file : {stdout, stderr}) {
+    _setmode(_fileno(file), _O_BINARY);
+    std::setvbuf(file, nullptr, _IOFBF, kBuffer);
+  }
+  g_code_page = GetConsoleOutputCP();
+  if (g_code_page != 0) SetConsoleOutputCP(CP_UTF8);
 }
 
 Console::~Console() { leave_console(); }
 
-bool can_redraw_errors() { return g_console.can_redraw; }
+bool is_error_terminal() {
+  DWORD modes = 0;
+  return GetConsoleMode(GetStdHandle(STD_ERROR_HANDLE), &modes) != 0;
+}
 
 void note_interrupts() { SetConsoleCtrlHandler(on_control, TRUE); }
 bool is_interrupted() { return g_interrupted; }
