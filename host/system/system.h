@@ -51,5 +51,8 @@ using AnyFunction = void (*)();
 AnyFunction vulkan_loader_function(const char* name);
 /// What the loader is called, and where it comes from.
 extern const char* const kVulkanLoader;
+/// Whether the system's drivers stand on another interface (macOS: Metal). The loader lists such
+/// drivers, which may leave out parts of Vulkan, to those alone who ask.
+extern const bool kAsksForPortability;
 
 }  // namespace vkh

@@ -39,7 +39,9 @@ void* vulkan_loader() {
 const char* const kVulkanLoader =
     "libvulkan.1.dylib or libMoltenVK.dylib: install the Vulkan SDK, or molten-vk and "
     "vulkan-loader from Homebrew";
+const bool kAsksForPortability = true;
 #else
+const bool kAsksForPortability = false;
 const char* const kVulkanLoader = "libvulkan.so.1: install your driver's or the package libvulkan1";
 #endif
 

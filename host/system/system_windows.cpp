@@ -43,6 +43,8 @@ std::wstring variable(const wchar_t* name) {
 
 const char* const kVulkanLoader = "vulkan-1.dll: install your graphics card's driver";
 
+const bool kAsksForPortability = false;
+
 std::string utf8_of(std::wstring_view text) {
   const int from = static_cast<int>(text.size());
   const int size = WideCharToMultiByte(CP_UTF8, 0, text.data(), from, nullptr, 0, nullptr, nullptr);
