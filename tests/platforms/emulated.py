@@ -28,9 +28,10 @@ def first_line(*words: str) -> str:
 class Platform:
     """A cross-build of this tree, by its preset, and what its programs are run by."""
 
-    def __init__(self, name: str, source: pathlib.Path):
+    def __init__(self, name: str, source: pathlib.Path, native: pathlib.Path):
         self.name = name
         self.source = source
+        self.native = native  # this machine's build, whose kernels are the same
         self.build = source / "out" / name
         # Neither the tests' validation layer nor anything else that the caller's shell has set up.
         self.environment = {k: v for k, v in os.environ.items()
@@ -43,7 +44,7 @@ class Platform:
     def compile(self, targets: list[str]) -> None:
         launcher = [f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX") if shutil.which("ccache")]
         generator = [] if (self.build / "CMakeCache.txt").exists() else ["-G", "Ninja"]
-        for words in (["cmake", "--preset", self.name, *generator, *launcher],
+        for words in (["cmake", "--preset", self.name, *generator, *launcher, f"-DVKH_KERNELS={self.native}/generated/kernels"],
                       ["cmake", "--build", str(self.build), "-j", str(os.cpu_count()), "--target", *targets]):
             done = subprocess.run(words, cwd=self.source, capture_output=True, text=True, timeout=1200)
             if done.returncode:
@@ -64,8 +65,8 @@ class Windows(Platform):
 
     suffix = ".exe"
 
-    def __init__(self, source: pathlib.Path):
-        super().__init__("windows", source)
+    def __init__(self, source: pathlib.Path, native: pathlib.Path):
+        super().__init__("windows", source, native)
         compiler = need("x86_64-w64-mingw32-g++-posix")
         wine = need("wine64", "/usr/lib/wine/wine64", "wine")
         need("Xvfb")
@@ -104,8 +105,8 @@ class Windows(Platform):
 class Arm64(Platform):
     """By a cross-compiler, under qemu-user, with ARM64's own loader and lavapipe in a folder."""
 
-    def __init__(self, source: pathlib.Path):
-        super().__init__("arm64", source)
+    def __init__(self, source: pathlib.Path, native: pathlib.Path):
+        super().__init__("arm64", source, native)
         compiler = need("aarch64-linux-gnu-g++")
         self.emulator = need("qemu-aarch64-static", "qemu-aarch64")
         self.sysroot = self.build / "sysroot"

@@ -226,7 +226,7 @@ def main() -> int:
     if arguments.only:
         groups = {name: groups[name] for name in arguments.only.split(",")}
     try:
-        platform = (Windows if arguments.platform == "windows" else Arm64)(SOURCE)
+        platform = (Windows if arguments.platform == "windows" else Arm64)(SOURCE, arguments.native.resolve())
         run = Run(platform, arguments.native.resolve(), arguments.sweep or (60 if arguments.platform == "windows" else 20))
         start = time.time()
         platform.compile(["vkhausdorff", "vkh_sweep", "api_c11", *KERNELS, *HOST])
