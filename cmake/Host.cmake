@@ -8,6 +8,11 @@ find_package(CLI11 REQUIRED)
 find_package(tinyobjloader REQUIRED)
 file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
 list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli/main\\.cpp|python/.*)$")
+if(WIN32)  # what operating systems do differently stands in host/system
+  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_posix\\.cpp$")
+else()
+  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_windows\\.cpp$")
+endif()
 vkh_add_kernel(self_test ${PROJECT_SOURCE_DIR}/shaders/doctor/self_test.comp ${PROJECT_BINARY_DIR}/generated/kernels)
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
 add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp)
@@ -16,12 +21,15 @@ if(BUILD_SHARED_LIBS)
 endif()
 target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_shaders> tinyobjloader::tinyobjloader
                       $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
-target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES)
+target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)
 add_library(VkHausdorff::host ALIAS vkh_host)
 
 add_executable(vkhausdorff host/cli/main.cpp)
+if(WIN32)
+  target_sources(vkhausdorff PRIVATE host/cli/windows.rc)
+endif()
 target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 add_subdirectory(tools)

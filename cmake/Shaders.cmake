@@ -8,6 +8,12 @@ option(VKH_FLATTEN_SHADERS "Embed kernels inlined, for drivers that do so slowly
 if(NOT VKH_FLATTEN_SHADERS)
   message(STATUS "VKH_FLATTEN_SHADERS is OFF: CPU devices run the kernels of wide ones, which start later there")
 endif()
+# They are the same on every platform, and most of a build's time.
+set(VKH_KERNELS "" CACHE PATH "The embedded kernels of another build of these sources, its generated/kernels, instead of building them")
+if(VKH_KERNELS)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/generated)
+  file(CREATE_LINK ${VKH_KERNELS} ${PROJECT_BINARY_DIR}/generated/kernels SYMBOLIC)
+endif()
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools VKH_EMBED_DIR)
 set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
@@ -32,8 +38,10 @@ function(vkh_add_shaders target)
 
   # The list of kernels changes only when CMake runs, so it is written now.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${VKH_EMBED})
-  execute_process(COMMAND ${VKH_RUN_EMBED} index ${out} ${names}
-                  COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT VKH_KERNELS)
+    execute_process(COMMAND ${VKH_RUN_EMBED} index ${out} ${names}
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endif()
 
   add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC ${PROJECT_BINARY_DIR}/generated ${PROJECT_SOURCE_DIR})
@@ -60,6 +68,9 @@ set(VKH_PRUNE --ccp --eliminate-dead-branches --eliminate-dead-functions)
 
 # No -g0: reflection reads the debug names, of what the compiler wrote, for the optimiser drops buffers that are not used.
 function(vkh_add_kernel name shader out)
+  if(VKH_KERNELS)
+    return()
+  endif()
   set(spv ${out}/${name}.spv)
   set(flat)
   set(flatten)

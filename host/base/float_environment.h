@@ -4,7 +4,8 @@
 #include <cfenv>
 #include <cfloat>
 #include <limits>
-#if defined(__SSE2__)
+#if defined(__SSE2__) || defined(_M_X64)
+#define VKH_SSE 1
 #include <xmmintrin.h>
 #endif
 
@@ -42,15 +43,16 @@ class FloatEnvironment {
     FloatEnvironment& inside;
   };
 
-  // C libraries differ in whether their default environment flushes, so that it is said here. On
-  // AArch64 the default is a control register of 0, which flushes nothing.
+  // C libraries differ in whether their default environment flushes, and mingw-w64's (10.0) leaves
+  // the control register of SSE as it was, its rounding too: so that is set here. On AArch64 the
+  // default is a control register of 0, which flushes nothing.
   void enter() {
     std::fegetenv(&callers_);
-#if defined(__SSE2__)
-    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+#ifdef VKH_SSE
+    constexpr unsigned kDefaultControl = 0x1f80;  // to nearest; all traps masked; no flag raised
     callers_control_ = _mm_getcsr();
     std::fesetenv(FE_DFL_ENV);
-    _mm_setcsr(_mm_getcsr() & ~(kFlushToZero | kDenormalsAreZero));
+    _mm_setcsr(kDefaultControl);
 #else
     std::fesetenv(FE_DFL_ENV);
 #endif
@@ -58,13 +60,13 @@ class FloatEnvironment {
 
   void leave() {
     std::fesetenv(&callers_);
-#if defined(__SSE2__)
+#ifdef VKH_SSE
     _mm_setcsr(callers_control_);
 #endif
   }
 
   std::fenv_t callers_{};
-#if defined(__SSE2__)
+#ifdef VKH_SSE
   unsigned callers_control_ = 0;
 #endif
 };

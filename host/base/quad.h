@@ -9,8 +9,10 @@ namespace vkh {
 
 #if LDBL_MANT_DIG == 113
 using Quad = long double;
-#else
+#elif defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 Quad;
+#else
+#error "no arithmetic of 113 bits here (MSVC, Apple's clang): see docs/platforms.md"
 #endif
 
 struct QuadVector {

@@ -1,6 +1,5 @@
 // The program: reads what people typed, runs the solver, prints one answer, and turns whatever went
 // wrong into one line on stderr and an exit code.
-#include <unistd.h>
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
 #endif
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -20,14 +18,15 @@
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/output_file.h"
 #include "host/check/verify.h"
 #include "host/cli/doctor.h"
+#include "host/cli/progress_line.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
 #include "host/gpu/device.h"
-#include "host/gpu/pipeline_cache.h"
 #include "host/read/mesh_io.h"
+#include "host/system/output_file.h"
+#include "host/system/system.h"
 
 namespace vkh {
 namespace {
@@ -43,6 +42,8 @@ enum ExitCode {
 };
 
 constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone --json
+
+using Words = std::vector<std::string>;
 
 /// As typed.
 struct Arguments {
@@ -60,49 +61,11 @@ struct Request {
   SolveOptions options;
 };
 
-// A signal handler can reach nothing but a global. The first Ctrl-C ends the run with the interval
-// that it has; the second meets the default handler, which kills.
-volatile std::sig_atomic_t g_interrupted = 0;
-
-extern "C" void on_interrupt(int signal) {
-  g_interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
 using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-/// A line on stderr that rewrites itself, on a terminal only.
-class ProgressLine {
- public:
-  ProgressLine() : shown_(isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (drawn_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const Progress& p) {
-    constexpr double kRedrawMs = 100;
-    if (!shown_ || (drawn_ && ms_since(last_) < kRedrawMs)) return;
-    std::fprintf(stderr, "\r\033[K%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
-                 p.back ? "h(B,A)" : "h(A,B)", p.wave,
-                 static_cast<unsigned long long>(p.candidates),
-                 decimal(p.lower, 7, Rounding::kDown).c_str(),
-                 decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
-    std::fflush(stderr);
-    drawn_ = true;
-    last_ = Clock::now();
-  }
-
- private:
-  bool shown_;
-  bool drawn_ = false;
-  Clock::time_point last_;
-};
 
 void check_names(const char* option, const std::vector<std::string>& names,
                  const std::vector<std::string>& known) {
@@ -146,7 +109,7 @@ void solve(Solver& solver, const MeshPair& pair, bool symmetric, SolveOptions op
   ProgressLine line;
   options.progress = [&line](const Progress& progress) {
     line.show(progress);
-    return g_interrupted == 0;
+    return !is_interrupted();  // the first Ctrl-C ends the run with the interval that it has
   };
   if (!symmetric) {
     answer.a_to_b = solver.distance(pair.a, pair.b, options);
@@ -178,6 +141,7 @@ Answer answer_for(const Arguments& arguments, const Request& request, const Mesh
 int complain(std::string message, ExitCode code) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "vkhausdorff: %s\n", message.c_str());
+  std::fflush(stderr);
   return code;
 }
 
@@ -224,7 +188,7 @@ void check_verified(const Answer& answer) {
 
 template <typename Load>
 int run_pair(const Arguments& arguments, Load load) {
-  std::signal(SIGINT, on_interrupt);
+  note_interrupts();
   const Request request = understand(arguments);
   std::optional<OutputFile> json_file;
   if (!arguments.json.empty() && arguments.json != kStandardOutput)
@@ -251,8 +215,8 @@ int run_pair(const Arguments& arguments, Load load) {
 
 int run_distance(const Arguments& arguments) {
   return run_pair(arguments, [&] {
-    auto b = begin_now([path = arguments.file_b] { return read_mesh(path); });
-    Mesh a = read_mesh(arguments.file_a);
+    auto b = begin_now([path = arguments.file_b] { return read_mesh(path_of(path)); });
+    Mesh a = read_mesh(path_of(arguments.file_a));
     return MeshPair{std::move(a), b.get()};
   });
 }
@@ -307,20 +271,18 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
                    "Check the answer on the host: the witness against every face of B, by brute "
                    "force in 113-bit arithmetic; the parts of A as exact integers");
   command.add_flag("--no-cache", arguments.no_cache,
-                   "Neither read nor write compiled pipelines in ~/.cache/vkhausdorff");
+                   "Neither read nor write compiled pipelines in the user's cache folder");
   command.add_flag("--symmetric", arguments.symmetric,
                    "Both directions: the interval of max(h(A,B), h(B,A))");
 }
 
 /// CLI11 says that a command is missing where one was misspelt.
-std::string usage_message(const CLI::ParseError& error, int argc, char** argv) {
-  const bool misspelt = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && argc > 1;
+std::string usage_message(const CLI::ParseError& error, const Words& words) {
+  const bool misspelt =
+      dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !words.empty();
   static constexpr std::array kCommands = {"distance", "demo", "doctor"};
-  if (misspelt &&
-      std::find(kCommands.begin(), kCommands.end(), std::string(argv[1])) == kCommands.end()) {
-    return "unknown command '" + std::string(argv[1]) + "': expected distance, demo or doctor";
-  }
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (misspelt && std::find(kCommands.begin(), kCommands.end(), words[0]) == kCommands.end())
+    return "unknown command '" + words[0] + "': expected distance, demo or doctor";
   const bool stray = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   if (stray && std::find(words.begin(), words.end(), "--json") != words.end()) {
     return std::string(error.what()) + "; JSON goes into a file by --json=FILE, without a space";
@@ -328,7 +290,7 @@ std::string usage_message(const CLI::ParseError& error, int argc, char** argv) {
   return std::string(error.what()) + " (see vkhausdorff --help)";
 }
 
-int run(int argc, char** argv) {
+int run(const Words& words) {
   CLI::App app(
       "Encloses the directed Hausdorff distance h(A,B) of two triangle meshes in a "
       "certified interval.",
@@ -339,7 +301,8 @@ int run(int argc, char** argv) {
       "true), 4 bad input, 5 device or driver, 6 the answer was given and an output could not be "
       "written.");
   app.require_subcommand(1);
-  if (std::find(argv, argv + argc, std::string_view("--json=")) != argv + argc)
+  app.allow_windows_style_options(false);  // one command line everywhere; and /folder is a name
+  if (std::find(words.begin(), words.end(), "--json=") != words.end())
     throw UsageError("--json='': expected the name of a file, as in --json=answer.json");
   Arguments arguments;
   CLI::App* distance = app.add_subcommand("distance", "Distance of two mesh files");
@@ -352,19 +315,19 @@ int run(int argc, char** argv) {
   CLI::App* doctor = app.add_subcommand("doctor", "Devices, drivers and a self-check");
   add_device_option(*doctor, arguments);
   try {
-    app.parse(argc, argv);
+    app.parse(Words(words.rbegin(), words.rend()));  // as CLI11 wants them
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    throw UsageError(usage_message(error, argc, argv));
+    throw UsageError(usage_message(error, words));
   }
   if (distance->parsed()) return run_distance(arguments);
   return demo->parsed() ? run_demo(arguments) : run_doctor(arguments);
 }
 
-int run_and_catch(int argc, char** argv) {
+int run_and_catch(const Words& words) {
   try {
-    return run(argc, argv);
+    return run(words);
   } catch (const UsageError& error) {
     return complain(error.what(), kExitUsage);
   } catch (const InputError& error) {
@@ -382,6 +345,14 @@ int run_and_catch(int argc, char** argv) {
   }
 }
 
+int run_in_console(int argc, char** argv) {
+  const Console console;
+  const int code = run_and_catch(command_line(argc, argv));
+  std::cout.flush();
+  std::fflush(nullptr);
+  return code;
+}
+
 }  // namespace
 }  // namespace vkh
 
@@ -389,9 +360,7 @@ int run_and_catch(int argc, char** argv) {
 // driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
 int main(int argc, char** argv) {
   const vkh::FloatEnvironment ours;
-  const int code = vkh::run_and_catch(argc, argv);
-  std::cout.flush();
-  std::fflush(nullptr);
+  const int code = vkh::run_in_console(argc, argv);
 #ifdef __SANITIZE_ADDRESS__
   __lsan_do_leak_check();
 #endif

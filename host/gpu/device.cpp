@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/system/system.h"
 
 namespace vkh {
 namespace {
@@ -45,20 +46,54 @@ bool has_layer(const VulkanApi& vk, const char* name) {
   });
 }
 
+bool has_extension(const std::vector<VkExtensionProperties>& list, const char* name) {
+  return std::any_of(list.begin(), list.end(), [&](const VkExtensionProperties& e) {
+    return std::strcmp(e.extensionName, name) == 0;
+  });
+}
+
+bool offers_portability(const VulkanApi& vk) {
+  if (!kAsksForPortability) return false;
+  uint32_t count = 0;
+  vk.EnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> list(count);
+  vk.EnumerateInstanceExtensionProperties(nullptr, &count, list.data());
+  return has_extension(list, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+}
+
+/// Those that the engine asks for; and one that a device which has it must be created with.
+std::vector<const char*> device_extensions(const VulkanApi& vk, const VkhDeviceInfo& chosen) {
+  constexpr const char* kSubset = "VK_KHR_portability_subset";  // its macro is in a beta header
+  uint32_t count = 0;
+  const char* const* wanted = vkhGetRequiredExtensions(&chosen, &count);
+  std::vector<const char*> names(wanted, wanted + count);
+  count = 0;
+  vk.EnumerateDeviceExtensionProperties(chosen.physicalDevice, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> list(count);
+  vk.EnumerateDeviceExtensionProperties(chosen.physicalDevice, nullptr, &count, list.data());
+  if (has_extension(list, kSubset)) names.push_back(kSubset);
+  return names;
+}
+
 VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation) {
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   app.pApplicationName = "vkhausdorff";
   app.apiVersion = VK_API_VERSION_1_3;  // a device may have synchronization2 by that alone
-  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  std::vector<const char*> extensions;
+  if (validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkInstanceCreateInfo info{};
+  if (offers_portability(vk)) {
+    extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    info.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+  }
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pNext = next;
   info.pApplicationInfo = &app;
   info.enabledLayerCount = validation ? 1 : 0;
   info.ppEnabledLayerNames = &kValidationLayer;
-  info.enabledExtensionCount = validation ? 1 : 0;
-  info.ppEnabledExtensionNames = &extension;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   VkInstance instance = VK_NULL_HANDLE;
   check_made(vk.CreateInstance(&info, nullptr, &instance), instance, "creating a Vulkan instance");
   return instance;
@@ -270,8 +305,9 @@ void Device::create_device() {
   info.pNext = &scalar;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  const VkhDeviceInfo chosen = engine_info();
-  info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&chosen, &info.enabledExtensionCount);
+  const std::vector<const char*> extensions = device_extensions(vk_, engine_info());
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   check_made(vk_.CreateDevice(physical_, &info, nullptr, &device_), device_, "creating the device");
   load_device(vk_, device_);
   vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);

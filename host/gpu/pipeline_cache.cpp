@@ -1,15 +1,13 @@
 #include "host/gpu/pipeline_cache.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <vector>
 
 #include "host/base/hash_index.h"
+#include "host/system/system.h"
 #include "kernels/all_kernels.h"
 
 namespace vkh {
@@ -87,7 +85,7 @@ void write_checked(const fs::path& path, const std::vector<char>& data) {
   fs::create_directories(path.parent_path(), none);
   fs::path mine = path;
   static std::atomic<unsigned> count = 0;  // two Solvers may save at once
-  mine += "." + std::to_string(getpid()) + "-" + std::to_string(count++);
+  mine += "." + std::to_string(process_id()) + "-" + std::to_string(count++);
   std::ofstream out(mine, std::ios::binary);
   const FileHeader header{kMagic, data.size(), checksum_of(data)};
   out.write(reinterpret_cast<const char*>(&header), sizeof(header));
@@ -125,13 +123,6 @@ void PipelineCache::save() {
   data.resize(bytes);
   write_checked(file_, data);
   saved_bytes_ = bytes;
-}
-
-fs::path user_cache_folder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  if (cache != nullptr && cache[0] == '/') return fs::path(cache) / "vkhausdorff";
-  const char* home = std::getenv("HOME");
-  return home != nullptr && home[0] == '/' ? fs::path(home) / ".cache" / "vkhausdorff" : fs::path();
 }
 
 }  // namespace vkh

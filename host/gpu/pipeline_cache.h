@@ -34,7 +34,4 @@ std::vector<char> read_checked(const std::filesystem::path& file);
 /// Makes the folder too. Whoever reads meanwhile finds the old file or the new one.
 void write_checked(const std::filesystem::path& file, const std::vector<char>& data);
 
-/// $XDG_CACHE_HOME/vkhausdorff or ~/.cache/vkhausdorff; empty where neither is known.
-std::filesystem::path user_cache_folder();
-
 }  // namespace vkh

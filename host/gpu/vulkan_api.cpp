@@ -1,29 +1,21 @@
 #include "host/gpu/vulkan_api.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/system/system.h"
 
 namespace vkh {
 
 VulkanApi load_vulkan() {
-  // Never closed: drivers keep threads and exit handlers of their own.
-  void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
-    throw DeviceError(
-        "no Vulkan loader (libvulkan.so.1): install your driver's or the package libvulkan1");
-  }
   VulkanApi vk;
   vk.GetInstanceProcAddr =
-      reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+      reinterpret_cast<PFN_vkGetInstanceProcAddr>(vulkan_loader_function("vkGetInstanceProcAddr"));
   if (vk.GetInstanceProcAddr == nullptr)
-    throw DeviceError("the Vulkan loader has no vkGetInstanceProcAddr");
+    throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader + ")");
 #define VKH_LOAD(name) \
   vk.name = reinterpret_cast<PFN_vk##name>(vk.GetInstanceProcAddr(nullptr, "vk" #name));
   VKH_GLOBAL_API(VKH_LOAD)

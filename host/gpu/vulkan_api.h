@@ -6,13 +6,15 @@
 
 namespace vkh {
 
-#define VKH_GLOBAL_API(X) \
-  X(CreateInstance)       \
+#define VKH_GLOBAL_API(X)                 \
+  X(CreateInstance)                       \
+  X(EnumerateInstanceExtensionProperties) \
   X(EnumerateInstanceLayerProperties)
 
 #define VKH_INSTANCE_API(X)                 \
   X(DestroyInstance)                        \
   X(EnumeratePhysicalDevices)               \
+  X(EnumerateDeviceExtensionProperties)     \
   X(GetPhysicalDeviceProperties2)           \
   X(GetPhysicalDeviceMemoryProperties)      \
   X(GetPhysicalDeviceQueueFamilyProperties) \

@@ -8,6 +8,7 @@
 #include "host/base/float_environment.h"
 #include "host/base/text_scanner.h"
 #include "host/read/readers.h"
+#include "host/system/system.h"
 
 namespace vkh {
 namespace {
@@ -46,7 +47,7 @@ std::string lower_case(std::string_view text) {
 using Parse = Mesh (*)(const MeshSource&);
 
 Parse parser_by_extension(const std::string& name) {
-  const std::string extension = lower_case(std::filesystem::path(name).extension().string());
+  const std::string extension = lower_case(name_of(path_of(name).extension()));
   if (extension == ".obj") return parse_obj;
   if (extension == ".stl") return parse_stl;
   if (extension == ".ply") return parse_ply;
@@ -122,7 +123,7 @@ Mesh parse_mesh(const MeshSource& file) {
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  const std::string name = path.string();
+  const std::string name = name_of(path);
   const std::string bytes = read_bytes(path, name);
   return parse_mesh({.name = name, .bytes = bytes});
 }

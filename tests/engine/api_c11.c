@@ -1,9 +1,13 @@
 /* The C API from plain C11: every declaration compiles, and what needs no command buffer runs. The
  * loader is opened here, as a program would; without one, or without a device, this is skipped. */
 #include <assert.h>
-#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
+#ifdef _WIN32
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
 
 #include "engine/vkhausdorff.h"
 
@@ -20,8 +24,13 @@ static void check(int holds, const char* what) {
 
 static PFN_vkGetInstanceProcAddr open_loader(void) {
   PFN_vkGetInstanceProcAddr get = NULL;
+#ifdef _WIN32
+  HMODULE library = LoadLibraryA("vulkan-1.dll");
+  FARPROC symbol = library != NULL ? GetProcAddress(library, "vkGetInstanceProcAddr") : NULL;
+#else
   void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   void* symbol = library != NULL ? dlsym(library, "vkGetInstanceProcAddr") : NULL;
+#endif
   memcpy(&get, &symbol, sizeof get); /* ISO C has no cast from an object to a function */
   return get;
 }

@@ -10,7 +10,7 @@
 
 #include "host/read/mesh_io.h"
 #include "tests/shapes/shapes.h"
-#include "tests/support/program.h"
+#include "tests/support/files.h"
 #include "tests/support/solver_bench.h"
 #include "tests/support/tally.h"
 
@@ -24,13 +24,15 @@ struct Odd {
   int rounding;
   bool flush;
 };
-#if defined(__SSE2__)
+#ifdef VKH_SSE
 constexpr bool kCanFlush = true;
-unsigned control() { return _mm_getcsr() & 0xffc0u; }  // without the exception flags
+unsigned control() { return _mm_getcsr() & 0xffc0u; }        // without the exception flags
+void set_control(unsigned control) { _mm_setcsr(control); }  // mingw-w64's fesetenv leaves it alone
 void flush() { _mm_setcsr(_mm_getcsr() | 0x8040u); }
 #else
 constexpr bool kCanFlush = false;
 unsigned control() { return 0; }
+void set_control(unsigned) {}
 void flush() {}
 #endif
 
@@ -54,6 +56,7 @@ State state() { return {std::fegetround(), std::fetestexcept(FE_ALL_EXCEPT), con
 bool leaves_alone(const Odd& odd, const std::function<void()>& work) {
   std::fenv_t before;
   std::fegetenv(&before);
+  const unsigned control_before = control();
   std::fesetround(odd.rounding);
   if (odd.flush) flush();
   std::feclearexcept(FE_ALL_EXCEPT);
@@ -62,6 +65,7 @@ bool leaves_alone(const Odd& odd, const std::function<void()>& work) {
   work();
   const bool same = state() == found;
   std::fesetenv(&before);
+  set_control(control_before);
   return same;
 }
 

@@ -4,11 +4,10 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
-#include "tests/support/program.h"
+#include "tests/support/files.h"
 
 namespace fs = std::filesystem;
 using namespace vkh;
@@ -77,15 +76,4 @@ TEST_CASE("where nothing can be written, nothing happens") {
   put(file.parent_path(), "a file where the folder should be");
   write_checked(file, some_data());
   CHECK(read_checked(file).empty());
-}
-
-TEST_CASE("the folder is the user's, or none") {
-  setenv("XDG_CACHE_HOME", "/somewhere", 1);
-  CHECK(user_cache_folder() == "/somewhere/vkhausdorff");
-  setenv("XDG_CACHE_HOME", "not/absolute", 1);
-  setenv("HOME", "/home/somebody", 1);
-  CHECK(user_cache_folder() == "/home/somebody/.cache/vkhausdorff");
-  unsetenv("XDG_CACHE_HOME");
-  unsetenv("HOME");
-  CHECK(user_cache_folder().empty());
 }

@@ -17,9 +17,9 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
-    "host": ["base", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
+    "host": ["base", "system", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve",
-              "cli", "faults", "python", "house", "malformed", "fuzz", "sanitize"],
+              "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize"],
 }
 FLOORS = list(ROOMS)
 OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room

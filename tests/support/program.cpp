@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 namespace vkh::test {
 namespace {
@@ -20,31 +18,6 @@ void redirect(int target, const std::string& path) {
 }
 
 }  // namespace
-
-TempFolder::TempFolder()
-    : path_(fs::temp_directory_path() / ("vkh_cli_" + std::to_string(getpid()))) {
-  fs::create_directories(path_);
-}
-
-TempFolder::~TempFolder() {
-  std::error_code none;
-  fs::remove_all(path_, none);
-}
-
-const TempFolder& folder() {
-  static const TempFolder instance;
-  return instance;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string write_file(const std::string& name, const std::string& text) {
-  std::ofstream(folder() / name, std::ios::binary) << text;
-  return folder() / name;
-}
 
 Running start(const Words& words, const std::string& out) {
   const char* program = std::getenv("VKH_PROGRAM");

@@ -1,33 +1,16 @@
-// Runs the program under test, $VKH_PROGRAM, and keeps files for it in a folder of this process.
+// Runs the program under test, $VKH_PROGRAM.
 #pragma once
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/support/files.h"
 
 namespace vkh::test {
 
 using Words = std::vector<std::string>;
-
-/// A folder of this process, gone at its end.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-const TempFolder& folder();
-
-std::string read_file(const std::string& path);
-/// Returns the path of what was written into the folder.
-std::string write_file(const std::string& name, const std::string& text);
 
 struct Outcome {
   int exit_code = -1;

@@ -1,6 +1,7 @@
 // A file that an answer goes to: looked at before a run, written after it, whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@ namespace vkh {
 /// new one is; where that cannot be, as it is mounted by itself, it is written over. Links are
 /// followed: their target is replaced. Pipes, terminals and whatever is
 /// standard output already are not replaced but written to.
+/// output_file_posix.cpp and output_file_windows.cpp are two forms of it.
 class OutputFile {
  public:
   /// `option` is named by messages. Throws UsageError, and has changed nothing, where `path` is one
@@ -25,7 +27,7 @@ class OutputFile {
   void write(std::string_view text) const;
 
  private:
-  void open_special(unsigned mode);
+  void open_special(unsigned kind);
   void check_place() const;
   void replace(std::string_view text) const;
   void write_over(std::string_view text) const;
@@ -33,7 +35,8 @@ class OutputFile {
 
   std::string option_, path_;
   std::string target_;  ///< what the links of `path_` lead to
-  int special_ = -1;    ///< open for writing, where there is nothing to rename
+  /// A descriptor or a HANDLE, open for writing, where there is nothing to rename.
+  std::intptr_t special_ = -1;
 };
 
 }  // namespace vkh

@@ -1,5 +1,3 @@
-#include "host/base/output_file.h"
-
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -12,6 +10,7 @@
 #include <optional>
 
 #include "host/base/error.h"
+#include "host/system/output_file.h"
 
 namespace vkh {
 namespace {
@@ -119,7 +118,7 @@ OutputFile::OutputFile(std::string option, std::string path, const std::vector<s
 }
 
 OutputFile::~OutputFile() {
-  if (special_ >= 0) close(special_);
+  if (special_ >= 0) close(static_cast<int>(special_));
 }
 
 void OutputFile::refuse(const std::string& why) const {
@@ -148,7 +147,7 @@ void OutputFile::check_place() const {
 
 void OutputFile::write(std::string_view text) const {
   if (special_ < 0) return replace(text);
-  if (!write_all(special_, text))
+  if (!write_all(static_cast<int>(special_), text))
     throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(errno));
 }
 

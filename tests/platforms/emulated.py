@@ -1,0 +1,130 @@
+"""Platforms whose programs run on this machine: how they are built and started."""
+
+import contextlib
+import os
+import pathlib
+import shutil
+import subprocess
+
+
+class Skip(Exception):
+    """Something of the machine's is missing, which has a name."""
+
+
+def need(*names: str) -> str:
+    """The first of these programs that is there."""
+    for name in names:
+        path = shutil.which(name)
+        if path:
+            return path
+    raise Skip(f"no {names[0]} here (tools/setup --full)")
+
+
+def first_line(*words: str) -> str:
+    out = subprocess.run(words, capture_output=True, text=True, timeout=60).stdout
+    return out.splitlines()[0] if out else "?"
+
+
+class Platform:
+    """A cross-build of this tree, by its preset, and what its programs are run by."""
+
+    def __init__(self, name: str, source: pathlib.Path, native: pathlib.Path):
+        self.name = name
+        self.source = source
+        self.native = native  # this machine's build, whose kernels are the same
+        self.build = source / "out" / name
+        # Neither the tests' validation layer nor anything else that the caller's shell has set up.
+        self.environment = {k: v for k, v in os.environ.items()
+                            if k in ("PATH", "HOME", "TMPDIR", "VK_DRIVER_FILES", "VK_ICD_FILENAMES")}
+        self.environment["LC_ALL"] = "C.UTF-8"  # names of files are UTF-8 for Wine and Python, too
+
+    suffix = ""
+    versions: list[str] = []
+
+    def compile(self, targets: list[str]) -> None:
+        launcher = [f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX") if shutil.which("ccache")]
+        generator = [] if (self.build / "CMakeCache.txt").exists() else ["-G", "Ninja"]
+        for words in (["cmake", "--preset", self.name, *generator, *launcher, f"-DVKH_KERNELS={self.native}/generated/kernels"],
+                      ["cmake", "--build", str(self.build), "-j", str(os.cpu_count()), "--target", *targets]):
+            done = subprocess.run(words, cwd=self.source, capture_output=True, text=True, timeout=1200)
+            if done.returncode:
+                raise AssertionError(f"{' '.join(words)}\n{done.stdout[-4000:]}{done.stderr[-2000:]}")
+
+    def words(self, program: str, arguments: list[str]) -> list[str]:
+        return [*self.starter, str(self.build / (program + self.suffix)), *arguments]
+
+    def run(self, program: str, *arguments: str, folder=None, limit=300) -> subprocess.CompletedProcess:
+        return subprocess.run(self.words(program, list(arguments)), cwd=folder or self.build, env=self.environment,
+                              capture_output=True, timeout=limit, stdin=subprocess.DEVNULL)
+
+    starter: list[str] = []
+
+
+class Windows(Platform):
+    """By mingw-w64, under Wine, whose winevulkan calls this machine's Vulkan loader."""
+
+    suffix = ".exe"
+
+    def __init__(self, source: pathlib.Path, native: pathlib.Path):
+        super().__init__("windows", source, native)
+        compiler = need("x86_64-w64-mingw32-g++-posix")
+        wine = need("wine64", "/usr/lib/wine/wine64", "wine")
+        need("Xvfb")
+        self.starter = [wine]
+        self.versions = [first_line(wine, "--version"), first_line(compiler, "--version")]
+        self.prefix = self.build / "wine"
+        self.environment |= {"WINEPREFIX": str(self.prefix), "WINEDEBUG": "-all", "WINEARCH": "win64",
+                             "WINEDLLOVERRIDES": "mscoree,mshtml=;winemenubuilder.exe=d"}
+
+    @contextlib.contextmanager
+    def ready(self):
+        """A display, without which Wine has no Vulkan; and a folder that Wine takes for a machine."""
+        reading, writing = os.pipe()
+        display = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "640x480x24", "-nolisten", "tcp"],
+                                   pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(writing)
+        try:
+            with os.fdopen(reading) as answer:
+                number = answer.readline().strip()
+            if not number:
+                raise Skip("Xvfb does not start")
+            self.environment["DISPLAY"] = f":{number}"
+            if not (self.prefix / "system.reg").exists():
+                self.build.mkdir(parents=True, exist_ok=True)
+                subprocess.run([*self.starter, "wineboot", "-i"], env=self.environment, cwd=self.build, timeout=300,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            yield
+        finally:
+            server = shutil.which("wineserver") or shutil.which("wineserver-stable") or "/usr/lib/wine/wineserver"
+            if pathlib.Path(server).exists():
+                subprocess.run([server, "-k"], env=self.environment, timeout=60, capture_output=True)
+            display.terminate()
+            display.wait(timeout=30)
+
+
+class Arm64(Platform):
+    """By a cross-compiler, under qemu-user, with ARM64's own loader and lavapipe in a folder."""
+
+    def __init__(self, source: pathlib.Path, native: pathlib.Path):
+        super().__init__("arm64", source, native)
+        compiler = need("aarch64-linux-gnu-g++")
+        self.emulator = need("qemu-aarch64-static", "qemu-aarch64")
+        self.sysroot = self.build / "sysroot"
+        self.versions = [first_line(self.emulator, "--version"), first_line(compiler, "--version")]
+        driver = "/usr/share/vulkan/icd.d/lvp_icd.aarch64.json"  # in the sysroot
+        libraries = "/usr/lib/aarch64-linux-gnu:/lib/aarch64-linux-gnu"
+        self.environment |= {"VK_DRIVER_FILES": driver, "VK_ICD_FILENAMES": driver,
+                             "MESA_SHADER_CACHE_DIR": str(self.build / "mesa"),
+                             "XDG_CACHE_HOME": str(self.build / "cache")}
+        self.starter = [self.emulator, "-L", str(self.sysroot), "-E", f"LD_LIBRARY_PATH={libraries}"]
+
+    @contextlib.contextmanager
+    def ready(self):
+        script = pathlib.Path(__file__).with_name("arm64_sysroot.sh")
+        done = subprocess.run([script, self.sysroot], capture_output=True, text=True, timeout=600)
+        if done.returncode == 77:
+            raise Skip(done.stderr.strip().splitlines()[-1])
+        if done.returncode:
+            raise AssertionError(done.stderr)
+        self.versions += (self.sysroot / "versions").read_text().replace("\t", " ").splitlines()
+        yield

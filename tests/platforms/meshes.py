@@ -1,0 +1,78 @@
+"""Ten generated pairs, as files in the four formats, under names that are no ASCII."""
+
+import math
+import pathlib
+import random
+import struct
+
+FOLDER = "Maße 測量"
+
+
+def sheet(rng, n, noise, shift):
+    """A bumpy height field of n by n quads: vertices and triangles."""
+    vertices = [(x / n + rng.uniform(-noise, noise) / n, y / n,
+                 0.2 * math.sin(5 * x / n) * math.cos(4 * y / n) + rng.uniform(-noise, noise) + shift)
+                for y in range(n + 1) for x in range(n + 1)]
+    faces = []
+    for y in range(n):
+        for x in range(n):
+            a = y * (n + 1) + x
+            faces += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
+    return vertices, faces
+
+
+def soup(rng, n, size, far):
+    """Triangles without neighbours, around `far`."""
+    vertices, faces = [], []
+    for i in range(n):
+        centre = [far + rng.uniform(-1, 1) for _ in range(3)]
+        vertices += [tuple(c + rng.uniform(-size, size) for c in centre) for _ in range(3)]
+        faces.append((3 * i, 3 * i + 1, 3 * i + 2))
+    return vertices, faces
+
+
+def as_obj(vertices, faces):
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+    return ("\r\n".join(lines) + "\r\n").encode()  # as Windows' editors end lines
+
+
+def as_off(vertices, faces):
+    lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
+    lines += [f"{x!r} {y!r} {z!r}" for x, y, z in vertices] + [f"3 {a} {b} {c}" for a, b, c in faces]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def as_stl(vertices, faces):
+    corners = [struct.pack("<12fH", 0, 0, 0, *(x for i in face for x in vertices[i]), 0) for face in faces]
+    return b"\x1a" * 80 + struct.pack("<I", len(faces)) + b"".join(corners)  # 1a ends a file that is read as text
+
+
+def as_ply(vertices, faces):
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\nproperty double x\nproperty double y\n"
+            f"property double z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    return (head.encode() + b"".join(struct.pack("<3d", *v) for v in vertices)
+            + b"".join(struct.pack("<B3i", 3, *f) for f in faces))
+
+
+FORMATS = (("obj", as_obj), ("ply", as_ply), ("stl", as_stl), ("off", as_off))
+
+
+def write(folder: pathlib.Path) -> list[tuple[str, str]]:
+    """The names of A and B of ten pairs, from `folder`."""
+    (folder / FOLDER).mkdir(parents=True, exist_ok=True)
+    pairs = []
+    for i in range(10):
+        rng = random.Random(1000 + i)
+        if i % 3 == 2:
+            both = soup(rng, 60, 0.3, 2.0 ** (3 * i)), soup(rng, 80, 0.3, 2.0 ** (3 * i))
+        else:
+            both = sheet(rng, 8 + i, 0.01, 0), sheet(rng, 7 + i, 0.02, 0.05 * (i % 2))
+        names = []
+        for side, mesh in zip("AB", both):
+            extension, encode = FORMATS[(i + (side == "B")) % 4]
+            name = f"{FOLDER}/{i} {side}ö📐.{extension}"
+            (folder / name).write_bytes(encode(*mesh))
+            names.append(name)
+        pairs.append(tuple(names))
+    return pairs
