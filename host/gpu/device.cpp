@@ -214,13 +214,17 @@ std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
   return families;
 }
 
-uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
-  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, physical);
-  for (uint32_t i = 0; i < families.size(); ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].timestampValidBits > 0)
-      return i;
-  }
-  throw DeviceError("the device has no compute queue with timestamps");
+// One with timestamps, where there is one: stages are timed then.
+uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
+  const auto computes = [](const VkQueueFamilyProperties& f) {
+    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+  };
+  const auto timed = std::find_if(families.begin(), families.end(), [&](const auto& f) {
+    return computes(f) && f.timestampValidBits > 0;
+  });
+  const auto any = std::find_if(families.begin(), families.end(), computes);
+  if (any == families.end()) throw DeviceError("the device has no compute queue");
+  return static_cast<uint32_t>((timed != families.end() ? timed : any) - families.begin());
 }
 
 }  // namespace
@@ -286,7 +290,9 @@ void Device::choose(const std::string& selector) {
 }
 
 void Device::create_device() {
-  queue_family_ = compute_family(vk_, physical_);
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, physical_);
+  queue_family_ = compute_family(families);
+  has_timestamps_ = families[queue_family_].timestampValidBits > 0;
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
