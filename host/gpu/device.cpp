@@ -188,6 +188,13 @@ uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
   throw DeviceError("the device has no compute queue with timestamps");
 }
 
+VkBool32 has_robust_access(const VulkanApi& vk, VkPhysicalDevice physical) {
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  vk.GetPhysicalDeviceFeatures2(physical, &features);
+  return features.features.robustBufferAccess;
+}
+
 }  // namespace
 
 // Threads that a driver starts inherit the environment that they are started in; and a driver that
@@ -196,7 +203,7 @@ Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   const FloatEnvironment ours;
   create_instance(request.validation);
   choose(request.selector);
-  create_device();
+  create_device(request.robust);
 }
 
 Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }
@@ -250,7 +257,7 @@ void Device::choose(const std::string& selector) {
   throw DeviceError(nothing_usable(choices, selector));
 }
 
-void Device::create_device() {
+void Device::create_device(bool robust) {
   queue_family_ = compute_family(vk_, physical_);
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
@@ -265,9 +272,12 @@ void Device::create_device() {
   scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
   scalar.pNext = &synchronization;
   scalar.scalarBlockLayout = VK_TRUE;
+  VkPhysicalDeviceFeatures features{};
+  features.robustBufferAccess = robust ? has_robust_access(vk_, physical_) : VK_FALSE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &scalar;
+  info.pEnabledFeatures = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&info.enabledExtensionCount);

@@ -13,6 +13,7 @@ namespace vkh {
 #define VKH_INSTANCE_API(X)                 \
   X(DestroyInstance)                        \
   X(EnumeratePhysicalDevices)               \
+  X(GetPhysicalDeviceFeatures2)             \
   X(GetPhysicalDeviceProperties2)           \
   X(GetPhysicalDeviceMemoryProperties)      \
   X(GetPhysicalDeviceQueueFamilyProperties) \
