@@ -227,6 +227,13 @@ uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
   return static_cast<uint32_t>((timed != families.end() ? timed : any) - families.begin());
 }
 
+VkBool32 has_robust_access(const VulkanApi& vk, VkPhysicalDevice physical) {
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  vk.GetPhysicalDeviceFeatures2(physical, &features);
+  return features.features.robustBufferAccess;
+}
+
 }  // namespace
 
 // Threads that a driver starts inherit the environment that they are started in; and a driver that
@@ -235,7 +242,7 @@ Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   const FloatEnvironment ours;
   create_instance(request.validation);
   choose(request.selector);
-  create_device();
+  create_device(request.robust);
 }
 
 Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }
@@ -289,7 +296,7 @@ void Device::choose(const std::string& selector) {
   throw DeviceError(nothing_usable(choices, selector));
 }
 
-void Device::create_device() {
+void Device::create_device(bool robust) {
   const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, physical_);
   queue_family_ = compute_family(families);
   has_timestamps_ = families[queue_family_].timestampValidBits > 0;
@@ -306,9 +313,12 @@ void Device::create_device() {
   scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
   scalar.pNext = &synchronization;
   scalar.scalarBlockLayout = VK_TRUE;
+  VkPhysicalDeviceFeatures features{};
+  features.robustBufferAccess = robust ? has_robust_access(vk_, physical_) : VK_FALSE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &scalar;
+  info.pEnabledFeatures = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   const std::vector<const char*> extensions = device_extensions(vk_, engine_info());
