@@ -23,9 +23,9 @@
 #include "host/base/output_file.h"
 #include "host/check/verify.h"
 #include "host/cli/doctor.h"
+#include "host/cli/out_of_memory.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
-#include "host/gpu/device.h"
 #include "host/gpu/pipeline_cache.h"
 #include "host/read/mesh_io.h"
 
@@ -374,7 +374,7 @@ int run_and_catch(int argc, char** argv) {
   } catch (const OutputError& error) {
     return complain(error.what(), kExitNotWritten);
   } catch (const std::bad_alloc&) {
-    return complain("this machine has not enough memory for these meshes", kExitDevice);
+    return complain_of_memory(kExitDevice);
   } catch (const std::exception& error) {
     return complain(std::string("internal error: ") + error.what(), kExitInternal);
   } catch (...) {
@@ -389,6 +389,7 @@ int run_and_catch(int argc, char** argv) {
 // driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
 int main(int argc, char** argv) {
   const vkh::FloatEnvironment ours;
+  vkh::end_where_memory_ends(vkh::kExitDevice);
   const int code = vkh::run_and_catch(argc, argv);
   std::cout.flush();
   std::fflush(nullptr);
