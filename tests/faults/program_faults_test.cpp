@@ -122,6 +122,31 @@ TEST_CASE("doctor, demo and both ways: the device is lost, or has no memory") {
   try_fault(pair() + Words{"--symmetric"}, "vkQueueSubmit:2:VK_ERROR_DEVICE_LOST", "");
 }
 
+// What the layer is asked for is there: else the tests above would prove nothing.
+TEST_CASE("the layer lowers, hides, and holds the program to it") {
+  layer();
+  unsetenv("VKH_LAYER_KEEP_GOING");
+  const auto ends = [](const char* name, const char* value) {
+    const Watchdog watchdog;
+    setenv(name, value, 1);
+    const Outcome outcome = finish(start(pair()));
+    unsetenv(name);
+    CAPTURE(value);
+    CHECK(outcome.exit_code != 0);
+    return outcome.err;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(has(ends("VKH_LAYER_LIMITS", "apiVersion=1.1"), "Vulkan 1.2 is missing"));
+  CHECK(has(ends("VKH_LAYER_LIMITS", "maxComputeSharedMemorySize=1024"), "shared memory"));
+  CHECK(has(ends("VKH_LAYER_HIDE", "scalarBlockLayout"), "scalarBlockLayout is missing"));
+  CHECK(has(ends("VKH_LAYER_LIMITS", "maxMemoryAllocationSize=65536"), "maxMemoryAllocationSize"));
+  CHECK(has(ends("VKH_LAYER_LIMITS", "maxStorageBufferRnage=1"), "makes no sense"));
+  CHECK(has(ends("VKH_LAYER_FAIL", "vkQueueSubmit:1:VK_ERROR_MEMORY_MAP_FAILED"), "no sense"));
+  setenv("VKH_LAYER_KEEP_GOING", "1", 1);
+}
+
 #ifndef VKH_SANITIZED  // their run time comes first in a process, or not at all
 TEST_CASE("distance: the program's own allocations fail") {
   const Words words = pair();
