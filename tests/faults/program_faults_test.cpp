@@ -46,7 +46,7 @@ Outcome run_with(const Words& words,
                  const std::vector<std::pair<const char*, std::string>>& given) {
   const Watchdog watchdog;
   for (const auto& [name, value] : given) setenv(name, value.c_str(), 1);
-  const Outcome outcome = run(words);
+  Outcome outcome = run(words);
   for (const auto& [name, value] : given) unsetenv(name);
   return outcome;
 }
