@@ -20,6 +20,7 @@
 #include "host/base/float_environment.h"
 #include "host/check/verify.h"
 #include "host/cli/doctor.h"
+#include "host/cli/out_of_memory.h"
 #include "host/cli/progress_line.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
@@ -337,7 +338,7 @@ int run_and_catch(const Words& words) {
   } catch (const OutputError& error) {
     return complain(error.what(), kExitNotWritten);
   } catch (const std::bad_alloc&) {
-    return complain("this machine has not enough memory for these meshes", kExitDevice);
+    return complain_of_memory(kExitDevice);
   } catch (const std::exception& error) {
     return complain(std::string("internal error: ") + error.what(), kExitInternal);
   } catch (...) {
@@ -360,6 +361,7 @@ int run_in_console(int argc, char** argv) {
 // driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
 int main(int argc, char** argv) {
   const vkh::FloatEnvironment ours;
+  vkh::end_where_memory_ends(vkh::kExitDevice);
   const int code = vkh::run_in_console(argc, argv);
 #ifdef __SANITIZE_ADDRESS__
   __lsan_do_leak_check();

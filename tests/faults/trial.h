@@ -65,7 +65,8 @@ inline std::vector<std::string> faults_of(const std::vector<std::string>& calls,
 class FaultTable {
  public:
   explicit FaultTable(const std::string& name)
-      : out_(VKH_FAULTS_FOLDER "/faults_" + name + ".txt") {}
+      : out_(VKH_FAULTS_FOLDER "/faults_" + name +
+             (std::getenv("VKH_FAULTS") != nullptr ? "_all.txt" : ".txt")) {}
   void add(const std::string& what, const std::string& fault, const std::string& end) {
     out_ << what << '\t' << fault << '\t' << end << '\n';
     out_.flush();
