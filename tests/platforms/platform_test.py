@@ -49,7 +49,7 @@ def without_times(text: bytes) -> dict:
     """What must be equal: all of an answer but the clock's part and the device's name. How many waves are recorded, and
     so how often a stage is timed, is the clock's, too."""
     answer = json.loads(text)
-    for one in [answer, *answer.get("directed", {}).values()] if isinstance(answer.get("directed"), dict) else [answer]:
+    for one in (answer, *answer.get("directed", [])):
         one.pop("times", None)
         one.pop("device", None)
         for stage in one.get("stages", []):
@@ -208,7 +208,8 @@ class Run:
         text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b\][^\x07]*\x07", "", shown.decode(errors="replace"))
         expect(code in (0, 3) and "interval" in text, f"exit code {code}: {shown[-600:]!r}")
         expect("wave" in text and "candidates" in text, f"no line of progress: {text[:600]!r}")
-        expect(a.split("/")[1] in text and "\ufffd" not in text, f"names are not as they are: {text[-900:]!r}")
+        # What is beyond 16 bits has no cell in Wine's console.
+        expect(a.split("📐")[0] in text, f"names are not as they are: {text[-900:]!r}")
         return "a terminal: the line of progress, the table"
 
 
