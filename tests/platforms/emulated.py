@@ -40,6 +40,7 @@ class Platform:
 
     suffix = ""
     tests = "tests/platforms/cross"
+    limit = 300  # seconds, for one program
     versions: list[str] = []
 
     def compile(self, targets: list[str]) -> None:
@@ -54,9 +55,9 @@ class Platform:
     def words(self, program: str, arguments: list[str]) -> list[str]:
         return [*self.starter, str(self.build / (program + self.suffix)), *arguments]
 
-    def run(self, program: str, *arguments: str, folder=None, limit=300) -> subprocess.CompletedProcess:
+    def run(self, program: str, *arguments: str, folder=None) -> subprocess.CompletedProcess:
         return subprocess.run(self.words(program, list(arguments)), cwd=folder or self.build, env=self.environment,
-                              capture_output=True, timeout=limit, stdin=subprocess.DEVNULL)
+                              capture_output=True, timeout=self.limit, stdin=subprocess.DEVNULL)
 
     starter: list[str] = []
 
@@ -105,6 +106,8 @@ class Windows(Platform):
 
 class Arm64(Platform):
     """By a cross-compiler, under qemu-user, with ARM64's own loader and lavapipe in a folder."""
+
+    limit = 1200  # twenty times slower than the machine itself
 
     def __init__(self, source: pathlib.Path, native: pathlib.Path):
         super().__init__("arm64", source, native)

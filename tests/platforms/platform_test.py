@@ -46,13 +46,15 @@ def told(done: subprocess.CompletedProcess) -> str:
 
 
 def without_times(text: bytes) -> dict:
-    """What must be equal: all of an answer but the clock's part and the device's name."""
+    """What must be equal: all of an answer but the clock's part and the device's name. How many waves are recorded, and
+    so how often a stage is timed, is the clock's, too."""
     answer = json.loads(text)
-    for one in [answer, *answer.get("directed", {}).values()] if isinstance(answer.get("directed"), dict) else [answer]:
+    for one in (answer, *answer.get("directed", [])):
         one.pop("times", None)
         one.pop("device", None)
         for stage in one.get("stages", []):
             stage.pop("gpu_ms")
+            stage.pop("times")
     return answer
 
 
@@ -163,7 +165,7 @@ class Run:
         return "the C API from C11"
 
     def sweeping(self) -> str:
-        done = self.platform.run("tools/vkh_sweep", "--count", str(self.sweep), "--seed", "17", limit=1200)
+        done = self.platform.run("tools/vkh_sweep", "--count", str(self.sweep), "--seed", "17")
         summary = done.stdout.decode().strip().splitlines()[-1:]
         expect(done.returncode == 0 and " 0 violations" in summary[0], told(done))
         spoilt = self.platform.run("tools/vkh_sweep", "--count", "6", "--seed", "11", "--spoil", "1e-4")
@@ -212,7 +214,8 @@ class Run:
         text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b\][^\x07]*\x07", "", shown.decode(errors="replace"))
         expect(code in (0, 3) and "interval" in text, f"exit code {code}: {shown[-600:]!r}")
         expect("wave" in text and "candidates" in text, f"no line of progress: {text[:600]!r}")
-        expect(a.split("/")[1] in text and "\ufffd" not in text, f"names are not as they are: {text[-900:]!r}")
+        # What is beyond 16 bits has no cell in Wine's console.
+        expect(a.split("📐")[0] in text, f"names are not as they are: {text[-900:]!r}")
         return "a terminal: the line of progress, the table"
 
 
@@ -224,6 +227,7 @@ OF_DRIVERS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, 
 DRIVERS = {"swiftshader": SwiftShader,
            **{f"lavapipe{bits}": functools.partial(Lavapipe, bits) for bits in (128, 256, 512)}}
 PLATFORMS = {"windows": Windows, "arm64": Arm64, **DRIVERS}
+NEEDS = {"kernels": KERNELS, "host": HOST, "api": ["api_c11"], "sweep": ["vkh_sweep"]}  # and the program
 
 
 def main() -> int:
@@ -242,7 +246,7 @@ def main() -> int:
         platform = PLATFORMS[arguments.platform](SOURCE, arguments.native.resolve())
         run = Run(platform, arguments.native.resolve(), arguments.sweep or (20 if arguments.platform == "arm64" else 60))
         start = time.time()
-        platform.compile(["vkhausdorff", "vkh_sweep", "api_c11", *KERNELS, *HOST])
+        platform.compile(["vkhausdorff", *(target for name in groups for target in NEEDS.get(name, []))])
         print(f"{platform.name}: built in {time.time() - start:.0f} s", flush=True)
         with platform.ready():
             print(f"{platform.name}: {', '.join(platform.versions)}", flush=True)
