@@ -157,7 +157,8 @@ uint64_t count_degenerate(const Mesh& mesh) {
 // The first vertex at the same position, for each vertex.
 std::vector<uint32_t> first_at_position(const std::vector<glm::dvec3>& vertices) {
   HashIndex index(
-      vertices.size(), [&](uint32_t v) { return hash_position(vertices[v]); },
+      vertices.size(),
+      [&, secret = hash_secret()](uint32_t v) { return hash_position(secret, vertices[v]); },
       [&](uint32_t v, uint32_t w) { return same_position(vertices[v], vertices[w]); });
   std::vector<uint32_t> first(vertices.size());
   for (uint32_t v = 0; v < first.size(); ++v) first[v] = index.insert(v);
@@ -174,7 +175,10 @@ uint64_t count_duplicates(const Mesh& mesh) {
   }
   HashIndex index(
       keys.size(),
-      [&](uint32_t f) { return mix_bits(mix_bits(keys[f][0], keys[f][1]), keys[f][2]); },
+      [&, secret = hash_secret()](uint32_t f) {
+        const auto [i, j, k] = keys[f];
+        return keyed_hash(secret, std::array{uint64_t{i} << 32 | j, uint64_t{k}});
+      },
       [&](uint32_t f, uint32_t g) { return keys[f] == keys[g]; });
   uint64_t duplicates = 0;
   for (uint32_t f = 0; f < keys.size(); ++f) duplicates += index.insert(f) != f ? 1 : 0;

@@ -23,7 +23,7 @@ uint64_t announced_triangles(std::string_view bytes) {
 class VertexMerger {
  public:
   VertexMerger(std::vector<glm::dvec3>& vertices, size_t triangle_count)
-      : vertices_(vertices), index_(triangle_count / 2, Hash{&vertices}, Same{&vertices}) {}
+      : vertices_(vertices), index_(triangle_count / 2, Hash{.vertices = &vertices}, Same{&vertices}) {}
 
   uint32_t insert(const glm::dvec3& position) {
     const auto number = static_cast<uint32_t>(vertices_.size());
@@ -36,7 +36,8 @@ class VertexMerger {
  private:
   struct Hash {
     const std::vector<glm::dvec3>* vertices;
-    uint64_t operator()(uint32_t v) const { return hash_position((*vertices)[v]); }
+    HashSecret secret = hash_secret();
+    uint64_t operator()(uint32_t v) const { return hash_position(secret, (*vertices)[v]); }
   };
   struct Same {
     const std::vector<glm::dvec3>* vertices;
