@@ -68,8 +68,7 @@ uint64_t keyed_hash(const HashSecret& secret, const std::array<uint64_t, kCount>
 inline uint64_t position_bits(double x) { return std::bit_cast<uint64_t>(x + 0.0); }
 
 inline uint64_t hash_position(const HashSecret& secret, const glm::dvec3& p) {
-  return keyed_hash(secret,
-                    std::array{position_bits(p.x), position_bits(p.y), position_bits(p.z)});
+  return keyed_hash(secret, std::array{position_bits(p.x), position_bits(p.y), position_bits(p.z)});
 }
 
 inline bool same_position(const glm::dvec3& p, const glm::dvec3& q) {

@@ -191,18 +191,18 @@ class BodyReader {
     if (vertex_->count >= UINT32_MAX) {
       reject(source.name, vertex_->place, "too many vertices", "fewer than 2^32 - 1");
     }
+    builder_.reserve(vertex_->count, face_->count);
   }
 
   Mesh read() && {
     for (const Element& element : header_.elements) {
-      if (&element == vertex_) builder_.vertices.reserve(element.count);
-      if (&element == face_) builder_.faces.reserve(element.count);
       for (uint64_t row = 0; row < element.count; ++row) {
         body_.begin_row(element, row);
         read_row(element);
         body_.end_row();
       }
     }
+    corners_ = std::vector<uint32_t>();  // before more is allocated
     const std::string place = body_.place();
     body_.read_rest(builder_.notes);
     return std::move(builder_).finish(place);
@@ -229,7 +229,7 @@ class BodyReader {
         skip_property(body_, vertex_->properties[i]);
       }
     }
-    builder_.vertices.push_back(p);
+    builder_.add_vertex(p);
   }
 
   void read_face() {

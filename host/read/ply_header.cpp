@@ -64,6 +64,13 @@ void expect_line_end(TextScanner& scanner) {
   }
 }
 
+// What a line of ten bytes is kept as takes a hundred. Splats have 60 properties.
+void take_room(TextScanner& scanner, Header& header) {
+  constexpr size_t kMost = 4096;
+  if (++header.lines_kept > kMost)
+    scanner.fail("more than " + std::to_string(kMost) + " elements and properties", "fewer");
+}
+
 // One line after the first; false at end_header.
 bool parse_line(TextScanner& scanner, Header& header, bool& has_format) {
   const std::string_view word = scanner.word();
@@ -73,8 +80,10 @@ bool parse_line(TextScanner& scanner, Header& header, bool& has_format) {
     header.encoding = read_encoding(scanner);
     has_format = true;
   } else if (word == "element") {
+    take_room(scanner, header);
     header.elements.push_back(read_element(scanner));
   } else if (word == "property" && !header.elements.empty()) {
+    take_room(scanner, header);
     header.elements.back().properties.push_back(read_property(scanner));
   } else if (word != "end_header") {
     scanner.fail(quoted(word), "format, comment, element, property or end_header");

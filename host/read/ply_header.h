@@ -34,6 +34,7 @@ struct Header {
   Encoding encoding{};
   std::vector<Element> elements;
   std::string end_place;  ///< the line of end_header
+  size_t lines_kept = 0;  ///< elements and properties
 };
 
 /// What writers call the list of a face's corners.
