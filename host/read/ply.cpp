@@ -20,7 +20,7 @@ using namespace ply;
 /// A row's place for errors, such as "face 11", or "row 11 of 'camera'".
 std::string row_place(const Element& element, uint64_t row) {
   if (element.name == "vertex" || element.name == "face") {
-    return element.name + " " + std::to_string(row);
+    return std::string(element.name) + " " + std::to_string(row);
   }
   return "row " + std::to_string(row) + " of " + quoted(element.name);
 }
@@ -189,7 +189,7 @@ class BodyReader {
     axes_ = {axis("x"), axis("y"), axis("z")};
     corners_property_ = only_property(*face_, source, kCornerLists, true);
     if (vertex_->count >= UINT32_MAX) {
-      reject(source.name, vertex_->place, "too many vertices", "fewer than 2^32 - 1");
+      reject(source.name, vertex_->place(), "too many vertices", "fewer than 2^32 - 1");
     }
     builder_.reserve(vertex_->count, face_->count);
   }

@@ -89,6 +89,12 @@ std::string ply_header(const std::string& format, const std::string& vertex, siz
 
 const std::string kLittle = "binary_little_endian";
 
+std::string with_header_lines(const std::string& lines, size_t size) {
+  const std::string good = ply_header("ascii", "int", 3, "int int", 1), end = "end_header\n";
+  return good.substr(0, good.size() - end.size()) + "element a 0\n" +
+         repeated(lines, size / lines.size()) + end + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+}
+
 // About `size` bytes each, all of one kind, so that nothing else pays for what it costs.
 std::vector<File> ply_files(size_t size) {
   const auto count = static_cast<uint32_t>(size);
@@ -109,9 +115,9 @@ std::vector<File> ply_files(size_t size) {
                                    repeated(" 0 1 2", size / 6) + "\n"},
           {"text_points.ply", ply_header("ascii", "float", size / 6, "uint int", 1) +
                                   repeated("0 1 2\n", size / 6) + "3 0 1 2\n"},
-          {"elements.ply", "ply\nformat ascii 1.0\n" + repeated("element a 0\n", size / 12)},
-          {"properties.ply",
-           "ply\nformat ascii 1.0\nelement a 0\n" + repeated("property int x\n", size / 15)},
+          {"elements.ply", with_header_lines("element a 0\n", size)},
+          {"properties.ply", with_header_lines("property int x\n", size)},
+          {"both.ply", with_header_lines("element a 0\nproperty int x\n", size)},
           {"comments.ply", "ply\n" + repeated("comment\n", size / 8)},
           {"long_word.ply", "ply\nformat " + std::string(size, 'a') + "\n"}};
 }
