@@ -1,6 +1,5 @@
 // The program: reads what people typed, runs the solver, prints one answer, and turns whatever went
 // wrong into one line on stderr and an exit code.
-#include <unistd.h>
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
 #endif
@@ -8,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -17,12 +15,12 @@
 
 #include "host/answer/answer.h"
 #include "host/answer/options.h"
-#include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/check/verify.h"
 #include "host/cli/doctor.h"
+#include "host/cli/progress_line.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
 #include "host/gpu/device.h"
@@ -38,8 +36,9 @@ enum ExitCode {
   kExitNotClosed = 3,
   kExitBadInput = 4,
   kExitDevice = 5,
-  kExitNotWritten = 6,  ///< the answer was given and an output could not be written
-  kExitInternal = 70,   ///< a bug of ours; sysexits.h's EX_SOFTWARE
+  kExitNotWritten = 6,     ///< the answer was given and an output could not be written
+  kExitInterrupted = 130,  ///< by Ctrl-C, before there was an interval; what a shell says of it
+  kExitInternal = 70,      ///< a bug of ours; sysexits.h's EX_SOFTWARE
 };
 
 constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone --json
@@ -47,7 +46,7 @@ constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone
 /// As typed.
 struct Arguments {
   std::string file_a, file_b;
-  std::string tolerance = "1e-6", device, memory, time, waves;
+  std::string tolerance = "1e-6", device, memory, time, waves, max_input;
   std::vector<std::string> enabled, disabled;
   std::string preset;
   bool verbose = false, symmetric = false, verify = false, no_cache = false;
@@ -58,6 +57,7 @@ struct Arguments {
 struct Request {
   Tolerance tolerance;
   SolveOptions options;
+  ReadLimits limits;
 };
 
 // A signal handler can reach nothing but a global. The first Ctrl-C ends the run with the interval
@@ -68,41 +68,6 @@ extern "C" void on_interrupt(int signal) {
   g_interrupted = 1;
   std::signal(signal, SIG_DFL);
 }
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// A line on stderr that rewrites itself, on a terminal only.
-class ProgressLine {
- public:
-  ProgressLine() : shown_(isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (drawn_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const Progress& p) {
-    constexpr double kRedrawMs = 100;
-    if (!shown_ || (drawn_ && ms_since(last_) < kRedrawMs)) return;
-    std::fprintf(stderr, "\r\033[K%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
-                 p.back ? "h(B,A)" : "h(A,B)", p.wave,
-                 static_cast<unsigned long long>(p.candidates),
-                 decimal(p.lower, 7, Rounding::kDown).c_str(),
-                 decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
-    std::fflush(stderr);
-    drawn_ = true;
-    last_ = Clock::now();
-  }
-
- private:
-  bool shown_;
-  bool drawn_ = false;
-  Clock::time_point last_;
-};
 
 void check_names(const char* option, const std::vector<std::string>& names,
                  const std::vector<std::string>& known) {
@@ -123,6 +88,9 @@ Request understand(const Arguments& arguments) {
   options.tolerance_is_absolute = request.tolerance.is_absolute;
   if (!arguments.memory.empty()) options.memory_bytes = parse_memory(arguments.memory);
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
+  if (!arguments.max_input.empty())
+    request.limits.max_input_bytes = parse_size("--max-input", arguments.max_input);
+  request.limits.keep_going = [] { return g_interrupted == 0; };
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
   check_names("--enable", arguments.enabled, switch_names());
   check_names("--disable", arguments.disabled, switch_names());
@@ -234,7 +202,7 @@ int run_pair(const Arguments& arguments, Load load) {
                             cache = arguments.no_cache ? "" : user_cache_folder()] {
     return open_session(selector, options, cache);
   });
-  const MeshPair pair = load();
+  const MeshPair pair = load(request.limits);
   const double load_ms = ms_since(start);
   Session session = opening.get();  // taken apart after the answer is out
   Answer answer = answer_for(arguments, request, pair, session);
@@ -250,14 +218,16 @@ int run_pair(const Arguments& arguments, Load load) {
 }
 
 int run_distance(const Arguments& arguments) {
-  return run_pair(arguments, [&] {
-    auto b = begin_now([path = arguments.file_b] { return read_mesh(path); });
-    Mesh a = read_mesh(arguments.file_a);
+  return run_pair(arguments, [&](const ReadLimits& limits) {
+    auto b = begin_now([path = arguments.file_b, limits] { return read_mesh(path, limits); });
+    Mesh a = read_mesh(arguments.file_a, limits);
     return MeshPair{std::move(a), b.get()};
   });
 }
 
-int run_demo(const Arguments& arguments) { return run_pair(arguments, default_pair); }
+int run_demo(const Arguments& arguments) {
+  return run_pair(arguments, [](const ReadLimits&) { return default_pair(); });
+}
 
 int run_doctor(const Arguments& arguments) {
   const bool passed = examine_devices(std::cout, arguments.device);
@@ -337,7 +307,7 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 closed, 2 usage, 3 not closed within the budget (the interval is still "
       "true), 4 bad input, 5 device or driver, 6 the answer was given and an output could not be "
-      "written.");
+      "written, 130 Ctrl-C before there was an interval.");
   app.require_subcommand(1);
   if (std::find(argv, argv + argc, std::string_view("--json=")) != argv + argc)
     throw UsageError("--json='': expected the name of a file, as in --json=answer.json");
@@ -347,6 +317,10 @@ int run(int argc, char** argv) {
       ->required();
   distance->add_option("B", arguments.file_b, "Mesh to go to")->required();
   add_run_options(*distance, arguments);
+  distance->add_option(
+      "--max-input", arguments.max_input,
+      "Refuse a file of more bytes, or with a mesh that takes more, such as 100M or "
+      "2GiB; reading takes up to six times that [no limit]");
   CLI::App* demo = app.add_subcommand("demo", "Distance of a built-in pair");
   add_run_options(*demo, arguments);
   CLI::App* doctor = app.add_subcommand("doctor", "Devices, drivers and a self-check");
@@ -373,6 +347,8 @@ int run_and_catch(int argc, char** argv) {
     return complain(error.what(), kExitDevice);
   } catch (const OutputError& error) {
     return complain(error.what(), kExitNotWritten);
+  } catch (const Interrupted& error) {
+    return complain(error.what(), kExitInterrupted);
   } catch (const std::bad_alloc&) {
     return complain("this machine has not enough memory for these meshes", kExitDevice);
   } catch (const std::exception& error) {

@@ -14,7 +14,7 @@ struct ReadLimits {
   uint64_t max_input_bytes = UINT64_MAX;
   /// Asked now and then while a file is read, perhaps on another thread: false ends it with an
   /// Interrupted.
-  std::function<bool()> keep_going;
+  std::function<bool()> keep_going = {};
 };
 
 /// Of a mesh as a file gives it, with vertices that no face uses: 24 bytes a vertex, 12 a face.

@@ -13,7 +13,7 @@ namespace vkh {
 namespace {
 
 constexpr const char* kExpectedFormats = "an OBJ, STL, PLY or OFF file";
-constexpr const char* kLessInput = "a smaller one, or a greater limit (--max-input)";
+constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
 
 // What people pass by mistake, so that they are told more than that a keyword is missing.
 void reject_known_strangers(const MeshSource& source) {
@@ -173,9 +173,13 @@ void MeshBuilder::reserve(uint64_t vertex_count, uint64_t face_count) {
 }
 
 void MeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const {
-  reject(name_, std::to_string(vertex_count) + " vertices and " + counted(face_count, "face"),
-         "a mesh of " + counted(mesh_bytes(vertex_count, face_count), "byte") +
-             ", beyond the limit of " + counted(limits_.max_input_bytes, "byte"),
+  const std::string place = face_count > 0 ? "face " + std::to_string(face_count - 1)
+                                           : "vertex " + std::to_string(vertex_count - 1);
+  reject(name_, place,
+         "a mesh of " + std::to_string(vertex_count) + " vertices and " +
+             counted(face_count, "face") + " takes " +
+             counted(mesh_bytes(vertex_count, face_count), "byte") + ", beyond the limit of " +
+             counted(limits_.max_input_bytes, "byte"),
          kLessInput);
 }
 

@@ -22,7 +22,7 @@ using namespace vkh;
 using namespace vkh::test;
 
 constexpr uint32_t kMostPairs = 4;
-constexpr uint32_t kWavesOfTurn = 32, kMostTurns = 200;
+constexpr uint32_t kWavesOfTurn = 8, kMostTurns = 400;
 
 struct State {
   FuzzDevice device;
@@ -191,7 +191,7 @@ class Run {
     for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
       std::vector<VkhTask> going;
       for (size_t i = 0; i < pairs_.size(); ++i) {
-        if (report(i, 1).status == VKH_STATUS_RUNNING && (pairs_[i].has_end || turn == 0))
+        if (report(i, 1).status == VKH_STATUS_RUNNING && pairs_[i].has_end)
           going.push_back(task(i, kWavesOfTurn, 1));
       }
       if (going.empty()) break;

@@ -62,7 +62,7 @@ FuzzMesh make_mesh_of(FuzzBytes& bytes, Kind kind) {
   FuzzMesh mesh;
   add_layout(bytes, mesh);
   const uint32_t vertices = 1 + bytes.below(kind == Kind::kGrid ? 40 : 20);
-  const uint32_t faces = 1 + bytes.below(24);
+  const uint32_t faces = 1 + bytes.below(12);  // more take seconds on a CPU
   const int exponent = bytes.flip() ? 0 : static_cast<int>(bytes.below(128)) - 112;
   for (uint32_t i = 0; i < 3 * vertices; ++i) {
     float high = coordinate(bytes, kind, i % 3);
@@ -132,16 +132,16 @@ FuzzPair make_pair(FuzzBytes& bytes) {
   pair.warm = ways / 16 % 2 == 1;
   pair.two_float = ways / 32 % 2 == 1;
   pair.sort_from = ways / 64 % 2 == 1 ? 1 : 0;
-  pair.first_waves = waves % 8;
-  pair.more_waves = waves / 8;
+  pair.first_waves = waves % 4;
+  pair.more_waves = waves / 4 % 8;
   const double largest = largest_of(pair);
   pair.is_promised = largest <= kLargest;
   pair.diagonal = diagonal_of(pair.a.measured(true), pair.b.measured(true));
-  const int bits = 2 + limits % 20;
+  const int bits = 2 + limits % 10;
   pair.tolerance = static_cast<float>(std::ldexp(std::min(pair.diagonal, 1e30), -bits));
   // Features under 2^-48 are points to the engine, and single floats have 24 bits.
   pair.has_end = pair.tolerance >= 0x1p-44f && pair.tolerance >= 0x1p-22 * largest;
-  pair.workspace_percent = limits / 20 % 4 == 0 ? 0 : 100u / (limits / 20 % 4);
+  pair.workspace_percent = limits / 10 % 4 == 0 ? 0 : 100u / (limits / 10 % 4);
   if (limits > 220) pair.known_lower = static_cast<float>(std::ldexp(pair.tolerance, bits / 2));
   return pair;
 }
