@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "host/mesh/mesh.h"
-#include "host/read/limits.h"
+#include "host/read/read_limits.h"
 
 namespace vkh {
 

@@ -117,7 +117,7 @@ class Run {
 
   VkhReport report(size_t i, uint32_t slot) {
     VkhReport report = bench(i).report(slot);
-    if (state_.raises_lower) report.lower += 0.01f * report.upper;
+    if (state_.raises_lower && report.upper < 1e30f) report.lower += 0.01f * report.upper;
     return report;
   }
 

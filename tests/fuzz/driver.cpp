@@ -77,6 +77,7 @@ std::vector<std::string> read_words(const std::string& path) {
 }
 
 void read_inputs(const std::string& path, std::vector<Bytes>& inputs) {
+  if (!std::filesystem::exists(path)) return;  // no finding yet
   if (!std::filesystem::is_directory(path)) {
     inputs.push_back(read_file(path));
     return;
@@ -130,7 +131,7 @@ void fuzz(const Options& options) {
   uint64_t runs = 0;
   Bytes input;
   while (runs < options.runs && (options.seconds == 0 || Clock::now() < end)) {
-    if (options.inputs.empty()) {
+    if (options.inputs.empty() || pick(8) == 0) {
       input.resize(pick(options.max_len + 1));
       for (uint8_t& byte : input) byte = static_cast<uint8_t>(g_random());
     } else {
