@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes what the fuzzers start from: the small malformed files, a folder for each reader.
+"""Writes what the fuzzers start from: the small malformed files, a folder for each reader, and random bytes.
 
 usage: seeds.py FOLDER"""
 
 import pathlib
+import random
 import shutil
 import sys
 
@@ -15,7 +16,7 @@ import off  # noqa: E402
 import ply  # noqa: E402
 import stl  # noqa: E402
 
-MOST_BYTES = 2048  # of larger ones a fuzzer changes what does not matter
+MOST_BYTES = 1024  # of larger ones a fuzzer changes what does not matter
 
 
 def reader_of(case):
@@ -37,6 +38,10 @@ def main(folder):
             for reader in (reader_of(case), 'any'):
                 (folder / reader).mkdir(parents=True, exist_ok=True)
                 (folder / reader / case.name).write_bytes(case.content)
+    numbers = random.Random(1)  # of the C API any bytes are an input, and short ones are mostly zeros
+    (folder / 'api').mkdir()
+    for i in range(64):
+        (folder / 'api' / f'random_{i}').write_bytes(numbers.randbytes(256))
 
 
 if __name__ == '__main__':
