@@ -9,22 +9,22 @@
 #@ weakest kept: holds at 0, fails at -1.5
 #@ weakest u2: holds at 0, fails at -1.5
 #@ weakest u1: holds at 2.6, fails at 2.4
-#@ weakest enclosing: holds at 2.6, fails at 2.4
-# By hand. T's corners a = 0, b, c are rounded to `at`: off by kUlp of themselves. A difference is rounded once more. With E
-# the longer edge of a maximum: b and c are within 3 E in sum where neither is one of the two edges, as ab and ca are b and
-# c: so the edge is off by 3 kUlp E, and its difference by one. A ball's r: its corners are within 2 r of the first, which
-# is a corner of it: 2 for `at` (4 where both ends are), 1 for ab and ac, 1 for the difference with the centre.
-# Norm: norm_up's own factor. Sums: next to a float, round_up is over the next (as in distance_up.g).
+#@ weakest enclosing: holds at 0.6, fails at 0.4
+# By hand. T's corners a = 0, b, c are rounded to `at`: b and c are off by kUlp of themselves. A difference with a is exact,
+# another is rounded once. bound_u1: where bc decides a maximum, it is the longer edge, and b and c are 3 bc in sum: it is
+# off by 3 kUlp and by one for the difference. enclosing_radius_up: b and c are within 2 r of a, so off by 2 kUlp r, and
+# by one for the difference with the centre. D, R, T, S, U: norm_up's square, its root, its product; a sum; the product.
+# A rounded sum is next to its exact value, and round_up(x, 0) is over the next float (as in distance_up.g).
 #@ case bound_u1, the edge
 { D in @{both(3.001 * ulp)} /\ R in @{both(6 * ulp)} /\ T in @{both(ulp)} /\ S in @{both(ulp)} /\ U in @{both(ulp)}
   -> @{1 - 4.001 * ulp} * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) * (1 + S) * @{1 + (u1 + up) * kUlp} * (1 + U) >= 1 }
 #@ case enclosing_radius_up
 { D in @{both(3.001 * ulp)} /\ R in @{both(6 * ulp)} /\ T in @{both(ulp)} /\ U in @{both(ulp)}
-  -> @{1 - 5.001 * ulp} * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) * @{1 + (enclosing + up) * kUlp} * (1 + U) >= 1 }
-#@ case without the rounding of corners (a = 0, no low parts), enclosing_radius_up needs nothing of its own
-{ D in @{both(3.001 * ulp)} /\ R in @{both(6 * ulp)} /\ T in @{both(ulp)} /\ U in @{both(ulp)}
-  -> @{1 - ulp} * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) * @{1 + up * kUlp} * (1 + U) >= 1 }
-#@ case nor bound_u1's edge
+  -> @{1 - 3.001 * ulp} * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) * @{1 + (enclosing + up) * kUlp} * (1 + U) >= 1 }
+#@ case enclosing_radius_up without a count of its own, where roots have the table's 4.5 ulp and no rounding more
+{ D in @{both(3.001 * ulp)} /\ R in @{both(4.501 * ulp)} /\ T in @{both(ulp)} /\ U in @{both(ulp)}
+  -> @{1 - 3.001 * ulp} * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) * @{1 + up * kUlp} * (1 + U) >= 1 }
+#@ case bound_u1 without one, where corners have no low parts (wave_bound's): norm_up takes the difference
 { D in @{both(3.001 * ulp)} /\ R in @{both(6 * ulp)} /\ T in @{both(ulp)}
   -> @{1 - ulp} * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) >= 1 }
 #@ case kept_bound and bound_u2: over the next float

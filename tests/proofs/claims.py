@@ -10,7 +10,7 @@ CLAIMS = {
     "position_o": "22.01", "position_ab": "18.01", "position_ac": "14.51",
     "step_o": "14.01", "step_ab": "18.01", "step_ac": "14.51",
     "cut_from": "18.51", "cut_to": "21.01",
-    "offset_o": "29.51", "offset_p": "16.01", "offset_radius": "57.02",
+    "offset_o": "29.51", "offset_p": "16.01", "offset_radius": "57.02", "coarse_origin": "4",
 }
 
 

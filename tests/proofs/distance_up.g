@@ -9,14 +9,14 @@
 #@ quote certified.h: VKH_FN float raised(float x) { return x + ({raised}f * kUlp * abs(x) + kTiny); }
 #@ says triangle.h: its root is off by kUlp ({distance} D + {edge} L) before its own rounding
 #@ weakest radius: holds at 11.1, fails at 10.9
-#@ weakest reach: holds at 2.1, fails at 1.9
+#@ weakest reach: holds at 1.1, fails at 0.9
 #@ weakest rounding: holds at 0, fails at none
 #@ weakest coarse: holds at 2.6, fails at 2.4
 #@ weakest plain: holds at 0, fails at none
 #@ weakest raised: holds at 3.1, fails at 2.9
 # By hand. A coarse surface: D is the distance from p, rounded, to the point of the rounded triangle whose distance
 # plain_distance2 takes. Its root is off by kUlp (3 D + 4 L), L <= 2 R, R the radius; the rounding of p by kUlp (D + R),
-# that of a corner by 2 kUlp R and 2 kUlp2 reach (linear_proofs.py). So d <= D (1 + u) + 3 u R + 2 kUlp2 reach, where the
+# that of a corner by 2 kUlp R and kUlp2 reach (linear_proofs.py). So d <= D (1 + u) + 3 u R + kUlp2 reach, where the
 # length of what was computed is at least D (1 - 3 u) - 8 u R. Shown is each factor: of D, of R, of the reach. The others are
 # distances from the point, not above the base: the last sum, with the base, is raised's, which takes two roundings of it
 # (moved.g). LENGTH is length_up's own factor over the root of a square: D for dot3, R its root, T the product.
@@ -30,7 +30,7 @@ lost = @{2 * edge * ulp} * (1 + 1b-18) + @{3.001 * ulp};
   -> @{radius * kUlp} * (1 + A) * @{1 + (rounding + up) * kUlp} * (1 + T) * (1 + S) * @{1 + (coarse + up) * kUlp} * (1 + U) - lost >= 0 }
 #@ case a coarse distance: the factor of the reach
 { A in @{both(2 * ulp)} /\ T in @{both(ulp)} /\ S in @{both(ulp)} /\ U in @{both(ulp)}
-  -> @{reach * kUlp2} * (1 + A) * @{1 + (rounding + up) * kUlp} * (1 + T) * (1 + S) * @{1 + (coarse + up) * kUlp} * (1 + U) >= @{8.001 * ulp * ulp} }
+  -> @{reach * kUlp2} * (1 + A) * @{1 + (rounding + up) * kUlp} * (1 + T) * (1 + S) * @{1 + (coarse + up) * kUlp} * (1 + U) >= @{1.001 * coarse_origin * ulp * ulp} }
 #@ case a distance in 48 bits, not sharp: norm_up makes up for the rounding of the offset's parts
 { D in @{both(3.001 * ulp)} /\ R in @{both(6 * ulp)} /\ T in @{both(ulp)} /\ P in @{both(ulp)}
   -> (1 + P) * sqrt(1 + D) * (1 + R) * @{1 + (norm_up + up) * kUlp} * (1 + T) >= 1 }

@@ -164,7 +164,7 @@ def surface(headers):
 def plain_inside(headers):
     """p - a - v (b - a) - w (c - a), in plain floats of floats: 3 of what it is, 4 of the longest edge."""
     for text in ("vec3 ab = t.b - t.a; vec3 ac = t.c - t.a; vec3 bc = t.c - t.b; vec3 ap = p - t.a; vec3 bp = p - t.b;",
-                 "vec3 normal = (ap - v * ab) - w * ac;", "vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;",
+                 "vec3 normal = (ap - v * ab) - w * ac;", "vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;", "vec3 to_bc = bp - clamp(",
                  "return choose(inside, dot3(normal, normal), at_edges);"):
         headers.quote("triangle.h", text)
     n = headers.says("triangle.h", "its root is off by kUlp ({distance} D + {edge} L) before its own rounding")
@@ -182,6 +182,16 @@ def plain_inside(headers):
         out[f"v = {v}, w = {w}"] = script(units, results, [f"v in [{v}, {v}]", f"w in [{w}, {w}]"], [
             f"|{results[0][0]}| in [0, {number(n['distance'] * ULP + more)}]",
             f"|{results[1][0]}| + |{results[2][0]}| in [0, {number(n['edge'] * ULP + more)}]"])
+    for t in (0, 1):  # an edge, from its start b: p - b = n + t bc
+        units = [Unit(name, headers) for name in ("n", "bc")]
+        results = []
+        for unit in units:
+            normal, bc = (unit.plain(int(unit.name == k)) for k in ("n", "bc"))
+            bp = unit.rounded(f"{normal.text} + t * {bc.text}", f"({normal.text} + t * {bc.text})", {})[0]
+            foot = unit.multiply(weight("t"), unit.add(bc, constant(0)))
+            results.append(unit.measure(unit.add(bp, foot, -1), normal.text))
+        out[f"an edge, t = {t}"] = script(units, results, [f"t in [{t}, {t}]"], [
+            f"|{results[0][0]}| in [0, {number(n['distance'] * ULP)}]", f"|{results[1][0]}| in [0, {number(n['edge'] * ULP)}]"])
     return out
 
 
@@ -194,7 +204,7 @@ def coarse(headers):
         unit = Unit(name, headers)
         origin, corner = unit.two(o), stored(unit, o + a)
         high, low = unit.add(corner.hi, origin.hi, -1), unit.add(corner.lo, origin.lo, -1)
-        out[name] = shown(unit, unit.add(high, low), a, {"origin": 2 * 4 * SQUARE, "corner": 2 * ULP + 8 * SQUARE}[name])
+        out[name] = shown(unit, unit.add(high, low), a, {"origin": claim("coarse_origin") * SQUARE, "corner": 2 * ULP + 8 * SQUARE}[name])
     return out
 
 
@@ -218,5 +228,5 @@ PROOFS = [
     linear_proof("surface", "p - q is off by at most 15 kUlp2 radius + 7.4 kUlp2 abs(origin) + 4.1 kUlp2 abs(p)", surface, []),
     linear_proof("plain", "plain_distance2's root is off by at most kUlp (3 D + 4 L)", plain_inside,
                  [("distance", "3", "2.9"), ("edge", "4", "3.9")]),
-    linear_proof("coarse", "a coarse corner is off by at most 2 kUlp of itself and 2 kUlp2 of the origin", coarse, []),
+    linear_proof("coarse", "a coarse corner is off by at most 2 kUlp of itself and kUlp2 of the origin", coarse, []),
 ]

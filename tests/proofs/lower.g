@@ -18,7 +18,7 @@
 # corner, and `smaller`, whose low part is rounded once more; the negative of r is exact. The corners are off by two
 # differences' origin and one of themselves (linear_proofs.py). norm_up and radius_up are no less than what they bound.
 # Flushes: kTiny in every round_up: slack is at least kTiny, 2^-60, where r.hi's largest component is in [1, 2); the
-# two_dots are flushed by under 2^-116.
+# two_dots are flushed by under 2^-116. coarse_distance_down's slack: counterexamples.py.
 #@ case coarse: dot and corner, over R |r|
 { A in @{both(3 * ulp)} /\ T in @{both(ulp)}
   -> @{corners * kUlp} * (1 + A) * @{1 + (rounding + up) * kUlp} * (1 + T) >= @{4.0001 * ulp} }

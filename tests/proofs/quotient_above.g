@@ -52,3 +52,5 @@ outer := TL + inner;
 #@ case without t.lo: as in sharp.g
 { TL in @{both(1.001 * ulp)} /\ IN in @{both(26 * ulp)} /\ OFF in @{both(440 * ulp * ulp)} /\ R1 in @{both(ulp)} /\ N2 in @{both(1.5 * ulp * ulp)}
   -> N2 - TL + R1 * IN + OFF - @{G} * (1 - 30 * @{ulp}) <= 0 }
+#@ case flushes, under the kTiny of round_up(off / l): lowered needs none
+{ A in @{both(4 * ulp)} -> @{kTiny} * (1 + A) >= 1b-66 }

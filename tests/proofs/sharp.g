@@ -7,7 +7,7 @@
 #@ quote certified.h: VKH_FN float raised(float x) { return x + ({raised}f * kUlp * abs(x) + kTiny); }
 #@ weakest length: holds at 17.5, fails at 16
 #@ weakest kUlp2: holds at 2^-44, fails at 2^-45
-#@ weakest raised: holds at 3.01, fails at 2.9
+#@ weakest raised: holds at 3.02, fails at 2.9
 #@ weakest base: holds at 0, fails at none
 # By hand. For any s > 0, abs(v) = sqrt(N) <= s + (N - s^2) / (2 s). Lengths are in units of s, so s = 1: every operation but
 # a flush is relative. XH and XL are x's parts, N = XH + XL + X (two_dot's claim, and its own low times low), PH = 1 + P and
@@ -42,3 +42,9 @@ outer := TL + inner;
 #@ case without t.lo: where s and base are within a factor of 2 it is 0 (Sterbenz); else all over abs(s - base), at least s / 2
 { TL in @{both(1.001 * ulp)} /\ IN in @{both(16 * ulp)} /\ OFF in @{both(104 * ulp * ulp)} /\ R1 in @{both(ulp)} /\ N2 in @{both(1.5 * ulp * ulp)}
   -> N2 - TL + R1 * IN + OFF + @{G} * (1 - 20 * @{ulp}) >= 0 }
+#@ case a rounding more of the result, as distance_to_up's sum with the slack has: the base under 2 s, where the rest is nothing to G
+{ T in [0,0] -> @{G - 1.001 * ulp} + T >= 0 }
+#@ case and the base over 2 s
+{ S in [0,0.5] /\ N2 in @{both(0.75 * ulp * ulp)} /\ IN in @{both(3.9 * ulp)} /\ TL in @{both(1.001 * ulp)}
+  /\ OFF in @{both(26.1 * ulp * ulp)} /\ R1 in @{both(ulp)} /\ R2 in @{both(ulp)}
+  -> N2 + R1 * IN + R2 * (TL + IN * (1 + R1)) + OFF + @{G - 1.001 * ulp} * (1 - S - 6 * @{ulp}) >= 0 }
