@@ -15,10 +15,10 @@
 #@ weakest flush: holds at 0, fails at none
 # By hand. R is the surface's radius, |r| the direction's length. coarse: (-s).r of a rounded corner: dot3 is off by 3 kUlp
 # R |r| (norms.g), the corner's rounding by one, and its own error is under the slack (slack.g). fine: two_dot of each
-# corner, and `smaller`, whose low part is rounded once more; the negative of r is exact. The corners are off by two
-# differences' origin and one of themselves (linear_proofs.py). norm_up and radius_up are no less than what they bound.
-# Flushes: kTiny in every round_up: slack is at least kTiny, 2^-60, where r.hi's largest component is in [1, 2); the
-# two_dots are flushed by under 2^-116. coarse_distance_down's slack: counterexamples.py.
+# corner, and `smaller`, twice: what it picks is a difference of 2 ulp at most and a low part, off by 3 kUlp^2. The negative
+# of r is exact. The corners are off by two differences' origin and one of themselves (linear_proofs.py). norm_up and
+# radius_up are no less than what they bound. Flushes: each round_up has kTiny, and so has the slack, where r.hi's largest
+# component is in [1, 2); two_dots are flushed by under 2^-116. coarse_distance_down's slack: counterexamples.py.
 #@ case coarse: dot and corner, over R |r|
 { A in @{both(3 * ulp)} /\ T in @{both(ulp)}
   -> @{corners * kUlp} * (1 + A) * @{1 + (rounding + up) * kUlp} * (1 + T) >= @{4.0001 * ulp} }
@@ -33,7 +33,7 @@ up(X * @{1 - (step + down) * kUlp}) - X
   -> (up(X * @{1 - (step + down) * kUlp}) - X * @{1 - (step + down) * kUlp}) - X * @{(step + down) * kUlp};
 #@ case fine: products and corners, over R |r|
 { A in @{both(3 * ulp)} /\ B in @{both(3 * ulp)}
-  -> (@{products * kUlp2} + @{radius * kUlp2} * (1 + A)) * (1 + B) * @{sum} >= @{(two_dot + 1 + 2 + 1.001 * two_difference_a) * ulp * ulp} }
+  -> (@{products * kUlp2} + @{radius * kUlp2} * (1 + A)) * (1 + B) * @{sum} >= @{(two_dot + 1 + 6 + 1.001 * two_difference_a) * ulp * ulp} }
 #@ case fine: corners, over reach |r|
 { A in @{both(2 * ulp)} /\ B in @{both(3 * ulp)} -> @{reach * kUlp2} * (1 + A) * (1 + B) * @{sum} >= @{2.001 * two_difference_a * ulp * ulp} }
 #@ case fine: flushes, under the kTiny of the slack
