@@ -14,7 +14,11 @@
 #endif
 #endif
 #ifdef VKH_COUNTS_ALLOCATIONS
-#include <sanitizer/allocator_interface.h>
+// As in sanitizer/allocator_interface.h, which Debian's g++ 12 does not have.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*,
+                                                                           size_t),
+                                                         void (*on_free)(const volatile void*));
+extern "C" size_t __sanitizer_get_allocated_size(const volatile void* block);
 #endif
 
 namespace vkh::test {
@@ -53,8 +57,7 @@ class AllocationCount {
   static void on_free(const volatile void* block) {
     State& s = state();
     if (!s.counts || block == nullptr) return;
-    s.in_use -=
-        static_cast<int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(block)));
+    s.in_use -= static_cast<int64_t>(__sanitizer_get_allocated_size(block));
   }
   static void install() {
     static const int once = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
