@@ -94,6 +94,12 @@ __attribute__((visibility("default"))) void* operator new(size_t size) {
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
+// The sanitizers' own would not come by here.
+__attribute__((visibility("default"))) void* operator new(size_t size,
+                                                          const std::nothrow_t&) noexcept {
+  if (vkh::test::failing_new().is_due(__builtin_return_address(0))) return nullptr;
+  return std::malloc(size == 0 ? 1 : size);
+}
 __attribute__((visibility("default"))) void operator delete(void* memory) noexcept {
   std::free(memory);
 }
