@@ -140,7 +140,7 @@ class Driver(Platform):
     tests = "tests"
 
     def __init__(self, name: str, source: pathlib.Path, build: pathlib.Path):
-        super().__init__(name, source)
+        super().__init__(name, source, build)
         self.build = build
         self.drivers = source / "out" / "drivers"
         self.environment |= {"VKH_VALIDATION": "1", "NODEVICE_SELECT": "1"}
