@@ -215,7 +215,8 @@ class Run:
 
 GROUPS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "table": Run.table,
           "api": Run.api, "host": Run.host, "interrupt": Run.interrupt, "kernels": Run.kernels, "sweep": Run.sweeping}
-WINDOWS_ALONE = {"console": Run.console}
+GROUPS_OF = {"windows": [*GROUPS, "console"], "arm64": ["doctor", "demo", "manifest", "generated", "sweep"]}  # emulated is slow
+GROUPS["console"] = Run.console
 NEEDS = {"kernels": KERNELS, "host": HOST, "api": ["api_c11"], "sweep": ["vkh_sweep"]}  # and the program
 
 
@@ -226,9 +227,8 @@ def main() -> int:
     parser.add_argument("--only", default="")
     parser.add_argument("--sweep", type=int, default=0)
     arguments = parser.parse_args()
-    groups = GROUPS | (WINDOWS_ALONE if arguments.platform == "windows" else {})
-    if arguments.only:
-        groups = {name: groups[name] for name in arguments.only.split(",")}
+    chosen = arguments.only.split(",") if arguments.only else GROUPS_OF[arguments.platform]
+    groups = {name: GROUPS[name] for name in chosen}
     try:
         platform = (Windows if arguments.platform == "windows" else Arm64)(SOURCE, arguments.native.resolve())
         run = Run(platform, arguments.native.resolve(), arguments.sweep or (60 if arguments.platform == "windows" else 20))
