@@ -19,7 +19,8 @@ add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${PROJECT_BINARY_DIR}/generated/
 if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
 endif()
-target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_shaders> tinyobjloader::tinyobjloader
+target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
+                      $<BUILD_INTERFACE:vkh_shaders> tinyobjloader::tinyobjloader
                       $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
 target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
@@ -30,7 +31,7 @@ add_executable(vkhausdorff host/cli/main.cpp)
 if(WIN32)
   target_sources(vkhausdorff PRIVATE host/cli/windows.rc)
 endif()
-target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
+target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 add_subdirectory(tools)
 if(VKH_EXAMPLES)

@@ -43,7 +43,7 @@ endif()
 
 # Headers of host/ that a user of vkh::Solver includes. Among themselves they say "host/mesh/mesh.h", in a package that is
 # <vkhausdorff/mesh.h>; the engine's header is <vkhausdorff.h>.
-set(VKH_HOST_HEADERS base/error gpu/device gpu/device_description gpu/vulkan_api mesh/mesh read/mesh_io run/solve_options
+set(VKH_HOST_HEADERS base/error gpu/device gpu/device_description gpu/vulkan_api mesh/mesh read/read_limits read/mesh_io run/solve_options
                      solve/report solve/solver)
 set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)
 foreach(header IN LISTS VKH_HOST_HEADERS)

@@ -193,6 +193,9 @@ VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capac
   }
   return why.empty() ? VKH_SUCCESS : VKH_ERROR_UNSUPPORTED;
 } catch (...) {  // out of host memory: no exception may cross a C interface
-  if (capacity > 0) reasons[0] = '\0';
+  if (capacity > 0) {
+    std::strncpy(reasons, "this machine has not enough memory", capacity);
+    reasons[capacity - 1] = '\0';
+  }
   return VKH_ERROR_UNSUPPORTED;
 }

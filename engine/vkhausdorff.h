@@ -180,12 +180,12 @@ void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
 /* A triangle mesh in the caller's buffers. Positions are three float32 at vertexOffset + i *
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
- * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount:
- * indices out of range and coordinates that are not finite are not checked on the GPU and give
- * undefined results (an interval, but not a true one). Vertices that no face uses are not part of
- * the mesh. Degenerate faces are segments or points. Both buffers: usage STORAGE_BUFFER; each range
- * is at most maxStorageBufferRange less 256 bytes, and with 16-bit indices it must reach to the end
- * of the last index's 4-byte word. A and B may share buffers. The engine never writes them. */
+ * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount.
+ * The GPU checks nothing: coordinates not finite and indices out of range give an untrue interval;
+ * robustBufferAccess keeps the latter from reading elsewhere. Unused vertices are no part of the
+ * mesh. Degenerate faces are segments or points. Both buffers: usage STORAGE_BUFFER; each range is
+ * at most maxStorageBufferRange less 256 bytes, and with 16-bit indices it must reach to the end of
+ * the last index's 4-byte word. A and B may share buffers. The engine never writes them. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */

@@ -235,7 +235,7 @@ EXPECTED_SURVIVORS = {
     "enclosing_radius_up": "norm_up leaves 4.7 ulp to spare, the differences cost 2",
     "bound_u1": "norm_up leaves 4.7 ulp to spare, differences and sum cost 2",
     "bound_u2": "enclosing_radius_up leaves 11 ulp to spare, the sum costs one",
-    "coarse_distance_down's slack": "2^-39 beside the 2^-21 of plain floats",
+    "coarse_distance_down's slack": "kTiny over the direction's length is more, wherever the triangle is that near",
     "coarse_distance_down's own rounding": "8 ulp of an error term that is several times the largest error found",
     "coarse_distance_down's step": "one ulp of a distance beside four of the triangle's size",
     "fine_separation_down's flush": "the slack, at least 2^-41 of the frame, is far above any flushed product",

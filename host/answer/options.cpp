@@ -49,8 +49,12 @@ const Unit* find_unit(const std::array<Unit, kCount>& units, const std::string& 
   return nullptr;
 }
 
-constexpr std::array<Unit, 10> kMemoryUnits = {{{"", 1},
+constexpr std::array<Unit, 14> kMemoryUnits = {{{"", 1},
                                                 {"b", 1},
+                                                {"k", 0x1p10},
+                                                {"m", 0x1p20},
+                                                {"g", 0x1p30},
+                                                {"t", 0x1p40},
                                                 {"kib", 0x1p10},
                                                 {"mib", 0x1p20},
                                                 {"gib", 0x1p30},
@@ -79,17 +83,19 @@ Tolerance parse_tolerance(const std::string& text) {
   return {text, quantity.number, false};
 }
 
-uint64_t parse_memory(const std::string& text) {
+uint64_t parse_size(const char* option, const std::string& text) {
   constexpr const char* kExpected =
       "a size of at least one byte such as 2GiB, 512MiB, 1.5GB or a number of bytes";
   Quantity quantity;
-  if (!split(text, quantity)) refuse("--memory", text, kExpected);
+  if (!split(text, quantity)) refuse(option, text, kExpected);
   const Unit* unit = find_unit(kMemoryUnits, lower_case(quantity.unit));
-  if (unit == nullptr) refuse("--memory", text, kExpected);
+  if (unit == nullptr) refuse(option, text, kExpected);
   const double bytes = std::floor(quantity.number * unit->factor);
-  if (bytes < 1 || bytes >= 0x1p63) refuse("--memory", text, kExpected);
+  if (bytes < 1 || bytes >= 0x1p63) refuse(option, text, kExpected);
   return static_cast<uint64_t>(bytes);
 }
+
+uint64_t parse_memory(const std::string& text) { return parse_size("--memory", text); }
 
 uint32_t parse_waves(const std::string& text) {
   uint32_t waves = 0;

@@ -16,7 +16,9 @@ struct Tolerance {
 /// "1e-6": a fraction of diag(A); "0.1%": percent of diag(A); "0.01abs": in the files' own units.
 Tolerance parse_tolerance(const std::string& text);
 
-/// "2GiB", "512MiB", "1.5GB", or a plain number of bytes; at least one byte.
+/// "2GiB", "512M", "1.5GB", or a plain number of bytes; at least one byte. K, M, G and T are powers
+/// of 1024. `option` stands in the error.
+uint64_t parse_size(const char* option, const std::string& text);
 uint64_t parse_memory(const std::string& text);
 
 /// A whole number from 0 to 2^32 - 1.

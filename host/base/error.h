@@ -23,6 +23,11 @@ struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whoever asked called it off, before there was an answer.
+struct Interrupted : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A command line or option that makes no sense.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -15,11 +15,11 @@
 
 #include "host/answer/answer.h"
 #include "host/answer/options.h"
-#include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/check/verify.h"
 #include "host/cli/doctor.h"
+#include "host/cli/out_of_memory.h"
 #include "host/cli/progress_line.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
@@ -37,8 +37,9 @@ enum ExitCode {
   kExitNotClosed = 3,
   kExitBadInput = 4,
   kExitDevice = 5,
-  kExitNotWritten = 6,  ///< the answer was given and an output could not be written
-  kExitInternal = 70,   ///< a bug of ours; sysexits.h's EX_SOFTWARE
+  kExitNotWritten = 6,     ///< the answer was given and an output could not be written
+  kExitInterrupted = 130,  ///< by Ctrl-C, before there was an interval; what a shell says of it
+  kExitInternal = 70,      ///< a bug of ours; sysexits.h's EX_SOFTWARE
 };
 
 constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone --json
@@ -48,7 +49,7 @@ using Words = std::vector<std::string>;
 /// As typed.
 struct Arguments {
   std::string file_a, file_b;
-  std::string tolerance = "1e-6", device, memory, time, waves;
+  std::string tolerance = "1e-6", device, memory, time, waves, max_input;
   std::vector<std::string> enabled, disabled;
   std::string preset;
   bool verbose = false, symmetric = false, verify = false, no_cache = false;
@@ -59,6 +60,7 @@ struct Arguments {
 struct Request {
   Tolerance tolerance;
   SolveOptions options;
+  ReadLimits limits;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -86,6 +88,9 @@ Request understand(const Arguments& arguments) {
   options.tolerance_is_absolute = request.tolerance.is_absolute;
   if (!arguments.memory.empty()) options.memory_bytes = parse_memory(arguments.memory);
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
+  if (!arguments.max_input.empty())
+    request.limits.max_input_bytes = parse_size("--max-input", arguments.max_input);
+  request.limits.keep_going = [] { return !is_interrupted(); };
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
   check_names("--enable", arguments.enabled, switch_names());
   check_names("--disable", arguments.disabled, switch_names());
@@ -198,7 +203,7 @@ int run_pair(const Arguments& arguments, Load load) {
                             cache = arguments.no_cache ? "" : user_cache_folder()] {
     return open_session(selector, options, cache);
   });
-  const MeshPair pair = load();
+  const MeshPair pair = load(request.limits);
   const double load_ms = ms_since(start);
   Session session = opening.get();  // taken apart after the answer is out
   Answer answer = answer_for(arguments, request, pair, session);
@@ -214,14 +219,17 @@ int run_pair(const Arguments& arguments, Load load) {
 }
 
 int run_distance(const Arguments& arguments) {
-  return run_pair(arguments, [&] {
-    auto b = begin_now([path = arguments.file_b] { return read_mesh(path_of(path)); });
-    Mesh a = read_mesh(path_of(arguments.file_a));
+  return run_pair(arguments, [&](const ReadLimits& limits) {
+    auto b =
+        begin_now([path = arguments.file_b, limits] { return read_mesh(path_of(path), limits); });
+    Mesh a = read_mesh(path_of(arguments.file_a), limits);
     return MeshPair{std::move(a), b.get()};
   });
 }
 
-int run_demo(const Arguments& arguments) { return run_pair(arguments, default_pair); }
+int run_demo(const Arguments& arguments) {
+  return run_pair(arguments, [](const ReadLimits&) { return default_pair(); });
+}
 
 int run_doctor(const Arguments& arguments) {
   const bool passed = examine_devices(std::cout, arguments.device);
@@ -299,7 +307,7 @@ int run(const Words& words) {
   app.footer(
       "Exit codes: 0 closed, 2 usage, 3 not closed within the budget (the interval is still "
       "true), 4 bad input, 5 device or driver, 6 the answer was given and an output could not be "
-      "written.");
+      "written, 130 Ctrl-C before there was an interval.");
   app.require_subcommand(1);
   app.allow_windows_style_options(false);  // one command line everywhere; and /folder is a name
   if (std::find(words.begin(), words.end(), "--json=") != words.end())
@@ -310,6 +318,10 @@ int run(const Words& words) {
       ->required();
   distance->add_option("B", arguments.file_b, "Mesh to go to")->required();
   add_run_options(*distance, arguments);
+  distance->add_option(
+      "--max-input", arguments.max_input,
+      "Refuse a file of more bytes, or with a mesh that takes more, such as 100M or "
+      "2GiB; reading takes up to six times that [no limit]");
   CLI::App* demo = app.add_subcommand("demo", "Distance of a built-in pair");
   add_run_options(*demo, arguments);
   CLI::App* doctor = app.add_subcommand("doctor", "Devices, drivers and a self-check");
@@ -336,8 +348,10 @@ int run_and_catch(const Words& words) {
     return complain(error.what(), kExitDevice);
   } catch (const OutputError& error) {
     return complain(error.what(), kExitNotWritten);
+  } catch (const Interrupted& error) {
+    return complain(error.what(), kExitInterrupted);
   } catch (const std::bad_alloc&) {
-    return complain("this machine has not enough memory for these meshes", kExitDevice);
+    return complain_of_memory(kExitDevice);
   } catch (const std::exception& error) {
     return complain(std::string("internal error: ") + error.what(), kExitInternal);
   } catch (...) {
@@ -360,6 +374,7 @@ int run_in_console(int argc, char** argv) {
 // driver. Where there was an answer the device is gone by now: Mesa saves what it compiled then.
 int main(int argc, char** argv) {
   const vkh::FloatEnvironment ours;
+  vkh::end_where_memory_ends(vkh::kExitDevice);
   const int code = vkh::run_in_console(argc, argv);
 #ifdef __SANITIZE_ADDRESS__
   __lsan_do_leak_check();

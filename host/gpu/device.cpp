@@ -214,13 +214,24 @@ std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
   return families;
 }
 
-uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
-  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, physical);
-  for (uint32_t i = 0; i < families.size(); ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].timestampValidBits > 0)
-      return i;
-  }
-  throw DeviceError("the device has no compute queue with timestamps");
+// One with timestamps, where there is one: stages are timed then.
+uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
+  const auto computes = [](const VkQueueFamilyProperties& f) {
+    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+  };
+  const auto timed = std::find_if(families.begin(), families.end(), [&](const auto& f) {
+    return computes(f) && f.timestampValidBits > 0;
+  });
+  const auto any = std::find_if(families.begin(), families.end(), computes);
+  if (any == families.end()) throw DeviceError("the device has no compute queue");
+  return static_cast<uint32_t>((timed != families.end() ? timed : any) - families.begin());
+}
+
+VkBool32 has_robust_access(const VulkanApi& vk, VkPhysicalDevice physical) {
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  vk.GetPhysicalDeviceFeatures2(physical, &features);
+  return features.features.robustBufferAccess;
 }
 
 }  // namespace
@@ -231,7 +242,7 @@ Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   const FloatEnvironment ours;
   create_instance(request.validation);
   choose(request.selector);
-  create_device();
+  create_device(request.robust);
 }
 
 Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }
@@ -285,8 +296,10 @@ void Device::choose(const std::string& selector) {
   throw DeviceError(nothing_usable(choices, selector));
 }
 
-void Device::create_device() {
-  queue_family_ = compute_family(vk_, physical_);
+void Device::create_device(bool robust) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, physical_);
+  queue_family_ = compute_family(families);
+  has_timestamps_ = families[queue_family_].timestampValidBits > 0;
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -300,9 +313,12 @@ void Device::create_device() {
   scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
   scalar.pNext = &synchronization;
   scalar.scalarBlockLayout = VK_TRUE;
+  VkPhysicalDeviceFeatures features{};
+  features.robustBufferAccess = robust ? has_robust_access(vk_, physical_) : VK_FALSE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &scalar;
+  info.pEnabledFeatures = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   const std::vector<const char*> extensions = device_extensions(vk_, engine_info());

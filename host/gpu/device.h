@@ -17,6 +17,8 @@ struct DeviceRequest {
   std::string selector;  ///< "": best device; "gpu"; "cpu"; an index; or part of a name, any case
   bool validation = false;  ///< load the Khronos validation layer, synchronization validation too,
                             ///< and count messages
+  bool robust = true;  ///< robustBufferAccess, where there is any: an index out of range, on the
+                       ///< GPU, reads nothing outside of its buffer
 };
 
 /// Handles of the caller's, who keeps and destroys them, after the Device and all that was made
@@ -70,7 +72,7 @@ class Device {
   explicit Device(Empty);
   void create_instance(bool validation);
   void choose(const std::string& selector);
-  void create_device();
+  void create_device(bool robust);
   void adopt(const AdoptedDevice& adopted);
   void read_limits();
 

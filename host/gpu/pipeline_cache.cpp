@@ -6,7 +6,6 @@
 #include <fstream>
 #include <vector>
 
-#include "host/base/hash_index.h"
 #include "host/system/system.h"
 #include "kernels/all_kernels.h"
 
@@ -24,6 +23,12 @@ constexpr size_t kMostBytes = size_t{256} << 20;
 struct FileHeader {
   uint64_t magic = kMagic, bytes = 0, checksum = 0;
 };
+
+// The same in every process: names and checksums of files. Against accidents, not against people.
+uint64_t mix_bits(uint64_t hash, uint64_t word) {
+  hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+  return hash ^ (hash >> 29);
+}
 
 uint64_t checksum_of(const std::vector<char>& data) {
   uint64_t hash = data.size();

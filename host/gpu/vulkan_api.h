@@ -15,6 +15,7 @@ namespace vkh {
   X(DestroyInstance)                        \
   X(EnumeratePhysicalDevices)               \
   X(EnumerateDeviceExtensionProperties)     \
+  X(GetPhysicalDeviceFeatures2)             \
   X(GetPhysicalDeviceProperties2)           \
   X(GetPhysicalDeviceMemoryProperties)      \
   X(GetPhysicalDeviceQueueFamilyProperties) \

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <future>
+#include <numeric>
 #include <system_error>
 
 #include "host/base/float_environment.h"
@@ -157,27 +158,41 @@ uint64_t count_degenerate(const Mesh& mesh) {
 // The first vertex at the same position, for each vertex.
 std::vector<uint32_t> first_at_position(const std::vector<glm::dvec3>& vertices) {
   HashIndex index(
-      vertices.size(), [&](uint32_t v) { return hash_position(vertices[v]); },
+      vertices.size(),
+      [&, secret = hash_secret()](uint32_t v) { return hash_position(secret, vertices[v]); },
       [&](uint32_t v, uint32_t w) { return same_position(vertices[v], vertices[w]); });
   std::vector<uint32_t> first(vertices.size());
   for (uint32_t v = 0; v < first.size(); ++v) first[v] = index.insert(v);
   return first;
 }
 
+// Brought together by their least corner, by counting, and those of a corner sorted by the other
+// two: neighbours in memory stay neighbours, which a hash would scatter, and no file can make it
+// slow.
 uint64_t count_duplicates(const Mesh& mesh) {
   const std::vector<uint32_t> first = first_at_position(mesh.vertices);
-  std::vector<std::array<uint32_t, 3>> keys;
-  keys.reserve(mesh.faces.size());
+  const auto corners_of = [&first](const glm::uvec3& f) {
+    std::array<uint32_t, 3> corners = {first[f.x], first[f.y], first[f.z]};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::vector<uint32_t> end(first.size() +
+                            1);  // where a vertex's faces end, and the next one's are
+  for (const glm::uvec3& f : mesh.faces) ++end[corners_of(f)[0] + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<uint64_t> others(mesh.faces.size());
   for (const glm::uvec3& f : mesh.faces) {
-    keys.push_back({first[f.x], first[f.y], first[f.z]});
-    std::sort(keys.back().begin(), keys.back().end());
+    const auto [i, j, k] = corners_of(f);
+    others[end[i]++] = uint64_t{j} << 32 | k;
   }
-  HashIndex index(
-      keys.size(),
-      [&](uint32_t f) { return mix_bits(mix_bits(keys[f][0], keys[f][1]), keys[f][2]); },
-      [&](uint32_t f, uint32_t g) { return keys[f] == keys[g]; });
   uint64_t duplicates = 0;
-  for (uint32_t f = 0; f < keys.size(); ++f) duplicates += index.insert(f) != f ? 1 : 0;
+  auto begin = others.begin();
+  for (size_t v = 0; v < first.size(); ++v) {
+    const auto stop = others.begin() + end[v];
+    std::sort(begin, stop);
+    duplicates += static_cast<uint64_t>(stop - std::unique(begin, stop));
+    begin = stop;
+  }
   return duplicates;
 }
 

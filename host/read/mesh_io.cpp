@@ -14,6 +14,7 @@ namespace vkh {
 namespace {
 
 constexpr const char* kExpectedFormats = "an OBJ, STL, PLY or OFF file";
+constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
 
 // What people pass by mistake, so that they are told more than that a keyword is missing.
 void reject_known_strangers(const MeshSource& source) {
@@ -81,8 +82,15 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
   return bytes.starts_with(kMark) ? bytes.substr(kMark.size()) : bytes;
 }
 
-// One read where the size is known; a pipe is read until it ends.
-std::string read_bytes(const std::filesystem::path& path, const std::string& name) {
+[[noreturn]] void refuse_bytes(const std::string& name, const std::string& what,
+                               const ReadLimits& limits) {
+  reject(name, "byte " + std::to_string(limits.max_input_bytes),
+         what + ", beyond the limit of " + counted(limits.max_input_bytes, "byte"), kLessInput);
+}
+
+// In pieces, so that it can be called off; a pipe is read until it ends.
+std::string read_bytes(const std::filesystem::path& path, const std::string& name,
+                       const ReadLimits& limits) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   const bool regular = std::filesystem::is_regular_file(status);
@@ -94,13 +102,17 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& nam
   std::ifstream in(path, std::ios::binary);
   if (!in) reject(name, "byte 0", "the file cannot be opened", "permission to read it");
   const uintmax_t known = regular ? std::filesystem::file_size(path, error) : 0;
-  constexpr size_t kPipeChunk = size_t{1} << 20;
+  if (known > limits.max_input_bytes) refuse_bytes(name, counted(known, "byte"), limits);
+  constexpr size_t kPiece = size_t{1} << 24, kPipePiece = size_t{1} << 20;
   std::string bytes;
-  for (size_t size = 0; in; size = bytes.size()) {
-    bytes.resize(size + (size == 0 && known > 0 ? static_cast<size_t>(known) : kPipeChunk));
+  if (known > 0) bytes.reserve(static_cast<size_t>(known));
+  while (in && (!regular || bytes.size() != known)) {
+    check_going(name, limits);
+    const size_t size = bytes.size();
+    bytes.resize(size + (known > size ? std::min<size_t>(kPiece, known - size) : kPipePiece));
     in.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
     bytes.resize(size + static_cast<size_t>(in.gcount()));
-    if (regular && bytes.size() == known) break;
+    if (bytes.size() > limits.max_input_bytes) refuse_bytes(name, "more than is read", limits);
   }
   if (in.bad()) {
     reject(name, "byte " + std::to_string(bytes.size()), "the file cannot be read",
@@ -114,7 +126,8 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& nam
 Mesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
   reject_known_strangers(file);
-  const MeshSource source{.name = file.name, .bytes = without_byte_order_mark(file.bytes)};
+  const MeshSource source{
+      .name = file.name, .bytes = without_byte_order_mark(file.bytes), .limits = file.limits};
   Parse parse = parser_by_content(source.bytes);
   if (!parse) parse = parser_by_extension(source.name);
   if (!parse && looks_like_obj(source.bytes)) parse = parse_obj;
@@ -122,10 +135,19 @@ Mesh parse_mesh(const MeshSource& file) {
   return parse(source);
 }
 
-Mesh read_mesh(const std::filesystem::path& path) {
+Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string name = name_of(path);
-  const std::string bytes = read_bytes(path, name);
-  return parse_mesh({.name = name, .bytes = bytes});
+  const std::string bytes = read_bytes(path, name, limits);
+  return parse_mesh({.name = name, .bytes = bytes, .limits = limits});
+}
+
+uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {
+  return sizeof(glm::dvec3) * vertex_count + sizeof(glm::uvec3) * face_count;
+}
+
+void check_going(const std::string& name, const ReadLimits& limits) {
+  if (limits.keep_going && !limits.keep_going())
+    throw Interrupted(name + ": called off while it was read");
 }
 
 std::string counted(uint64_t count, const std::string& noun) {
@@ -144,25 +166,48 @@ void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
   if (!first.empty()) notes.push_back("what follows the last row ignored, from " + first);
 }
 
+void MeshBuilder::reserve(uint64_t vertex_count, uint64_t face_count) {
+  if (mesh_bytes(vertex_count, face_count) > limits_.max_input_bytes)
+    refuse_size(vertex_count, face_count);
+  vertices_.reserve(vertex_count);
+  faces_.reserve(face_count);
+}
+
+void MeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const {
+  const std::string place = face_count > 0 ? "face " + std::to_string(face_count - 1)
+                                           : "vertex " + std::to_string(vertex_count - 1);
+  reject(name_, place,
+         "a mesh of " + std::to_string(vertex_count) + " vertices and " +
+             counted(face_count, "face") + " takes " +
+             counted(mesh_bytes(vertex_count, face_count), "byte") + ", beyond the limit of " +
+             counted(limits_.max_input_bytes, "byte"),
+         kLessInput);
+}
+
 void MeshBuilder::add_face(std::span<const uint32_t> corners) {
   if (corners.size() < 3) {
     ++short_faces_;
     return;
   }
   if (corners.size() > 3) ++polygons_;
+  const size_t count = corners.size() - 2;
+  make_room(0, count);
+  // A large polygon by what it takes, not by twice what there was.
+  if (faces_.capacity() - faces_.size() < count && count > faces_.size())
+    faces_.reserve(faces_.size() + count);
   for (size_t i = 2; i < corners.size(); ++i) {
-    faces.emplace_back(corners[0], corners[i - 1], corners[i]);
+    faces_.emplace_back(corners[0], corners[i - 1], corners[i]);
   }
 }
 
 Mesh MeshBuilder::finish(const std::string& place) && {
-  if (faces.empty()) {
+  if (faces_.empty()) {
     reject(name_, place,
            short_faces_ == 0 ? "the file ends without a face"
                              : "the file ends without a face of three corners",
            "at least one face: a distance between no surfaces is undefined");
   }
-  Mesh mesh = make_mesh(name_, std::move(vertices), std::move(faces));
+  Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_));
   mesh.counts.polygons = polygons_;
   mesh.notes = std::move(notes);
   if (polygons_ > 0) {

@@ -5,12 +5,13 @@
 #include <filesystem>
 
 #include "host/mesh/mesh.h"
+#include "host/read/read_limits.h"
 
 namespace vkh {
 
 /// Reads a mesh file. Throws InputError with one line: file, line or byte or element, what is
 /// wrong, what was expected. Never allocates from a header's word: counts are checked against the
 /// file's size first.
-Mesh read_mesh(const std::filesystem::path& path);
+Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 }  // namespace vkh

@@ -55,9 +55,9 @@ Line kind_of(std::string_view keyword) {
 
 class ObjSource : public std::streambuf {
  public:
-  ObjSource(std::string_view text, std::string_view name) : scanner_(text, name, '#') {}
+  ObjSource(const MeshSource& source, MeshBuilder& builder)
+      : builder_(builder), scanner_(source.bytes, source.name, '#') {}
 
-  std::vector<glm::dvec3> vertices;
   uint64_t ignored_elements = 0;  ///< points, lines and curves
   uint64_t ignored_surfaces = 0;
   uint64_t ignored_calls = 0;
@@ -143,7 +143,7 @@ class ObjSource : public std::streambuf {
     for (auto word = scanner_.word(); !word.empty(); word = scanner_.word()) {
       if (!parse_number(word, unused)) scanner_.fail(quoted(word) + " in a vertex", "a number");
     }
-    vertices.push_back(p);
+    builder_.add_vertex(p);
     line_ = "v 0 0 0\n";
   }
 
@@ -181,6 +181,7 @@ class ObjSource : public std::streambuf {
     scanner_.fail(quoted(word) + " in a face", kIndexForms);
   }
 
+  MeshBuilder& builder_;
   TextScanner scanner_;
   std::string line_;
   Continued continued_ = Continued::kNot;  ///< by what the skipped line before may go on
@@ -203,9 +204,9 @@ class FaceReader {
 
   // A face may stand before its vertices, so indices above the count are judged at the end.
   void check_end() const {
-    if (vertex_count_ != source_.vertices.size()) {
+    if (vertex_count_ != builder_.vertices().size()) {
       source_.scanner().fail("tinyobjloader saw " + std::to_string(vertex_count_) + " vertices",
-                             std::to_string(source_.vertices.size()));
+                             std::to_string(builder_.vertices().size()));
     }
     if (greatest_ > vertex_count_) fail_index(greatest_, greatest_place_);
   }
@@ -265,8 +266,8 @@ Mesh parse_obj(const MeshSource& source) {
   if (const size_t zero = source.bytes.find('\0'); zero != std::string_view::npos) {
     reject(source.name, "byte " + std::to_string(zero), "a zero byte", "text, as OBJ is");
   }
-  ObjSource lines(source.bytes, source.name);
   MeshBuilder builder(source);
+  ObjSource lines(source, builder);
   FaceReader reader(lines, builder);
   std::istream stream(&lines);
   stream.exceptions(std::ios::badbit);  // what ObjSource throws passes through
@@ -277,8 +278,7 @@ Mesh parse_obj(const MeshSource& source) {
     lines.scanner().fail("tinyobjloader says " + quoted(errors + warnings), "a plain OBJ file");
   }
   reader.check_end();
-  builder.vertices = std::move(lines.vertices);
-  for (; lines.empty_faces > 0; --lines.empty_faces) builder.add_face({});
+  builder.add_short_faces(lines.empty_faces);
   note_ignored(lines, builder.notes);
   return std::move(builder).finish(lines.scanner().place());
 }

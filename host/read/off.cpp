@@ -75,13 +75,13 @@ void next_element(TextScanner& scanner, const char* what, uint64_t number, uint6
 // length is a face that a wrong count makes a vertex, and with as wrong a count of faces it would
 // be lost in silence.
 void read_vertices(TextScanner& scanner, const Counts& counts, MeshBuilder& builder) {
-  builder.vertices.resize(counts.vertices);
+  builder.reserve(counts.vertices, counts.faces);
   uint64_t words_of_first = 0;
   for (uint64_t v = 0; v < counts.vertices; ++v) {
     next_element(scanner, "vertex", v, counts.vertices);
-    for (int axis = 0; axis < 3; ++axis) {
-      builder.vertices[v][axis] = scanner.number<double>("coordinate");
-    }
+    glm::dvec3 p{};
+    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner.number<double>("coordinate");
+    builder.add_vertex(p);
     uint64_t words = 3;
     while (!scanner.word().empty()) ++words;
     if (v == 0) words_of_first = words;

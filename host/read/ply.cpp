@@ -20,7 +20,7 @@ using namespace ply;
 /// A row's place for errors, such as "face 11", or "row 11 of 'camera'".
 std::string row_place(const Element& element, uint64_t row) {
   if (element.name == "vertex" || element.name == "face") {
-    return element.name + " " + std::to_string(row);
+    return std::string(element.name) + " " + std::to_string(row);
   }
   return "row " + std::to_string(row) + " of " + quoted(element.name);
 }
@@ -189,20 +189,20 @@ class BodyReader {
     axes_ = {axis("x"), axis("y"), axis("z")};
     corners_property_ = only_property(*face_, source, kCornerLists, true);
     if (vertex_->count >= UINT32_MAX) {
-      reject(source.name, vertex_->place, "too many vertices", "fewer than 2^32 - 1");
+      reject(source.name, vertex_->place(), "too many vertices", "fewer than 2^32 - 1");
     }
+    builder_.reserve(vertex_->count, face_->count);
   }
 
   Mesh read() && {
     for (const Element& element : header_.elements) {
-      if (&element == vertex_) builder_.vertices.reserve(element.count);
-      if (&element == face_) builder_.faces.reserve(element.count);
       for (uint64_t row = 0; row < element.count; ++row) {
         body_.begin_row(element, row);
         read_row(element);
         body_.end_row();
       }
     }
+    corners_ = std::vector<uint32_t>();  // before more is allocated
     const std::string place = body_.place();
     body_.read_rest(builder_.notes);
     return std::move(builder_).finish(place);
@@ -229,7 +229,7 @@ class BodyReader {
         skip_property(body_, vertex_->properties[i]);
       }
     }
-    builder_.vertices.push_back(p);
+    builder_.add_vertex(p);
   }
 
   void read_face() {

@@ -38,7 +38,7 @@ Element read_element(TextScanner& scanner) {
   const auto count = scanner.number<int64_t>("count of elements");
   if (count < 0) scanner.fail(std::to_string(count) + " elements", "a count of 0 or more");
   element.count = static_cast<uint64_t>(count);
-  element.place = scanner.place();
+  element.line = scanner.line_number();
   return element;
 }
 
@@ -114,11 +114,11 @@ void check_sizes(const Header& header, const MeshSource& source, uint64_t body_b
     if (element.count == 0) continue;
     const uint64_t row_bytes = least_row_bytes(element, header.encoding);
     if (row_bytes == 0) {
-      reject(source.name, element.place, "element " + quoted(element.name) + " has no property",
+      reject(source.name, element.place(), "element " + quoted(element.name) + " has no property",
              "at least one");
     }
     if (element.count > room / row_bytes) {
-      reject(source.name, element.place,
+      reject(source.name, element.place(),
              std::to_string(element.count) + " elements " + quoted(element.name) +
                  " announced in a file with " + std::to_string(body_bytes) +
                  " bytes after its header",
@@ -142,7 +142,7 @@ void check_no_other_faces(const Header& header, const MeshSource& source) {
         std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
       continue;
     }
-    reject(source.name, element.place,
+    reject(source.name, element.place(),
            "element " + quoted(element.name) + " lists corners, which are not read",
            "all faces in element 'face'");
   }
@@ -177,7 +177,7 @@ const Element& only_element(const Header& header, const MeshSource& source,
   const Element* only = nullptr;
   for (const Element& element : header.elements) {
     if (element.name != name) continue;
-    if (only) reject(source.name, element.place, "a second element " + quoted(name), "one");
+    if (only) reject(source.name, element.place(), "a second element " + quoted(name), "one");
     only = &element;
   }
   if (!only)
@@ -192,7 +192,7 @@ size_t only_property(const Element& element, const MeshSource& source,
     const Property& property = element.properties[i];
     if (std::find(names.begin(), names.end(), property.name) == names.end()) continue;
     if (property.list_count.has_value() != list || (list && !is_integer(property.type)) || only) {
-      reject(source.name, element.place,
+      reject(source.name, element.place(),
              "property " + quoted(property.name) + " of " + quoted(element.name) +
                  " is of the wrong kind",
              list ? "one list of integers" : "one scalar");
@@ -200,8 +200,8 @@ size_t only_property(const Element& element, const MeshSource& source,
     only = i;
   }
   if (!only) {
-    reject(source.name, element.place, "element " + quoted(element.name) + " has no such property",
-           quoted(names.front()));
+    reject(source.name, element.place(),
+           "element " + quoted(element.name) + " has no such property", quoted(names.front()));
   }
   return *only;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,22 +18,26 @@ namespace vkh::ply {
 enum class Encoding { kAscii, kLittle, kBig };
 enum class Scalar : uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
+// Names are the file's bytes, and elements lie in a deque: what a header of many lines is kept as
+// takes five times its size at most.
 struct Property {
-  std::string name;
+  std::string_view name;
   Scalar type{};
   std::optional<Scalar> list_count;  ///< the type of a list's count; none for a scalar
 };
 
 struct Element {
-  std::string name;
+  std::string_view name;
   uint64_t count = 0;
   std::vector<Property> properties;
-  std::string place;  ///< its line in the header
+  size_t line = 0;  ///< of the file
+
+  std::string place() const { return "line " + std::to_string(line); }
 };
 
 struct Header {
   Encoding encoding{};
-  std::vector<Element> elements;
+  std::deque<Element> elements;
   std::string end_place;  ///< the line of end_header
 };
 

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "host/mesh/mesh.h"
+#include "host/read/read_limits.h"
 
 namespace vkh {
 
@@ -19,10 +20,11 @@ class TextScanner;
 struct MeshSource {
   std::string name;        ///< starts every error line; its extension decides where content cannot
   std::string_view bytes;  ///< the whole file
+  ReadLimits limits = {};
 };
 
 /// Tells the format and calls its reader. All of these throw InputError and nothing else but
-/// std::bad_alloc, whatever the bytes are.
+/// std::bad_alloc, whatever the bytes are, and Interrupted if keep_going says so.
 Mesh parse_mesh(const MeshSource& source);
 Mesh parse_obj(const MeshSource& source);
 Mesh parse_stl(const MeshSource& source);
@@ -41,24 +43,54 @@ std::string counted(uint64_t count, const std::string& noun);
 /// part of the model.
 void note_rest(TextScanner& scanner, std::vector<std::string>& notes);
 
-/// Collects a file's vertices and faces.
+/// Throws Interrupted if whoever waits for the file has called it off.
+void check_going(const std::string& name, const ReadLimits& limits);
+
+/// Collects a file's vertices and faces, within the source's limits.
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const MeshSource& source) : name_(source.name) {}
+  explicit MeshBuilder(const MeshSource& source) : name_(source.name), limits_(source.limits) {}
 
   const std::string& name() const { return name_; }
+  const std::vector<glm::dvec3>& vertices() const { return vertices_; }
 
-  std::vector<glm::dvec3> vertices;
-  std::vector<glm::uvec3> faces;
   std::vector<std::string> notes;
 
+  /// What a header announces, checked against the limits before anything is allocated.
+  void reserve(uint64_t vertex_count, uint64_t face_count);
+  void add_vertex(const glm::dvec3& position) {
+    make_room(1, 0);
+    vertices_.push_back(position);
+  }
+  /// The one added last.
+  void drop_vertex() { vertices_.pop_back(); }
+  void add_triangle(const glm::uvec3& face) {
+    make_room(0, 1);
+    faces_.push_back(face);
+  }
   /// Fans a polygon from its first corner; one of fewer than three corners is ignored and noted.
   void add_face(std::span<const uint32_t> corners);
+  void add_short_faces(uint64_t count) { short_faces_ += count; }
   /// `place` is where the file ended, for the error if no face was there.
   Mesh finish(const std::string& place) &&;
 
  private:
+  /// Before so many more are added.
+  void make_room(size_t vertex_count, size_t face_count) {
+    constexpr uint64_t kRowsOfTick = 1 << 14;  // about 1 ms
+    if (mesh_bytes(vertices_.size() + vertex_count, faces_.size() + face_count) >
+        limits_.max_input_bytes) {
+      refuse_size(vertices_.size() + vertex_count, faces_.size() + face_count);
+    }
+    if (++rows_ % kRowsOfTick == 0) check_going(name_, limits_);
+  }
+  [[noreturn]] void refuse_size(uint64_t vertex_count, uint64_t face_count) const;
+
   std::string name_;
+  const ReadLimits& limits_;
+  std::vector<glm::dvec3> vertices_;
+  std::vector<glm::uvec3> faces_;
+  uint64_t rows_ = 0;
   uint64_t polygons_ = 0;
   uint64_t short_faces_ = 0;
 };

@@ -22,21 +22,24 @@ uint64_t announced_triangles(std::string_view bytes) {
 
 class VertexMerger {
  public:
-  VertexMerger(std::vector<glm::dvec3>& vertices, size_t triangle_count)
-      : vertices_(vertices), index_(triangle_count / 2, Hash{&vertices}, Same{&vertices}) {}
+  VertexMerger(MeshBuilder& builder, size_t triangle_count)
+      : builder_(builder),
+        index_(triangle_count / 2, Hash{.vertices = &builder.vertices()},
+               Same{&builder.vertices()}) {}
 
   uint32_t insert(const glm::dvec3& position) {
-    const auto number = static_cast<uint32_t>(vertices_.size());
-    vertices_.push_back(position);
+    const auto number = static_cast<uint32_t>(builder_.vertices().size());
+    builder_.add_vertex(position);
     const uint32_t found = index_.insert(number);
-    if (found != number) vertices_.pop_back();
+    if (found != number) builder_.drop_vertex();
     return found;
   }
 
  private:
   struct Hash {
     const std::vector<glm::dvec3>* vertices;
-    uint64_t operator()(uint32_t v) const { return hash_position((*vertices)[v]); }
+    HashSecret secret = hash_secret();
+    uint64_t operator()(uint32_t v) const { return hash_position(secret, (*vertices)[v]); }
   };
   struct Same {
     const std::vector<glm::dvec3>* vertices;
@@ -45,7 +48,7 @@ class VertexMerger {
     }
   };
 
-  std::vector<glm::dvec3>& vertices_;
+  MeshBuilder& builder_;
   HashIndex<Hash, Same> index_;
 };
 
@@ -105,7 +108,7 @@ void check_rest(const MeshSource& source, MeshBuilder& builder, uint64_t end) {
   const uint64_t rest = source.bytes.size() - end;
   if (rest == 0) return;
   double mesh_size = 0;
-  for (const glm::dvec3& v : builder.vertices) {
+  for (const glm::dvec3& v : builder.vertices()) {
     const glm::dvec3 p = glm::abs(v);
     mesh_size = std::max({mesh_size, p.x, p.y, p.z});
   }
@@ -121,8 +124,8 @@ void check_rest(const MeshSource& source, MeshBuilder& builder, uint64_t end) {
 Mesh parse_binary(const MeshSource& source) {
   MeshBuilder builder(source);
   const uint64_t count = checked_count(source);
-  VertexMerger merger(builder.vertices, count);
-  builder.faces.reserve(count);
+  builder.reserve(0, count);
+  VertexMerger merger(builder, count);
   for (uint64_t t = 0; t < count; ++t) {
     const size_t at = kHeaderBytes + t * kTriangleBytes + 12;
     glm::uvec3 face{};
@@ -135,7 +138,7 @@ Mesh parse_binary(const MeshSource& source) {
       }
       face[i] = merger.insert(p);
     }
-    builder.faces.push_back(face);
+    builder.add_triangle(face);
   }
   check_rest(source, builder, kHeaderBytes + count * kTriangleBytes);
   return std::move(builder).finish(byte_place(kHeaderBytes));
@@ -152,7 +155,7 @@ class AsciiReader {
   explicit AsciiReader(const MeshSource& source)
       : scanner_(source.bytes, source.name),
         builder_(source),
-        merger_(builder_.vertices, source.bytes.size() / 200) {}
+        merger_(builder_, source.bytes.size() / 200) {}
 
   Mesh read() && {
     expect({"solid"});
@@ -196,7 +199,7 @@ class AsciiReader {
       face[i] = merger_.insert(p);
     }
     expect({"endloop", "endfacet"});
-    builder_.faces.push_back(face);
+    builder_.add_triangle(face);
   }
 
   bool another_solid() {

@@ -94,7 +94,8 @@ VKH_FN Corners plain_corners(Root r, Bary3 t) {
   return c;
 }
 
-// Corners are off by 8 kUlp2 reach (position_of), steps by as much, cuts by 6 kUlp2 of a step more.
+// In kUlp2 of the reach corners are off by 5.5, steps by 4.5, cuts by 10 more. What is left of the
+// 24 is for Surface::slack (docs/proofs.md).
 VKH_FN LocalCorners local_corners(Root r, Bary3 t) {
   LocalCorners p;
   p.origin = position_of(r, t.a);

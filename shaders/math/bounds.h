@@ -100,8 +100,8 @@ VKH_FN Cut cut_by(vec3 side) {
 }
 
 // Where the edge to the first (k = 0) or second other corner is cut: where `side` would be 0 if it
-// were linear. Any cut is right, as both pieces use it. It is off by 6 kUlp2 of T's radius, which
-// is under 2^-41 of the surfaces' slack and of T: LocalCorners::slack takes it.
+// were linear. Any cut is right, as both pieces use it. It is off by 10 kUlp2 of T's radius:
+// LocalCorners::slack takes it.
 VKH_FN Two3 cut_point(Patch t, Cut cut, uint k, vec3 side) {
   uint end = choose(k == 0u, cut.first, cut.second);
   Two3 from = corner_at(t, cut.alone);

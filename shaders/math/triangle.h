@@ -159,9 +159,9 @@ VKH_FN float coarse_slack(Corners at, float reach) {
   return round_up(12.0f * kUlp * radius_up(at) + 8.0f * kUlp2 * reach, 4.0f);
 }
 
-// In units of kUlp2, R the surface's radius: corners are off by |origin| + |corner| <= 2 reach + R
-// each, and so is a point between them; the edges by 4 R; offset_from's combination by 4 (|p| + 5
-// R), its first term by |p| + R. Together 2 reach + 26 R + 5 |p|.
+// In units of kUlp2, R the surface's radius: p - q is off by 14.3 R, 7.4 |origin| and 4.1 |p|, most
+// of the last two by the rounding of low parts, which are an ulp of them. Where p is not the origin
+// that may be more than 8 reach: LocalCorners::slack has as much left (docs/proofs.md).
 VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   Surface s;
   s.base = from.base;

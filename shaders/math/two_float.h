@@ -3,8 +3,8 @@
 // Knuth's TwoSum).
 //
 // No step relies on fma: lavapipe's is not fused, and a contracted product is only more accurate.
-// Where + and - round to nearest, two_sum and two_product are exact; where they round in another
-// direction, they are off by at most kUlp2 / 2 of their operands, and so they are taken to be.
+// two_product is exact in any direction of rounding. two_sum is where + and - round to nearest, and
+// else off by at most kUlp2 / 8 of its operands (docs/proofs.md).
 #ifndef VKH_SHADERS_MATH_TWO_FLOAT_H
 #define VKH_SHADERS_MATH_TWO_FLOAT_H
 

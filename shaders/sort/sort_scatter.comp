@@ -29,7 +29,7 @@ layout(scalar, push_constant) uniform PushBlock { SortPush push; };
 #include "shaders/sort/key_total.glsl"
 
 const uint kMaxSubgroups = kSortGroup / kNarrowestSubgroup;
-const uint kRows = 32u;  // of counters, 16 KiB: one each for subgroups that are 8 wide or wider
+const uint kRows = 16u;  // of counters, 8 KiB: one each for subgroups that are 16 wide or wider
 const uint kRow = kSortDigits / 2u;
 const uint kBatch = 8u;  // loads of counts that do not wait for each other
 shared uint counters[kRows * kRow];

@@ -100,7 +100,7 @@ TEST_CASE("usage errors: exit code 2 and one line") {
   for (const char* tol : {"0", "-1", "nan", "inf", "1e-6mm", "abs", "%", "1,5", "1e-400", ""}) {
     check_refused(pair + Words{"--tol", tol}, 2, "--tol");
   }
-  for (const char* memory : {"0", "2G", "-1MiB", "much", "1e30TiB", "0.1"}) {
+  for (const char* memory : {"0", "2X", "-1MiB", "much", "1e30TiB", "0.1"}) {
     check_refused(pair + Words{"--memory", memory}, 2, "--memory");
   }
   for (const char* time : {"0", "-1s", "1d", "inf", "soon"}) {

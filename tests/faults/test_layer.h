@@ -26,6 +26,7 @@ class TestLayer {
     if (library_ == nullptr) throw std::runtime_error("no test layer in " VKH_LAYER_FOLDER);
     find("vkhLayerArm", arm_);
     find("vkhLayerLog", log_);
+    find("vkhLayerCount", count_);
     find("vkhLayerInjected", injected_);
     find("vkhLayerViolations", violations_);
     find("vkhLayerLive", live_);
@@ -46,6 +47,8 @@ class TestLayer {
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     return lines;
   }
+  /// How often a function was called since then; robust_devices: how many were made.
+  uint64_t count(const std::string& function) const { return count_(function.c_str()); }
   uint32_t injected() const { return injected_(); }
   uint32_t violations() const { return violations_(); }
   /// Objects that live, instances among them.
@@ -66,6 +69,7 @@ class TestLayer {
   void* library_ = nullptr;
   bool (*arm_)(const char*) = nullptr;
   size_t (*log_)(char*, size_t) = nullptr;
+  uint64_t (*count_)(const char*) = nullptr;
   uint32_t (*injected_)() = nullptr;
   uint32_t (*violations_)() = nullptr;
   uint32_t (*live_)() = nullptr;

@@ -33,12 +33,14 @@ class Watchdog {
 };
 
 /// The calls that a fault is tried at: all of them with VKH_FAULTS=all; else the first, the second,
-/// the one in the middle and the last; or, where a trial takes long, the first.
-enum class Places { kFour, kFirst };
+/// the one in the middle and the last; where a trial takes long, the first and the last, or the
+/// first.
+enum class Places { kFour, kEnds, kFirst };
 inline std::set<size_t> places_of(size_t count, Places places) {
   const char* wanted = std::getenv("VKH_FAULTS");
   if (wanted == nullptr || std::string(wanted) != "all") {
     if (places == Places::kFirst) return {1};
+    if (places == Places::kEnds) return {1, count};
     return {1, std::min<size_t>(2, count), (count + 1) / 2, count};
   }
   std::set<size_t> all;
@@ -65,7 +67,8 @@ inline std::vector<std::string> faults_of(const std::vector<std::string>& calls,
 class FaultTable {
  public:
   explicit FaultTable(const std::string& name)
-      : out_(VKH_FAULTS_FOLDER "/faults_" + name + ".txt") {}
+      : out_(VKH_FAULTS_FOLDER "/faults_" + name +
+             (std::getenv("VKH_FAULTS") != nullptr ? "_all.txt" : ".txt")) {}
   void add(const std::string& what, const std::string& fault, const std::string& end) {
     out_ << what << '\t' << fault << '\t' << end << '\n';
     out_.flush();

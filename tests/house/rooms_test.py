@@ -19,7 +19,7 @@ ROOMS = {
                 "report", "doctor"],
     "host": ["base", "system", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve",
-              "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize"],
+              "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)
 OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room

@@ -143,6 +143,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
   Table& above = table_of(key_of(physical));
   if (const auto fault = fault_of("vkCreateDevice", kCreateDeviceErrors, above)) return *fault;
   if (const auto refused = hidden_wish(*info)) return *refused;
+  if (info->pEnabledFeatures != nullptr && info->pEnabledFeatures->robustBufferAccess != VK_FALSE)
+    count_call("robust_devices");
   const auto get = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   const auto get_device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
@@ -236,6 +238,7 @@ VK_LAYER_EXPORT size_t vkhLayerLog(char* text, size_t capacity) {
   return log.size();
 }
 
+VK_LAYER_EXPORT uint64_t vkhLayerCount(const char* name) { return vkh::layer::count_of(name); }
 VK_LAYER_EXPORT uint32_t vkhLayerInjected() { return vkh::layer::injected(); }
 VK_LAYER_EXPORT uint32_t vkhLayerViolations() { return vkh::layer::violations(); }
 VK_LAYER_EXPORT uint32_t vkhLayerLive() { return vkh::layer::live_objects(); }

@@ -98,7 +98,7 @@ bool parse_fault(const std::string& text, Fault& fault) {
 }  // namespace
 
 Settings& settings() {
-  static Settings instance = read();
+  static Settings& instance = *new Settings(read());  // never destroyed: an instance may outlive it
   return instance;
 }
 

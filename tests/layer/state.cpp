@@ -127,6 +127,13 @@ uint64_t count_call(const std::string& function) {
   return ++calls.by_name[function];
 }
 
+uint64_t count_of(const std::string& function) {
+  Calls& calls = only<Calls>();
+  const std::lock_guard lock(calls.mutex);
+  const auto found = calls.by_name.find(function);
+  return found == calls.by_name.end() ? 0 : found->second;
+}
+
 void write_counts() {
   Calls& calls = only<Calls>();
   const std::lock_guard lock(calls.mutex);

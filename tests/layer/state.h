@@ -57,6 +57,7 @@ uint32_t violations();
 std::optional<VkResult> fault_of(const char* function, unsigned errors, Table& table);
 /// Counts a call that cannot fail. Returns how many there were.
 uint64_t count_call(const std::string& function);
+uint64_t count_of(const std::string& function);
 void write_counts();
 
 bool arm(const char* faults);

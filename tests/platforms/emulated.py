@@ -1,4 +1,4 @@
-"""Platforms whose programs run on this machine: how they are built and started."""
+"""Platforms whose programs run on this machine: how they are built and started. And other drivers of its own."""
 
 import contextlib
 import os
@@ -39,6 +39,7 @@ class Platform:
         self.environment["LC_ALL"] = "C.UTF-8"  # names of files are UTF-8 for Wine and Python, too
 
     suffix = ""
+    tests = "tests/platforms/cross"
     limit = 300  # seconds, for one program
     versions: list[str] = []
 
@@ -131,3 +132,54 @@ class Arm64(Platform):
             raise AssertionError(done.stderr)
         self.versions += (self.sysroot / "versions").read_text().replace("\t", " ").splitlines()
         yield
+
+
+class Driver(Platform):
+    """This build on another driver of this machine. Tests run with the newer validation layer, where it is there."""
+
+    tests = "tests"
+
+    def __init__(self, name: str, source: pathlib.Path, build: pathlib.Path):
+        super().__init__(name, source)
+        self.build = build
+        self.drivers = source / "out" / "drivers"
+        self.environment |= {"VKH_VALIDATION": "1", "NODEVICE_SELECT": "1"}
+        self.versions = []
+        if self.has_second():
+            self.environment["VK_LAYER_PATH"] = str(self.drivers)
+            self.versions = [(self.drivers / "version").read_text().strip()]
+
+    def has_second(self) -> bool:
+        return (self.drivers / "version").exists()
+
+    def need_second(self) -> None:
+        if not self.has_second():
+            raise Skip("no second driver and layer in out/drivers (tools/second_driver gets them)")
+
+    def compile(self, targets: list[str]) -> None:
+        missing = [t for t in ("vkhausdorff", "tools/vkh_sweep", "tests/api_c11") if not (self.build / t).exists()]
+        if missing:
+            raise AssertionError(f"not built: {', '.join(missing)}")
+
+    @contextlib.contextmanager
+    def ready(self):
+        yield
+
+
+class SwiftShader(Driver):
+    """A CPU driver of another maker: subgroups of 4, no push descriptors, synchronization2 in its core."""
+
+    def __init__(self, source: pathlib.Path, build: pathlib.Path):
+        super().__init__("swiftshader", source, build)
+        self.need_second()
+        icd = str(self.drivers / "vk_swiftshader_icd.json")
+        self.environment |= {"VK_DRIVER_FILES": icd, "VK_ICD_FILENAMES": icd}
+
+
+class Lavapipe(Driver):
+    """lavapipe with vectors of so many bits, whatever the processor has: subgroups of 4, 8 or 16."""
+
+    def __init__(self, bits: int, source: pathlib.Path, build: pathlib.Path):
+        super().__init__(f"lavapipe{bits}", source, build)
+        self.environment["LP_NATIVE_VECTOR_WIDTH"] = str(bits)
+        self.subgroup = bits // 32

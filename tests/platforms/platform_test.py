@@ -1,6 +1,6 @@
-"""The program, the sweep and the kernels' tests on another platform, against the program on this one, bit for bit.
+"""The program, the sweep and the kernels' tests on another platform or driver, against the program here, bit for bit.
 
-usage: platform_test.py windows|arm64 --native BUILD [--only GROUP[,GROUP...]] [--sweep N]
+usage: platform_test.py windows|arm64|swiftshader|lavapipe128|lavapipe256|lavapipe512 --native BUILD [--only GROUP[,GROUP...]] [--sweep N]
 
 Each group is a line: what was compared and how long it took. Exit code 77, with the reason: the compiler, the emulator
 or the platform's driver is not here.
@@ -8,6 +8,7 @@ or the platform's driver is not here.
 
 import argparse
 import csv
+import functools
 import json
 import os
 import pathlib
@@ -21,7 +22,7 @@ import sys
 import time
 
 import meshes
-from emulated import Arm64, Platform, Skip, Windows
+from emulated import Arm64, Lavapipe, Platform, Skip, SwiftShader, Windows
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAIRS = SOURCE.parent / "shared" / "pairs"
@@ -32,7 +33,6 @@ KERNELS = ["kernel_sort_test", "kernel_bvh_test", "kernel_pyramid_test", "kernel
            "kernel_query_test"]
 HOST = ["system_test", "float_environment_test", "mesh_io_test", "mesh_decimals_test", "decimal_test",
         "pipeline_cache_test", "default_pair_test", "mesh_test"]
-TESTS = "tests/platforms/cross"
 CANCELLED = b'"status":"cancelled"'
 
 
@@ -90,6 +90,8 @@ class Run:
         done = self.platform.run("vkhausdorff", "doctor")
         expect(done.returncode == 0 and done.stdout.count(b"passed") == 2, told(done))
         lines = done.stdout.decode().splitlines()
+        subgroup = getattr(self.platform, "subgroup", None)
+        expect(subgroup is None or f"subgroups of {subgroup}\n" in done.stdout.decode(), told(done))
         return next(line.split("  ")[-1].strip() for line in lines if line.startswith("driver"))
 
     def demo(self) -> str:
@@ -141,20 +143,24 @@ class Run:
     def kernels(self) -> str:
         return self.doctests(KERNELS)
 
+    def presets(self) -> str:
+        """Every kernel, under every set of switches; and the C API's frames."""
+        return self.doctests(["presets_test", "api_frames_test", "api_tasks_test"])
+
     def host(self) -> str:
         return self.doctests(HOST)
 
     def doctests(self, names: list[str]) -> str:
         assertions = 0
         for name in names:
-            done = self.platform.run(f"{TESTS}/{name}")
+            done = self.platform.run(f"{self.platform.tests}/{name}")
             counted = re.search(rb"assertions: +(\d+) \| +(\d+) passed", done.stdout)
             expect(done.returncode == 0 and counted is not None, f"{name}: {told(done)}")
             assertions += int(counted[2])
         return f"{len(names)} tests, {assertions} assertions"
 
     def api(self) -> str:
-        done = self.platform.run(f"{TESTS}/api_c11")
+        done = self.platform.run(f"{self.platform.tests}/api_c11")
         expect(done.returncode == 0, told(done))
         return "the C API from C11"
 
@@ -215,23 +221,31 @@ class Run:
 
 GROUPS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "table": Run.table,
           "api": Run.api, "host": Run.host, "interrupt": Run.interrupt, "kernels": Run.kernels, "sweep": Run.sweeping}
-GROUPS_OF = {"windows": [*GROUPS, "console"], "arm64": ["doctor", "demo", "manifest", "generated", "sweep"]}  # emulated is slow
-GROUPS["console"] = Run.console
+GROUPS_OF = {"windows": GROUPS | {"console": Run.console},
+             # Emulated, the kernels' tests alone would take minutes.
+             "arm64": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "generated", "sweep")}}
+OF_DRIVERS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "api": Run.api,
+              "kernels": Run.kernels, "presets": Run.presets, "sweep": Run.sweeping}
+DRIVERS = {"swiftshader": SwiftShader,
+           **{f"lavapipe{bits}": functools.partial(Lavapipe, bits) for bits in (128, 256, 512)}}
+PLATFORMS = {"windows": Windows, "arm64": Arm64, **DRIVERS}
 NEEDS = {"kernels": KERNELS, "host": HOST, "api": ["api_c11"], "sweep": ["vkh_sweep"]}  # and the program
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument("platform", choices=["windows", "arm64"])
+    parser.add_argument("platform", choices=PLATFORMS)
     parser.add_argument("--native", type=pathlib.Path, required=True)
     parser.add_argument("--only", default="")
     parser.add_argument("--sweep", type=int, default=0)
     arguments = parser.parse_args()
-    chosen = arguments.only.split(",") if arguments.only else GROUPS_OF[arguments.platform]
-    groups = {name: GROUPS[name] for name in chosen}
+    groups = GROUPS_OF.get(arguments.platform, OF_DRIVERS)
+    if arguments.only:
+        every = GROUPS | OF_DRIVERS | GROUPS_OF["windows"]
+        groups = {name: every[name] for name in arguments.only.split(",")}
     try:
-        platform = (Windows if arguments.platform == "windows" else Arm64)(SOURCE, arguments.native.resolve())
-        run = Run(platform, arguments.native.resolve(), arguments.sweep or (60 if arguments.platform == "windows" else 20))
+        platform = PLATFORMS[arguments.platform](SOURCE, arguments.native.resolve())
+        run = Run(platform, arguments.native.resolve(), arguments.sweep or (20 if arguments.platform == "arm64" else 60))
         start = time.time()
         platform.compile(["vkhausdorff", *(target for name in groups for target in NEEDS.get(name, []))])
         print(f"{platform.name}: built in {time.time() - start:.0f} s", flush=True)

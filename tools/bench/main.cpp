@@ -9,7 +9,7 @@
 //   default,paper,baseline-gpu,-sort,+packet,paper-thin,-u3@64MiB]
 //             [--filter TEXT] [--max-faces N] [--repeat N] [--tol T] [--device D] [--time SECONDS]
 //             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
-//             [--together N]
+//             [--together N] [--not-robust]
 //
 // With --together, the default preset alone: each pair alone and N side by side, a row a group.
 #include <CLI/CLI.hpp>
@@ -34,7 +34,7 @@ struct Arguments {
   std::string manifest, device, memory;
   std::vector<std::string> presets = {"default"};
   Choice choice;
-  bool plain = false;
+  bool plain = false, not_robust = false;
   int repeat = 5;
   size_t together = 0;
   SolveOptions common;
@@ -64,7 +64,7 @@ class Race {
   explicit Race(const Arguments& args)
       : args_(args),
         made_at_(Clock::now()),
-        device_({.selector = args.device, .validation = false}),
+        device_({.selector = args.device, .validation = false, .robust = !args.not_robust}),
         solver_(device_),
         device_ms_(ms_since(made_at_)) {
     for (const std::string& name : args.presets) variants_.push_back(variant_of(name, args.common));
@@ -130,10 +130,10 @@ class Race {
   }
 
   void print_device() const {
-    std::printf("# device %s, driver %s, tolerance %g, repeat %d, time limit %g s%s\n",
+    std::printf("# device %s, driver %s, tolerance %g, repeat %d, time limit %g s%s%s\n",
                 device_.description().name.c_str(), device_.description().driver.c_str(),
                 args_.common.tolerance, args_.repeat, args_.common.time_limit_s,
-                args_.plain ? "; NOT CERTIFIED" : "");
+                args_.plain ? "; NOT CERTIFIED" : "", args_.not_robust ? "; NOT ROBUST" : "");
   }
 
   ExitCode print_tail() const {
@@ -187,6 +187,7 @@ int main(int argc, char** argv) {
   app.add_option("--disable", args.common.disabled, "in every preset")->delimiter(',');
   app.add_option("--enable", args.common.enabled, "in every preset")->delimiter(',');
   app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
+  app.add_flag("--not-robust", args.not_robust, "without robustBufferAccess: what it costs");
   app.add_option("--memory", args.memory);
   app.add_option("--time", args.common.time_limit_s);
   app.add_option("--together", args.together, "pairs side by side, and each alone")

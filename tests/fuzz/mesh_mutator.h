@@ -1,0 +1,23 @@
+// Changes of a file that know its format: most keep what a header announces true, so that a body is
+// read to its end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vkh::test {
+
+using MutateFile = size_t (*)(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+
+/// Lines and words are copied, dropped and exchanged; numbers become edge cases.
+size_t mutate_text(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+/// As text, and the counts of the second line are made to fit the rows.
+size_t mutate_off(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+/// The header or the body alone, and then counts that fit.
+size_t mutate_ply(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+/// Then the count at byte 80 is that of the bytes behind it.
+size_t mutate_stl(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+/// By what the content looks like.
+size_t mutate_any(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+
+}  // namespace vkh::test

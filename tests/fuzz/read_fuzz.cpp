@@ -1,0 +1,146 @@
+// Fuzzes a reader: whatever the bytes, it gives a valid mesh or one line that says what is wrong,
+// in six times the memory of the larger of file and mesh. --reader=NAME says which; tools/fuzz runs
+// it.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/read/readers.h"
+#include "tests/fuzz/allocations.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/mesh_mutator.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+struct Reader {
+  std::string_view name;
+  const char* file;  ///< its extension decides where content cannot
+  Mesh (*parse)(const MeshSource&);
+  MutateFile mutate;
+};
+
+// `any` is told by the content, as read_mesh does it.
+constexpr Reader kReaders[] = {{"any", "fuzz", parse_mesh, mutate_any},
+                               {"obj", "fuzz.obj", parse_obj, mutate_text},
+                               {"off", "fuzz.off", parse_off, mutate_off},
+                               {"ply-ascii", "fuzz.ply", parse_ply, mutate_ply},
+                               {"ply-binary", "fuzz.ply", parse_ply, mutate_ply},
+                               {"stl-ascii", "fuzz.stl", parse_stl, mutate_text},
+                               {"stl-binary", "fuzz.stl", parse_stl, mutate_stl}};
+const Reader* g_reader = &kReaders[0];
+
+void require(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "read_fuzz: not so: %s\n", what);
+  std::abort();
+}
+
+void require_valid(const Mesh& mesh) {
+  require(!mesh.faces.empty() && mesh.counts.faces == mesh.faces.size(), "faces are counted");
+  require(mesh.counts.vertices == mesh.vertices.size(), "vertices are counted");
+  require(mesh.counts.degenerate <= mesh.faces.size(), "no more degenerate faces than faces");
+  require(mesh.counts.duplicate < mesh.faces.size(), "the first of equal faces is no duplicate");
+  std::vector<bool> used(mesh.vertices.size());
+  for (const glm::uvec3& face : mesh.faces) {
+    for (int i = 0; i < 3; ++i) {
+      require(face[i] < used.size(), "indices are in range");
+      used[face[i]] = true;
+    }
+  }
+  require(std::find(used.begin(), used.end(), false) == used.end(), "every vertex is used");
+  for (const glm::dvec3& p : mesh.vertices) {
+    require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "finite coordinates");
+  }
+  for (const std::string& note : mesh.notes) {
+    require(note.find('\n') == std::string::npos, "a note is one line");
+  }
+}
+
+void require_error_line(const std::string& line) {
+  require(line.starts_with(g_reader->file), "an error names the file");
+  require(line.find("; expected ") != std::string::npos, "an error says what was expected");
+  require(line.size() < 400, "an error is short");
+  for (const char c : line) require(static_cast<unsigned char>(c) >= 0x20, "an error is one line");
+}
+
+uint64_t bytes_of(const Mesh& mesh) {
+  return mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces);
+}
+
+// Of a refused file the mesh could have had 12 bytes for each of its own.
+void read_counted(const MeshSource& source, Mesh& mesh, bool& accepted) {
+  constexpr size_t kConstant = 64 << 10;  // as in read_cost_test
+  uint64_t larger = 12 * source.bytes.size();
+  const AllocationCount count;
+  try {
+    mesh = g_reader->parse(source);
+    accepted = true;
+    larger = std::max<uint64_t>(source.bytes.size(), bytes_of(mesh));
+  } catch (const InputError& error) {
+    require_error_line(error.what());
+  }
+  require(count.peak() <= static_cast<int64_t>(6 * larger + kConstant),
+          "memory stays within six times the larger");
+}
+
+// A limit that the mesh just meets changes nothing, and one byte less refuses it.
+void check_limit(const MeshSource& source, const Mesh& mesh) {
+  MeshSource limited = source;
+  limited.limits.max_input_bytes = bytes_of(mesh) - 1;
+  try {
+    g_reader->parse(limited);
+    require(false, "a limit below the mesh's bytes is refused");
+  } catch (const InputError& error) {
+    require(std::string_view(error.what()).find("beyond the limit") != std::string_view::npos,
+            "the refusal names the limit");
+  }
+}
+
+bool same(const Mesh& a, const Mesh& b) { return a.vertices == b.vertices && a.faces == b.faces; }
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  constexpr std::string_view kOption = "--reader=";
+  for (int i = 1; i < *argc; ++i) {
+    const std::string_view word = (*argv)[i];
+    if (!word.starts_with(kOption)) continue;
+    const auto* const found = std::find_if(
+        std::begin(kReaders), std::end(kReaders),
+        [&](const Reader& reader) { return reader.name == word.substr(kOption.size()); });
+    if (found == std::end(kReaders)) {
+      std::fprintf(stderr, "read_fuzz: no reader '%s'\n", word.data() + kOption.size());
+      std::exit(2);
+    }
+    g_reader = found;
+  }
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const MeshSource source{.name = g_reader->file,
+                          .bytes = {reinterpret_cast<const char*>(data), size}};
+  Mesh mesh;
+  bool accepted = false;
+  read_counted(source, mesh, accepted);
+  if (!accepted) return 0;
+  require_valid(mesh);
+  if (size % 4 == 0) {  // for speed
+    check_limit(source, mesh);
+    require(same(mesh, g_reader->parse(source)), "a file is read alike twice");
+  }
+  return 0;
+}
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size,
+                                          unsigned seed) {
+  return g_reader->mutate(data, size, max_size, seed);
+}

@@ -1,0 +1,87 @@
+"""The program on a device that has less: every fallback runs, with the same bits; and what is too little is refused.
+
+usage: fallbacks_test.py BUILD [quick]
+
+The test layer (docs/test_layer.md) lowers limits and hides extensions, and aborts a program that does not keep to them.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+BUILD = pathlib.Path(sys.argv[1]).resolve()
+QUICK = "quick" in sys.argv[2:]
+LAYERS = f"{BUILD}/layer:/usr/share/vulkan/explicit_layer.d"
+SAME = ("lower_hex", "upper_hex", "status", "candidates", "queries", "waves", "peak_frontier", "culled")
+NO_PUSH = {"VKH_LAYER_HIDE": "VK_KHR_push_descriptor"}
+
+
+def demo(*words, **environment):
+    variables = os.environ | {"VK_LAYER_PATH": LAYERS, "VK_INSTANCE_LAYERS": "VK_LAYER_VKH_test"} | environment
+    return subprocess.run([BUILD / "vkhausdorff", "demo", "--json", *words], env=variables, capture_output=True, text=True, timeout=200)
+
+
+def limits(**given):
+    return {"VKH_LAYER_LIMITS": ",".join(f"{name}={value}" for name, value in given.items())}
+
+
+# On these the program works as on the device itself.
+SERVED = {
+    "no push descriptors": NO_PUSH,
+    "12 push descriptors": limits(maxPushDescriptors=12),
+    "synchronization2 of Vulkan 1.3": {"VKH_LAYER_HIDE": "VK_KHR_synchronization2"},
+    "the least shared memory that Vulkan allows": limits(maxComputeSharedMemorySize=16384),
+    "workgroups of 256": limits(maxComputeWorkGroupInvocations=256, maxComputeWorkGroupSize0=256),
+    "65535 workgroups": limits(maxComputeWorkGroupCount0=65535, maxComputeWorkGroupCount1=65535),
+    "offsets of 256 bytes": limits(minStorageBufferOffsetAlignment=256),
+    "no timestamps": limits(timestampValidBits=0),
+    "all at once": NO_PUSH | limits(maxComputeSharedMemorySize=16384, maxComputeWorkGroupInvocations=256, maxComputeWorkGroupSize0=256,
+                                    minStorageBufferOffsetAlignment=256),
+}
+# On these it says what is missing, in one line, exit code 5.
+REFUSED = {
+    "no synchronization2": ({"VKH_LAYER_HIDE": "VK_KHR_synchronization2"} | limits(apiVersion="1.2"), "synchronization2 is missing"),
+    "no scalar layout": ({"VKH_LAYER_HIDE": "scalarBlockLayout"}, "scalarBlockLayout is missing"),
+    "Vulkan 1.1": (limits(apiVersion="1.1"), "Vulkan 1.2 is missing"),
+    "workgroups of 128": (limits(maxComputeWorkGroupInvocations=128, maxComputeWorkGroupSize0=128), "workgroups of 256 are not possible"),
+    "few buffers a kernel": (limits(maxPerStageDescriptorStorageBuffers=8), "storage buffers a kernel are not possible"),
+    "little shared memory": (limits(maxComputeSharedMemorySize=8192), "bytes of shared memory are missing"),
+    "subgroups of 2": (limits(subgroupSize=2), "subgroups are 2 wide, not 4 to 64"),
+    "subgroups of 128": (limits(subgroupSize=128), "subgroups are 128 wide, not 4 to 64"),
+    "a small binding": (limits(maxStorageBufferRange=1 << 18), "too large"),
+}
+
+failures = 0
+
+
+def fail(what, done):
+    global failures
+    failures += 1
+    print(f"fallbacks_test: {what}: exit code {done.returncode}\n{done.stdout[-500:]}\n{done.stderr[-1500:]}")
+
+
+plain = demo(VK_INSTANCE_LAYERS="")
+expected = json.loads(plain.stdout)
+served = list(SERVED.items())[-1:] if QUICK else SERVED.items()
+for what, environment in served:
+    done = demo(**environment)
+    answer = json.loads(done.stdout) if done.returncode == 0 else {}
+    different = [key for key in SAME if answer.get(key) != expected[key]]
+    if different or done.stderr:
+        fail(f"{what}: {different}", done)
+for what, (environment, reason) in REFUSED.items():
+    done = demo(**environment)
+    if done.returncode != 5 or reason not in done.stderr or done.stderr.count("\n") != 1:
+        fail(what, done)
+
+# A smaller binding holds fewer candidates at once: others wait, and the interval is as true.
+for mib in () if QUICK else (2, 4):
+    done = demo("--verify", **limits(maxStorageBufferRange=mib << 20))
+    answer = json.loads(done.stdout) if done.returncode == 0 else {}
+    meets = answer and answer["lower"] <= expected["upper"] and expected["lower"] <= answer["upper"]
+    if not meets or answer["status"] != "closed" or not all(answer["verified"].values()):
+        fail(f"bindings of {mib} MiB", done)
+print(f"fallbacks_test: {len(served)} devices served, {len(REFUSED)} refused, {failures} failures")
+sys.exit(1 if failures else 0)
