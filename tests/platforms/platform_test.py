@@ -221,7 +221,9 @@ class Run:
 
 GROUPS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "table": Run.table,
           "api": Run.api, "host": Run.host, "interrupt": Run.interrupt, "kernels": Run.kernels, "sweep": Run.sweeping}
-WINDOWS_ALONE = {"console": Run.console}
+GROUPS_OF = {"windows": GROUPS | {"console": Run.console},
+             # Emulated, the kernels' tests alone would take minutes.
+             "arm64": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "generated", "sweep")}}
 OF_DRIVERS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "api": Run.api,
               "kernels": Run.kernels, "presets": Run.presets, "sweep": Run.sweeping}
 DRIVERS = {"swiftshader": SwiftShader,
@@ -237,11 +239,10 @@ def main() -> int:
     parser.add_argument("--only", default="")
     parser.add_argument("--sweep", type=int, default=0)
     arguments = parser.parse_args()
-    groups = GROUPS | (WINDOWS_ALONE if arguments.platform == "windows" else {})
-    if arguments.platform in DRIVERS:
-        groups = OF_DRIVERS
+    groups = GROUPS_OF.get(arguments.platform, OF_DRIVERS)
     if arguments.only:
-        groups = {name: groups[name] for name in arguments.only.split(",")}
+        every = GROUPS | OF_DRIVERS | GROUPS_OF["windows"]
+        groups = {name: every[name] for name in arguments.only.split(",")}
     try:
         platform = PLATFORMS[arguments.platform](SOURCE, arguments.native.resolve())
         run = Run(platform, arguments.native.resolve(), arguments.sweep or (20 if arguments.platform == "arm64" else 60))
