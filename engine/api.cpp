@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <new>
+#include <memory>
 #include <vector>
 
 #include "engine/checks.h"
@@ -161,33 +161,25 @@ bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize face_byt
 }  // namespace
 }  // namespace vkh
 
-VkhContext_T::VkhContext_T() = default;
-VkhContext_T::~VkhContext_T() = default;
-
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context) {
   *context = nullptr;
   if (vkhQuerySupport(&info->device, nullptr, 0) != VKH_SUCCESS) return VKH_ERROR_UNSUPPORTED;
-  auto* created = new (std::nothrow) VkhContext_T;
-  if (created == nullptr) return VKH_ERROR_PIPELINE;
-  created->device = info->device.device;
-  VkResult result = VK_ERROR_OUT_OF_HOST_MEMORY;
   try {
+    auto created = std::make_unique<VkhContext_T>();
+    created->device = info->device.device;
     created->limits = vkh::chosen(*info);
-    const bool pushes = created->limits.pushes;
-    if (!vkh::load_functions(info->device, pushes, created->vk)) {
-      delete created;
+    if (!vkh::load_functions(info->device, created->limits.pushes, created->vk))
       return VKH_ERROR_UNSUPPORTED;
+    if (!created->limits.pushes) created->sets = std::make_shared<vkh::SetStore>(*created);
+    if (vkh::create_kernels(*created, info->pipelineCache) != VK_SUCCESS) {
+      vkh::destroy_kernels(*created);
+      return VKH_ERROR_PIPELINE;
     }
-    if (!pushes) created->sets = std::make_unique<vkh::SetStore>(*created);
-    result = vkh::create_kernels(*created, info->pipelineCache);
-  } catch (...) {  // no exception may cross a C interface
-  }
-  if (result != VK_SUCCESS) {
-    vkhDestroyContext(created);
+    *context = created.release();
+    return VKH_SUCCESS;
+  } catch (...) {  // no exception may cross a C interface: out of host memory
     return VKH_ERROR_PIPELINE;
   }
-  *context = created;
-  return VKH_SUCCESS;
 }
 
 void vkhDestroyContext(VkhContext context) {

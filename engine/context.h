@@ -79,8 +79,7 @@ struct VkhContext_T {
   vkh::DeviceFunctions vk;
   vkh::Limits limits;
   std::array<vkh::KernelPipeline, vkh::kMaxKernels> kernels{};
-  std::unique_ptr<vkh::SetStore> sets;  // null where descriptors are pushed
-
-  VkhContext_T();
-  ~VkhContext_T();
+  // Null where descriptors are pushed. Shared, since it knows how to destroy what is not complete
+  // here: members that are not inline would be exported with the C interface.
+  std::shared_ptr<vkh::SetStore> sets;
 };

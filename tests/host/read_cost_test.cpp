@@ -286,11 +286,16 @@ TEST_CASE("memory stays within six times the larger of file and mesh, time in pr
     for (size_t i = 0; i < small.size(); ++i) {
       CAPTURE(small[i].name);
       CAPTURE(size);
-      const Cost of_small = least_cost_of(small[i]), of_large = least_cost_of(large[i]);
-      check_memory(of_small);
-      check_memory(of_large);
-      // In proportion is 4 times; what grows by the square takes 16.
-      CHECK(of_large.seconds <= 10 * of_small.seconds + 0.01);
+      // In proportion is 4 times; what grows by the square takes 16. On a busy machine one of the
+      // two may have waited.
+      bool in_proportion = false;
+      for (int attempt = 0; attempt < 5 && !in_proportion; ++attempt) {
+        const Cost of_small = least_cost_of(small[i]), of_large = least_cost_of(large[i]);
+        check_memory(of_small);
+        check_memory(of_large);
+        in_proportion = of_large.seconds <= 10 * of_small.seconds + 0.01;
+      }
+      CHECK(in_proportion);
     }
   }
 }
