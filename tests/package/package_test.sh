@@ -28,7 +28,7 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$folder/b.off"
 expected="0.25 <= h($folder/a.off, B) <= 0.25"
 # check_consumers FOLDER: the two programs there.
 check_consumers() {
-  [ "$("$1/engine" | sed -n 2p)" = VK_KHR_synchronization2 ] || fail "$1/engine printed something else"
+  "$1/engine" | grep -qE '^[0-9]+\.[0-9]+\.[0-9]+$' || fail "$1/engine printed something else"
   local line
   line=$("$1/host" "$folder/b.off" "$folder/a.off") || fail "$1/host failed"
   awk '{exit !($1 <= 0.25 && $6 >= 0.25 && $6 - $1 < 1e-5 && $7 == "closed")}' <<<"${line/:/}" ||
