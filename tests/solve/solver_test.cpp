@@ -21,7 +21,7 @@ using namespace vkh::test;
 
 /// One for the program, as a caller would keep it: buffers and pipelines go from run to run.
 Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {}) {
-  static Solver solver(test_device());
+  static Solver& solver = kept<Solver>(test_device());
   const Report r = solver.distance(a, b, options);
   CHECK(r.lower >= 0);
   CHECK(r.lower <= r.upper);

@@ -9,6 +9,7 @@
 #include "host/solve/solver.h"
 #include "tests/oracle/exact.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/kept.h"
 #include "tests/support/kernel_bench.h"
 
 using namespace vkh;
@@ -20,7 +21,7 @@ constexpr double kLeast = 5e-324;
 
 /// h(a, b)^2 is known exactly.
 void check_pair(const Mesh& a, const Mesh& b, const Rational& squared) {
-  static Solver solver(test_device());
+  static Solver& solver = kept<Solver>(test_device());
   SolveOptions options;
   options.coverage = true;
   const Report r = solver.distance(a, b, options);

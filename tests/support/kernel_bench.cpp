@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "host/mesh/round_to_float.h"
+#include "tests/support/kept.h"
 
 namespace vkh::test {
 namespace {
@@ -29,8 +29,8 @@ struct TestDevice {
   }
 };
 
-std::optional<TestDevice>& made() {
-  static std::optional<TestDevice> device;
+TestDevice*& made() {
+  static TestDevice* device = nullptr;
   return device;
 }
 
@@ -47,7 +47,7 @@ VkhContext context_for(uint32_t switches, bool wide) {
 }  // namespace
 
 Device& test_device() {
-  if (!made()) made().emplace();
+  if (made() == nullptr) made() = &kept<TestDevice>();
   return made()->device;
 }
 
@@ -62,7 +62,9 @@ AdoptedDevice handles_of(const Device& device) {
           .queue_mutex = nullptr};
 }
 
-uint32_t validation_messages() { return made() ? made()->device.validation_messages() : 0; }
+uint32_t validation_messages() {
+  return made() != nullptr ? made()->device.validation_messages() : 0;
+}
 
 KernelBench::KernelBench(uint32_t switches, bool wide)
     : submitter_(test_device()), context_(context_for(switches, wide)) {}

@@ -8,12 +8,13 @@
 
 #include "host/solve/solver.h"
 #include "tests/oracle/reference_solver.h"
+#include "tests/support/kept.h"
 #include "tests/support/kernel_bench.h"
 
 namespace vkh::test {
 
 inline Solver& solver() {
-  static Solver one(test_device());
+  static Solver& one = kept<Solver>(test_device());
   return one;
 }
 
