@@ -9,7 +9,6 @@
 #include "host/solve/solver.h"
 #include "tests/oracle/exact.h"
 #include "tests/shapes/shapes.h"
-#include "tests/support/kept.h"
 #include "tests/support/kernel_bench.h"
 
 using namespace vkh;

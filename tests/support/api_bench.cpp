@@ -25,7 +25,7 @@ Buffer garbage(VkDeviceSize size, VkBufferUsageFlags usage) {
 }
 
 VkhContext shared_context() {
-  static KernelBench bench(VKH_SWITCH_DEFAULT_WIDE);
+  static KernelBench& bench = kept<KernelBench>(VKH_SWITCH_DEFAULT_WIDE);
   return bench.context();
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "host/mesh/round_to_float.h"
-#include "tests/support/kept.h"
 
 namespace vkh::test {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 
-#include "tests/support/kept.h"
 #include "tests/support/kernel_bench.h"
 
 int main(int argc, char** argv) {

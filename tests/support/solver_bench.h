@@ -8,7 +8,6 @@
 
 #include "host/solve/solver.h"
 #include "tests/oracle/reference_solver.h"
-#include "tests/support/kept.h"
 #include "tests/support/kernel_bench.h"
 
 namespace vkh::test {
