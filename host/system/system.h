@@ -26,6 +26,7 @@ std::vector<std::string> command_line(int argc, const char* const* argv);
 class Console {
  public:
   Console();
+  // NOLINTNEXTLINE(performance-trivially-destructible): not on Windows
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
