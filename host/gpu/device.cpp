@@ -36,11 +36,18 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<uint32_t>* count) 
   return info;
 }
 
-bool has_layer(const VulkanApi& vk, const char* name) {
+/// What Vulkan lists in two calls: how many, then which. `call` takes the count and the array.
+template <class T, class Call>
+std::vector<T> list_of(const Call& call) {
   uint32_t count = 0;
-  vk.EnumerateInstanceLayerProperties(&count, nullptr);
-  std::vector<VkLayerProperties> layers(count);
-  vk.EnumerateInstanceLayerProperties(&count, layers.data());
+  call(&count, nullptr);
+  std::vector<T> list(count);
+  call(&count, list.data());
+  return list;
+}
+
+bool has_layer(const VulkanApi& vk, const char* name) {
+  const auto layers = list_of<VkLayerProperties>(vk.EnumerateInstanceLayerProperties);
   return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& l) {
     return std::strcmp(l.layerName, name) == 0;
   });
@@ -54,10 +61,10 @@ bool has_extension(const std::vector<VkExtensionProperties>& list, const char* n
 
 bool offers_portability(const VulkanApi& vk) {
   if (!kAsksForPortability) return false;
-  uint32_t count = 0;
-  vk.EnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> list(count);
-  vk.EnumerateInstanceExtensionProperties(nullptr, &count, list.data());
+  const auto list =
+      list_of<VkExtensionProperties>([&](uint32_t* count, VkExtensionProperties* all) {
+        return vk.EnumerateInstanceExtensionProperties(nullptr, count, all);
+      });
   return has_extension(list, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
 }
 
@@ -67,10 +74,10 @@ std::vector<const char*> device_extensions(const VulkanApi& vk, const VkhDeviceI
   uint32_t count = 0;
   const char* const* wanted = vkhGetRequiredExtensions(&chosen, &count);
   std::vector<const char*> names(wanted, wanted + count);
-  count = 0;
-  vk.EnumerateDeviceExtensionProperties(chosen.physicalDevice, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> list(count);
-  vk.EnumerateDeviceExtensionProperties(chosen.physicalDevice, nullptr, &count, list.data());
+  const auto list =
+      list_of<VkExtensionProperties>([&](uint32_t* length, VkExtensionProperties* all) {
+        return vk.EnumerateDeviceExtensionProperties(chosen.physicalDevice, nullptr, length, all);
+      });
   if (has_extension(list, kSubset)) names.push_back(kSubset);
   return names;
 }
@@ -164,10 +171,9 @@ struct Choice {
 
 // Usable or not, in the order of preference; `index` is the place in that order.
 std::vector<Choice> enumerate(const VulkanApi& vk, VkInstance instance) {
-  uint32_t count = 0;
-  check(vk.EnumeratePhysicalDevices(instance, &count, nullptr), "listing Vulkan devices");
-  std::vector<VkPhysicalDevice> physicals(count);
-  check(vk.EnumeratePhysicalDevices(instance, &count, physicals.data()), "listing Vulkan devices");
+  const auto physicals = list_of<VkPhysicalDevice>([&](uint32_t* count, VkPhysicalDevice* all) {
+    check(vk.EnumeratePhysicalDevices(instance, count, all), "listing Vulkan devices");
+  });
   std::vector<Choice> choices;
   choices.reserve(physicals.size());
   for (VkPhysicalDevice p : physicals) choices.push_back({p, describe(vk, instance, p)});
@@ -207,11 +213,9 @@ std::string nothing_usable(const std::vector<Choice>& choices, const std::string
 
 std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
                                                     VkPhysicalDevice physical) {
-  uint32_t count = 0;
-  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  return families;
+  return list_of<VkQueueFamilyProperties>([&](uint32_t* count, VkQueueFamilyProperties* all) {
+    vk.GetPhysicalDeviceQueueFamilyProperties(physical, count, all);
+  });
 }
 
 // One with timestamps, where there is one: stages are timed then.
