@@ -357,7 +357,7 @@ WIDE = 1  # constant_id of kWide (shaders/base/switches.glsl)
 
 def write_narrow(spv, out):
     words = spirv.with_constant_false(spirv.read_words(spv), WIDE)
-    out.write_bytes(struct.pack(f"<{len(words)}I", *words))
+    spirv.write_words(out, words)
 
 
 def main(args):

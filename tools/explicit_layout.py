@@ -8,7 +8,6 @@ type of a buffer's array where both have the same elements and length.
 breach() says what a module still has of it; embed_shaders.py embeds none that has any.
 """
 
-import struct
 import sys
 from pathlib import Path
 
@@ -75,8 +74,8 @@ def breach(words):
 def main(args):
     if len(args) != 1:
         sys.exit(__doc__)
-    words = without_layout(spirv.read_words(Path(args[0])))
-    Path(args[0]).write_bytes(struct.pack(f"<{len(words)}I", *words))
+    path = Path(args[0])
+    spirv.write_words(path, without_layout(spirv.read_words(path)))
 
 
 if __name__ == "__main__":

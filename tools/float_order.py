@@ -8,7 +8,6 @@ Expressions", appendix "Vulkan Environment for SPIR-V"). docs/certificate.md has
 breach() says what a module still leaves open; embed_shaders.py embeds none that has one.
 """
 
-import struct
 import sys
 from pathlib import Path
 
@@ -102,8 +101,8 @@ def breach(words):
 def main(args):
     if len(args) != 1:
         sys.exit(__doc__)
-    words = decorated(spirv.read_words(Path(args[0])))
-    Path(args[0]).write_bytes(struct.pack(f"<{len(words)}I", *words))
+    path = Path(args[0])
+    spirv.write_words(path, decorated(spirv.read_words(path)))
 
 
 if __name__ == "__main__":

@@ -30,6 +30,10 @@ def read_words(path):
     return struct.unpack(f"<{len(data) // 4}I", data)
 
 
+def write_words(path, words):
+    path.write_bytes(struct.pack(f"<{len(words)}I", *words))
+
+
 def instructions(words):
     """The place and the opcode of each."""
     at = 5
