@@ -54,9 +54,9 @@ VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group hold
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
+VKH_CONST uint kNarrowestSubgroup = 4u;  // of a CPU with vectors of 128 bits
 // bvh_box: its workgroup, and faces of an invocation.
 VKH_CONST uint kBoxGroup = 256u;
-VKH_CONST uint kNarrowestSubgroup = 4u;  // of a CPU with vectors of 128 bits
 VKH_CONST uint kBoxFaces = 4u;
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
 VKH_CONST uint kPyramidFan = 16u;
