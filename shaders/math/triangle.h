@@ -189,7 +189,7 @@ VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   s.at.a = rounded(s.a);
   s.at.b = rounded(s.b);
   s.at.c = rounded(s.c);
-  s.slack = round_up(kUlp2 * (8.0f * from.reach + 28.0f * radius_up(s.at)), 4.0f);
+  s.slack = round_up(kUlp2 * (8.0f * from.reach + 15.0f * radius_up(s.at)), 4.0f);
   return s;
 }
 
