@@ -86,18 +86,18 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
           .pauses = p.pauseWhenFull != VK_FALSE,
-          .b = view_hierarchy(p.b),
+          .b = view_hierarchy(p.b, context.limits),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
 }
 
 // Its counts are known once it is built: before anything reads them.
-void record_hierarchy(Recorder& rec, const VkhMesh& mesh, VkhHierarchy& hierarchy,
-                      const VkhMemory& scratch) {
-  check_build(mesh, hierarchy, &scratch);
+void record_hierarchy(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
+                      VkhHierarchy& hierarchy, const VkhMemory& scratch) {
+  check_build(limits, mesh, hierarchy, &scratch);
   hierarchy.faceCount = mesh.faceCount;
   hierarchy.vertexCount = mesh.vertexCount;
-  record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy));
+  record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy, limits));
 }
 
 // `p`: a view of `problem`.
@@ -124,10 +124,10 @@ Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
 void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task) {
   VkhProblem& problem = *task.problem;
   if (task.mesh != nullptr && task.scratch != nullptr) {
-    record_hierarchy(rec, *task.mesh, problem.b, *task.scratch);
+    record_hierarchy(rec, context.limits, *task.mesh, problem.b, *task.scratch);
   } else if (task.mesh != nullptr) {
-    check_build(*task.mesh, problem.b, nullptr);
-    record_refit(rec, *task.mesh, view_hierarchy(problem.b));
+    check_build(context.limits, *task.mesh, problem.b, nullptr);
+    record_refit(rec, *task.mesh, view_hierarchy(problem.b, context.limits));
   }
   const Problem p = view_problem(context, problem);
   if (task.begin != VK_FALSE) record_begin(rec, problem, p);
@@ -153,11 +153,9 @@ bool record_in_step(Recorder& together, const VkhContext_T& context, const VkhTa
   return true;
 }
 
-bool mesh_fits(uint32_t vertex_count, uint32_t face_count, VkDeviceSize face_bytes,
-               VkDeviceSize range) {
+bool counts_fit(uint32_t vertex_count, uint32_t face_count) {
   return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
-         face_count <= gpu::kMaxTriangles && vertex_count * sizeof(gpu::Vertex) <= range &&
-         face_count * face_bytes <= range;
+         face_count <= gpu::kMaxTriangles;
 }
 
 }  // namespace
@@ -201,17 +199,21 @@ void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer) 
 
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhHierarchyRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, sizeof(vkh::gpu::Node),
-                      context->limits.storage_range))
+  if (!vkh::counts_fit(vertexCount, faceCount)) return VKH_ERROR_TOO_LARGE;
+  const vkh::Limits& limits = context->limits;
+  const vkh::StreamSizes hierarchy = vkh::hierarchy_size(limits, vertexCount, faceCount);
+  const vkh::StreamSizes scratch = vkh::scratch_size(faceCount);
+  if (std::max(hierarchy.largest, scratch.largest) > limits.storage_range)
     return VKH_ERROR_TOO_LARGE;
-  *requirements = {vkh::hierarchy_size(vertexCount, faceCount), vkh::scratch_size(faceCount)};
+  *requirements = {hierarchy.all, scratch.all};
   return VKH_SUCCESS;
 }
 
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements) {
-  if (!vkh::mesh_fits(vertexCount, faceCount, 2 * sizeof(vkh::gpu::Area),
-                      context->limits.storage_range))
+  const VkDeviceSize range = context->limits.storage_range;
+  if (!vkh::counts_fit(vertexCount, faceCount) || vertexCount * sizeof(vkh::gpu::Vertex) > range ||
+      faceCount * 2 * sizeof(vkh::gpu::Area) > range)
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
   const uint32_t recommended = std::min(largest, vkh::recommended_capacity(faceCount));
@@ -235,14 +237,14 @@ VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint3
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_hierarchy(rec, *mesh, *hierarchy, *scratch);
+  vkh::record_hierarchy(rec, context->limits, *mesh, *hierarchy, *scratch);
 }
 
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile) {
-  vkh::check_build(*mesh, *hierarchy, nullptr);
+  vkh::check_build(context->limits, *mesh, *hierarchy, nullptr);
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_refit(rec, *mesh, vkh::view_hierarchy(*hierarchy));
+  vkh::record_refit(rec, *mesh, vkh::view_hierarchy(*hierarchy, context->limits));
 }
 
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,

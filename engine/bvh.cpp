@@ -43,6 +43,10 @@ struct SortedCount : Hierarchy {
   gpu::CountPush push;
   Slice<uint32_t> keys;
 };
+struct Ranked : Hierarchy {
+  gpu::CountPush push;
+  Slice<uint32_t> next_rank;
+};
 struct Load {
   gpu::LoadPush push;
   Slice<uint32_t> vertex_words, index_words, low_words;
@@ -73,8 +77,17 @@ void record_pyramid(Recorder& rec, const Hierarchy& h) {
 // are.
 void record_boxes(Recorder& rec, const Hierarchy& h) {
   record_pyramid(rec, h);
-  rec.run<k::BvhRefit>(Refit{h, {.count = h.face_count, .quads = pyramid_size(h.face_count)}},
+  rec.run<k::BvhRefit>(Refit{h,
+                             {.count = h.face_count,
+                              .ranked = h.ranked ? 1u : 0u,
+                              .quads = pyramid_size(h.face_count)}},
                        Items{4 * (std::max(h.face_count, 2u) - 1)});
+}
+
+// The nodes' places, which a refit leaves as they are.
+void record_ranks(Recorder& rec, const Hierarchy& h, const Slice<uint32_t>& next_rank) {
+  rec.fill(next_rank, 1);
+  rec.run<k::BvhRank>(Ranked{h, {h.face_count}, next_rank}, Items{h.face_count - 1});
 }
 
 }  // namespace
@@ -122,6 +135,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   rec.stage("sort");
   rec.run<k::BvhLeaves>(sorted, faces);
   rec.run<k::BvhHierarchy>(SortedCount{h, {b.faceCount}, sorted.keys}, faces, Order::kIndependent);
+  if (h.ranked) record_ranks(rec, h, s.sort.count);
   record_boxes(rec, h);
   rec.stage("hierarchy");
 }

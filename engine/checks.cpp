@@ -42,18 +42,20 @@ void check_mesh(const VkhMesh& m) {
 
 }  // namespace
 
-void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch) {
+void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& hierarchy,
+                 const VkhMemory* scratch) {
   check_mesh(mesh);
   check_memory(hierarchy.memory);
   VKH_RULE("VkhHierarchy::memory: at least hierarchySize bytes",
-           hierarchy.memory.size >= hierarchy_size(mesh.vertexCount, mesh.faceCount));
+           hierarchy.memory.size >= hierarchy_size(limits, mesh.vertexCount, mesh.faceCount).all);
   if (scratch == nullptr) {
     VKH_RULE("vkhCmdRefitHierarchy: a mesh with the counts of the build",
              hierarchy.vertexCount == mesh.vertexCount && hierarchy.faceCount == mesh.faceCount);
     return;
   }
   check_memory(*scratch);
-  VKH_RULE("scratch: at least scratchSize bytes", scratch->size >= scratch_size(mesh.faceCount));
+  VKH_RULE("scratch: at least scratchSize bytes",
+           scratch->size >= scratch_size(mesh.faceCount).all);
   VKH_RULE("scratch and hierarchy: apart", !overlap(*scratch, hierarchy.memory));
 }
 

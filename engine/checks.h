@@ -7,7 +7,7 @@
 namespace vkh {
 
 #ifdef NDEBUG
-inline void check_build(const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
+inline void check_build(const Limits&, const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
 inline void check_begin(const VkhProblem&) {}
 inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
 inline void check_move(const VkhProblem&, const VkhMemory&) {}
@@ -15,7 +15,8 @@ inline void check_report(VkBuffer, VkDeviceSize) {}
 inline void check_profile(const VkhProfile*) {}
 #else
 // `scratch`: of a build; null of a refit, whose hierarchy has been built.
-void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch);
+void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& hierarchy,
+                 const VkhMemory* scratch);
 // What the begin alone reads; and what the rest of a run does, too.
 void check_begin(const VkhProblem& problem);
 void check_problem(const VkhContext_T& context, const VkhProblem& problem);

@@ -19,17 +19,40 @@ class Suballocator {
     const VkDeviceSize size = std::max<uint64_t>(count, 1) * sizeof(T);
     slice = {memory_.buffer, memory_.offset + used_, size};
     used_ += (size + kAlignment - 1) / kAlignment * kAlignment;
+    largest_ = std::max(largest_, size);
   }
   VkDeviceSize used() const { return used_; }
+  StreamSizes sizes() const { return {used_, largest_}; }
 
  private:
   VkhMemory memory_;
-  VkDeviceSize used_ = 0;
+  VkDeviceSize used_ = 0, largest_ = 0;
 };
+
+// Of a B whose branches all have a node within 128 MiB, which any device can bind, all have one:
+// to give the nodes their places takes a dispatch. Whether a B is ranked depends on the device's
+// limits alone.
+constexpr VkDeviceSize kMostUnranked = VkDeviceSize{128} << 20;
+
+bool is_ranked(const Limits& limits, uint32_t face_count) {
+  const VkDeviceSize most = std::min(limits.storage_range, kMostUnranked);
+  return (std::max(face_count, 2u) - 1) * sizeof(gpu::Node) > most;
+}
+
+// Places for nodes. Proof for ranked ones, of at most n triangles: let f(n) be the most branches at
+// even depth that are no leaf, of a tree whose root is at even depth, g(n) where it is at odd
+// depth. f(n) = g(n) = 0 up to n = 4; else, for some a + b = n, f(n) = 1 + g(a) + g(b), g(n) = f(a)
+// + f(b). Then f(n) <= (n - 3) / 2 and g(n) <= (n - 4) / 2 from n = 5 on, by induction: where both
+// have 5 or more, f(n) <= 1 + (n - 8) / 2, g(n) <= (n - 6) / 2; where one has fewer, f(n) <= 1 + (n
+// - 1 - 4) / 2, g(n) <= (n - 1 - 3) / 2.
+uint32_t nodes_of(uint32_t face_count, bool ranked) {
+  return ranked ? face_count / 2 : std::max(face_count, 2u) - 1;
+}
 
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
   take(h.branches, std::max(face_count, 2u) - 1);
-  take(h.nodes, std::max(face_count, 2u) - 1);
+  take(h.nodes, nodes_of(face_count, h.ranked));
+  take(h.ranks, h.ranked ? face_count - 1 : 1);
   take(h.boxes, pyramid_size(face_count) + quads_size(face_count));
   take(h.triangles, face_count);
   take(h.triangle_lows, face_count);
@@ -123,18 +146,19 @@ uint32_t quads_size(uint32_t face_count) {
   return boxes;
 }
 
-VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count) {
+StreamSizes hierarchy_size(const Limits& limits, uint32_t vertex_count, uint32_t face_count) {
   Suballocator count({});
   Hierarchy h;
+  h.ranked = is_ranked(limits, face_count);
   list(count, h, vertex_count, face_count);
-  return count.used();
+  return count.sizes();
 }
 
-VkDeviceSize scratch_size(uint32_t face_count) {
+StreamSizes scratch_size(uint32_t face_count) {
   Suballocator count({});
   BuildScratch s;
   list(count, s, face_count);
-  return count.used();
+  return count.sizes();
 }
 
 VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
@@ -169,9 +193,10 @@ uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face
   return fits;
 }
 
-Hierarchy view_hierarchy(const VkhHierarchy& hierarchy) {
+Hierarchy view_hierarchy(const VkhHierarchy& hierarchy, const Limits& limits) {
   Suballocator take(hierarchy.memory);
   Hierarchy h;
+  h.ranked = is_ranked(limits, hierarchy.faceCount);
   list(take, h, hierarchy.vertexCount, hierarchy.faceCount);
   return h;
 }

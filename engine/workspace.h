@@ -13,6 +13,7 @@ namespace vkh {
 struct Hierarchy {
   Slice<gpu::Branch> branches;
   Slice<gpu::Node> nodes;
+  Slice<uint32_t> ranks;  // of a large B: where the branches' nodes are (bvh_rank); else unused
   Slice<gpu::Box> boxes;  // of the pyramid
   Slice<gpu::Triangle> triangles;
   Slice<gpu::TriangleLow> triangle_lows;
@@ -22,6 +23,7 @@ struct Hierarchy {
   Slice<gpu::uvec3> faces;
   Slice<uint32_t> groups_done;  // 0 between dispatches
   uint32_t face_count = 0;
+  bool ranked = false;
 };
 
 // What a sort works on: keys with values, on two sides that it goes between.
@@ -76,8 +78,12 @@ inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, size_t o
 uint32_t pyramid_size(uint32_t face_count);
 // And of those between them, over four boxes of a level each.
 uint32_t quads_size(uint32_t face_count);
-VkDeviceSize hierarchy_size(uint32_t vertex_count, uint32_t face_count);
-VkDeviceSize scratch_size(uint32_t face_count);
+// Bytes of all streams, and of the largest.
+struct StreamSizes {
+  VkDeviceSize all, largest;
+};
+StreamSizes hierarchy_size(const Limits& limits, uint32_t vertex_count, uint32_t face_count);
+StreamSizes scratch_size(uint32_t face_count);
 // `switches`: of the context, for some have streams of their own.
 VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
                             uint32_t switches);
@@ -91,7 +97,7 @@ uint32_t largest_capacity(const Limits& limits);
 uint32_t recommended_capacity(uint32_t face_count);
 constexpr uint32_t kSmallestCapacity = 4 * gpu::kReserve;
 
-Hierarchy view_hierarchy(const VkhHierarchy& hierarchy);
+Hierarchy view_hierarchy(const VkhHierarchy& hierarchy, const Limits& limits);
 BuildScratch view_scratch(const VkhMemory& memory, uint32_t face_count);
 Workspace view_workspace(const VkhMemory& memory, const Limits& limits, uint32_t vertex_count,
                          uint32_t face_count);

@@ -459,8 +459,9 @@ struct PyramidPush {
 
 // bvh_refit
 struct RefitPush {
-  uint count;  // of triangles
-  uint quads;  // where the boxes over four of them start in `boxes`; those over sixteen start at 0
+  uint count;   // of triangles
+  uint ranked;  // nodes are where `ranks` says, not where their branches are
+  uint quads;   // where the boxes over four of them start in `boxes`; those over sixteen start at 0
 };
 
 struct SortPush {

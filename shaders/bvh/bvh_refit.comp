@@ -1,8 +1,9 @@
-// What: every node, one a branch: a branch's grandchildren, or children that are leaves, each with
-// its box from the few pyramid boxes and triangles that cover its range. No node waits for another:
-// a climb from the leaves would need its parents' children in order, and takes as many steps as the
-// tree is deep. An invocation a child. In: triangles, boxes (bvh_leaves, bvh_pyramid), branches.
-// Out: nodes; those of branches at odd depth are never read.
+// What: every node, one a branch, or, of a large B, one of those that bvh_rank chose: a branch's
+// grandchildren, or children that are leaves, each with its box from the few pyramid boxes and
+// triangles that cover its range. No node waits for another: a climb from the leaves would need its
+// parents' children in order, and takes as many steps as the tree is deep. An invocation a child.
+// In: triangles, boxes (bvh_leaves, bvh_pyramid), branches, ranks. Out: nodes; those of branches at
+// odd depth are never read.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,6 +15,7 @@ layout(scalar, binding = 0) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 1) readonly buffer Boxes { vec2 boxes[]; };
 layout(scalar, binding = 2) readonly buffer Branches { Branch branches[]; };
 layout(scalar, binding = 3) writeonly buffer Nodes { Node nodes[]; };
+layout(scalar, binding = 4) readonly buffer Ranks { uint ranks[]; };
 layout(scalar, push_constant) uniform PushBlock { RefitPush push; };
 
 #include "shaders/bvh/box.glsl"
@@ -93,6 +95,9 @@ uint child_at(Branch branch, uint place) {
   return second ? branches[child].child1 : branches[child].child0;
 }
 
+// Where the node of a branch is.
+uint place_of(uint i) { return push.ranked != 0u ? ranks[i] : i; }
+
 void main() {
   uint i = item_index() >> 2;
   uint place = item_index() & 3u;
@@ -100,9 +105,12 @@ void main() {
   Branch branch = branches[i];
   // What is within a leaf is never read.
   if (i > 0u && branch.last - branch.first < kLeafTriangles) return;
+  uint at = place_of(i);
+  if (at == kNone) return;
   uint child = child_at(branch, place);
   if (push.count == 1u && place > 0u) child = kNone;
   Box b = empty_box();
   if (child != kNone) b = range_box(range_of(child));
-  nodes[i].child[place] = Child4(b.lo, child, b.hi, 0u);
+  if ((child & kLeafFlag) == 0u) child = place_of(child);
+  nodes[at].child[place] = Child4(b.lo, child, b.hi, 0u);
 }

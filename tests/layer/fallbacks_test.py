@@ -74,8 +74,8 @@ for what, (environment, reason) in REFUSED.items():
     if done.returncode != 5 or reason not in done.stderr or done.stderr.count("\n") != 1:
         fail(what, done)
 
-# A smaller binding holds fewer candidates at once: others wait, and the interval is as true.
-for mib in (2, 4):
+# A smaller binding holds fewer candidates at once: others wait, and the interval is as true. B's nodes are ranked in 1 MiB.
+for mib in (1, 2, 4):
     done = demo("--verify", **limits(maxStorageBufferRange=mib << 20))
     answer = json.loads(done.stdout) if done.returncode == 0 else {}
     meets = answer and answer["lower"] <= expected["upper"] and expected["lower"] <= answer["upper"]

@@ -136,12 +136,18 @@ VkhMesh put_mesh(KernelBench& bench, const Mesh& mesh) {
 }
 
 BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh) {
+  return build_hierarchy(bench, mesh, bench.context()->limits);
+}
+
+BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh, const Limits& limits) {
   const VkhMesh b = put_mesh(bench, mesh);
   const uint32_t faces = b.faceCount;
-  const Slice<uint32_t> kept = bench.garbage<uint32_t>(hierarchy_size(b.vertexCount, faces) / 4);
-  const Slice<uint32_t> spare = bench.garbage<uint32_t>(scratch_size(faces) / 4);
-  const BuiltHierarchy built{view_hierarchy({{kept.buffer, 0, kept.size}, faces, b.vertexCount}),
-                             view_scratch({spare.buffer, 0, spare.size}, faces)};
+  const Slice<uint32_t> kept =
+      bench.garbage<uint32_t>(hierarchy_size(limits, b.vertexCount, faces).all / 4);
+  const Slice<uint32_t> spare = bench.garbage<uint32_t>(scratch_size(faces).all / 4);
+  const BuiltHierarchy built{
+      view_hierarchy({{kept.buffer, 0, kept.size}, faces, b.vertexCount}, limits),
+      view_scratch({spare.buffer, 0, spare.size}, faces)};
   bench.run([&](Recorder& rec) { record_build(rec, b, built.scratch, built.hierarchy); });
   return built;
 }

@@ -103,11 +103,13 @@ struct Direct : K::Args {
 /// A mesh on the bench, with low parts if a coordinate is no float32.
 VkhMesh put_mesh(KernelBench& bench, const Mesh& mesh);
 
-/// The hierarchy of a mesh, built; the scratch as the build left it.
+/// The hierarchy of a mesh, built; the scratch as the build left it. `limits`: the bench's, or
+/// lower ones.
 struct BuiltHierarchy {
   Hierarchy hierarchy;
   BuildScratch scratch;
 };
 BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh);
+BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh, const Limits& limits);
 
 }  // namespace vkh::test
