@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "host/base/error.h"
+#include "host/run/mesh_sizes.h"
 
 namespace vkh {
 namespace {
@@ -30,6 +31,10 @@ struct MeshBytes {
       : vertices(aligned(m.vertices.size() * 12)), faces(aligned(m.faces.size() * 12)) {}
   VkDeviceSize total() const { return 2 * vertices + faces; }
 };
+
+MeshSize counts_of(const Mesh& m) {
+  return {static_cast<uint32_t>(m.vertices.size()), static_cast<uint32_t>(m.faces.size())};
+}
 
 VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
   const MeshBytes bytes(*m.mesh);
@@ -58,19 +63,10 @@ void write(std::byte* to, const MeshData& m) {
 
 void check_engine(VkhResult result, const char* what) {
   if (result == VKH_SUCCESS) return;
-  const char* reason = result == VKH_ERROR_TOO_LARGE ? "too large for the device's buffer bindings"
-                       : result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
-                       : result == VKH_ERROR_MEMORY      ? "no memory for descriptor sets"
-                                                         : "the driver refused a pipeline";
+  const char* reason = result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
+                       : result == VKH_ERROR_MEMORY    ? "no memory for descriptor sets"
+                                                       : "the driver refused a pipeline";
   throw DeviceError(std::string(what) + ": " + reason);
-}
-
-VkhHierarchyRequirements Seat::hierarchy_requirements(VkhContext context) const {
-  VkhHierarchyRequirements needed{};
-  check_engine(
-      vkhGetHierarchyRequirements(context, mesh_b_.vertexCount, mesh_b_.faceCount, &needed),
-      "mesh B");
-  return needed;
 }
 
 // Either may be missing.
@@ -88,13 +84,12 @@ void Seat::upload(const MeshData& a, const MeshData& b) {
 }
 
 // Where B's hierarchy is or will be built; returns the scratch that building needs.
-VkDeviceSize Seat::place_b(VkhContext context, const RunInput& in) {
+VkDeviceSize Seat::place_b(const VkhHierarchyRequirements& needed, const RunInput& in) {
   if (in.resident != nullptr) {
     const ResidentMesh& b = *in.resident;
     problem_.b = {{b.hierarchy.handle(), 0, b.hierarchy.size()}, b.face_count, b.vertex_count};
     return 0;
   }
-  const VkhHierarchyRequirements needed = hierarchy_requirements(context);
   grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
   problem_.b = {
       {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
@@ -103,17 +98,16 @@ VkDeviceSize Seat::place_b(VkhContext context, const RunInput& in) {
 
 void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
   is_resident_ = in.resident != nullptr;
+  const VkhWorkspaceRequirements workspace = workspace_for(context, counts_of(*in.a.mesh));
+  VkhHierarchyRequirements hierarchy{};
+  if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
   upload(in.a, is_resident_ ? MeshData{} : in.b);
-  VkhWorkspaceRequirements workspace{};
-  check_engine(vkhGetWorkspaceRequirements(context, problem_.a.vertexCount, problem_.a.faceCount,
-                                           &workspace),
-               "mesh A");
   const VkDeviceSize start =
       in.start_memory_bytes == 0 ? workspace.recommended : in.start_memory_bytes;
   const VkDeviceSize bytes = std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes,
                                         workspace.minimum, workspace.maximum);
   out.workspace_bytes = bytes;
-  const VkDeviceSize scratch = place_b(context, in);
+  const VkDeviceSize scratch = place_b(hierarchy, in);
   grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
   grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
   grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -172,8 +166,8 @@ void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile*
 }
 
 ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {
+  const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
   upload({}, b);
-  const VkhHierarchyRequirements needed = hierarchy_requirements(context);
   ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),
                         mesh_b_.vertexCount, mesh_b_.faceCount};
   grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);

@@ -82,9 +82,8 @@ class Seat {
   void read(RunOutput& output) const;
 
  private:
-  VkhHierarchyRequirements hierarchy_requirements(VkhContext context) const;
   void upload(const MeshData& a, const MeshData& b);
-  VkDeviceSize place_b(VkhContext context, const RunInput& input);
+  VkDeviceSize place_b(const VkhHierarchyRequirements& needed, const RunInput& input);
   void place_areas(const RunInput& input, RunOutput& output);
   VkhMemory take_room(VkDeviceSize bytes);
 

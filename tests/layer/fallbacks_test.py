@@ -81,5 +81,10 @@ for mib in (1, 2, 4):
     meets = answer and answer["lower"] <= expected["upper"] and expected["lower"] <= answer["upper"]
     if not meets or answer["status"] != "closed" or not all(answer["verified"].values()):
         fail(f"bindings of {mib} MiB", done)
+# Half of that holds not all of B: the refusal says what it would hold.
+done = demo(**limits(maxStorageBufferRange=1 << 19))
+words = ("mesh B is too large for this device: 15134 faces", "take about ", "simplify the mesh")
+if done.returncode != 5 or not all(word in done.stderr for word in words) or done.stderr.count("\n") != 1:
+    fail("bindings of 512 KiB", done)
 print(f"fallbacks_test: {len(SERVED)} devices served, {len(REFUSED)} refused, {failures} failures")
 sys.exit(1 if failures else 0)

@@ -1,0 +1,17 @@
+// What meshes of a size take on a device, or why it takes none such.
+#pragma once
+
+#include "engine/vkhausdorff.h"
+
+namespace vkh {
+
+struct MeshSize {
+  uint32_t vertices = 0, faces = 0;
+};
+
+/// Throw DeviceError where a mesh of that size is too large for the context's device: with its
+/// size, the largest that is not, and what helps.
+VkhWorkspaceRequirements workspace_for(VkhContext context, const MeshSize& a);
+VkhHierarchyRequirements hierarchy_for(VkhContext context, const MeshSize& b);
+
+}  // namespace vkh
