@@ -106,6 +106,10 @@ std::vector<std::string> input_notes(const MeshPair& pair) {
   std::vector<std::string> notes;
   for (const std::string& note : pair.a.notes) notes.push_back("A: " + note);
   for (const std::string& note : pair.b.notes) notes.push_back("B: " + note);
+  if (!pair.a.unit.empty() && !pair.b.unit.empty() && pair.a.unit != pair.b.unit) {
+    notes.push_back("A is in " + pair.a.unit + " and B in " + pair.b.unit +
+                    ": neither was converted");
+  }
   return notes;
 }
 
