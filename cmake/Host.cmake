@@ -6,6 +6,11 @@ find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(tinyobjloader REQUIRED)
+# glTF's compression; without it such files are refused by name.
+find_package(meshoptimizer QUIET)
+if(NOT meshoptimizer_FOUND)
+  message(STATUS "Not read here: glTF with EXT_meshopt_compression, which needs libmeshoptimizer-dev")
+endif()
 file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
 list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli/main\\.cpp|python/.*)$")
 if(WIN32)  # what operating systems do differently stands in host/system
@@ -22,6 +27,10 @@ endif()
 target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
                       $<BUILD_INTERFACE:vkh_shaders> tinyobjloader::tinyobjloader
                       $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
+if(meshoptimizer_FOUND)
+  target_link_libraries(vkh_host PRIVATE meshoptimizer::meshoptimizer)
+  target_compile_definitions(vkh_host PRIVATE VKH_HAS_MESHOPTIMIZER)
+endif()
 target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)

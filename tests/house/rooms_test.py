@@ -17,8 +17,8 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
-    "host": ["base", "system", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve", "pairs",
+    "host": ["base", "system", "mesh", "read", "scene", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "scene", "solve", "pairs",
               "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)
