@@ -208,7 +208,7 @@ void Handler::begin(Is is) {
       m.has_animations = true;
       break;
     case Is::kScene:
-      m.scenes.emplace_back();
+      m.scenes.push_back(kNone);
       break;
     case Is::kNode:
       m.nodes.push_back(kNone);
@@ -314,7 +314,8 @@ void Handler::end_numbers() {
   const Range indices = {static_cast<uint32_t>(m.indices.size()) - count_, count_};
   switch (top().member->numbers) {
     case Numbers::kRoots:
-      m.scenes.back() = indices;
+      m.scenes.back() = static_cast<uint32_t>(m.roots.size());
+      m.roots.push_back(indices);
       break;
     case Numbers::kChildren:
       if (count_ > 0) detail_of_last(m).children = indices;

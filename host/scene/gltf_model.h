@@ -87,8 +87,9 @@ struct BufferEntry {
 struct Model {
   uint32_t scene = kNone;
   bool has_animations = false;
-  std::deque<Range> scenes;    ///< of `indices`
-  std::deque<uint32_t> nodes;  ///< kNone, or a number of `details`
+  std::deque<uint32_t> scenes;  ///< kNone, or a number of `roots`
+  std::deque<Range> roots;      ///< of `indices`
+  std::deque<uint32_t> nodes;   ///< kNone, or a number of `details`
   std::deque<NodeDetail> details;
   std::deque<NodePlacing> placings;
   std::deque<uint32_t> indices;

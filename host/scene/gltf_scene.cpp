@@ -32,7 +32,7 @@ void Scene::choose() {
   if (chosen >= count) {
     reject(source_.name, "scene " + std::to_string(chosen), "there is none", "a scene");
   }
-  roots_ = model_.scenes[chosen];
+  if (model_.scenes[chosen] != kNone) roots_ = model_.roots[model_.scenes[chosen]];
   if (count == 1) return;
   notes_.push_back("scene " + std::to_string(chosen) + " of " + std::to_string(count) +
                    (has_default ? " read: the default" : " read: none is the default"));

@@ -29,6 +29,8 @@ struct Reader {
 
 // `any` is told by the content, as read_mesh does it.
 constexpr Reader kReaders[] = {{"any", "fuzz", parse_mesh, mutate_any},
+                               {"gltf", "fuzz.gltf", parse_gltf, mutate_gltf},
+                               {"glb", "fuzz.glb", parse_gltf, mutate_glb},
                                {"obj", "fuzz.obj", parse_obj, mutate_text},
                                {"off", "fuzz.off", parse_off, mutate_off},
                                {"ply-ascii", "fuzz.ply", parse_ply, mutate_ply},

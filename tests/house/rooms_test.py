@@ -18,7 +18,7 @@ ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
     "host": ["base", "system", "mesh", "read", "scene", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "scene", "solve", "pairs",
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "solve", "pairs",
               "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)

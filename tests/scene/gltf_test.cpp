@@ -220,7 +220,7 @@ TEST_CASE("nodes place their meshes, parents before children, and the delta boun
   const Mesh mesh = parse(document);
   REQUIRE(mesh.faces == Faces{{0, 1, 2}, {3, 4, 5}});
   CHECK(mesh.delta > 0);
-  CHECK(mesh.delta < 1e-14);
+  CHECK(mesh.delta < 1e-13);
   const Rational scale[] = {2, 3, Rational(0.7)},
                  move[] = {Rational(0.1), Rational(0.2), Rational(0.3)};
   for (size_t v = 0; v < 6; ++v) {

@@ -1,0 +1,99 @@
+// Scenes that take the most for their size: about `size` bytes each, all of one kind.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/scene/gltf_document.h"
+
+namespace vkh::test {
+
+/// Names and bytes.
+using SceneFiles = std::vector<std::pair<std::string, std::string>>;
+
+inline std::string times(const std::string& text, size_t count) {
+  std::string all;
+  for (all.reserve(text.size() * count); count > 0; --count) all += text;
+  return all;
+}
+
+/// A triangle, and before it a list of that name, of so many entries.
+inline std::string with_list(const std::string& name, const std::string& entry, size_t size) {
+  const std::string text = triangle_document().text();
+  return "{\"" + name + "\":[" + times(entry + ",", size / (entry.size() + 1)) + entry + "]," +
+         text.substr(1);
+}
+
+/// The same, but in the place of the list that is there, behind its entries.
+inline std::string with_more(const std::string& name, const std::string& entry, size_t size) {
+  std::string text = triangle_document().text();
+  const size_t list = text.find("\"" + name + "\":[") + name.size() + 4;
+  size_t end = list;
+  int depth = 1;
+  for (; depth > 0; ++end) depth += text[end] == '[' ? 1 : text[end] == ']' ? -1 : 0;
+  return text.insert(end - 1, times("," + entry, size / (entry.size() + 1)));
+}
+
+inline std::string grid_document(size_t size, bool is_glb) {
+  Document document;
+  const size_t count = size / 24;
+  std::vector<float> xyz;
+  for (size_t i = 0; i < 3 * count; ++i) xyz.push_back(static_cast<float>(i % 1000));
+  std::vector<uint32_t> corners;
+  for (uint32_t i = 0; i < 3 * count; ++i) corners.push_back(i % static_cast<uint32_t>(count));
+  const size_t positions = document.add_positions(xyz);
+  document.add_mesh(positions, {{"indices", document.add_indices(corners)}});
+  return is_glb ? document.glb() : document.text();
+}
+
+/// Bytes for coordinates, so that a vertex is eight times as large as its text.
+inline std::string byte_document(size_t size) {
+  Document document;
+  std::string rows;
+  for (size_t i = 0; i < size / 9 * 9; ++i) rows += static_cast<char>(i % 120);
+  const size_t view = document.add_view(rows);
+  document.add_mesh(document.add_accessor({{"bufferView", view},
+                                           {"componentType", kByteType},
+                                           {"count", rows.size() / 3},
+                                           {"type", "VEC3"}}));
+  return document.glb();
+}
+
+/// A mesh at every node.
+inline std::string instance_document(size_t size) {
+  Document document = triangle_document();
+  for (size_t i = 1; i < size / 14; ++i) {
+    document.json["nodes"].push_back({{"mesh", 0}});
+    document.json["scenes"][0]["nodes"].push_back(i);
+  }
+  return document.text();
+}
+
+inline SceneFiles worst_gltf(size_t size) {
+  const std::string accessor = "{\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}";
+  return {
+      {"grid.gltf", grid_document(size, false)},
+      {"grid.glb", grid_document(size, true)},
+      {"bytes.glb", byte_document(size)},
+      {"instances.gltf", instance_document(size)},
+      {"nodes.gltf", with_more("nodes", "{}", size)},
+      {"placed.gltf", with_more("nodes", "{\"scale\":[1,1,1]}", size)},
+      {"meshed.gltf", with_more("nodes", "{\"mesh\":0}", size)},
+      {"scenes.gltf", with_more("scenes", "{}", size)},
+      {"roots.gltf", with_more("scenes", "{\"nodes\":[" + times("0,", size / 2) + "0]}", 40)},
+      {"meshes.gltf", with_more("meshes", "{\"primitives\":[{\"attributes\":{}}]}", size)},
+      {"accessors.gltf", with_more("accessors", accessor, size)},
+      {"views.gltf", with_more("bufferViews", "{\"buffer\":0,\"byteLength\":1}", size)},
+      {"buffers.gltf", with_more("buffers", "{\"byteLength\":1}", size)},
+      {"data.gltf", with_more("buffers", "{\"byteLength\":1,\"uri\":\"data:;base64,AA\"}", size)},
+      {"numbers.gltf", with_list("extras", "0", size)},
+      {"deep.gltf", "{\"extras\":" + std::string(size / 2, '[') + std::string(size / 2, ']') + "," +
+                        triangle_document().text().substr(1)},
+      {"text.gltf", with_list("extras", "\"" + std::string(1500, 'x') + "\"", size)},
+      {"long.gltf", with_list("extras", "\"" + std::string(size, 'x') + "\"", 1)},
+      {"digits.gltf", with_list("extras", std::string(size, '1'), 1)},
+      {"blank.gltf", std::string(size, ' ') + triangle_document().text()}};
+}
+
+}  // namespace vkh::test
