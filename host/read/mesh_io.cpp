@@ -13,7 +13,7 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kExpectedFormats = "an OBJ, STL, PLY, OFF or glTF file";
+constexpr const char* kExpectedFormats = "an OBJ, STL, PLY, OFF, glTF or 3MF file";
 constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
 
 // What people pass by mistake, so that they are told more than that a keyword is missing.
@@ -23,9 +23,8 @@ void reject_known_strangers(const MeshSource& source) {
     const char* what;
     const char* expected;
   };
-  constexpr std::array<Stranger, 5> kStrangers = {{
+  constexpr std::array<Stranger, 4> kStrangers = {{
       {"\x1f\x8b", "gzip-compressed data", "the file unpacked (gunzip)"},
-      {"PK\x03\x04", "a zip archive (3MF?)", kExpectedFormats},
       {"version https://git-lfs", "a Git LFS pointer", "the file itself (git lfs pull)"},
       {"\xfe\xff", "UTF-16 text", "ASCII or UTF-8"},
       {"\xff\xfe", "UTF-16 text", "ASCII or UTF-8"},
@@ -53,12 +52,14 @@ Parse parser_by_extension(const std::string& name) {
   if (extension == ".ply") return parse_ply;
   if (extension == ".off") return parse_off;
   if (extension == ".gltf" || extension == ".glb") return parse_gltf;
+  if (extension == ".3mf") return parse_3mf;
   return nullptr;
 }
 
 Parse parser_by_content(std::string_view bytes) {
   if (is_exact_binary_stl(bytes)) return parse_stl;
   if (bytes.starts_with("glTF")) return parse_gltf;
+  if (bytes.starts_with("PK\x03\x04")) return parse_3mf;
   TextScanner scanner(bytes.substr(0, 4096), "", '#', MixedLineEnds::kIgnored);
   scanner.next_full_line();
   const std::string_view word = scanner.word();

@@ -32,7 +32,8 @@ Mesh parse_obj(const MeshSource& source);
 Mesh parse_stl(const MeshSource& source);
 Mesh parse_ply(const MeshSource& source);
 Mesh parse_off(const MeshSource& source);
-Mesh parse_gltf(const MeshSource& source);  ///< host/scene; GLB, too
+Mesh parse_gltf(const MeshSource& source);  ///< host/gltf; GLB, too
+Mesh parse_3mf(const MeshSource& source);   ///< host/threemf
 
 /// True if the bytes are exactly as long as the triangle count at byte 80 says. No text passes: its
 /// bytes there would announce more than 6 GB.

@@ -1,7 +1,5 @@
 // EXT_meshopt_compression: what meshoptimizer packed comes out as it was, and no more than the
 // packed bytes can hold is allocated. Without meshoptimizer: a refusal that names its package.
-#include "host/scene/gltf_unpack.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <tuple>
 
 #include "host/base/error.h"
+#include "host/gltf/unpack.h"
 #include "tests/scene/gltf_document.h"
 #include "tests/shapes/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "host/scene/gltf_unpack.h"
+#include "host/gltf/unpack.h"
 
 #ifdef VKH_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>

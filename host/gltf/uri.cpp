@@ -2,7 +2,7 @@
 #include <array>
 #include <filesystem>
 
-#include "host/scene/gltf_data.h"
+#include "host/gltf/data.h"
 #include "host/system/system.h"
 
 namespace vkh::gltf {

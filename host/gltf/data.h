@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/scene/gltf_model.h"
+#include "host/gltf/model.h"
 
 namespace vkh::gltf {
 

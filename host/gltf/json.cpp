@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "host/base/text_scanner.h"
-#include "host/scene/gltf_members.h"
-#include "host/scene/json_text.h"
+#include "host/gltf/json_text.h"
+#include "host/gltf/members.h"
 
 namespace vkh::gltf {
 namespace {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "host/scene/gltf_model.h"
+#include "host/gltf/model.h"
 
 namespace vkh::gltf {
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "host/base/text_scanner.h"
-#include "host/scene/gltf_data.h"
-#include "host/scene/gltf_scene.h"
+#include "host/gltf/data.h"
+#include "host/gltf/scene.h"
 
 namespace vkh {
 namespace gltf {

@@ -1,11 +1,11 @@
-#include "host/scene/gltf_data.h"
+#include "host/gltf/data.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "host/base/text_scanner.h"
-#include "host/scene/gltf_unpack.h"
+#include "host/gltf/unpack.h"
 #include "host/system/system.h"
 
 namespace vkh::gltf {

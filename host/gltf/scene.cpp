@@ -1,4 +1,4 @@
-#include "host/scene/gltf_scene.h"
+#include "host/gltf/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/gltf_model.h"
+#include "host/gltf/model.h"
 #include "host/scene/transform.h"
 
 namespace vkh::gltf {
