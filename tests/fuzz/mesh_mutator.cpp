@@ -172,6 +172,19 @@ std::string mutated_json(std::string_view text, size_t room, Random& random) {
   }
 }
 
+std::string mutated_xml(std::string_view text, size_t room, Random& random) {
+  if (text.empty() || pick(random, 4) == 0) return changed(text, room);
+  if (pick(random, 2) == 0) return with_number(text, random);
+  const size_t from = text.find('<', pick(random, text.size()));
+  if (from == std::string_view::npos) return std::string(text);
+  const size_t end = std::min(text.find('>', from), text.size() - 1) + 1;
+  const std::string part(text.substr(from, end - from));
+  std::string out(text);
+  if (pick(random, 2) == 0) out.erase(from, end - from);
+  if (pick(random, 3) == 0) return out;
+  return out.insert(std::min(out.find('<', pick(random, out.size() + 1)), out.size()), part);
+}
+
 std::string word_of(size_t x) {
   std::string word(4, '\0');
   for (size_t i = 0; i < 4; ++i) word[i] = static_cast<char>(x >> (8 * i) & 0xff);
@@ -251,6 +264,10 @@ size_t mutate_gltf(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
 
 size_t mutate_glb(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   return mutate(mutated_glb, data, size, max_size, seed);
+}
+
+size_t mutate_xml(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
+  return mutate(mutated_xml, data, size, max_size, seed);
 }
 
 size_t mutate_any(uint8_t* data, size_t size, size_t max_size, unsigned seed) {

@@ -21,6 +21,8 @@ size_t mutate_stl(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 size_t mutate_gltf(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 /// The JSON or the binary chunk alone, and then lengths that fit.
 size_t mutate_glb(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+/// Numbers become edge cases, elements change places; most of it stays XML.
+size_t mutate_xml(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 /// By what the content looks like.
 size_t mutate_any(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 

@@ -181,7 +181,9 @@ std::vector<File> stl_files(size_t size) {
 
 std::vector<File> scene_files(size_t size) {
   std::vector<File> files;
-  for (const auto& [name, bytes] : test::worst_gltf(size)) files.push_back({name, bytes});
+  for (const test::SceneFiles& scenes : {test::worst_gltf(size), test::worst_3mf(size)}) {
+    for (const auto& [name, bytes] : scenes) files.push_back({name, bytes});
+  }
   return files;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/scene/gltf_document.h"
+#include "tests/scene/stored_zip.h"
 
 namespace vkh::test {
 
@@ -94,6 +95,34 @@ inline SceneFiles worst_gltf(size_t size) {
       {"long.gltf", with_list("extras", "\"" + std::string(size, 'x') + "\"", 1)},
       {"digits.gltf", with_list("extras", std::string(size, '1'), 1)},
       {"blank.gltf", std::string(size, ' ') + triangle_document().text()}};
+}
+
+/// Stored, so that the file is as large as what it holds.
+inline SceneFiles worst_3mf(size_t size) {
+  const auto package = [](const std::string& resources, const std::string& build) {
+    return package_of(
+        model_of(object_of("1", kTriangleMesh) + resources, "<item objectid=\"1\"/>" + build));
+  };
+  const auto rows = [&](const std::string& row) { return times(row, size / row.size()); };
+  const std::string vertex = "<vertex x=\"0\" y=\"1\" z=\"2\"/>",
+                    triangle = "<triangle v1=\"0\" v2=\"0\" v3=\"0\"/>",
+                    component = "<component objectid=\"1\"/>";
+  std::string objects;
+  for (size_t i = 2; objects.size() < size; ++i)
+    objects += object_of(std::to_string(i), "<components>" + component + "</components>");
+  return {
+      {"vertices.3mf", package(object_of("2", mesh_of(rows(vertex), "")), "")},
+      {"triangles.3mf",
+       package(object_of("2", mesh_of(vertex, rows(triangle))), "<item objectid=\"2\"/>")},
+      {"components.3mf", package(object_of("2", "<components>" + rows(component) + "</components>"),
+                                 "<item objectid=\"2\"/>")},
+      {"unused_components.3mf",
+       package(object_of("2", "<components>" + rows(component) + "</components>"), "")},
+      {"items.3mf", package("", rows("<item objectid=\"1\"/>"))},
+      {"objects.3mf", package(objects, "")},
+      {"blank.3mf", package(std::string(size, ' '), "")},
+      {"foreign.3mf", package(rows("<a/>"), "")},
+      {"deep.3mf", package(times("<a>", size / 7) + times("</a>", size / 7), "")}};
 }
 
 }  // namespace vkh::test
