@@ -318,7 +318,7 @@ int run(const Words& words) {
     throw UsageError("--json='': expected the name of a file, as in --json=answer.json");
   Arguments arguments;
   CLI::App* distance = app.add_subcommand("distance", "Distance of two mesh files");
-  distance->add_option("A", arguments.file_a, "Mesh to start from (OBJ, STL, PLY, OFF)")
+  distance->add_option("A", arguments.file_a, "Mesh to start from (OBJ, STL, PLY, OFF, glTF, 3MF)")
       ->required();
   distance->add_option("B", arguments.file_b, "Mesh to go to")->required();
   add_run_options(*distance, arguments);
