@@ -10,7 +10,7 @@ namespace vkh {
 namespace gltf {
 namespace {
 
-/// Of a primitive; points and lines before it.
+/// Of a primitive; points and lines stand before these.
 enum Mode : uint8_t { kTriangles = 4, kStrip = 5, kFan = 6 };
 
 class Reader {
@@ -20,7 +20,8 @@ class Reader {
         model_(model),
         scene_(source, model),
         data_(source, model, chunk),
-        builder_(source) {}
+        builder_(source),
+        noted_(model.meshes.size()) {}
 
   Mesh read() {
     scene_.for_each([&](const Instance& instance) { count(instance); });
@@ -49,20 +50,23 @@ class Reader {
     reject(source_.name, place_of(list, number), what, expected);
   }
 
-  /// A primitive's number if it has faces.
-  bool has_faces(const Instance& instance, uint32_t number) {
-    const Primitive& primitive = model_.primitives[number];
-    if (primitive.mode < kTriangles) return ++lines_, false;
+  void check_kind(const Instance& instance, const Primitive& primitive) {
     if (primitive.mode > kFan)
       fail("meshes", instance.detail->mesh, "a primitive of an unknown mode", "0 to 6");
-    if (primitive.position == kNone && !primitive.is_draco) return ++without_positions_, false;
     const bool is_there = primitive.position != kNone && data_.has_data(primitive.position) &&
                           (primitive.indices == kNone || data_.has_data(primitive.indices));
     if (primitive.is_draco && !is_there) {
       fail("meshes", instance.detail->mesh, "KHR_draco_mesh_compression, which is not read",
            "a file without it, such as one that was decoded");
     }
-    return true;
+  }
+
+  void note_rest(const Instance& instance) {
+    if (noted_[instance.detail->mesh]) return;
+    noted_[instance.detail->mesh] = true;
+    const MeshEntry& mesh = model_.meshes[instance.detail->mesh];
+    lines_ += mesh.line_count;
+    without_positions_ += mesh.placeless_count;
   }
 
   uint64_t faces_of(const Instance& instance, const Primitive& primitive, uint64_t corners) const {
@@ -99,9 +103,10 @@ class Reader {
       fail("nodes", instance.node, "EXT_mesh_gpu_instancing, which is not read",
            "a node for each instance");
     }
+    note_rest(instance);
     for_primitives(instance, [&](uint32_t number) {
-      if (!has_faces(instance, number)) return;
       const Primitive& primitive = model_.primitives[number];
+      check_kind(instance, primitive);
       check_pose(instance, model_.meshes[instance.detail->mesh], primitive);
       const Column positions = data_.positions(primitive.position);
       const uint32_t corners =
@@ -116,7 +121,6 @@ class Reader {
     uint32_t last = kNone;
     for_primitives(instance, [&](uint32_t number) {
       const Primitive& primitive = model_.primitives[number];
-      if (primitive.mode < kTriangles || primitive.position == kNone) return;
       // Primitives that follow each other share the positions that they have in common.
       if (primitive.position != last) start_column();
       last = primitive.position;
@@ -195,6 +199,7 @@ class Reader {
   uint64_t faces_ = 0, lines_ = 0, without_positions_ = 0;
   uint32_t most_positions_ = 0, column_ = 0;
   bool has_targets_ = false;
+  std::vector<bool> noted_;  // meshes whose points and lines were counted
   std::vector<Slot> slots_;
   double delta_ = 0;
 };

@@ -75,7 +75,8 @@ class Handler {
   bool other();
   bool number(double value, std::optional<uint64_t> whole);
   void begin(Is is);
-  void end(Is is) const;
+  void end(Is is);
+  void end_primitive();
   void end_numbers();
   void take_number(double value, std::optional<uint64_t> whole);
   void take_text(std::string_view value);
@@ -252,12 +253,16 @@ void Handler::begin(Is is) {
 }
 
 // What has to be there, so that an entry is never larger than its text by more than a factor.
-void Handler::end(Is is) const {
+void Handler::end(Is is) {
   switch (is) {
     case Is::kMesh:
-      return require(model.meshes.back().primitives.count > 0, "a mesh without primitives");
+      return require(has("primitives") && model.meshes.back().primitives.count +
+                                                  model.meshes.back().line_count +
+                                                  model.meshes.back().placeless_count >
+                                              0,
+                     "a mesh without primitives");
     case Is::kPrimitive:
-      return require(has("attributes"), "a primitive without attributes");
+      return end_primitive();
     case Is::kAsset:
       return require(has("version"), "an asset without version");
     case Is::kAccessor:
@@ -280,6 +285,17 @@ void Handler::end(Is is) const {
     default:
       return;
   }
+}
+
+void Handler::end_primitive() {
+  require(has("attributes"), "a primitive without attributes");
+  const Primitive& primitive = model.primitives.back();
+  MeshEntry& mesh = model.meshes.back();
+  const bool is_placeless = primitive.position == kNone && !primitive.is_draco;
+  if (primitive.mode >= 4 && !is_placeless) return;
+  ++(primitive.mode < 4 ? mesh.line_count : mesh.placeless_count);
+  model.primitives.pop_back();
+  --mesh.primitives.count;
 }
 
 void Handler::take_number(double value, std::optional<uint64_t> whole) {

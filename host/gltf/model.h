@@ -33,8 +33,11 @@ struct NodePlacing {
   uint32_t translation = kNone, rotation = kNone, scale = kNone, matrix = kNone;
 };
 
+/// Only primitives with faces are kept: a mesh may stand at many nodes, and what is looked at there
+/// gives some.
 struct MeshEntry {
   Range primitives;
+  uint32_t line_count = 0, placeless_count = 0;  ///< points and lines; without positions
   bool has_morph_weight = false;
 };
 

@@ -10,13 +10,13 @@ namespace {
 
 constexpr int kNoDigit = -1;
 
-constexpr std::array<signed char, 256> base64_digits() {
-  std::array<signed char, 256> digits{};
+constexpr std::array<int, 256> base64_digits() {
+  std::array<int, 256> digits{};
   digits.fill(kNoDigit);
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t i = 0; i < kDigits.size(); ++i)
-    digits[static_cast<unsigned char>(kDigits[i])] = static_cast<signed char>(i);
+    digits[static_cast<unsigned char>(kDigits[i])] = static_cast<int>(i);
   return digits;
 }
 
@@ -40,7 +40,7 @@ std::string without_escaped_slashes(std::string_view text) {
 }  // namespace
 
 bool decode_base64(std::string_view uri, std::vector<char>& out) {
-  static constexpr std::array<signed char, 256> kDigits = base64_digits();
+  static constexpr std::array<int, 256> kDigits = base64_digits();
   constexpr std::string_view kMark = ";base64,";
   const size_t mark = uri.substr(0, 256).find(kMark);
   if (mark == std::string_view::npos) return false;

@@ -69,23 +69,26 @@ class Builder {
     return object;
   }
 
-  // Those of other parts first: the root uses them.
+  // Those of other parts first: the root uses them. Components without a face are left out: an
+  // object may be used often, and each time what is looked at shall give some.
   void count_faces() {
     for (const bool is_root : {false, true}) {
       for (uint32_t i = 0; i < model_.objects.size(); ++i) {
         Object& object = model_.objects[i];
         if ((object.part == 0) != is_root) continue;
         object.face_count = object.faces.end - object.faces.begin;
+        size_t kept = object.components.begin;
         for (size_t c = object.components.begin; c < object.components.end; ++c) {
           const Object& other = model_.objects[model_.find(source_, model_.components[c], i)];
+          if (other.face_count == 0) continue;
           object.face_count = std::min(kManyFaces, object.face_count + other.face_count);
+          model_.components[kept++] = model_.components[c];
         }
+        object.components.end = kept;
       }
     }
   }
 
-  // Objects without a face are not entered: a few of them, each twice in the next, would take for
-  // ever.
   void enter(const Use& use, uint32_t user, const scene::Affine& outer) {
     const uint32_t number = model_.find(source_, use, user);
     const Object& object = model_.objects[number];

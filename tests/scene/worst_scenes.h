@@ -71,6 +71,20 @@ inline std::string instance_document(size_t size) {
   return document.text();
 }
 
+/// As many lines as there are nodes that have the mesh of them.
+inline std::string line_document(size_t size) {
+  Document document;
+  Json& primitives =
+      document.add_mesh(document.add_positions({0, 0, 0, 1, 0, 0, 0, 1, 0}))["primitives"];
+  for (size_t i = 0; i < size / 80; ++i)
+    primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", i % 4}});
+  for (size_t i = 1; i < size / 28; ++i) {
+    document.json["nodes"].push_back({{"mesh", 0}});
+    document.json["scenes"][0]["nodes"].push_back(i);
+  }
+  return document.text();
+}
+
 inline SceneFiles worst_gltf(size_t size) {
   const std::string accessor = "{\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}";
   return {
@@ -78,6 +92,7 @@ inline SceneFiles worst_gltf(size_t size) {
       {"grid.glb", grid_document(size, true)},
       {"bytes.glb", byte_document(size)},
       {"instances.gltf", instance_document(size)},
+      {"lines.gltf", line_document(size)},
       {"nodes.gltf", with_more("nodes", "{}", size)},
       {"placed.gltf", with_more("nodes", "{\"scale\":[1,1,1]}", size)},
       {"meshed.gltf", with_more("nodes", "{\"mesh\":0}", size)},
@@ -118,6 +133,12 @@ inline SceneFiles worst_3mf(size_t size) {
                                  "<item objectid=\"2\"/>")},
       {"unused_components.3mf",
        package(object_of("2", "<components>" + rows(component) + "</components>"), "")},
+      {"empty_components.3mf",
+       package(object_of("2", "<mesh/>") +
+                   object_of("3", "<components>" + component +
+                                      times("<component objectid=\"2\"/>", size / 52) +
+                                      "</components>"),
+               times("<item objectid=\"3\"/>", size / 42))},
       {"items.3mf", package("", rows("<item objectid=\"1\"/>"))},
       {"objects.3mf", package(objects, "")},
       {"blank.3mf", package(std::string(size, ' '), "")},
