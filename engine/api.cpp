@@ -17,6 +17,7 @@ static_assert(sizeof(VkhReport) == sizeof(gpu::Report));
 static_assert(offsetof(VkhReport, upperAbove) == offsetof(gpu::Report, upper_above));
 static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witness));
 static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
+static_assert(offsetof(VkhReport, wanted) == offsetof(gpu::Report, wanted));
 static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
 static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
 static_assert(offsetof(VkhReport, certified) == offsetof(gpu::Report, certified));
@@ -84,6 +85,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .wide = context.limits.wide,
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
+          .pauses = p.pauseWhenFull != VK_FALSE,
           .b = view_hierarchy(p.b),
           .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
@@ -212,15 +214,20 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
                       context->limits.storage_range))
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
-  // A frontier is refined whole while four times its length fits; few pairs hold more than 2^18
-  // candidates at once.
-  const uint32_t recommended = std::min(largest, std::max(5 * faceCount, 1u << 20));
+  const uint32_t recommended = std::min(largest, vkh::recommended_capacity(faceCount));
   const auto workspace_size = [&](uint32_t capacity) {
     return vkh::workspace_size(vertexCount, faceCount, capacity, context->limits.switches);
   };
   *requirements = {workspace_size(vkh::kSmallestCapacity), workspace_size(recommended),
                    workspace_size(largest)};
   return VKH_SUCCESS;
+}
+
+VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
+                                 uint32_t candidates) {
+  const uint32_t capacity =
+      std::clamp(candidates, vkh::kSmallestCapacity, vkh::largest_capacity(context->limits));
+  return vkh::workspace_size(vertexCount, faceCount, capacity, context->limits.switches);
 }
 
 // Six parameters, as Vulkan's own commands have.
@@ -248,6 +255,15 @@ void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhP
                    uint32_t waves, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_waves(rec, vkh::view_problem(*context, *problem), waves);
+}
+
+void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
+                   const VkhMemory* workspace, VkhProfile* profile) {
+  vkh::check_move(*problem, *workspace);
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  const vkh::Problem from = vkh::view_problem(*context, *problem);
+  problem->workspace = *workspace;
+  vkh::record_move(rec, from, vkh::view_problem(*context, *problem).ws);
 }
 
 // NOLINTNEXTLINE(readability-function-size)

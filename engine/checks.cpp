@@ -80,6 +80,16 @@ void check_problem(const VkhContext_T& context, const VkhProblem& p) {
   VKH_RULE("VkhProblem::coverageOffset: a multiple of 256 bytes", p.coverageOffset % 256 == 0);
 }
 
+void check_move(const VkhProblem& p, const VkhMemory& to) {
+  check_memory(to);
+  const bool stays = to.buffer == p.workspace.buffer && to.offset == p.workspace.offset;
+  VKH_RULE("vkhCmdMoveRun: the run's own workspace, or one apart from it",
+           stays || !overlap(to, p.workspace));
+  VKH_RULE("vkhCmdMoveRun: a workspace apart from VkhProblem::b", !overlap(to, p.b.memory));
+  VKH_RULE("vkhCmdMoveRun: at least as large as the run's workspace",
+           stays ? to.size == p.workspace.size : to.size >= p.workspace.size);
+}
+
 void check_report(VkBuffer buffer, VkDeviceSize offset) {
   VKH_RULE("vkhCmdWriteReport: a buffer that is not null", buffer != VK_NULL_HANDLE);
   VKH_RULE("vkhCmdWriteReport: an offset that is a multiple of 256 bytes", offset % 256 == 0);

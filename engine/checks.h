@@ -10,6 +10,7 @@ namespace vkh {
 inline void check_build(const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
 inline void check_begin(const VkhProblem&) {}
 inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
+inline void check_move(const VkhProblem&, const VkhMemory&) {}
 inline void check_report(VkBuffer, VkDeviceSize) {}
 inline void check_profile(const VkhProfile*) {}
 #else
@@ -18,6 +19,8 @@ void check_build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMe
 // What the begin alone reads; and what the rest of a run does, too.
 void check_begin(const VkhProblem& problem);
 void check_problem(const VkhContext_T& context, const VkhProblem& problem);
+// Into `to`.
+void check_move(const VkhProblem& problem, const VkhMemory& to);
 void check_report(VkBuffer buffer, VkDeviceSize offset);
 void check_profile(const VkhProfile* profile);
 #endif

@@ -25,6 +25,12 @@ void write_barrier(const Binder& binder) {
   binder.vk().CmdPipelineBarrier2(binder.commands(), &dependency);
 }
 
+void write_copy(const DeviceFunctions& vk, VkCommandBuffer commands, const Slice<uint32_t>& from,
+                const Slice<uint32_t>& to) {
+  const VkBufferCopy region{from.offset, to.offset, from.size};
+  vk.CmdCopyBuffer(commands, from.buffer, to.buffer, 1, &region);
+}
+
 void write_without_barrier(Binder& binder, const Command& c) {
   if (c.kernel != nullptr && !binder.bind(c)) return;
   const DeviceFunctions& vk = binder.vk();
@@ -40,6 +46,9 @@ void write_without_barrier(Binder& binder, const Command& c) {
       break;
     case Command::Kind::kFill:
       vk.CmdFillBuffer(commands, filled.buffer, filled.offset, filled.size, c.word);
+      break;
+    case Command::Kind::kCopy:
+      write_copy(vk, commands, c.slices[0], c.slices[1]);
       break;
   }
 }

@@ -19,11 +19,11 @@ constexpr uint32_t kMaxBindings = 16;
 constexpr uint32_t kMaxPushBytes = 64;
 
 struct Command {
-  enum class Kind { kDispatch, kDispatchIndirect, kFill };
+  enum class Kind { kDispatch, kDispatchIndirect, kFill, kCopy };
   Kind kind = Kind::kDispatch;
   Order order = Order::kAfterAll;
-  const KernelPipeline* kernel = nullptr;  // null: a fill
-  // The bindings 0, 1, 2, ...; what is filled.
+  const KernelPipeline* kernel = nullptr;  // null: a fill or a copy
+  // The bindings 0, 1, 2, ...; what is filled; what is copied, and where to.
   std::array<Slice<uint32_t>, kMaxBindings> slices;
   uint32_t slice_count = 0;
   std::array<std::byte, kMaxPushBytes> push;

@@ -24,6 +24,7 @@ namespace vkh {
   X(CmdDispatch)                \
   X(CmdDispatchIndirect)        \
   X(CmdFillBuffer)              \
+  X(CmdCopyBuffer)              \
   X(CmdPushConstants)
 // Of Vulkan 1.3; of VK_KHR_synchronization2 before.
 #define VKH_PROMOTED_FUNCTIONS(X) \

@@ -72,6 +72,16 @@ class Recorder {
     command.word = word;
     put(command);
   }
+  // `to` is at least as large as `from`.
+  template <class T>
+  void copy(const Slice<T>& from, const Slice<T>& to, Order order = Order::kAfterAll) {
+    Command command;
+    command.kind = Command::Kind::kCopy;
+    command.order = order;
+    command.slices[0] = as<uint32_t>(from);
+    command.slices[1] = as<uint32_t>(to);
+    put(command);
+  }
   // Writes the tracks in step (engine/command.h).
   void put_in_step(const std::vector<Track>& tracks) { write_in_step(binder_, tracks); }
   bool is_wide() const { return context_.limits.wide; }

@@ -11,7 +11,8 @@ gpu::BeginPush begin_push(const Problem& p) {
           .known_lower = p.known_lower,
           .two_float = p.two_float ? 1u : 0u,
           .warm = p.warm ? 1u : 0u,
-          .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom};
+          .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom,
+          .pauses = p.pauses ? 1u : 0u};
 }
 
 // As `query` has it: all of a workgroup for an item where they are few.

@@ -42,6 +42,7 @@ struct Problem {
   bool wide = true;                  // and the kind of its device
   bool two_float = false;
   bool warm = false;  // the workspace holds an earlier run to start from
+  bool pauses = false;
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =
@@ -83,6 +84,8 @@ void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan
 // finds it worth it. The paper's.
 void record_order(Recorder& rec, const RunBuffers& run);
+// The run goes on in another workspace, or in its own; p.pauses holds from now on.
+void record_move(Recorder& rec, const Problem& p, const Workspace& to);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

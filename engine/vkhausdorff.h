@@ -240,6 +240,10 @@ typedef struct VkhWorkspaceRequirements {
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements);
 
+/* Bytes, from minimum to maximum, of a workspace with room for so many candidates at once. */
+VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
+                                 uint32_t candidates);
+
 /* Timestamps, for those who want them: one is written at the start of each vkhCmd* function and one
  * after each stage (at ALL_COMMANDS), from query `count` on; names[i] is the stage that ends with
  * query i, null where a function starts. The caller resets the pool and provides `capacity` names;
@@ -305,6 +309,12 @@ typedef struct VkhProblem {
   VkDeviceSize coverageOffset; /* bytes */
   /* With VKH_SWITCH_SORT: frontiers of fewer candidates are not sorted. 0: as measured to pay. */
   uint32_t sortFrom;
+  /* VK_TRUE: where the workspace has not room for all that a wave would do, the run pauses: waves
+   * change nothing, and VkhReport::wanted says for how many candidates room is wanted, until
+   * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE: what
+   * has no room waits for a later wave, which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun.
+   */
+  VkBool32 pauseWhenFull;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound,
@@ -323,6 +333,13 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
  * again. Reads the hierarchy, reads and writes the workspace. */
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                    uint32_t waves, VkhProfile* profile);
+
+/* Between two waves: the run goes on in `workspace`, as a rule a larger one, at least as large as
+ * its own and apart from it, and problem->workspace becomes that; or, where it is the run's own
+ * range, in that. problem->pauseWhenFull holds from now on. Copies what the run holds: reads the
+ * old workspace and writes the new one in transfers; once they have run, the old one is free. */
+void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
+                   const VkhMemory* workspace, VkhProfile* profile);
 
 typedef enum VkhStatus {
   VKH_STATUS_RUNNING = 0, /* candidates are left: advance further, or take the interval as it is */
@@ -360,6 +377,7 @@ typedef struct VkhReport {
   uint32_t candidateTotal;
   uint32_t queryTotal;
   uint32_t peakFrontier;
+  uint32_t wanted; /* the run pauses: vkhGetWorkspaceSize of so many candidates would do; else 0 */
   uint32_t culled[VKH_MAX_CULLS]; /* by exact, u1, u2, ha, u3, u4, lower raised, precision */
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
 } VkhReport;

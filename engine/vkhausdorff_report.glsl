@@ -32,6 +32,7 @@ struct VkhReport {
   uint candidateTotal;
   uint queryTotal;
   uint peakFrontier;
+  uint wanted;
   uint culled[VKH_MAX_CULLS];
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS];
 };

@@ -150,6 +150,13 @@ uint32_t largest_capacity(const Limits& limits) {
   return static_cast<uint32_t>(std::min<VkDeviceSize>(reach, 1u << 28));
 }
 
+// A frontier is refined whole while four times its length fits; few pairs of meshes hold more than
+// 2^18 candidates at once, and few faces no more than some thousand each.
+uint32_t recommended_capacity(uint32_t face_count) {
+  constexpr uint32_t kOfFace = 1u << 12, kOfPair = 1u << 20;
+  return std::max(5 * face_count, kOfFace * std::min(face_count, kOfPair / kOfFace));
+}
+
 uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,
                       VkDeviceSize bytes) {
   uint32_t fits = 0;

@@ -87,6 +87,8 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,
                       VkDeviceSize bytes);
 uint32_t largest_capacity(const Limits& limits);
+// What a run starts well with.
+uint32_t recommended_capacity(uint32_t face_count);
 constexpr uint32_t kSmallestCapacity = 4 * gpu::kReserve;
 
 Hierarchy view_hierarchy(const VkhHierarchy& hierarchy);

@@ -322,6 +322,8 @@ struct Control {
   uint split_twice;     // this wave splits its candidates twice
   uint measuring;       // this wave measures its witness above a new base, and nothing else
   uint spilled;         // candidates that could neither be refined nor wait
+  uint pauses;          // a wave that has not room for all waits for a larger workspace
+  uint wanted;          // such a one does: so many places each half should have; else 0
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
   // The wave's samples that are at a new lower bound: the smallest of their keys, and those that
   // had it when they came.
@@ -372,6 +374,7 @@ struct Report {
   uint candidate_total;
   uint query_total;
   uint peak_frontier;
+  uint wanted;  // places in each half of the frontier that the paused run asks for; else 0
   uint culled[kMostCulls];
   WaveRecord waves[64];
 };
@@ -493,6 +496,7 @@ struct BeginPush {
   uint two_float;
   uint warm;  // the last run's witness is kept
   uint sort_from;
+  uint pauses;
 };
 
 #ifdef __cplusplus

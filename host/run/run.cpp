@@ -136,6 +136,7 @@ void Runner::record_one(VkCommandBuffer commands, const Round& round) {
   Seat& seat = *seats_[round.running[0]];
   VkhProblem& problem = seat.problem();
   stamp(commands, nullptr);
+  seat.record_move(context_, commands, profile());
   if (round.first && seat.mesh_b() != nullptr) {
     vkhCmdBuildHierarchy(context_, commands, seat.mesh_b(), &problem.b, seat.scratch(), profile());
     stamp(commands, "hierarchy");
@@ -149,8 +150,10 @@ void Runner::record_one(VkCommandBuffer commands, const Round& round) {
 
 void Runner::record_together(VkCommandBuffer commands, const Round& round) {
   std::vector<VkhTask> tasks;
+  stamp(commands, nullptr);
   for (const size_t i : round.running) {
     Seat& seat = *seats_[i];
+    seat.record_move(context_, commands, nullptr);
     tasks.push_back({.mesh = round.first ? seat.mesh_b() : nullptr,
                      .scratch = seat.scratch(),
                      .problem = &seat.problem(),
@@ -159,7 +162,6 @@ void Runner::record_together(VkCommandBuffer commands, const Round& round) {
                      .reportBuffer = seat.report(),
                      .reportOffset = 0});
   }
-  stamp(commands, nullptr);
   vkhCmdRunTasks(context_, commands, static_cast<uint32_t>(tasks.size()), tasks.data(), nullptr);
   stamp(commands, "solve");
 }
@@ -225,6 +227,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
     round.waves = next_waves(++submissions, round.waves, now_ms() - submitted);
     round.first = false;
     std::erase_if(round.running, is_over);
+    for (const size_t i : round.running) seats_[i]->make_room(context_, outputs[i]);
   }
   return outputs;
 }

@@ -108,8 +108,10 @@ void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
   check_engine(vkhGetWorkspaceRequirements(context, problem_.a.vertexCount, problem_.a.faceCount,
                                            &workspace),
                "mesh A");
-  VkDeviceSize bytes = in.memory_bytes == 0 ? workspace.recommended : in.memory_bytes;
-  bytes = std::clamp(bytes, workspace.minimum, workspace.maximum);
+  const VkDeviceSize start =
+      in.start_memory_bytes == 0 ? workspace.recommended : in.start_memory_bytes;
+  const VkDeviceSize bytes = std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes,
+                                        workspace.minimum, workspace.maximum);
   out.workspace_bytes = bytes;
   const VkDeviceSize scratch = place_b(context, in);
   grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
@@ -121,8 +123,52 @@ void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
   problem_.knownLower = in.known_lower;
   problem_.sortFrom = in.sort_from;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
+  const bool grows = in.memory_bytes == 0 && bytes < workspace.maximum;
+  problem_.pauseWhenFull = grows ? VK_TRUE : VK_FALSE;
+  next_.reset();
+  left_ = Buffer();
   place_areas(in, out);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
+}
+
+// The kept one, where it is large enough and not the run's own; else a new one, before which the
+// kept one goes unless it is.
+VkhMemory Seat::take_room(VkDeviceSize bytes) {
+  const bool is_own = problem_.workspace.buffer == larger_.handle();
+  if (is_own || larger_.size() < bytes) {
+    if (!is_own) larger_ = Buffer();
+    Buffer made(device_, bytes, kWorking, Placement::kDevice);
+    std::swap(larger_, made);
+    if (is_own) left_ = std::move(made);  // until what it holds has been copied
+  }
+  return {larger_.handle(), 0, bytes};
+}
+
+// Twice what is wanted, so that a frontier that still grows is moved seldom; at most half of the
+// device's memory.
+void Seat::make_room(VkhContext context, RunOutput& out) {
+  left_ = Buffer();
+  const uint64_t wanted = out.report.wanted;
+  if (wanted == 0) return;
+  const auto bytes_for = [&](uint64_t candidates) {
+    return vkhGetWorkspaceSize(context, problem_.a.vertexCount, problem_.a.faceCount,
+                               static_cast<uint32_t>(std::min<uint64_t>(candidates, UINT32_MAX)));
+  };
+  const VkDeviceSize most = device_.description().memory_bytes / 2;
+  const VkDeviceSize bytes = std::min(bytes_for(2 * wanted), most);
+  next_ = problem_.workspace;
+  try {
+    if (bytes > problem_.workspace.size) next_ = take_room(bytes);
+  } catch (const DeviceError&) {  // what has no room can wait
+  }
+  problem_.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
+  out.workspace_bytes = next_->size;
+}
+
+void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile) {
+  if (!next_) return;
+  vkhCmdMoveRun(context, commands, &problem_, &*next_, profile);
+  next_.reset();
 }
 
 ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/vkhausdorff.h"
 #include "host/gpu/memory.h"
@@ -26,7 +27,8 @@ struct RunInput {
   MeshData a, b;
   const ResidentMesh* resident = nullptr;  ///< instead of uploading and building b
   uint32_t switches = 0;                   ///< VkhSwitchBits and kSwitchWide
-  uint64_t memory_bytes = 0;               ///< 0: recommended
+  uint64_t memory_bytes = 0;               ///< workspace; 0: that, and more where the run wants it:
+  uint64_t start_memory_bytes = 0;         ///< 0: what is recommended
   uint32_t wave_limit = UINT32_MAX;
   bool multiwave = true;   ///< false: the host looks at the report after every wave
   uint32_t sort_from = 0;  ///< VkhProblem::sortFrom
@@ -70,6 +72,10 @@ class Seat {
 
   /// Copies the meshes into device memory; a barrier to compute shaders is the caller's.
   void record_upload(VkCommandBuffer commands) const;
+  /// Where the run pauses for want of room: takes the memory for it, or has it go on with what
+  /// there is, from the next record_move() on.
+  void make_room(VkhContext context, RunOutput& output);
+  void record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile);
   /// Copies the report, and the areas if there are any, back; barriers around it are the caller's.
   void record_readback(VkCommandBuffer commands, const RunOutput& output) const;
   /// What the last submission left.
@@ -80,9 +86,12 @@ class Seat {
   void upload(const MeshData& a, const MeshData& b);
   VkDeviceSize place_b(VkhContext context, const RunInput& input);
   void place_areas(const RunInput& input, RunOutput& output);
+  VkhMemory take_room(VkDeviceSize bytes);
 
   const Device& device_;
   Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_, areas_, areas_readback_;
+  Buffer larger_, left_;           // where a run that paused went on, and before that
+  std::optional<VkhMemory> next_;  // where it goes on now
   VkDeviceSize uploaded_bytes_ = 0;
   bool is_resident_ = false;
   VkhMesh mesh_b_{};

@@ -26,7 +26,10 @@ struct SolveOptions {
   bool tolerance_is_absolute = false;
   double time_limit_s = std::numeric_limits<double>::infinity();
   uint32_t wave_limit = std::numeric_limits<uint32_t>::max();
-  uint64_t memory_bytes = 0;          ///< workspace; 0: chosen from the meshes and the device
+  /// The workspace; 0: chosen from the meshes, and a larger one where the run wants it and the
+  /// device has it.
+  uint64_t memory_bytes = 0;
+  uint64_t start_memory_bytes = 0;    ///< where memory_bytes is 0: to begin with; 0: chosen
   std::string preset;                 ///< see preset_names(); empty: default
   std::vector<std::string> enabled;   ///< switch names, see switch_names(), besides the preset's
   std::vector<std::string> disabled;  ///< likewise, of those

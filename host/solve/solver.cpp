@@ -200,6 +200,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switc
           .resident = pair.resident,
           .switches = switches & ~kSwitchMultiwave,
           .memory_bytes = options.memory_bytes,
+          .start_memory_bytes = options.start_memory_bytes,
           .wave_limit = options.wave_limit,
           .multiwave = (switches & kSwitchMultiwave) != 0,
           .sort_from = options.sort_from,

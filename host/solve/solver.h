@@ -60,7 +60,7 @@ class Solver {
 
   /// Encloses h(a, b) of each, all at once: a large GPU, which one pair of 10,000 faces leaves
   /// mostly idle, takes 16 in half of the time (vkhCmdRunTasks). Every bound is that of distance().
-  /// Each pair has a workspace of options.memory_bytes to itself, 99 MiB or more where that is 0,
+  /// Each pair has a workspace of options.memory_bytes to itself, 99 MiB as a rule where that is 0,
   /// and the solver keeps them. Give pairs of like size, 16 or so, and no more than the device has
   /// memory for. Times in a report are those of all together while it ran, stages are not told
   /// apart; options.progress is asked for each pair, and ends that one.

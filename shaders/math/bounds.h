@@ -49,13 +49,13 @@ VKH_FN float bound_u1(Patch t, vec3 d) {
   float bc = norm_up(t.at.c - t.at.b);
   float ca = norm_up(t.at.a - t.at.c);
   float farther = min(d.x + max(ab, ca), min(d.y + max(ab, bc), d.z + max(bc, ca)));
-  return round_up(max(farther, 0.0f), 6.0f);
+  return round_up(max(farther, 0.0f), 3.0f);
 }
 
 // u2 (eq. 7): every point of T is within g of a corner, g the radius of T's smallest enclosing
 // ball. The ball at hand may have another centre; then it is larger, and the bound still holds.
 VKH_FN float bound_u2(Patch t, vec3 d) {
-  return round_up(max(enclosing_radius_up(t.at) + max3(d), 0.0f), 2.0f);
+  return round_up(max(enclosing_radius_up(t.at) + max3(d), 0.0f), 1.0f);
 }
 
 VKH_FN float pick3(vec3 v, uint i) { return choose(i == 0u, v.x, choose(i == 1u, v.y, v.z)); }

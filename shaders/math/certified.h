@@ -95,25 +95,24 @@ VKH_FN float sharp_norm_up(Two3 v) {
 VKH_FN float raised(float x) { return x + (4.0f * kUlp * abs(x) + kTiny); }
 VKH_FN float lowered(float x) { return x - (4.0f * kUlp * abs(x) + kTiny); }
 
-// >= |v| - base for base >= 0, within 6 ulp of the difference and 20 kUlp2 of |v| and base: where
-// distances are close to base, their difference keeps the bits that the distances themselves have
-// no room for. As sharp_norm_up, but s and e / (2 s) are not added before base is taken off. Off
-// by, in units of kUlp2 |v|: the dot product 4, e's sums 4, its quotient 4, the last sums 2;
-// two_sum half of |v| + base.
+// >= |v| - base for base >= 0, within 6 ulp of the difference and 16 kUlp2 of |v|: where distances
+// are close to base, their difference keeps the bits that the distances themselves have no room
+// for. As sharp_norm_up, but s and e / (2 s) are not added before base is taken off: s - base is
+// exact where they are within a factor of two, and elsewhere raised takes its rounding. Off by, in
+// units of kUlp2 |v|: the dot product 3, e's sums 5, its quotient 5, the last sum 2.
 VKH_FN float sharp_norm_above_up(Two3 v, float base) {
   Two x = two_dot(v, v);
   if (!(x.hi > 1e-30f)) return raised(round_up(norm_up(v.hi) + norm_up(v.lo), 2.0f) - base);
   float s = root(x.hi);
   Two square = two_product(s, s);
   float e = ((x.hi - square.hi) - square.lo) + x.lo;
-  Two t = two_sum(s, -base);
-  return raised(t.hi + (t.lo + (0.5f * ratio(e, s) + kUlp2 * (20.0f * s + base))));
+  return raised((s - base) + (0.5f * ratio(e, s) + 16.0f * kUlp2 * s));
 }
 
 // <= (reach - off) / |r| - base for reach > 0 and |r| >= 1, or -base. With l near |r| and |r| <= l
 // + extra, and q near the quotient, it is q + (reach - off - q l - q extra) / |r| - base. Off by,
-// in units of kUlp2 q: extra 12, the sums 6, their quotient by l in place of |r| 30; two_sum half
-// of q + base.
+// in units of kUlp2 q: extra 13, the sums 10, their quotient by l in place of |r| 32, the last sum
+// 3; q - base as in sharp_norm_above_up.
 VKH_FN float quotient_above_down(Two reach, float off, Two3 r, float base) {
   Two square = two_dot(r, r);
   float l = root(square.hi);
@@ -124,9 +123,8 @@ VKH_FN float quotient_above_down(Two reach, float off, Two3 r, float base) {
   float q = reach.hi / l;
   Two product = two_product(q, l);
   float rest = (((reach.hi - product.hi) - product.lo) + reach.lo) - q * extra;
-  Two t = two_sum(q, -base);
-  float less = round_up(off / l, 16.0f) + kUlp2 * (64.0f * q + base);
-  return lowered(t.hi + (t.lo + (rest / l - less)));
+  float less = round_up(off / l, 16.0f) + 64.0f * kUlp2 * q;
+  return lowered((q - base) + (rest / l - less));
 }
 
 // <= a / b for a > 0 and b >= 2^-50, within 4 ulp: the quotient's own error is taken out by its

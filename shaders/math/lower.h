@@ -73,8 +73,8 @@ VKH_FN float fine_separation_down(Surface s, Two3 direction) {
   Two3 r = scaled(direction);
   Two3 back = two_difference(two(vec3(0.0f, 0.0f, 0.0f)), r);
   Two reach = smaller(two_dot(s.a, back), smaller(two_dot(s.b, back), two_dot(s.c, back)));
-  // Not kTiny: flushed products are under 2^-120.
-  float off = 1.000002f * ((9.0f * kUlp2 * radius_up(s.at) + s.slack) * norm_up(r.hi)) + 1e-36f;
+  // The slack has 15 kUlp2 of the radius: corners and products are off by 8 (docs/proofs.md).
+  float off = s.slack * norm_up(r.hi);
   return quotient_above_down(reach, off, r, s.base);
 }
 

@@ -189,7 +189,7 @@ VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   s.at.a = rounded(s.a);
   s.at.b = rounded(s.b);
   s.at.c = rounded(s.c);
-  s.slack = round_up(kUlp2 * (8.0f * from.reach + 28.0f * radius_up(s.at)), 4.0f);
+  s.slack = round_up(kUlp2 * (8.0f * from.reach + 15.0f * radius_up(s.at)), 4.0f);
   return s;
 }
 
@@ -210,14 +210,14 @@ VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
   if (s.plain) return root(c.distance2) - s.base;  // uncertified: as View::plain says
   Two3 offset = offset_from(p, s, c);
   if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
-  return raised(round_up(norm_up(rounded(offset)) + s.slack, 3.0f) - s.base);
+  return raised(round_up(norm_up(rounded(offset)) + s.slack, 1.0f) - s.base);
 }
 
 // >= d(p, S) - base, for p taken as it is.
 VKH_FN float surface_distance_up(Two3 p, Surface s) {
   if (s.coarse) {
     float d = length_up(plain_distance2(rounded(p), s.at));
-    return raised(round_up(d + s.slack, 5.0f) - s.base);
+    return raised(round_up(d + s.slack, 3.0f) - s.base);
   }
   return distance_to_up(p, s, closest_point(rounded(p), s.at));
 }
@@ -265,9 +265,9 @@ VKH_FN float enclosing_radius_up(Corners t) {
     centre = opposite == 0u ? 0.5f * (ab + ac) : (opposite == 1u ? 0.5f * ac : 0.5f * ab);
   }
   float r = max(norm_up(centre), max(norm_up(ab - centre), norm_up(ac - centre)));
-  // ab and ac are off by an ulp each of themselves, the differences by one of theirs, and |ab|,
-  // |ac| <= 2 r.
-  return round_up(r, 6.0f);
+  // Corners are off by an ulp of themselves, differences by one of theirs, and |ab|, |ac| <= 2 r:
+  // 3 ulp, of which norm_up leaves 1.5.
+  return round_up(r, 1.0f);
 }
 
 VKH_LIB_END

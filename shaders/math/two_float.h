@@ -33,10 +33,8 @@ VKH_FN Two3 two_sum(vec3 a, vec3 b) {
   return r;
 }
 
-// x rounded to 12 bits; the rest has 12 bits too, so that products of halves are exact.
-VKH_FN float upper_half(float x) {
-  return uintBitsToFloat((floatBitsToUint(x) + 0x800u) & 0xfffff000u);
-}
+// x cut to 12 bits; the rest has 12 bits too, so that products of halves are exact.
+VKH_FN float upper_half(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0xfffff000u); }
 
 VKH_FN Two two_product(float a, float b) {
   float ah = upper_half(a);

@@ -3,10 +3,11 @@
 // deferred and newly admitted candidates, selects which ones are refined, writes the sizes of the
 // wave's dispatches. One workgroup does it, the last one of wave_bound or that of wave_plan, and
 // of it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
-// dispatches only. Invariant: deferred + 4 parents + roots <= capacity, or 16 parents where they
-// are split twice, and their new points fit the stream of points; so no stream of the wave can
-// overflow. The kernel declares `plan_words` (plan/plan_words.glsl), `sizes`, and what
-// candidate/candidate.glsl needs.
+// dispatches only. A run that pauses where it has not room for all writes sizes of which only its
+// next plan runs, so that it goes on by itself once it has been moved. Invariant: deferred + 4
+// parents + roots <= capacity, or 16 parents where they are split twice, and their new points fit
+// the stream of points; so no stream of the wave can overflow. The kernel declares `plan_words`
+// (plan/plan_words.glsl), `sizes`, and what candidate/candidate.glsl needs.
 #ifndef VKH_SHADERS_PLAN_PLAN_GLSL
 #define VKH_SHADERS_PLAN_PLAN_GLSL
 
@@ -135,6 +136,13 @@ void refine_nothing() {
   control.roots = 0u;
 }
 
+// Whether the wave is left until the workspace has room for all of it.
+void pause_if_short() {
+  uint wanted = room_for_all(control.count[kCountFrontier]);
+  bool is_short = control.pauses != 0u && wanted > control.capacity && !within_tolerance();
+  control.wanted = is_short ? wanted : 0u;
+}
+
 void write_sizes() {
   bool running = control.status == kStatusRunning;
   uint parents = running ? control.parents : 0u;
@@ -145,21 +153,27 @@ void write_sizes() {
   control.count[kCountNext] = may_wait() ? control.deferred : 0u;
   control.count[kCountRefined] = 0u;
   control.count[kCountDeferred] = 0u;
-  control.wave += 1u;
+  if (control.wanted == 0u) control.wave += 1u;
+}
+
+// Of a wave that ran.
+void end_wave() {
+  WaveEnd end = take_wave_end();
+  close_wave(end);
+  if (control.measuring != 0u) {
+    control.measuring = 0u;
+  } else {
+    flip(end);
+    move_base();
+  }
 }
 
 void plan() {
   if ((kSwitches & kUseUncertified) != 0u) control.certified = 0u;
   if (control.status == kStatusRunning) {
-    WaveEnd end = take_wave_end();
-    close_wave(end);
-    if (control.measuring != 0u) {
-      control.measuring = 0u;
-    } else {
-      flip(end);
-      move_base();
-    }
-    if (control.measuring != 0u) {
+    if (control.wanted == 0u) end_wave();
+    if (control.measuring == 0u) pause_if_short();
+    if (control.measuring != 0u || control.wanted != 0u) {
       refine_nothing();
     } else {
       share_room();

@@ -1,5 +1,5 @@
-// How many faces of A a wave admits, whether it splits its candidates twice, and how a run ends.
-// The kernel declares `control`.
+// How many faces of A a wave admits, whether it splits its candidates twice, how much room would be
+// enough for all, and how a run ends. The kernel declares `control`.
 #ifndef VKH_SHADERS_PLAN_ROOM_GLSL
 #define VKH_SHADERS_PLAN_ROOM_GLSL
 
@@ -18,6 +18,17 @@ uint roots_to_admit(uint held, uint room) {
 bool may_split_twice(uint held, uint room) {
   bool fits = 15u * held + kReserve < room && 20u * held <= control.capacity;
   return kMaySplitTwice && held > 0u && held <= kSplitTwiceParents && fits;
+}
+
+// Places of each half of the frontier with which the wave refines all of its `held` candidates,
+// twice where they are few, and admits every face of A that waits. Proof that nothing overflows:
+// both counts are at most kMaxTriangles, 2^28, and largest_capacity, 2^28, and the sum is less than
+// 2^30.
+uint room_for_all(uint held) {
+  uint waiting = control.face_count - control.root_cursor;
+  uint once = 4u * (held + waiting + 1u) + kReserve;
+  bool few = kMaySplitTwice && held <= kSplitTwiceParents;
+  return few ? max(once, 20u * held + kReserve) : once;
 }
 
 // What a run ends with that decided all it held.

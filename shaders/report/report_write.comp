@@ -91,7 +91,8 @@ void write_report() {
   report.upper = raised(control.base + upper);
   report.status = control.status;
   report.certified = control.certified;
-  report.wave = is_running() ? control.wave - 1u : control.wave;  // one is planned
+  bool is_planned = is_running() && control.wanted == 0u;
+  report.wave = is_planned ? control.wave - 1u : control.wave;
   report.witness = w;
   report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
   report.witness_face = triangles[w.nearest].face;
@@ -99,6 +100,7 @@ void write_report() {
   report.candidate_total = control.candidate_total;
   report.query_total = control.query_total;
   report.peak_frontier = control.peak_frontier;
+  report.wanted = control.wanted;
   for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = control.culled[i];
 }
 

@@ -27,6 +27,8 @@ void begin() {
   control.sort_from = push.sort_from;
   control.sorted = 0u;
   control.spilled = 0u;
+  control.pauses = push.pauses;
+  control.wanted = 0u;
   control.split_twice = 0u;
   control.measuring = 0u;
   control.seed_witness = kNone;

@@ -51,13 +51,15 @@ void plan_first_wave() {
   float base = base_of_run();
   control.base = base;
   control.tight = is_tight(base) ? 1u : 0u;
-  // Where the tolerance is so small that the base is to be moved before anything is closed, the
-  // first wave has no children, and its end plans: a base, and then the faces.
+  // Where the tolerance is so small that the base is to be moved before anything is closed, or the
+  // run is to pause, the first wave has no children, and its end plans: a base, and then the faces.
   bool base_is_right = !needs_sharp(uintBitsToFloat(control.maximum[kMaxLower]));
-  uint roots = base_is_right ? roots_to_admit(0u, control.capacity) : 0u;
+  bool has_room = control.pauses == 0u || room_for_all(0u) <= control.capacity;
+  bool begins = base_is_right && has_room;
+  uint roots = begins ? roots_to_admit(0u, control.capacity) : 0u;
   control.roots = roots;
   control.root_cursor = roots;
-  control.wave = base_is_right ? 1u : 0u;
+  control.wave = begins ? 1u : 0u;
   write_child_sizes(roots, true);
 }
 

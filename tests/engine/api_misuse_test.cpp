@@ -92,6 +92,22 @@ TEST_CASE("a rule that is broken is named") {
     CHECK(end.signal == SIGABRT);
     CHECK(end.said.find(misuse.rule) != std::string::npos);
   }
+  const Misuse moves[] = {
+      {"vkhCmdMoveRun: the run's own workspace, or one apart", none,
+       [](VkhProblem& p) { p.workspace.offset += 256; }},
+      {"vkhCmdMoveRun: a workspace apart from VkhProblem::b", none,
+       [](VkhProblem& p) { p.workspace.buffer = p.b.memory.buffer; }},
+      {"vkhCmdMoveRun: at least as large", none, [](VkhProblem& p) { p.workspace.size -= 256; }}};
+  for (const Misuse& misuse : moves) {
+    CAPTURE(misuse.rule);
+    const Ended end = ended([&] {
+      VkhProblem problem = pair.problem(), moved = problem;
+      misuse.problem(moved);
+      vkhCmdMoveRun(pair.context(), VK_NULL_HANDLE, &problem, &moved.workspace, nullptr);
+    });
+    CHECK(end.signal == SIGABRT);
+    CHECK(end.said.find(misuse.rule) != std::string::npos);
+  }
   const Ended report = ended([&] {
     vkhCmdWriteReport(pair.context(), VK_NULL_HANDLE, &pair.problem(), pair.report_buffer(), 4,
                       nullptr);

@@ -87,6 +87,55 @@ TEST_CASE("a small workspace after a large one, and the other way round") {
 
 namespace {
 
+void check_same_run(const Report& grown, const Report& roomy) {
+  CHECK(grown.status == roomy.status);
+  CHECK(grown.lower == roomy.lower);
+  CHECK(grown.upper == roomy.upper);
+  CHECK(grown.waves == roomy.waves);
+  CHECK(grown.candidates == roomy.candidates);
+  CHECK(grown.queries == roomy.queries);
+  CHECK(grown.peak_frontier == roomy.peak_frontier);
+  CHECK(grown.witness_a.point == roomy.witness_a.point);
+}
+
+}  // namespace
+
+TEST_CASE("a run that outgrows its workspace gets a larger one, and is the run that had it") {
+  uint32_t outgrown = 0;
+  for (const bool is_wide : {false, true}) {
+    for (const ReferencePair& pair : pairs()) {
+      SolveOptions options;
+      if (is_wide) options.enabled = {"wide", "group_walk", "split_twice"};
+      if (is_wide) options.disabled = {"centroid", "parent_samples"};
+      const Report roomy = check_true(pair, options);
+      options.start_memory_bytes = 1;
+      const Report grown = check_true(pair, options);
+      check_same_run(grown, roomy);
+      options.memory_bytes = 1;  // no more than that
+      if (check_true(pair, options).workspace_bytes < grown.workspace_bytes) ++outgrown;
+    }
+  }
+  CHECK(outgrown >= 6);
+}
+
+TEST_CASE("of pairs side by side, too, each gets the room that it wants") {
+  std::vector<PairView> views;
+  for (const ReferencePair& pair : pairs()) views.push_back({pair.a, pair.b});
+  SolveOptions options;
+  const std::vector<Report> roomy = solver().distances(views, options);
+  options.start_memory_bytes = 1;
+  const std::vector<Report> grown = solver().distances(views, options);
+  for (size_t i = 0; i < views.size(); ++i) check_same_run(grown[i], roomy[i]);
+}
+
+TEST_CASE("for one triangle, kilobytes") {
+  const ReferencePair pair = with_reference(
+      "triangle", single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), icosphere(2.0, 1));
+  CHECK(check_true(pair, {}).workspace_bytes < 1'000'000);
+}
+
+namespace {
+
 // With every stream, with those of a GPU, and of a CPU device.
 constexpr uint32_t kSwitchSets[] = {gpu::kUseAll | VKH_SWITCH_SORT | VKH_SWITCH_U3_PAPER,
                                     VKH_SWITCH_DEFAULT_WIDE, VKH_SWITCH_DEFAULT_NARROW};

@@ -68,6 +68,7 @@ class FaultTable {
  public:
   explicit FaultTable(const std::string& name)
       : out_(VKH_FAULTS_FOLDER "/faults_" + name +
+             (std::getenv("VKH_LAYER_HIDE") != nullptr ? "_hidden" : "") +
              (std::getenv("VKH_FAULTS") != nullptr ? "_all.txt" : ".txt")) {}
   void add(const std::string& what, const std::string& fault, const std::string& end) {
     out_ << what << '\t' << fault << '\t' << end << '\n';

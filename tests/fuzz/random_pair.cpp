@@ -134,13 +134,13 @@ FuzzPair make_pair(FuzzBytes& bytes) {
   pair.sort_from = ways / 64 % 2 == 1 ? 1 : 0;
   pair.first_waves = waves % 4;
   pair.more_waves = waves / 4 % 8;
-  const double largest = largest_of(pair);
-  pair.is_promised = largest <= kLargest;
+  pair.largest = largest_of(pair);
+  pair.is_promised = pair.largest <= kLargest;
   pair.diagonal = diagonal_of(pair.a.measured(true), pair.b.measured(true));
   const int bits = 2 + limits % 10;
   pair.tolerance = static_cast<float>(std::ldexp(std::min(pair.diagonal, 1e30), -bits));
   // Features under 2^-48 are points to the engine, and single floats have 24 bits.
-  pair.has_end = pair.tolerance >= 0x1p-44f && pair.tolerance >= 0x1p-22 * largest;
+  pair.has_end = pair.tolerance >= 0x1p-44f && pair.tolerance >= 0x1p-22 * pair.largest;
   pair.workspace_percent = limits / 10 % 4 == 0 ? 0 : 100u / (limits / 10 % 4);
   if (limits > 220) pair.known_lower = static_cast<float>(std::ldexp(pair.tolerance, bits / 2));
   return pair;

@@ -44,6 +44,7 @@ struct FuzzPair {
   bool later = false;         ///< another frame: refit, perhaps warm
   bool warm = false, two_float = false;
   double diagonal = 0;  ///< of both
+  double largest = 0;   ///< of all coordinates, as a magnitude
   float tolerance = 0, known_lower = 0;
   uint32_t workspace_percent = 100;  ///< 0: the minimum; 100: what is recommended
   uint32_t first_waves = 0, more_waves = 0;

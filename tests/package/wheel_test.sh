@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # `pip wheel` makes a wheel of these sources, without the network; in a fresh virtual environment it works, has its types, and
-# goes without a trace. NumPy is the system's. usage: wheel_test.sh SOURCE FOLDER PYTHON; FOLDER/tree: engine_test.sh's, where
-# the kernels are compiled already. Exit code 77: a part of Python is not there.
+# goes without a trace. NumPy is the system's. usage: wheel_test.sh SOURCE FOLDER PYTHON; FOLDER/tree: engine_test.sh's.
+# Exit code 77: a part of Python is not there.
 set -euo pipefail
 source=$1 folder=$2 python=$3
 fail() { echo "wheel_test: $*" >&2; exit 1; }

@@ -49,7 +49,7 @@ class Device:
         return math.floor(y / ulp_of(x)) * ulp_of(x)
 
     def two_product(self, a, b):
-        half = lambda x: round(x / (ulp_of(x) * 2**12)) * ulp_of(x) * 2**12  # noqa: E731
+        half = lambda x: int(x / (ulp_of(x) * 2**12)) * ulp_of(x) * 2**12  # noqa: E731
         ah, bh = half(a), half(b)
         al, bl = self.add(a, -ah), self.add(b, -bh)
         p = self.multiply(a, b)

@@ -41,7 +41,7 @@ CHANGES = [
     ("certified.h", "round_up(root(dot3(v, v)), 8.0f)", "root(dot3(v, v))", "norms"),
     ("triangle.h", "both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp)", "v + w <= 1.0f - 4.0f * kUlp", "closest"),
     ("triangle.h", "norm_up(rounded(offset)) + s.slack", "norm_up(rounded(offset))", "distance_up"),
-    ("lower.h", "radius_up(s.at) + s.slack)", "radius_up(s.at))", "lower"),
+    ("lower.h", "s.slack * norm_up(r.hi)", "s.slack", "lower"),
     ("bounds.h", "d.x + max(ab, ca)", "d.x + ab", "bounds"),
     ("bary.h", "norm_up(r.origin.hi) + norm_up(r.ab.hi) + norm_up(r.ac.hi)", "norm_up(r.origin.hi)", "slack"),
 ]

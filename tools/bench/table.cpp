@@ -9,9 +9,10 @@
 namespace vkh::bench {
 namespace {
 
-// The hierarchy's, the seed, those of the wave's lines, each once, and the report.
+// The hierarchy's, the seed, the moves to more room, those of the wave's lines, each once, and the
+// report.
 std::vector<std::string> stage_names() {
-  std::vector<std::string> names = {"morton", "sort", "hierarchy", "seed"};
+  std::vector<std::string> names = {"morton", "sort", "hierarchy", "seed", "move"};
   const auto add = [&](const char* name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
   };

@@ -1,0 +1,62 @@
+// A run into another workspace, where one with more room is to be had: what stands between two
+// waves, and nothing that a wave makes for itself.
+#include <cstddef>
+
+#include "engine/stages.h"
+
+namespace vkh {
+namespace {
+
+struct Move {
+  Recorder& rec;
+  uint32_t from_capacity, to_capacity;
+
+  template <class T>
+  void keep(const Slice<T>& from, const Slice<T>& to) const {
+    rec.copy(from, to, Order::kIndependent);
+  }
+  // What stands beside the frontier, in two halves: each to where the new one starts.
+  template <class T>
+  void keep_halves(const Slice<T>& from, const Slice<T>& to) const {
+    const VkDeviceSize bytes = from_capacity * sizeof(T), shift = to_capacity * sizeof(T);
+    keep(Slice<T>{from.buffer, from.offset, bytes}, to);
+    keep(Slice<T>{from.buffer, from.offset + bytes, bytes},
+         Slice<T>{to.buffer, to.offset + shift, bytes});
+  }
+};
+
+void record_copies(Recorder& rec, const Problem& p, const Workspace& to) {
+  const Workspace& from = p.ws;
+  const Move move{rec, from.capacity, to.capacity};
+  rec.copy(from.control, to.control);
+  move.keep(from.sizes, to.sizes);
+  move.keep(from.vertices, to.vertices);
+  move.keep(from.faces, to.faces);
+  move.keep(from.vertex_nearest, to.vertex_nearest);
+  move.keep(from.vertex_distance, to.vertex_distance);
+  move.keep(from.face_shared, to.face_shared);
+  move.keep(from.lower_bits, to.lower_bits);
+  move.keep(from.groups_done, to.groups_done);
+  move.keep_halves(from.frontier, to.frontier);
+  if (gpu::asks_centroids(p.switches, p.wide))
+    move.keep_halves(from.centroid_nearest, to.centroid_nearest);
+}
+
+Slice<uint32_t> word_of(const Slice<gpu::Control>& control, size_t offset) {
+  return {control.buffer, control.offset + offset, sizeof(uint32_t)};
+}
+
+}  // namespace
+
+void record_move(Recorder& rec, const Problem& p, const Workspace& to) {
+  const auto scope = rec.scope("move");
+  const bool stays =
+      to.control.buffer == p.ws.control.buffer && to.control.offset == p.ws.control.offset;
+  if (!stays) record_copies(rec, p, to);
+  rec.fill(word_of(to.control, offsetof(gpu::Control, capacity)), to.capacity);
+  rec.fill(word_of(to.control, offsetof(gpu::Control, pauses)), p.pauses ? 1u : 0u,
+           Order::kIndependent);
+  rec.stage("move");
+}
+
+}  // namespace vkh
