@@ -144,6 +144,10 @@ std::string mutated_ply(std::string_view text, size_t room, Random& random) {
   return header + body;
 }
 
+std::string mutated_bytes(std::string_view bytes, size_t room, Random& /*random*/) {
+  return changed(bytes, room);
+}
+
 /// A member and its comma, or an object, moved, doubled or taken out.
 std::string with_part_moved(std::string_view text, Random& random) {
   const size_t from = text.find_first_of(",{[", pick(random, text.size()));
@@ -274,6 +278,7 @@ size_t mutate_any(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (text.starts_with("ply")) return mutate_ply(data, size, max_size, seed);
   if (text.starts_with("{")) return mutate_gltf(data, size, max_size, seed);
+  if (text.starts_with("PK")) return mutate(mutated_bytes, data, size, max_size, seed);
   if (text.starts_with("glTF")) return mutate_glb(data, size, max_size, seed);
   if (text.find("OFF") < 8) return mutate_off(data, size, max_size, seed);
   if (text.find('\0') != std::string_view::npos) return mutate_stl(data, size, max_size, seed);
