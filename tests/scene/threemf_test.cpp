@@ -2,11 +2,14 @@
 // another shape than its triangles passes for them.
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "host/base/error.h"
 #include "host/read/readers.h"
 #include "tests/oracle/exact.h"
 #include "tests/scene/stored_zip.h"
 #include "tests/support/error_line.h"
+#include "tests/support/program.h"
 
 using namespace vkh;
 using namespace vkh::test;
@@ -59,6 +62,18 @@ TEST_CASE("an object in the build, its decimals as doubles") {
   CHECK(mesh.faces == std::vector<glm::uvec3>{{0, 1, 2}});
   CHECK(mesh.delta == 0);
   CHECK(mesh.unit == "mm");
+}
+
+TEST_CASE("units that differ are noted, and nothing is converted") {
+  const std::string inches = package_of(model_of(kOne, item("1"), "unit=\"inch\""));
+  const std::string a = write_file("a.3mf", package_of(model_of(kOne, item("1")))),
+                    b = write_file("b.3mf", inches);
+  const Outcome differ = run({"distance", a, b, "--json"}),
+                same = run({"distance", a, a, "--json"});
+  CHECK(differ.exit_code == 0);
+  CHECK(differ.out.find("A is in mm and B in in: neither was converted") != std::string::npos);
+  CHECK(nlohmann::json::parse(differ.out)["upper"] == 0);
+  CHECK(same.out.find("neither was converted") == std::string::npos);
 }
 
 TEST_CASE("units are kept") {
