@@ -47,14 +47,17 @@ Json witness_json(const Report& r) {
           {"b", {{"face", r.witness_b.face}, {"point", vector_json(r.witness_b.point)}}}};
 }
 
-Json mesh_json(const std::string& file, const MeshCounts& counts) {
+// The delta is written so that it is read back as the same double.
+Json mesh_json(const std::string& file, const MeshCounts& counts, const MeshPlace& place) {
   return {{"file", file},
           {"vertices", counts.vertices},
           {"faces", counts.faces},
           {"unreferenced", counts.unreferenced},
           {"degenerate", counts.degenerate},
           {"duplicate", counts.duplicate},
-          {"polygons", counts.polygons}};
+          {"polygons", counts.polygons},
+          {"delta", place.delta},
+          {"unit", place.unit.empty() ? Json() : Json(place.unit)}};
 }
 
 Json device_json(const DeviceDescription& d) {
@@ -148,8 +151,8 @@ std::string directed_json(const Answer& answer, const Directed& d) {
   json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
   if (r.witness_check) json.add_text("verified", verified_json(r));
-  json.add("mesh_a", mesh_json(d.file_a, r.mesh_a));
-  json.add("mesh_b", mesh_json(d.file_b, r.mesh_b));
+  json.add("mesh_a", mesh_json(d.file_a, r.mesh_a, r.place_a));
+  json.add("mesh_b", mesh_json(d.file_b, r.mesh_b, r.place_b));
   json.add("device", device_json(r.device));
   json.add("times", times_json(r.times));
   json.add("stages", stages_json(r.stages));

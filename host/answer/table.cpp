@@ -56,7 +56,7 @@ void row(std::ostream& out, const char* label, const std::string& text) {
 }
 
 void print_mesh(std::ostream& out, const char* label, const std::string& file,
-                const MeshCounts& counts) {
+                const MeshCounts& counts, const MeshPlace& place) {
   std::string text = file + ": " + counted(counts.faces, "face") + ", " +
                      printed("%llu", Count{counts.vertices}) +
                      (counts.vertices == 1 ? " vertex" : " vertices");
@@ -66,7 +66,13 @@ void print_mesh(std::ostream& out, const char* label, const std::string& file,
   also(counts.unreferenced, "unreferenced (dropped)");
   also(counts.degenerate, "degenerate (kept)");
   also(counts.duplicate, "duplicate (kept)");
+  if (!place.unit.empty()) text += ", in " + place.unit;
   row(out, label, text);
+  if (place.delta > 0) {
+    row(out, "",
+        "each vertex within " + decimal(place.delta, 3, Rounding::kUp) +
+            " of its exact place: the interval is wider by it");
+  }
 }
 
 std::string tolerance_text(const Answer& answer) {
@@ -165,8 +171,8 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
       decimal(whole.gap, 3, Rounding::kUp) + " of diag(A), " +
           decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " in the files' units");
   row(out, "tolerance", tolerance_text(answer));
-  print_mesh(out, "A", answer.file_a, r.mesh_a);
-  print_mesh(out, "B", answer.file_b, r.mesh_b);
+  print_mesh(out, "A", answer.file_a, r.mesh_a, r.place_a);
+  print_mesh(out, "B", answer.file_b, r.mesh_b, r.place_b);
   for (const std::string& note : answer.notes) row(out, "note", note);
   row(out, "device", device_text(r.device));
   if (r.preset != "default") row(out, "preset", r.preset);

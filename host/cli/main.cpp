@@ -106,6 +106,10 @@ std::vector<std::string> input_notes(const MeshPair& pair) {
   std::vector<std::string> notes;
   for (const std::string& note : pair.a.notes) notes.push_back("A: " + note);
   for (const std::string& note : pair.b.notes) notes.push_back("B: " + note);
+  if (!pair.a.unit.empty() && !pair.b.unit.empty() && pair.a.unit != pair.b.unit) {
+    notes.push_back("A is in " + pair.a.unit + " and B in " + pair.b.unit +
+                    ": neither was converted");
+  }
   return notes;
 }
 
@@ -314,7 +318,7 @@ int run(const Words& words) {
     throw UsageError("--json='': expected the name of a file, as in --json=answer.json");
   Arguments arguments;
   CLI::App* distance = app.add_subcommand("distance", "Distance of two mesh files");
-  distance->add_option("A", arguments.file_a, "Mesh to start from (OBJ, STL, PLY, OFF)")
+  distance->add_option("A", arguments.file_a, "Mesh to start from (OBJ, STL, PLY, OFF, glTF, 3MF)")
       ->required();
   distance->add_option("B", arguments.file_b, "Mesh to go to")->required();
   add_run_options(*distance, arguments);

@@ -29,6 +29,11 @@ struct Mesh {
   std::vector<glm::dvec3> vertices;
   std::vector<glm::uvec3> faces;
   MeshCounts counts;
+  /// No vertex is farther than this from its exact place: what a reader rounded beyond "as given",
+  /// such as a scene's transforms. h is 1-Lipschitz in it, and the certified interval is wider by
+  /// it.
+  double delta = 0;
+  std::string unit = {};  ///< of the coordinates, where the file says: "m", "mm", "in"; else empty
   std::vector<std::string>
       notes;  ///< one line each, for people: "3 polygons were fanned into triangles"
 };

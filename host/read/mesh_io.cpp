@@ -13,7 +13,7 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kExpectedFormats = "an OBJ, STL, PLY or OFF file";
+constexpr const char* kExpectedFormats = "an OBJ, STL, PLY, OFF, glTF or 3MF file";
 constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
 
 // What people pass by mistake, so that they are told more than that a keyword is missing.
@@ -23,11 +23,9 @@ void reject_known_strangers(const MeshSource& source) {
     const char* what;
     const char* expected;
   };
-  constexpr std::array<Stranger, 6> kStrangers = {{
+  constexpr std::array<Stranger, 4> kStrangers = {{
       {"\x1f\x8b", "gzip-compressed data", "the file unpacked (gunzip)"},
-      {"PK\x03\x04", "a zip archive (3MF?)", kExpectedFormats},
       {"version https://git-lfs", "a Git LFS pointer", "the file itself (git lfs pull)"},
-      {"glTF", "binary glTF, which is not read", kExpectedFormats},
       {"\xfe\xff", "UTF-16 text", "ASCII or UTF-8"},
       {"\xff\xfe", "UTF-16 text", "ASCII or UTF-8"},
   }};
@@ -53,17 +51,22 @@ Parse parser_by_extension(const std::string& name) {
   if (extension == ".stl") return parse_stl;
   if (extension == ".ply") return parse_ply;
   if (extension == ".off") return parse_off;
+  if (extension == ".gltf" || extension == ".glb") return parse_gltf;
+  if (extension == ".3mf") return parse_3mf;
   return nullptr;
 }
 
 Parse parser_by_content(std::string_view bytes) {
   if (is_exact_binary_stl(bytes)) return parse_stl;
+  if (bytes.starts_with("glTF")) return parse_gltf;
+  if (bytes.starts_with("PK\x03\x04")) return parse_3mf;
   TextScanner scanner(bytes.substr(0, 4096), "", '#', MixedLineEnds::kIgnored);
   scanner.next_full_line();
   const std::string_view word = scanner.word();
   if (word == "ply") return parse_ply;
   if (word.size() >= 3 && word.size() <= 8 && word.ends_with("OFF")) return parse_off;
   if (lower_case(word) == "solid") return parse_stl;
+  if (word.starts_with('{')) return parse_gltf;
   return nullptr;
 }
 
@@ -126,8 +129,8 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& nam
 Mesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
   reject_known_strangers(file);
-  const MeshSource source{
-      .name = file.name, .bytes = without_byte_order_mark(file.bytes), .limits = file.limits};
+  MeshSource source = file;
+  source.bytes = without_byte_order_mark(file.bytes);
   Parse parse = parser_by_content(source.bytes);
   if (!parse) parse = parser_by_extension(source.name);
   if (!parse && looks_like_obj(source.bytes)) parse = parse_obj;
@@ -138,7 +141,8 @@ Mesh parse_mesh(const MeshSource& file) {
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string name = name_of(path);
   const std::string bytes = read_bytes(path, name, limits);
-  return parse_mesh({.name = name, .bytes = bytes, .limits = limits});
+  const std::string folder = path.has_parent_path() ? name_of(path.parent_path()) : ".";
+  return parse_mesh({.name = name, .bytes = bytes, .limits = limits, .folder = folder});
 }
 
 uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {

@@ -1,5 +1,5 @@
-// Mesh files in: OBJ, STL, PLY, OFF. The format is told by the content first, by the extension
-// where content cannot tell.
+// Mesh files in: OBJ, STL, PLY, OFF, glTF, 3MF. The format is told by the content first, by the
+// extension where content cannot tell.
 #pragma once
 
 #include <filesystem>

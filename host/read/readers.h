@@ -21,6 +21,8 @@ struct MeshSource {
   std::string name;        ///< starts every error line; its extension decides where content cannot
   std::string_view bytes;  ///< the whole file
   ReadLimits limits = {};
+  /// Beneath which a file may name others that hold its data; empty: nowhere.
+  std::string folder = {};
 };
 
 /// Tells the format and calls its reader. All of these throw InputError and nothing else but
@@ -30,6 +32,8 @@ Mesh parse_obj(const MeshSource& source);
 Mesh parse_stl(const MeshSource& source);
 Mesh parse_ply(const MeshSource& source);
 Mesh parse_off(const MeshSource& source);
+Mesh parse_gltf(const MeshSource& source);  ///< host/gltf; GLB, too
+Mesh parse_3mf(const MeshSource& source);   ///< host/threemf
 
 /// True if the bytes are exactly as long as the triangle count at byte 80 says. No text passes: its
 /// bytes there would announce more than 6 GB.

@@ -129,6 +129,16 @@ StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
   return out;
 }
 
+// Scaling is exact but for underflow, which leaves less than 2^-1000. Not part of what is asked
+// below: a mesh that is off its place is stored as well as any other.
+StoredMesh with_delta(StoredMesh stored, const Frame& frame, const Mesh& mesh) {
+  if (mesh.delta == 0) return stored;
+  const double delta = scaled(mesh.delta, frame.exponent);
+  const bool is_normal = delta >= std::numeric_limits<double>::min();
+  stored.displacement = add_up(stored.displacement, is_normal ? delta : 0x1p-1000);
+  return stored;
+}
+
 // Nothing where a coordinate needs a low part.
 std::optional<StoredMesh> store_exactly(const Frame& frame, const Mesh& mesh) {
   StoredMesh stored = store_in(frame, mesh, true);
@@ -175,18 +185,23 @@ double Frame::length_up(double frame_length) const {
              : length;
 }
 
+double farthest_in(const Box& joint, double delta) {
+  // The diagonal is rounded to nearest, or the largest double: a little more is surely above it.
+  const double longest = diagonal(joint) * (1 + 0x1p-40);
+  return add_up(std::nextafter(longest, std::numeric_limits<double>::infinity()) + 0x1p-1070,
+                delta);
+}
+
 FileInterval Frame::to_files(double lower, double upper, double displacement,
-                             double joint_diagonal) const {
-  const double infinity = std::numeric_limits<double>::infinity();
+                             double farthest) const {
   const double down = std::max(0.0, add_down(lower, -displacement));
   const double up = add_up(upper, displacement);
-  // The joint diagonal is rounded to nearest, or the largest double: a little more is surely above
-  // it.
-  const double farthest = std::nextafter(joint_diagonal * (1 + 0x1p-40), infinity) + 0x1p-1070;
   return {length_down(down), std::min(length_up(up), farthest)};
 }
 
-StoredMesh store_in(const Frame& frame, const Mesh& mesh) { return store_in(frame, mesh, false); }
+StoredMesh store_in(const Frame& frame, const Mesh& mesh) {
+  return with_delta(store_in(frame, mesh, false), frame, mesh);
+}
 
 FramedPair frame_pair(const Mesh& a, const Mesh& b) {
   const Box joint = join(bounding_box(a), bounding_box(b));
@@ -194,7 +209,10 @@ FramedPair frame_pair(const Mesh& a, const Mesh& b) {
     const Frame frame = frame_around(joint, glm::dvec3(0));
     std::optional<StoredMesh> stored_a = store_exactly(frame, a);
     std::optional<StoredMesh> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
-    if (stored_b) return {frame, std::move(*stored_a), std::move(*stored_b)};
+    if (stored_b) {
+      return {frame, with_delta(std::move(*stored_a), frame, a),
+              with_delta(std::move(*stored_b), frame, b)};
+    }
   }
   const Frame frame = frame_around(joint, middle_of(joint));
   return {frame, store_in(frame, a), store_in(frame, b)};
@@ -205,7 +223,7 @@ FramedMesh frame_mesh(const Mesh& mesh) {
   if (may_keep_origin(box)) {
     const Frame frame = frame_around(box, glm::dvec3(0));
     std::optional<StoredMesh> stored = store_exactly(frame, mesh);
-    if (stored) return {frame, std::move(*stored)};
+    if (stored) return {frame, with_delta(std::move(*stored), frame, mesh)};
   }
   const Frame frame = frame_around(box, middle_of(box));
   return {frame, store_in(frame, mesh)};

@@ -16,6 +16,9 @@ Box bounding_box(const Mesh& mesh);
 Box join(const Box& x, const Box& y);
 /// Rounded to nearest; the largest double where it is longer.
 double diagonal(const Box& box);
+/// No two points of meshes in that box are farther apart, whose vertices are off their exact places
+/// by deltas of that sum.
+double farthest_in(const Box& joint, double delta);
 
 /// Distances in the files' units, rounded outward.
 struct FileInterval {
@@ -36,18 +39,17 @@ struct Frame {
   double length_down(double frame_length) const;
   double length_up(double frame_length) const;
   /// What the device certifies of the stored coordinates, for those given: widened by the
-  /// displacement of both meshes. `joint_diagonal`, rounded to nearest, bounds any distance, also
-  /// before the first bounds exist.
-  FileInterval to_files(double lower, double upper, double displacement,
-                        double joint_diagonal) const;
+  /// displacement of both meshes. `farthest` bounds any distance, also before the first bounds
+  /// exist.
+  FileInterval to_files(double lower, double upper, double displacement, double farthest) const;
 };
 
 /// A mesh's vertices in a frame: sums of two float32, high and low, three per vertex.
 struct StoredMesh {
   std::vector<float> high, low;
   bool has_low = false;  ///< some low part is not 0
-  /// Largest distance of a stored vertex from the exact one, in frame units, rounded up. h is
-  /// 1-Lipschitz in both meshes.
+  /// Largest distance of a stored vertex from the exact one, in frame units, rounded up: of what
+  /// storing displaced, and Mesh::delta. h is 1-Lipschitz in both meshes.
   double displacement = 0;
 };
 StoredMesh store_in(const Frame& frame, const Mesh& mesh);

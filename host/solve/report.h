@@ -80,6 +80,12 @@ struct CoverageCheck {
   bool holds = false;
 };
 
+/// Of a mesh: Mesh::delta, by which the interval is wider, and Mesh::unit.
+struct MeshPlace {
+  double delta = 0;
+  std::string unit = {};
+};
+
 struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
@@ -88,6 +94,7 @@ struct Report {
   double known_lower = 0;  ///< SolveOptions::known_lower
   SurfacePoint witness_a, witness_b;
   MeshCounts mesh_a, mesh_b;
+  MeshPlace place_a, place_b;
   DeviceDescription device;
   uint64_t workspace_bytes = 0;
   uint32_t waves = 0;

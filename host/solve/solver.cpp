@@ -42,7 +42,7 @@ double ms_since(Clock::time_point start) {
 // A run's meshes as they are stored in one frame. Proof that any frame will do: the device encloses
 // the stored meshes' h in the frame's units, whatever the frame, for coordinates up to 2^15
 // (vkhausdorff.h); a stored vertex is within the displacement, which store_in() bounded for this
-// very frame, of the given one; h moves by no more than both displacements together.
+// very frame, of its exact place; h moves by no more than both displacements together.
 struct Pair {
   const Mesh& a;
   const Mesh& b;
@@ -59,13 +59,16 @@ FileInterval to_files(const VkhReport& r, const Pair& pair) {
   const double base = static_cast<double>(r.base);
   const double lower = add_down(base, static_cast<double>(r.lowerAbove));
   const double upper = add_up(base, static_cast<double>(r.upperAbove));
-  return pair.frame.to_files(lower, upper, pair.displacement, diagonal(pair.joint));
+  const double farthest = farthest_in(pair.joint, add_up(pair.a.delta, pair.b.delta));
+  return pair.frame.to_files(lower, upper, pair.displacement, farthest);
 }
 
 // Where the device found the stored meshes' h to be 0, and only what storing displaced is left: is
-// every face of A, as given, a face of B? Then h is 0, whatever the device did.
+// every face of A, as given, a face of B? Then h is 0, whatever the device did. A mesh that is off
+// its exact place is not given.
 bool is_surely_zero(const VkhReport& r, const Pair& pair) {
   if (r.base != 0 || r.upperAbove != 0 || !(pair.displacement > 0)) return false;
+  if (pair.a.delta > 0 || pair.b.delta > 0) return false;
   try {
     return has_faces_of(pair.b, pair.a);
   } catch (const std::bad_alloc&) {
@@ -168,6 +171,8 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   out.status = status_of(run.report, out, watch.ended);
   out.mesh_a = pair.a.counts;
   out.mesh_b = pair.b.counts;
+  out.place_a = {pair.a.delta, pair.a.unit};
+  out.place_b = {pair.b.delta, pair.b.unit};
   out.workspace_bytes = run.workspace_bytes;
   out.preset = options.preset.empty() ? "default" : options.preset;
   fill_counts(run.report, pair.frame, out);

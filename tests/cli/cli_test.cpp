@@ -166,7 +166,9 @@ TEST_CASE("distance --json: one object of the schema and nothing else on stdout"
     check_interval(r, 0.25);
     CHECK(keys(r["tolerance"]) == sorted({"requested", "absolute", "diagonal_of", "diagonal_a"}));
     CHECK(keys(r["mesh_a"]) == sorted({"file", "vertices", "faces", "unreferenced", "degenerate",
-                                       "duplicate", "polygons"}));
+                                       "duplicate", "polygons", "delta", "unit"}));
+    CHECK(r["mesh_a"]["delta"] == 0);
+    CHECK(r["mesh_a"]["unit"].is_null());
     CHECK(r["mesh_a"]["file"] == a);
     CHECK(r["mesh_a"]["faces"] == 2);
     CHECK(r["mesh_a"]["vertices"] == 4);

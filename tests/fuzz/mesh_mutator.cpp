@@ -144,6 +144,76 @@ std::string mutated_ply(std::string_view text, size_t room, Random& random) {
   return header + body;
 }
 
+std::string mutated_bytes(std::string_view bytes, size_t room, Random& /*random*/) {
+  return changed(bytes, room);
+}
+
+/// A member and its comma, or an object, moved, doubled or taken out.
+std::string with_part_moved(std::string_view text, Random& random) {
+  const size_t from = text.find_first_of(",{[", pick(random, text.size()));
+  if (from == std::string_view::npos) return std::string(text);
+  const size_t end = std::min(text.find_first_of(",}]", from + 1), text.size());
+  const std::string part(text.substr(from, end - from));
+  std::string out(text);
+  if (pick(random, 2) == 0) out.erase(from, end - from);
+  if (pick(random, 3) == 0) return out;
+  const size_t to = std::min(out.find_first_of(",}]", pick(random, out.size() + 1)), out.size());
+  return out.insert(to, part);
+}
+
+std::string mutated_json(std::string_view text, size_t room, Random& random) {
+  switch (text.empty() ? 7 : pick(random, 8)) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+      return with_number(text, random);
+    case 4:
+    case 5:
+      return with_part_moved(text, random);
+    default:
+      return changed(text, room);
+  }
+}
+
+std::string mutated_xml(std::string_view text, size_t room, Random& random) {
+  if (text.empty() || pick(random, 4) == 0) return changed(text, room);
+  if (pick(random, 2) == 0) return with_number(text, random);
+  const size_t from = text.find('<', pick(random, text.size()));
+  if (from == std::string_view::npos) return std::string(text);
+  const size_t end = std::min(text.find('>', from), text.size() - 1) + 1;
+  const std::string part(text.substr(from, end - from));
+  std::string out(text);
+  if (pick(random, 2) == 0) out.erase(from, end - from);
+  if (pick(random, 3) == 0) return out;
+  return out.insert(std::min(out.find('<', pick(random, out.size() + 1)), out.size()), part);
+}
+
+std::string word_of(size_t x) {
+  std::string word(4, '\0');
+  for (size_t i = 0; i < 4; ++i) word[i] = static_cast<char>(x >> (8 * i) & 0xff);
+  return word;
+}
+
+std::string mutated_glb(std::string_view text, size_t room, Random& random) {
+  constexpr size_t kBefore = 20;
+  const size_t end = text.rfind('}');
+  if (text.size() < kBefore || end == std::string_view::npos || end < kBefore ||
+      pick(random, 16) == 0) {
+    return changed(text, room);
+  }
+  std::string json(text.substr(kBefore, end + 1 - kBefore));
+  std::string binary(text.substr(std::min(end + 9, text.size())));
+  if (pick(random, 3) == 0) {
+    binary = changed(binary, room);
+  } else {
+    json = mutated_json(json, room, random);
+  }
+  return "glTF" + word_of(2) + word_of(kBefore + json.size() + 8 + binary.size()) +
+         word_of(json.size()) + "JSON" + json + word_of(binary.size()) + std::string("BIN\0", 4) +
+         binary;
+}
+
 std::string mutated_off(std::string_view text, size_t room, Random& random) {
   std::string out = mutated_lines(text, room, random);
   const size_t begin = out.find('\n') + 1, rows = rows_of(out);
@@ -192,9 +262,24 @@ size_t mutate_stl(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   return mutate(mutated_stl, data, size, max_size, seed);
 }
 
+size_t mutate_gltf(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
+  return mutate(mutated_json, data, size, max_size, seed);
+}
+
+size_t mutate_glb(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
+  return mutate(mutated_glb, data, size, max_size, seed);
+}
+
+size_t mutate_xml(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
+  return mutate(mutated_xml, data, size, max_size, seed);
+}
+
 size_t mutate_any(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (text.starts_with("ply")) return mutate_ply(data, size, max_size, seed);
+  if (text.starts_with("{")) return mutate_gltf(data, size, max_size, seed);
+  if (text.starts_with("PK")) return mutate(mutated_bytes, data, size, max_size, seed);
+  if (text.starts_with("glTF")) return mutate_glb(data, size, max_size, seed);
   if (text.find("OFF") < 8) return mutate_off(data, size, max_size, seed);
   if (text.find('\0') != std::string_view::npos) return mutate_stl(data, size, max_size, seed);
   return mutate_text(data, size, max_size, seed);

@@ -11,12 +11,14 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / 'malformed'))
 
+import gltf  # noqa: E402
 import obj  # noqa: E402
 import off  # noqa: E402
 import ply  # noqa: E402
 import stl  # noqa: E402
+import threemf  # noqa: E402
 
-MOST_BYTES = 1024  # of larger ones a fuzzer changes what does not matter
+MOST_BYTES = 1536  # of larger ones a fuzzer changes what does not matter
 
 
 def reader_of(case):
@@ -31,13 +33,16 @@ def reader_of(case):
 
 def main(folder):
     shutil.rmtree(folder, ignore_errors=True)
-    for part in (obj, off, ply, stl):
+    for part in (gltf, obj, off, ply, stl, threemf):
         for case in part.all_cases():
             if len(case.content) > MOST_BYTES:
                 continue
-            for reader in (reader_of(case), 'any'):
+            for reader in {reader_of(case), 'any'} - {'3mf'}:
                 (folder / reader).mkdir(parents=True, exist_ok=True)
                 (folder / reader / case.name).write_bytes(case.content)
+    (folder / '3mf').mkdir()  # its model part alone
+    for name, model in threemf.models():
+        (folder / '3mf' / name).write_bytes(model.encode())
     numbers = random.Random(1)  # of the C API any bytes are an input, and short ones are mostly zeros
     (folder / 'api').mkdir()
     for i in range(64):

@@ -135,9 +135,12 @@ void check_farthest(const MeshPair& pair, const Frame& frame, double displacemen
     const Rational extent = Rational(joint.hi[i]) - Rational(joint.lo[i]);
     squared += extent * extent;
   }
-  const FileInterval got = frame.to_files(0.0, 3e38, displacement, vkh::diagonal(joint));
+  const FileInterval got = frame.to_files(0.0, 3e38, displacement, farthest_in(joint, 0));
   tally.require(is_upper_bound(got.upper, squared), "the diagonal bounds any distance",
                 [&] { return hex(got.upper); });
+  const double delta = 0x1.8p-3 * got.upper, farther = farthest_in(joint, delta);
+  tally.require(std::isinf(farther) || Rational(farther) >= Rational(got.upper) + Rational(delta),
+                "and a delta is added to it", [&] { return hex(farther); });
 }
 
 }  // namespace
@@ -163,6 +166,29 @@ TEST_CASE("the frame's displacement covers every vertex; its lengths are rounded
   CHECK(tally.counted("with a centre") > count / 10);
   CHECK(tally.counted("displaced") > count / 10);
   CHECK(tally.counted("exact with a centre") > count / 100);
+}
+
+TEST_CASE("a delta is part of the displacement, exactly or more, and moves nothing") {
+  Random random(20240803);
+  Tally tally("delta");
+  for (uint64_t i = 0; i < case_count() / 40 && !tally.hopeless(); ++i) {
+    MeshPair pair = hard_pair_of_points(random);
+    const FramedPair before = frame_pair(pair.a, pair.b);
+    pair.a.delta = log_uniform(random, -1070, 900);
+    const FramedPair after = frame_pair(pair.a, pair.b);
+    const StoredMesh alone = store_in(before.frame, pair.a);
+    const auto describe = [&] { return hex(pair.a.delta) + " " + hex(after.a.displacement); };
+    const Rational least =
+        Rational(before.a.displacement) + Rational(pair.a.delta) * power(before.frame.exponent);
+    for (const double displacement : {after.a.displacement, alone.displacement}) {
+      tally.require(std::isinf(displacement) || Rational(displacement) >= least,
+                    "displaced by the delta, too", describe);
+    }
+    tally.require(after.a.high == before.a.high && after.a.low == before.a.low, "nothing is moved",
+                  describe);
+    tally.require(after.b.displacement == before.b.displacement, "nor is the other", describe);
+  }
+  tally.conclude(case_count() / 40);
 }
 
 TEST_CASE("a number that is rounded to float stays so beside another") {

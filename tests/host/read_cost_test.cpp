@@ -23,6 +23,7 @@
 #include "host/base/error.h"
 #include "host/base/hash_index.h"
 #include "host/read/readers.h"
+#include "tests/scene/worst_scenes.h"
 
 namespace {
 
@@ -178,9 +179,17 @@ std::vector<File> stl_files(size_t size) {
       {"name.stl", "solid" + repeated(" a", size / 2) + "\n" + facet + "endsolid\n"}};
 }
 
+std::vector<File> scene_files(size_t size) {
+  std::vector<File> files;
+  for (const test::SceneFiles& scenes : {test::worst_gltf(size), test::worst_3mf(size)}) {
+    for (const auto& [name, bytes] : scenes) files.push_back({name, bytes});
+  }
+  return files;
+}
+
 std::vector<File> worst_files(size_t size) {
   std::vector<File> all;
-  for (auto* part : {ply_files, off_files, obj_files, stl_files}) {
+  for (auto* part : {ply_files, off_files, obj_files, stl_files, scene_files}) {
     std::vector<File> some = part(size);
     std::move(some.begin(), some.end(), std::back_inserter(all));
   }

@@ -8,15 +8,17 @@ The words have to stand in the refusal or in a note."""
 import pathlib
 import sys
 
+import gltf
 import obj
 import off
 import ply
 import stl
+import threemf
 
 
 def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
-    cases = [case for part in (obj, off, ply, stl) for case in part.all_cases()]
+    cases = [case for part in (gltf, obj, off, ply, stl, threemf) for case in part.all_cases()]
     names = {case.name for case in cases}
     if len(names) != len(cases):
         sys.exit('write.py: two cases of one name')

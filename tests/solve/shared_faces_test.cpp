@@ -90,3 +90,32 @@ TEST_CASE("faces shared and faces moved: the moved ones decide") {
     }
   }
 }
+
+TEST_CASE("a mesh that is off its exact place widens the interval by that, both ways") {
+  const Mesh a = square_patch(8, 0.25), b = square_patch(8, 0);
+  const Report exact = solver().distance(a, b);
+  REQUIRE(exact.lower <= 0.25);
+  REQUIRE(exact.upper >= 0.25);
+  Mesh off_a = a, off_b = b;
+  off_a.delta = 0x1p-10;
+  off_b.delta = 0x1p-12;
+  off_b.unit = "m";
+  const double both = off_a.delta + off_b.delta;
+  const PreparedMesh kept = solver().prepare(off_b);
+  for (const Report& r : {solver().distance(off_a, off_b), solver().distance(off_a, kept)}) {
+    CHECK(r.lower <= 0.25 - both);
+    CHECK(r.upper >= 0.25 + both);
+    CHECK(r.lower >= 0.25 - both - 1e-5);
+    CHECK(r.upper <= 0.25 + both + 1e-5);
+    CHECK(r.status == Status::kPrecision);
+    CHECK(r.place_a.delta == off_a.delta);
+    CHECK(r.place_b.delta == off_b.delta);
+    CHECK(r.place_b.unit == "m");
+  }
+  // The same faces are 0 apart only where they are exact.
+  CHECK(solver().distance(a, a).upper == 0);
+  const Report same = solver().distance(off_a, off_a);
+  CHECK(same.lower == 0);
+  CHECK(same.upper >= 2 * off_a.delta);
+  CHECK(same.upper <= 2 * off_a.delta + 1e-5);
+}

@@ -9,7 +9,9 @@
 namespace vkh::test {
 
 inline bool names_a_place(const std::string& rest) {
-  for (const std::string word : {"line ", "byte ", "face ", "vertex ", "triangle ", "row "}) {
+  for (const std::string word :
+       {"line ", "byte ", "face ", "vertex ", "triangle ", "row ", "scene ", "nodes[", "meshes[",
+        "accessors[", "bufferViews[", "buffers["}) {
     if (rest.starts_with(word) && rest.size() > word.size() && std::isdigit(rest[word.size()])) {
       return true;
     }
