@@ -12,12 +12,16 @@
 
 namespace vkh {
 
+/// As many as there are cores, within reason.
+inline size_t thread_count() {
+  constexpr size_t kMostThreads = 64;
+  return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+}
+
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
-/// there are any to be had. Throws what one of them threw, after all have ended.
+/// there are any to be had, on so many in all. Throws what one of them threw, after all have ended.
 template <class F>
-void for_each_index(size_t count, const F& work) {
-  constexpr size_t kMostThreads = 8;
-  const size_t cores = std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+void for_each_index(size_t count, const F& work, size_t threads = thread_count()) {
   std::atomic<size_t> next = 0;
   const auto some = [&] {
     const FloatEnvironment ours;  // a new thread's is not this one's everywhere
@@ -25,7 +29,7 @@ void for_each_index(size_t count, const F& work) {
   };
   std::vector<std::future<void>> shares = {};
   shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
-  for (size_t i = 1; i < std::min(cores, count); ++i)
+  for (size_t i = 1; i < std::min(threads, count); ++i)
     shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
   for (std::future<void>& share : shares) share.wait();
   for (std::future<void>& share : shares) share.get();
