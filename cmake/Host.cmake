@@ -5,7 +5,6 @@ endif()
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
-find_package(tinyobjloader REQUIRED)
 file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
 list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli/main\\.cpp|python/.*)$")
 if(WIN32)  # what operating systems do differently stands in host/system
@@ -20,8 +19,7 @@ if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
 endif()
 target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
-                      $<BUILD_INTERFACE:vkh_shaders> tinyobjloader::tinyobjloader
-                      $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
+                      $<BUILD_INTERFACE:vkh_shaders> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
 target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)

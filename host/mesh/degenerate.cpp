@@ -1,10 +1,10 @@
-#include "host/mesh/face_checks.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+
+#include "host/mesh/face_checks.h"
 
 namespace vkh {
 namespace {

@@ -1,9 +1,8 @@
-#include "host/mesh/face_checks.h"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 
+#include "host/mesh/face_checks.h"
 #include "host/mesh/position_index.h"
 
 namespace vkh {

@@ -17,8 +17,8 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
-    "host": ["base", "system", "mesh", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "solve",
+    "host": ["base", "system", "mesh", "source", "read", "gpu", "run", "solve", "answer", "check", "demo", "cli"],
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "host", "read", "solve",
               "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)
