@@ -126,6 +126,7 @@ class BlockReader {
       Windows::Window window(windows_);
       const std::string_view bytes = window.read(at, at + count * row_bytes);
       for (int axis = 0; axis < 3; ++axis) take_axis(axis, bytes, row_bytes, &vertices_[first]);
+      count_read(source_, bytes.size());
     });
     return begin + element.count * row_bytes;
   }
@@ -241,6 +242,7 @@ class BlockReader {
       rows.end = faces_.data() + blocks[i + 1].triangle;
       for (uint64_t row = blocks[i].row; row < blocks[i + 1].row; ++row) rows.read_row();
       rows.check_end();
+      count_read(source_, blocks[i + 1].at - blocks[i].at);
       polygons_ += rows.polygons;
       short_faces_ += rows.short_faces;
     });

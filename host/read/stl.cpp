@@ -182,6 +182,7 @@ Mesh read_binary_by_blocks(const MeshSource& source) {
       if (!is_finite(corners[3 * begin + c]))
         reject(source.name, byte_place(0), "a coordinate is nan or infinite", "finite coordinates");
     }
+    count_read(source, bytes.size());
   });
   MeshBuilder builder = merged(source, crew, std::move(corners));
   check_rest(Windows::Window(windows).read(end, source.size()), end, builder);

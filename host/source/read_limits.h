@@ -1,6 +1,7 @@
 // What reading a file may cost.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -16,6 +17,8 @@ struct ReadLimits {
   /// Asked now and then while a file is read, by one thread at a time, perhaps another than that
   /// which waits: false ends it with an Interrupted.
   std::function<bool()> keep_going = {};
+  /// To which the bytes are added that have been parsed, as they are; null: nobody wants to know.
+  std::atomic<uint64_t>* bytes_read = nullptr;
   /// On which a file is read; 0: one a core.
   size_t threads = 0;
   /// That a thread reads at a time; 0: chosen by the file. For tests: the mesh, or the error, is

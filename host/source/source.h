@@ -30,6 +30,11 @@ void check_going(const std::string& name, const ReadLimits& limits);
 /// Those who read the source, at its limits.
 Crew crew_of(const MeshSource& source);
 
+/// For whoever watches.
+inline void count_read(const MeshSource& source, uint64_t bytes) {
+  if (source.limits.bytes_read != nullptr) *source.limits.bytes_read += bytes;
+}
+
 /// All of it in memory. Throws InputError if the file has become shorter than it was.
 std::string read_all(const MeshSource& source);
 
@@ -72,6 +77,17 @@ std::string head_of(const MeshSource& source, size_t most);
 /// Bytes that one thread reads at a time: what the limits say, or a fitting part of the file.
 size_t block_bytes_of(const MeshSource& source);
 
+/// What `read` makes of the source with all its bytes in memory.
+template <class Read>
+auto in_memory(const MeshSource& source, const Read& read) {
+  if (source.file == nullptr) return read(source);
+  const std::string bytes = read_all(source);
+  MeshSource whole = source;
+  whole.bytes = bytes;
+  whole.file = nullptr;
+  return read(whole);
+}
+
 /// By blocks where there are several and `by_blocks` has no objection. It need not say what is
 /// wrong with a file: after an InputError, `whole` reads all in one, and finds the first mistake
 /// and its line.
@@ -85,9 +101,7 @@ auto by_blocks_or_whole(const MeshSource& source, const ByBlocks& by_blocks, con
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): said by what follows
     }
   }
-  if (source.file == nullptr) return whole(source);
-  const std::string bytes = read_all(source);
-  return whole(MeshSource{.name = source.name, .bytes = bytes, .limits = source.limits});
+  return in_memory(source, whole);
 }
 
 }  // namespace vkh

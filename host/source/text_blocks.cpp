@@ -100,10 +100,12 @@ TextBlock TextBlocks::block_at(size_t i, Windows::Window& window) const {
 
 std::vector<size_t> RowBlocks::count(uint64_t row_count) {
   std::vector<size_t> rows(blocks_.count() + 1);
+  blocks_.count_bytes(false);
   blocks_.for_each(crew_, [&](size_t i, const TextBlock& block) {
     TextScanner scanner = block.scanner(blocks_.source().name, comment_);
     while (scanner.next_full_line()) ++rows[i];
   });
+  blocks_.count_bytes(true);
   if (starts_of(rows) != row_count) reject(blocks_.source().name, "byte 0", "other rows", "these");
   return rows;
 }

@@ -36,6 +36,8 @@ class TextBlocks {
   TextBlocks(const MeshSource& source, uint64_t begin, Cut cut);
 
   size_t count() const { return count_; }
+  /// Whether for_each counts what was read from now on.
+  void count_bytes(bool counts) { counts_ = counts; }
   /// What was cut, but nobody is asked whether to go on: the crew is.
   const MeshSource& source() const { return quiet_; }
   /// One for each block.
@@ -50,7 +52,9 @@ class TextBlocks {
     crew.for_each(count_, [&](size_t i) {
       Windows::Window window(windows_);
       const TextBlock block = block_at(i, window);
-      if (!block.text.empty()) work(i, block);
+      if (block.text.empty()) return;
+      work(i, block);
+      if (counts_) count_read(quiet_, block.text.size());
     });
   }
 
@@ -63,6 +67,7 @@ class TextBlocks {
   size_t block_bytes_, count_;
   Cut cut_;
   char terminator_;
+  bool counts_ = true;
 };
 
 /// Lines that hold a word, which are numbered from the first block on.
