@@ -1,7 +1,7 @@
 // Times the reading of mesh files, without Vulkan: per file and number of threads the least and the
-// median of some runs in turn, bytes a second, and how much memory the process held at most
-// (Linux). Every run has to give the same mesh. With --together all files are read at once, as the
-// program reads A and B.
+// median of some runs in turn, bytes a second, how much memory the process held at most (Linux),
+// and how long, at most, a reader did not ask whether to go on. Every run has to give the same
+// mesh. With --together all files are read at once, as the program reads A and B.
 //
 //   vkh_read_bench FILE... [--threads 1,2,4,8,16] [--runs 5] [--together]
 //   vkh_read_bench --make FORMAT --faces N FILE    a wavy grid, as ply, ply-ascii, stl, stl-ascii,
@@ -12,6 +12,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <deque>
+#include <filesystem>
 #include <fstream>
 #include <future>
 #include <map>
@@ -201,8 +203,29 @@ uint64_t fingerprint(const Mesh& mesh) {
   return all;
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Between two questions of one reader, at most.
+class Silence {
+ public:
+  void ask() {
+    longest_ = std::max(longest_, seconds_since(last_));
+    last_ = Clock::now();
+  }
+  double longest() const { return longest_; }
+
+ private:
+  Clock::time_point last_ = Clock::now();
+  double longest_ = 0;
+};
+
 struct Run {
   double seconds = 0;
+  double silence = 0;
   uint64_t peak = 0;
   uint64_t fingerprint = 0;
 };
@@ -210,16 +233,25 @@ struct Run {
 Run read_once(const std::vector<std::string>& files, size_t threads) {
   Run run;
   reset_peak_memory();
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   std::vector<std::future<Mesh>> reading;
-  for (const std::string& file : files) {
+  std::deque<Silence> silences(files.size());
+  for (size_t i = 0; i < files.size(); ++i) {
     const auto policy = files.size() > 1 ? std::launch::async : std::launch::deferred;
-    reading.push_back(
-        std::async(policy, [&file, threads] { return read_mesh(file, {.threads = threads}); }));
+    reading.push_back(std::async(policy, [&file = files[i], &silence = silences[i], threads] {
+      const auto ask = [&silence] {
+        silence.ask();
+        return true;
+      };
+      Mesh mesh = read_mesh(file, {.keep_going = ask, .threads = threads});
+      silence.ask();
+      return mesh;
+    }));
   }
   std::vector<Mesh> meshes;
   for (std::future<Mesh>& one : reading) meshes.push_back(one.get());
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.seconds = seconds_since(start);
+  for (const Silence& silence : silences) run.silence = std::max(run.silence, silence.longest());
   run.peak = peak_memory();
   for (const Mesh& mesh : meshes) run.fingerprint = 3 * run.fingerprint + fingerprint(mesh);
   return run;
@@ -238,7 +270,9 @@ bool time_files(const std::vector<std::string>& files, const Arguments& argument
   bool same = true;
   for (auto& [threads, of_threads] : runs) {
     uint64_t peak = 0;
+    double silence = 0;
     for (const Run& run : of_threads) {
+      silence = std::max(silence, run.silence);
       same = same && run.fingerprint == runs.begin()->second[0].fingerprint;
       peak = std::max(peak, run.peak);
     }
@@ -246,9 +280,9 @@ bool time_files(const std::vector<std::string>& files, const Arguments& argument
               [](const Run& a, const Run& b) { return a.seconds < b.seconds; });
     const double least = of_threads.front().seconds,
                  median = of_threads[of_threads.size() / 2].seconds;
-    std::printf("%s%s,%zu,%.0f,%.4f,%.4f,%.1f,%.2f\n", files[0].c_str(),
+    std::printf("%s%s,%zu,%.0f,%.4f,%.4f,%.1f,%.2f,%.0f\n", files[0].c_str(),
                 files.size() > 1 ? " and others" : "", threads, bytes, least, median,
-                bytes / least / 1e6, static_cast<double>(peak) / bytes);
+                bytes / least / 1e6, static_cast<double>(peak) / bytes, 1000 * silence);
     std::fflush(stdout);
   }
   if (!same) std::fprintf(stderr, "vkh_read_bench: two runs gave different meshes\n");
@@ -260,7 +294,7 @@ int run(const Arguments& arguments) {
     make_file(arguments);
     return 0;
   }
-  std::printf("file,threads,bytes,least_s,median_s,mb_per_s,peak_over_bytes\n");
+  std::printf("file,threads,bytes,least_s,median_s,mb_per_s,peak_over_bytes,silence_ms\n");
   if (arguments.together) return time_files(arguments.files, arguments) ? 0 : 1;
   bool same = true;
   for (const std::string& file : arguments.files) same = time_files({file}, arguments) && same;

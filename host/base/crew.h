@@ -114,8 +114,8 @@ Array<T> filled(const Crew& crew, size_t size, T value) {
   return array;
 }
 
-/// As resize() of an empty vector. A system gives memory page by page as it is first written to,
-/// which takes longer than the writing: so each thread asks for some.
+/// As resize() of an empty vector, but called off in time. A system gives memory page by page as it
+/// is first written to, which takes longer than the writing: so each thread asks for some.
 template <class T>
 void resize_together(const Crew& crew, std::vector<T>& vector, size_t size) {
   constexpr size_t kPage = 4096;
@@ -125,7 +125,11 @@ void resize_together(const Crew& crew, std::vector<T>& vector, size_t size) {
     for (size_t at = begin * sizeof(T); at < end * sizeof(T); at += kPage)
       new (bytes + at) std::byte{0};
   });
-  vector.resize(size);
+  constexpr size_t kStep = size_t{1} << 20;  // 10 ms at most
+  while (vector.size() < size) {
+    crew.check_going();
+    vector.resize(std::min(size, vector.size() + kStep));
+  }
 }
 
 /// From counts of parts to where each part begins; returns the sum.
