@@ -18,6 +18,7 @@
 #include <future>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/base/error.h"
@@ -48,7 +49,8 @@ class Grid {
   glm::vec3 vertex(uint64_t v) const {
     const double n = static_cast<double>(side_);
     const double x = static_cast<double>(v % (side_ + 1)) / n;
-    const double y = static_cast<double>(v / (side_ + 1)) / n;
+    const uint64_t row = v / (side_ + 1);
+    const double y = static_cast<double>(row) / n;
     return {x, y, 0.05 * std::sin(37 * x) * std::cos(23 * y)};
   }
 
@@ -73,10 +75,11 @@ class Out {
   Out(const Out&) = delete;
   Out& operator=(const Out&) = delete;
 
-  template <class... Values>
-  void print(const char* format, Values... values) {
+  void print(std::string_view text) { add(text.data(), text.size()); }
+  template <class First, class... Values>
+  void print(const char* format, First first, Values... values) {
     std::array<char, 256> line;
-    const int size = std::snprintf(line.data(), line.size(), format, values...);
+    const int size = std::snprintf(line.data(), line.size(), format, first, values...);
     add(line.data(), static_cast<size_t>(size));
   }
   template <class T>
@@ -249,6 +252,7 @@ Run read_once(const std::vector<std::string>& files, size_t threads) {
     }));
   }
   std::vector<Mesh> meshes;
+  meshes.reserve(files.size());
   for (std::future<Mesh>& one : reading) meshes.push_back(one.get());
   run.seconds = seconds_since(start);
   for (const Silence& silence : silences) run.silence = std::max(run.silence, silence.longest());

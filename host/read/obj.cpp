@@ -291,6 +291,7 @@ Mesh read_by_blocks(const MeshSource& source) {
     read[i] = {reader.ignored(), reader.range(), reader.relative()};
   });
   std::vector<size_t> starts;
+  starts.reserve(builders.size());
   for (const MeshBuilder& builder : builders) starts.push_back(builder.vertices().size());
   const size_t vertex_count = starts_of(starts);
   crew.for_each(read.size(), [&](size_t i) { place_relative(read[i], starts[i], builders[i]); });

@@ -21,6 +21,7 @@ int64_t integer_at(const char* at) {
   return static_cast<int64_t>(load<Stored, kOrder>(at));
 }
 
+// NOLINTBEGIN(bugprone-branch-clone): each branch is of another type
 /// Calls use(T()) with the stored type.
 template <class F>
 auto with_type(Scalar type, const F& use) {
@@ -43,6 +44,7 @@ auto with_type(Scalar type, const F& use) {
       return use(double());
   }
 }
+// NOLINTEND(bugprone-branch-clone)
 
 /// Rows that follow each other, and what is before and behind them.
 struct RowBlock {

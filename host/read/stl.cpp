@@ -326,6 +326,7 @@ struct KeepingUse {
 /// One block's corners after the other's, each freed as it is copied.
 Array<glm::dvec3> joined(const Crew& crew, std::vector<KeepingUse> blocks) {
   std::vector<size_t> starts;
+  starts.reserve(blocks.size());
   for (const KeepingUse& block : blocks) starts.push_back(block.corners.size());
   const size_t count = starts_of(starts);
   if (count >= UINT32_MAX) throw InputError("more corners than are read by blocks");

@@ -225,7 +225,7 @@ FramedPair frame_pair(const Mesh& a, const Mesh& b) {
     const Frame frame = frame_around(joint, glm::dvec3(0));
     std::optional<StoredMesh> stored_a = store_exactly(frame, a);
     std::optional<StoredMesh> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
-    if (stored_b) return {frame, std::move(*stored_a), std::move(*stored_b)};
+    if (stored_b) return {frame, *stored_a, *stored_b};
   }
   const Frame frame = frame_around(joint, middle_of(joint));
   return {frame, store_in(frame, a), store_in(frame, b)};
@@ -236,7 +236,7 @@ FramedMesh frame_mesh(const Mesh& mesh) {
   if (may_keep_origin(box)) {
     const Frame frame = frame_around(box, glm::dvec3(0));
     std::optional<StoredMesh> stored = store_exactly(frame, mesh);
-    if (stored) return {frame, std::move(*stored)};
+    if (stored) return {frame, *stored};
   }
   const Frame frame = frame_around(box, middle_of(box));
   return {frame, store_in(frame, mesh)};
