@@ -5,7 +5,6 @@ endif()
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
-find_package(tinyobjloader REQUIRED)
 # What only some files need, by the names that linkers know, so that the installed archive names no path; files that need
 # what is missing are refused by name.
 find_file(VKH_MESHOPTIMIZER_HEADER meshoptimizer.h)
@@ -44,8 +43,7 @@ if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
 endif()
 target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
-                      $<BUILD_INTERFACE:vkh_shaders> tinyobjloader::tinyobjloader
-                      $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
+                      $<BUILD_INTERFACE:vkh_shaders> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
 target_link_libraries(vkh_host PRIVATE ${VKH_FORMAT_LIBRARIES})
 target_compile_definitions(vkh_host PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
                            $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF>)

@@ -45,7 +45,7 @@ if(VKH_HOST)
   set(CPACK_DEBIAN_VKH_PROGRAM_DESCRIPTION
       "The program: encloses the distance of two meshes in an interval that is\n proven, on a GPU or on the CPU, through Vulkan.")
   vkh_deb(vkh_dev libvkhausdorff-dev libdevel engine host)
-  set(headers_only "libvulkan-dev, libglm-dev, libtinyobjloader-dev")
+  set(headers_only "libvulkan-dev, libglm-dev")
   if(VKH_HAS_MESHOPTIMIZER)
     string(APPEND headers_only ", libmeshoptimizer-dev")
   endif()

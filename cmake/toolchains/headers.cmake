@@ -33,10 +33,4 @@ vkh_header_package(glm glm::glm glm)
 vkh_header_package(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
 vkh_header_package(CLI11 CLI11::CLI11 CLI)
 vkh_header_package(doctest doctest::doctest doctest boost)  # and what the tests calculate with
-vkh_header_package(tinyobjloader tinyobjloader::tinyobjloader tiny_obj_loader.h)
-# Its library is in its header: whoever links it compiles it.
-file(WRITE ${VKH_HEADERS}/tiny_obj_loader.cc "#define TINYOBJLOADER_IMPLEMENTATION\n#include <tiny_obj_loader.h>\n")
-file(APPEND ${VKH_HEADERS}/lib/cmake/tinyobjloader/tinyobjloaderConfig.cmake
-  "set_target_properties(tinyobjloader::tinyobjloader PROPERTIES INTERFACE_SOURCES ${VKH_HEADERS}/tiny_obj_loader.cc\n"
-  "  INTERFACE_COMPILE_DEFINITIONS TINYOBJLOADER_USE_DOUBLE)\n")
 file(TOUCH ${VKH_HEADERS}/complete)

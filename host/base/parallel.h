@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstring>
 #include <future>
 #include <thread>
 #include <vector>
@@ -12,12 +13,16 @@
 
 namespace vkh {
 
+/// As many as there are cores, within reason.
+inline size_t thread_count() {
+  constexpr size_t kMostThreads = 64;
+  return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+}
+
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
-/// there are any to be had. Throws what one of them threw, after all have ended.
+/// there are any to be had, on so many in all. Throws what one of them threw, after all have ended.
 template <class F>
-void for_each_index(size_t count, const F& work) {
-  constexpr size_t kMostThreads = 8;
-  const size_t cores = std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+void for_each_index(size_t count, const F& work, size_t threads = thread_count()) {
   std::atomic<size_t> next = 0;
   const auto some = [&] {
     const FloatEnvironment ours;  // a new thread's is not this one's everywhere
@@ -25,10 +30,20 @@ void for_each_index(size_t count, const F& work) {
   };
   std::vector<std::future<void>> shares = {};
   shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
-  for (size_t i = 1; i < std::min(cores, count); ++i)
+  for (size_t i = 1; i < std::min(threads, count); ++i)
     shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
   for (std::future<void>& share : shares) share.wait();
   for (std::future<void>& share : shares) share.get();
+}
+
+/// memcpy on several threads, where it is worth them.
+inline void copy_together(void* to, const void* from, size_t bytes) {
+  constexpr size_t kPiece = size_t{1} << 22;  // 0.4 ms
+  for_each_index((bytes + kPiece - 1) / kPiece, [&](size_t i) {
+    const size_t at = i * kPiece;
+    std::memcpy(static_cast<std::byte*>(to) + at, static_cast<const std::byte*>(from) + at,
+                std::min(kPiece, bytes - at));
+  });
 }
 
 }  // namespace vkh

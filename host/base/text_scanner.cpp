@@ -9,16 +9,15 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// Lines end in LF or CR LF (or CR CR LF); only a file whose first line ends in a CR alone ends them
-// so throughout (old Macintosh exports). Deciding once keeps a binary body's first LF out of it.
+}  // namespace
+
+// Deciding once keeps a binary body's first LF out of it.
 char line_terminator(std::string_view text) {
   const size_t end = text.find_first_of("\r\n");
   if (end == std::string_view::npos) return '\n';
   const size_t after = text.find_first_not_of('\r', end);
   return after != std::string_view::npos && text[after] == '\n' ? '\n' : '\r';
 }
-
-}  // namespace
 
 void reject(std::string_view name, const std::string& place, const std::string& what,
             const std::string& expected) {
@@ -61,13 +60,13 @@ bool is_tiny_decimal(std::string_view word) {
   return std::clamp(exponent, -kFar, kFar) + decade < 0;
 }
 
-TextScanner::TextScanner(std::string_view text, std::string_view name, char comment,
-                         MixedLineEnds mixed)
-    : text_(text), name_(name), comment_(comment), terminator_(line_terminator(text)) {
+TextScanner::TextScanner(std::string_view part, std::string_view name, char comment,
+                         char terminator, MixedLineEnds mixed)
+    : text_(part), name_(name), comment_(comment), terminator_(terminator) {
   // Searched for once, so that the lines of most texts need not be.
   other_terminator_ = terminator_ == '\n' ? '\r' : '\n';
   checks_line_ends_ =
-      mixed == MixedLineEnds::kRefused && text.find(other_terminator_) != std::string_view::npos;
+      mixed == MixedLineEnds::kRefused && part.find(other_terminator_) != std::string_view::npos;
 }
 
 std::string_view TextScanner::physical_line() {

@@ -48,10 +48,18 @@ bool parse_number(std::string_view word, T& value) {
 /// readers, and part of a comment or a name to others.
 enum class MixedLineEnds { kRefused, kIgnored };
 
+/// Lines end in LF or CR LF (or CR CR LF); only a text whose first line ends in a CR alone ends
+/// them so throughout (old Macintosh exports).
+char line_terminator(std::string_view text);
+
 class TextScanner {
  public:
   /// `comment` ends a line's words wherever it begins one; '\0' for formats without comments.
   TextScanner(std::string_view text, std::string_view name, char comment = '\0',
+              MixedLineEnds mixed = MixedLineEnds::kRefused)
+      : TextScanner(text, name, comment, line_terminator(text), mixed) {}
+  /// Of a text's part: with the text's line_terminator.
+  TextScanner(std::string_view part, std::string_view name, char comment, char terminator,
               MixedLineEnds mixed = MixedLineEnds::kRefused);
 
   /// Goes to the next line; false at the end of the text.

@@ -21,10 +21,10 @@
 #include "host/cli/doctor.h"
 #include "host/cli/out_of_memory.h"
 #include "host/cli/progress_line.h"
+#include "host/cli/reading.h"
 #include "host/cli/session.h"
 #include "host/demo/default_pair.h"
 #include "host/gpu/device.h"
-#include "host/read/mesh_io.h"
 #include "host/system/output_file.h"
 #include "host/system/system.h"
 
@@ -90,7 +90,6 @@ Request understand(const Arguments& arguments) {
   if (!arguments.time.empty()) options.time_limit_s = parse_time(arguments.time);
   if (!arguments.max_input.empty())
     request.limits.max_input_bytes = parse_size("--max-input", arguments.max_input);
-  request.limits.keep_going = [] { return !is_interrupted(); };
   if (!arguments.waves.empty()) options.wave_limit = parse_waves(arguments.waves);
   check_names("--enable", arguments.enabled, switch_names());
   check_names("--disable", arguments.disabled, switch_names());
@@ -224,10 +223,7 @@ int run_pair(const Arguments& arguments, Load load) {
 
 int run_distance(const Arguments& arguments) {
   return run_pair(arguments, [&](const ReadLimits& limits) {
-    auto b =
-        begin_now([path = arguments.file_b, limits] { return read_mesh(path_of(path), limits); });
-    Mesh a = read_mesh(path_of(arguments.file_a), limits);
-    return MeshPair{std::move(a), b.get()};
+    return read_pair(arguments.file_a, arguments.file_b, limits);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -22,9 +23,19 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  /// Files, before there is a run.
+  void show_reading(uint64_t bytes, uint64_t all) {
+    if (!is_time()) return;
+    std::array<char, 80> line{};
+    std::snprintf(line.data(), line.size(), "reading  %llu of %llu MB",
+                  static_cast<unsigned long long>(bytes / 1'000'000),
+                  static_cast<unsigned long long>(all / 1'000'000));
+    draw(line.data());
+    last_ = Clock::now();
+  }
+
   void show(const Progress& p) {
-    constexpr std::chrono::milliseconds kRedraw(100);
-    if (!shown_ || (width_ > 0 && Clock::now() - last_ < kRedraw)) return;
+    if (!is_time()) return;
     std::array<char, 160> line{};
     std::snprintf(line.data(), line.size(), "%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
                   p.back ? "h(B,A)" : "h(A,B)", p.wave,
@@ -37,6 +48,11 @@ class ProgressLine {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  bool is_time() const {
+    constexpr std::chrono::milliseconds kRedraw(100);
+    return shown_ && (width_ == 0 || Clock::now() - last_ >= kRedraw);
+  }
 
   /// Over the older line, by blanks: not every console of Windows takes escape sequences.
   void draw(const std::string& line) {

@@ -239,15 +239,16 @@ Chunks chunks_of(const MeshSource& source) {
   return chunks;
 }
 
+Mesh read_whole(const MeshSource& source) {
+  const bool is_glb = source.bytes.starts_with("glTF");
+  const Chunks chunks = is_glb ? chunks_of(source) : Chunks{.json = source.bytes, .binary = {}};
+  const Model model = read_model(source, chunks.json);
+  return Reader(source, model, chunks.binary).read();
+}
+
 }  // namespace
 }  // namespace gltf
 
-Mesh parse_gltf(const MeshSource& source) {
-  const bool is_glb = source.bytes.starts_with("glTF");
-  const gltf::Chunks chunks =
-      is_glb ? gltf::chunks_of(source) : gltf::Chunks{.json = source.bytes, .binary = {}};
-  const gltf::Model model = gltf::read_model(source, chunks.json);
-  return gltf::Reader(source, model, chunks.binary).read();
-}
+Mesh parse_gltf(const MeshSource& source) { return in_memory(source, gltf::read_whole); }
 
 }  // namespace vkh

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "host/mesh/mesh.h"
-#include "host/read/read_limits.h"
+#include "host/source/read_limits.h"
 
 namespace vkh {
 

@@ -1,21 +1,13 @@
-// OBJ through tinyobjloader's callback interface, fed line by line by ObjSource.
+// OBJ: vertices and faces. Materials, normals, textures and groups are no geometry and are skipped.
 //
-// tinyobjloader alone does not keep our contract (measured with 2.0.0rc10): in both of its modes
-// coordinates are off by ulps, nan and inf become 0, '1,5' and '1/3' become 1; indices go through
-// atoi, which wraps 2^32+3 to 3; continued lines and '2/2/' are refused. So ObjSource checks each v
-// and f line and reads the coordinates itself, and hands on a plain v or f line; tinyobjloader
-// parses the faces and says what it saw. Materials, normals, textures and groups are no geometry
-// and are not handed on.
+// By our own hand: tinyobjloader (2.0.0rc10) reads on one thread and does not keep our contract.
+// Its coordinates are off by ulps, nan and inf become 0, '1,5' and '1/3' become 1; indices go
+// through atoi, which wraps 2^32+3 to 3; continued lines and '2/2/' are refused.
 #include <algorithm>
 #include <array>
-#include <istream>
-#include <streambuf>
 
-#include "host/base/text_scanner.h"
 #include "host/read/readers.h"
-
-#define TINYOBJLOADER_IMPLEMENTATION
-#include <tiny_obj_loader.h>
+#include "host/source/text_blocks.h"
 
 namespace vkh {
 namespace {
@@ -53,43 +45,69 @@ Line kind_of(std::string_view keyword) {
   return keyword == "call" || keyword == "csh" ? Line::kCall : Line::kUnknown;
 }
 
-class ObjSource : public std::streambuf {
- public:
-  ObjSource(const MeshSource& source, MeshBuilder& builder)
-      : builder_(builder), scanner_(source.bytes, source.name, '#') {}
+/// Of what a block's faces refer to.
+struct Range {
+  int64_t least = 0;     ///< that is relative, from the block's first vertex
+  int64_t greatest = 0;  ///< from 1; a face may stand before its vertices
+};
 
-  uint64_t ignored_elements = 0;  ///< points, lines and curves
-  uint64_t ignored_surfaces = 0;
-  uint64_t ignored_calls = 0;
-  uint64_t empty_faces = 0;  ///< f without corners, about which tinyobjloader is silent
+/// Lines that hold what is no triangle mesh.
+struct Ignored {
+  uint64_t elements = 0;  ///< points, lines and curves
+  uint64_t surfaces = 0;
+  uint64_t calls = 0;
 
-  const TextScanner& scanner() const { return scanner_; }
-
- protected:
-  // The buffer holds one line at a time: when tinyobjloader calls back, the scanner still stands at
-  // that line and can name it.
-  int_type underflow() override {
-    while (scanner_.next_line()) {
-      const std::string_view keyword = scanner_.word();
-      const Line line = kind_of(keyword);
-      if (line == Line::kVertex) {
-        read_vertex();
-      } else if (line == Line::kFace) {
-        check_face();
-      } else {
-        skip(line, keyword);
-        continue;
-      }
-      continued_ = Continued::kNot;
-      setg(line_.data(), line_.data(), line_.data() + line_.size());
-      return traits_type::to_int_type(line_[0]);
-    }
-    return traits_type::eof();
+  void add(const Ignored& more) {
+    elements += more.elements;
+    surfaces += more.surfaces;
+    calls += more.calls;
   }
+};
+
+class ObjReader {
+ public:
+  ObjReader(const MeshSource& source, const TextBlock& block, MeshBuilder& builder)
+      : source_(source),
+        block_(block),
+        builder_(builder),
+        scanner_(block.scanner(source.name, '#')) {}
+
+  void read() {
+    if (const size_t zero = block_.text.find('\0'); zero != std::string_view::npos) {
+      reject(source_.name, "byte " + std::to_string(zero), "a zero byte", "text, as OBJ is");
+    }
+    while (scanner_.next_line()) read_line();
+  }
+
+  const Ignored& ignored() const { return ignored_; }
+
+  const Range& range() const { return range_; }
+  /// Corners of faces, by number, that count from the block's first vertex: modulo 2^32, for they
+  /// may be before it.
+  const std::vector<uint32_t>& relative() const { return relative_; }
+
+  void check_greatest() const {
+    if (range_.greatest > static_cast<int64_t>(builder_.vertices().size()))
+      fail_index(range_.greatest, greatest_place_);
+  }
+  std::string place() const { return scanner_.place(); }
 
  private:
   /// What a line may be continued by on the next one.
   enum class Continued { kNot, kByNumbers, kByNames };
+
+  void read_line() {
+    const std::string_view keyword = scanner_.word();
+    const Line line = kind_of(keyword);
+    if (line != Line::kVertex && line != Line::kFace) return skip(line, keyword);
+    continued_ = Continued::kNot;
+    scanner_.join_continued_lines();
+    if (line == Line::kVertex) {
+      read_vertex();
+    } else {
+      read_face();
+    }
+  }
 
   // A name may end in a backslash: 'usemtl C:\red\' does not swallow a face.
   static Continued continued_by(std::string_view keyword) {
@@ -105,9 +123,9 @@ class ObjSource : public std::streambuf {
       scanner_.fail(quoted(keyword) + " begins the line",
                     "a keyword of OBJ, such as v, f, vn or usemtl");
     }
-    ignored_elements += line == Line::kElement ? 1 : 0;
-    ignored_surfaces += line == Line::kSurface ? 1 : 0;
-    ignored_calls += line == Line::kCall ? 1 : 0;
+    ignored_.elements += line == Line::kElement ? 1 : 0;
+    ignored_.surfaces += line == Line::kSurface ? 1 : 0;
+    ignored_.calls += line == Line::kCall ? 1 : 0;
     if (!scanner_.is_continued()) {
       continued_ = Continued::kNot;
     } else if (line != Line::kUnknown) {
@@ -123,7 +141,8 @@ class ObjSource : public std::streambuf {
       return keyword.find_first_not_of("+-.0123456789eE/\\") == std::string_view::npos;
     }
     if (continued_ == Continued::kByNames) return !may_be_geometry(keyword);
-    return keyword == "\x1a" && scanner_.word().empty() && scanner_.bytes_left() == 0;
+    return keyword == "\x1a" && scanner_.word().empty() && scanner_.bytes_left() == 0 &&
+           block_.is_last;
   }
 
   // 'FACE 1 2 4' and 'f<no-break space>1 2 4', but not a group's name such as 'front'.
@@ -136,7 +155,6 @@ class ObjSource : public std::streambuf {
 
   // x y z, then perhaps a weight or a colour: checked to be numbers, not used.
   void read_vertex() {
-    scanner_.join_continued_lines();
     glm::dvec3 p{};
     for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
     double unused = 0;
@@ -144,143 +162,154 @@ class ObjSource : public std::streambuf {
       if (!parse_number(word, unused)) scanner_.fail(quoted(word) + " in a vertex", "a number");
     }
     builder_.add_vertex(p);
-    line_ = "v 0 0 0\n";
   }
 
-  void check_face() {
-    scanner_.join_continued_lines();
-    line_ = "f";
-    for (auto word = scanner_.word(); !word.empty(); word = scanner_.word()) {
-      line_.append(" ").append(checked_corner(word));
-    }
-    line_ += '\n';
-    if (line_ == "f\n") ++empty_faces;
+  void read_face() {
+    indices_.clear();
+    for (auto word = scanner_.word(); !word.empty(); word = scanner_.word())
+      indices_.push_back(checked_corner(word));
+    corners_.clear();
+    for (const int32_t index : indices_) corners_.push_back(resolve(index));
+    if (!block_.is_first) note_relative();
+    builder_.add_face(corners_);
   }
 
   // The position index of i, i/j, i//k or i/j/k, where j and k may be missing.
-  std::string_view checked_corner(std::string_view word) {
-    std::string_view position;
+  int32_t checked_corner(std::string_view word) {
+    int64_t position = 0;
     std::string_view rest = word;
     for (int part = 0; part < 3 && !rest.empty(); ++part) {
       const std::string_view number = rest.substr(0, rest.find('/'));
       rest.remove_prefix(std::min(rest.size(), number.size() + 1));
       int64_t value = 0;
       if ((part == 0 || !number.empty()) && !parse_number(number, value)) fail_corner(word);
-      if (part == 0) {
-        position = number;
-        if (value != static_cast<int32_t>(value)) {
-          scanner_.fail("index " + quoted(number), "one of 32 bits");
-        }
+      if (part > 0) continue;
+      position = value;
+      if (value != static_cast<int32_t>(value)) {
+        scanner_.fail("index " + quoted(number), "one of 32 bits");
       }
     }
-    if (!rest.empty() || position.empty()) fail_corner(word);
-    return position;
+    if (!rest.empty()) fail_corner(word);
+    return static_cast<int32_t>(position);
   }
 
   [[noreturn]] void fail_corner(std::string_view word) {
     scanner_.fail(quoted(word) + " in a face", kIndexForms);
   }
 
-  MeshBuilder& builder_;
-  TextScanner scanner_;
-  std::string line_;
-  Continued continued_ = Continued::kNot;  ///< by what the skipped line before may go on
-};
-
-// What tinyobjloader calls back.
-class FaceReader {
- public:
-  FaceReader(ObjSource& source, MeshBuilder& builder) : source_(source), builder_(builder) {}
-
-  static tinyobj::callback_t callbacks() {
-    tinyobj::callback_t callbacks;
-    callbacks.vertex_cb = [](void* self, tinyobj::real_t, tinyobj::real_t, tinyobj::real_t,
-                             tinyobj::real_t) { ++static_cast<FaceReader*>(self)->vertex_count_; };
-    callbacks.index_cb = [](void* self, tinyobj::index_t* indices, int count) {
-      static_cast<FaceReader*>(self)->add({indices, static_cast<size_t>(count)});
-    };
-    return callbacks;
-  }
-
-  // A face may stand before its vertices, so indices above the count are judged at the end.
-  void check_end() const {
-    if (vertex_count_ != builder_.vertices().size()) {
-      source_.scanner().fail("tinyobjloader saw " + std::to_string(vertex_count_) + " vertices",
-                             std::to_string(builder_.vertices().size()));
-    }
-    if (greatest_ > vertex_count_) fail_index(greatest_, greatest_place_);
-  }
-
- private:
-  void add(std::span<const tinyobj::index_t> indices) {
-    corners_.clear();
-    for (const tinyobj::index_t& index : indices) corners_.push_back(resolve(index.vertex_index));
-    builder_.add_face(corners_);
-  }
-
+  // Of a block that is not the first, those that are relative are known when those before it are.
   uint32_t resolve(int64_t index) {
-    const auto count = static_cast<int64_t>(vertex_count_);
-    if (index == 0 || index < -count) fail_index(index, source_.scanner().place());
-    if (index < 0) return static_cast<uint32_t>(count + index);
-    if (index > count && static_cast<uint64_t>(index) > greatest_) {
-      greatest_ = static_cast<uint64_t>(index);
-      greatest_place_ = source_.scanner().place();
+    const auto count = static_cast<int64_t>(builder_.vertices().size());
+    if (index == 0 || (block_.is_first && index < -count)) fail_index(index, scanner_.place());
+    if (index < 0) {
+      range_.least = std::min(range_.least, count + index);
+      return static_cast<uint32_t>(count + index);
+    }
+    if (index > count && index > range_.greatest) {
+      range_.greatest = index;
+      greatest_place_ = scanner_.place();
     }
     return static_cast<uint32_t>(index - 1);
   }
 
-  template <class Index>
-  [[noreturn]] void fail_index(Index index, const std::string& place) const {
-    const std::string count = std::to_string(vertex_count_);
-    reject(builder_.name(), place, "index " + std::to_string(index) + " of " + count + " vertices",
-           vertex_count_ == 0 ? "vertices before relative indices"
-                              : "1 to " + count + " or -" + count + " to -1");
+  // Of the triangles that the face is fanned into.
+  void note_relative() {
+    if (std::none_of(indices_.begin(), indices_.end(), [](int32_t i) { return i < 0; })) return;
+    size_t number = 3 * builder_.face_count();
+    for (size_t i = 2; i < indices_.size(); ++i, number += 3) {
+      const std::array<size_t, 3> corners = {0, i - 1, i};
+      for (size_t k = 0; k < 3; ++k) {
+        if (indices_[corners[k]] < 0) relative_.push_back(static_cast<uint32_t>(number + k));
+      }
+    }
   }
 
-  ObjSource& source_;
+  [[noreturn]] void fail_index(int64_t index, const std::string& place) const {
+    const size_t vertex_count = builder_.vertices().size();
+    const std::string count = std::to_string(vertex_count);
+    reject(source_.name, place, "index " + std::to_string(index) + " of " + count + " vertices",
+           vertex_count == 0 ? "vertices before relative indices"
+                             : "1 to " + count + " or -" + count + " to -1");
+  }
+
+  const MeshSource& source_;
+  const TextBlock block_;
   MeshBuilder& builder_;
-  std::vector<uint32_t> corners_;
-  uint64_t vertex_count_ = 0;
-  uint64_t greatest_ = 0;  ///< of the forward references
+  TextScanner scanner_;
+  Ignored ignored_;
+  std::vector<int32_t> indices_;
+  std::vector<uint32_t> corners_, relative_;
+  Continued continued_ = Continued::kNot;  ///< by what the skipped line before may go on
+  Range range_;
   std::string greatest_place_;
 };
 
-void note_ignored(const ObjSource& lines, std::vector<std::string>& notes) {
-  if (lines.ignored_elements > 0) {
-    notes.push_back(counted(lines.ignored_elements, "line") +
-                    " with points, polylines or curves ignored");
+void note_ignored(const Ignored& lines, std::vector<std::string>& notes) {
+  if (lines.elements > 0) {
+    notes.push_back(counted(lines.elements, "line") + " with points, polylines or curves ignored");
   }
-  if (lines.ignored_surfaces > 0) {
-    notes.push_back(counted(lines.ignored_surfaces, "free-form surface") +
+  if (lines.surfaces > 0) {
+    notes.push_back(counted(lines.surfaces, "free-form surface") +
                     " not read: only the faces are measured");
   }
-  if (lines.ignored_calls > 0) {
-    notes.push_back(counted(lines.ignored_calls, "call") +
-                    " of other files or commands not followed");
+  if (lines.calls > 0) {
+    notes.push_back(counted(lines.calls, "call") + " of other files or commands not followed");
   }
+}
+
+Mesh read_whole(const MeshSource& source) {
+  MeshBuilder builder(source);
+  ObjReader reader(source, whole_text(source), builder);
+  reader.read();
+  reader.check_greatest();
+  note_ignored(reader.ignored(), builder.notes);
+  return std::move(builder).finish(reader.place());
+}
+
+/// What is kept of a block, beside its builder.
+struct ObjBlock {
+  Ignored ignored;
+  Range range;
+  std::vector<uint32_t> relative;
+};
+
+void place_relative(const ObjBlock& block, size_t vertices_before, MeshBuilder& builder) {
+  if (static_cast<int64_t>(vertices_before) + block.range.least < 0)
+    reject(builder.name(), "byte 0", "an index before the first vertex", "none");
+  for (const uint32_t number : block.relative)
+    builder.corner(number) += static_cast<uint32_t>(vertices_before);
+}
+
+Mesh read_by_blocks(const MeshSource& source) {
+  const Crew crew = crew_of(source);
+  TextBlocks blocks(source, 0, Cut::kUncontinued);
+  std::vector<MeshBuilder> builders = blocks.builders();
+  std::vector<ObjBlock> read(blocks.count());
+  blocks.for_each(crew, [&](size_t i, const TextBlock& block) {
+    ObjReader reader(blocks.source(), block, builders[i]);
+    reader.read();
+    read[i] = {reader.ignored(), reader.range(), reader.relative()};
+  });
+  std::vector<size_t> starts;
+  starts.reserve(builders.size());
+  for (const MeshBuilder& builder : builders) starts.push_back(builder.vertices().size());
+  const size_t vertex_count = starts_of(starts);
+  crew.for_each(read.size(), [&](size_t i) { place_relative(read[i], starts[i], builders[i]); });
+  MeshBuilder all = MeshBuilder::joined(source, std::move(builders));
+  Ignored ignored;
+  for (const ObjBlock& block : read) {
+    ignored.add(block.ignored);
+    if (block.range.greatest > static_cast<int64_t>(vertex_count))
+      reject(source.name, "byte 0", "an index after the last vertex", "none");
+  }
+  note_ignored(ignored, all.notes);
+  return std::move(all).finish("byte 0");
 }
 
 }  // namespace
 
 Mesh parse_obj(const MeshSource& source) {
-  if (const size_t zero = source.bytes.find('\0'); zero != std::string_view::npos) {
-    reject(source.name, "byte " + std::to_string(zero), "a zero byte", "text, as OBJ is");
-  }
-  MeshBuilder builder(source);
-  ObjSource lines(source, builder);
-  FaceReader reader(lines, builder);
-  std::istream stream(&lines);
-  stream.exceptions(std::ios::badbit);  // what ObjSource throws passes through
-  std::string warnings, errors;
-  const bool read = tinyobj::LoadObjWithCallback(stream, FaceReader::callbacks(), &reader, nullptr,
-                                                 &warnings, &errors);
-  if (!read || !warnings.empty() || !errors.empty()) {
-    lines.scanner().fail("tinyobjloader says " + quoted(errors + warnings), "a plain OBJ file");
-  }
-  reader.check_end();
-  builder.add_short_faces(lines.empty_faces);
-  note_ignored(lines, builder.notes);
-  return std::move(builder).finish(lines.scanner().place());
+  return by_blocks_or_whole(source, read_by_blocks, read_whole);
 }
 
 }  // namespace vkh

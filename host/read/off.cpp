@@ -1,9 +1,10 @@
 // OFF as Geomview writes it: the keyword is optional, '#' begins a comment, a vertex's first three
 // numbers are its position, and what follows a face's corners is its colour.
-#include <charconv>
+#include <algorithm>
+#include <functional>
 
-#include "host/base/text_scanner.h"
 #include "host/read/readers.h"
+#include "host/source/text_blocks.h"
 
 namespace vkh {
 namespace {
@@ -27,7 +28,7 @@ uint64_t read_count(TextScanner& scanner, const char* what) {
   return static_cast<uint64_t>(count);
 }
 
-Counts read_counts(TextScanner& scanner) {
+Counts read_counts(TextScanner& scanner, uint64_t file_bytes) {
   const Counts counts{.vertices = read_count(scanner, "vertex count"),
                       .faces = read_count(scanner, "face count")};
   read_count(scanner, "edge count");
@@ -35,18 +36,18 @@ Counts read_counts(TextScanner& scanner) {
     scanner.fail(quoted(word) + " after the counts", "the end of the line");
   }
   // The shortest vertex is "0 0 0\n" and the shortest face "0\n"; the last line may lack its end.
-  const uint64_t room = scanner.bytes_left() + 1;
+  const uint64_t left = file_bytes - scanner.offset();
+  const uint64_t room = left + 1;
   if (counts.vertices > room / 6 || counts.faces > (room - 6 * counts.vertices) / 2) {
     scanner.fail(std::to_string(counts.vertices) + " vertices and " + std::to_string(counts.faces) +
-                     " faces announced in a file with " + std::to_string(scanner.bytes_left()) +
-                     " bytes left",
+                     " faces announced in a file with " + std::to_string(left) + " bytes left",
                  "counts that fit the file");
   }
   if (counts.vertices >= UINT32_MAX) scanner.fail("too many vertices", "fewer than 2^32 - 1");
   return counts;
 }
 
-Counts read_header(TextScanner& scanner) {
+Counts read_header(TextScanner& scanner, uint64_t file_bytes) {
   if (!scanner.next_full_line()) scanner.fail("the file holds no word", "OFF or three counts");
   TextScanner ahead = scanner;
   const std::string_view word = ahead.word();
@@ -62,34 +63,13 @@ Counts read_header(TextScanner& scanner) {
     scanner.fail("the file begins with " + quoted(word),
                  "OFF, COFF, NOFF or STOFF, or the vertex count");
   }
-  return read_counts(scanner);
+  return read_counts(scanner, file_bytes);
 }
 
 void next_element(TextScanner& scanner, const char* what, uint64_t number, uint64_t count) {
   if (scanner.next_full_line()) return;
   scanner.fail("the file ends at " + std::string(what) + " " + std::to_string(number),
                std::to_string(count) + " of them");
-}
-
-// What follows a position is its colour, normal or texture, alike in all rows. A row of another
-// length is a face that a wrong count makes a vertex, and with as wrong a count of faces it would
-// be lost in silence.
-void read_vertices(TextScanner& scanner, const Counts& counts, MeshBuilder& builder) {
-  builder.reserve(counts.vertices, counts.faces);
-  uint64_t words_of_first = 0;
-  for (uint64_t v = 0; v < counts.vertices; ++v) {
-    next_element(scanner, "vertex", v, counts.vertices);
-    glm::dvec3 p{};
-    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner.number<double>("coordinate");
-    builder.add_vertex(p);
-    uint64_t words = 3;
-    while (!scanner.word().empty()) ++words;
-    if (v == 0) words_of_first = words;
-    if (words != words_of_first) {
-      scanner.fail(std::to_string(words) + " words in vertex " + std::to_string(v),
-                   std::to_string(words_of_first) + ", as in the first");
-    }
-  }
 }
 
 uint32_t read_index(TextScanner& scanner, uint64_t vertex_count) {
@@ -102,25 +82,98 @@ uint32_t read_index(TextScanner& scanner, uint64_t vertex_count) {
   return static_cast<uint32_t>(index);
 }
 
-}  // namespace
+class RowReader {
+ public:
+  RowReader(TextScanner& scanner, const Counts& counts, MeshBuilder& builder)
+      : scanner_(scanner), counts_(counts), builder_(builder) {}
 
-Mesh parse_off(const MeshSource& source) {
+  /// Vertices and faces are counted as one.
+  void read(uint64_t begin, uint64_t end) {
+    for (uint64_t row = begin; row < end; ++row) {
+      if (row < counts_.vertices) {
+        read_vertex(row);
+      } else {
+        read_face(row - counts_.vertices);
+      }
+    }
+  }
+
+  /// Of the first vertex that was read; 0 if none was.
+  uint64_t words_of_vertex() const { return words_of_first_; }
+
+ private:
+  // What follows a position is its colour, normal or texture, alike in all rows. A row of another
+  // length is a face that a wrong count makes a vertex, and with as wrong a count of faces it would
+  // be lost in silence.
+  void read_vertex(uint64_t v) {
+    next_element(scanner_, "vertex", v, counts_.vertices);
+    glm::dvec3 p{};
+    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
+    builder_.add_vertex(p);
+    uint64_t words = 3;
+    while (!scanner_.word().empty()) ++words;
+    if (words_of_first_ == 0) words_of_first_ = words;
+    if (words != words_of_first_) {
+      scanner_.fail(std::to_string(words) + " words in vertex " + std::to_string(v),
+                    std::to_string(words_of_first_) + ", as in the first");
+    }
+  }
+
+  void read_face(uint64_t f) {
+    next_element(scanner_, "face", f, counts_.faces);
+    corners_.clear();
+    for (uint64_t left = read_count(scanner_, "corner count"); left > 0; --left)
+      corners_.push_back(read_index(scanner_, counts_.vertices));
+    builder_.add_face(corners_);
+  }
+
+  TextScanner& scanner_;
+  const Counts& counts_;
+  MeshBuilder& builder_;
+  std::vector<uint32_t> corners_;
+  uint64_t words_of_first_ = 0;
+};
+
+Mesh read_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name, '#');
   MeshBuilder builder(source);
-  const Counts counts = read_header(scanner);
-  read_vertices(scanner, counts, builder);
-  std::vector<uint32_t> corners;
-  for (uint64_t f = 0; f < counts.faces; ++f) {
-    next_element(scanner, "face", f, counts.faces);
-    corners.clear();
-    for (uint64_t left = read_count(scanner, "corner count"); left > 0; --left) {
-      corners.push_back(read_index(scanner, counts.vertices));
-    }
-    builder.add_face(corners);
-  }
+  const Counts counts = read_header(scanner, source.size());
+  builder.reserve(counts.vertices, counts.faces);
+  {
+    RowReader rows(scanner, counts, builder);
+    rows.read(0, counts.vertices + counts.faces);
+  }  // its memory is free before more is taken
   const std::string place = scanner.place();
   note_rest(scanner, builder.notes);
   return std::move(builder).finish(place);
+}
+
+Mesh read_by_blocks(const MeshSource& source) {
+  Windows windows(source);
+  Windows::Window window(windows);
+  const auto head = window.read(0, std::min(kTextHeader, source.size()));
+  TextScanner header(head, source.name, '#');
+  const Counts counts = read_header(header, source.size());
+  check_header_ends(header, source);
+  MeshBuilder(source).check_room(counts.vertices, counts.faces);
+  RowBlocks blocks(source, header.offset(), '#');
+  std::vector<MeshBuilder> builders = blocks.builders();
+  std::vector<uint64_t> words(builders.size());
+  blocks.for_each(counts.vertices + counts.faces, [&](size_t i, const Rows& rows) {
+    RowReader reader(rows.scanner, counts, builders[i]);
+    reader.read(rows.begin, rows.end);
+    words[i] = reader.words_of_vertex();
+  });
+  words.erase(std::remove(words.begin(), words.end(), 0), words.end());
+  if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to()) != words.end())
+    reject(source.name, "byte 0", "vertices of different lengths", "one length");
+  return MeshBuilder::joined(source, std::move(builders)).finish("byte 0");
+}
+
+}  // namespace
+
+Mesh parse_off(const MeshSource& source) {
+  return by_blocks_or_whole(source, read_by_blocks, read_whole);
 }
 
 }  // namespace vkh

@@ -7,23 +7,16 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "host/base/text_scanner.h"
 #include "host/read/ply_header.h"
 #include "host/read/readers.h"
+#include "host/source/text_blocks.h"
 
 namespace vkh {
 namespace {
 
 using namespace ply;
-
-/// A row's place for errors, such as "face 11", or "row 11 of 'camera'".
-std::string row_place(const Element& element, uint64_t row) {
-  if (element.name == "vertex" || element.name == "face") {
-    return std::string(element.name) + " " + std::to_string(row);
-  }
-  return "row " + std::to_string(row) + " of " + quoted(element.name);
-}
 
 // The two bodies give one row's values after another. In ASCII, a row is a line.
 class AsciiBody {
@@ -70,7 +63,7 @@ class AsciiBody {
     scanner_.fail(what, expected);
   }
   std::string place() const { return scanner_.place(); }
-  void read_rest(std::vector<std::string>& notes) { note_rest(scanner_, notes); }
+  void read_rest(MeshBuilder& builder) { note_rest(scanner_, builder.notes); }
 
   static constexpr bool kRowsAreLines = true;
 
@@ -100,19 +93,8 @@ class BinaryBody {
     reject(source_.name, row_place(*element_, row_) + ", " + place(), what, expected);
   }
   std::string place() const { return "byte " + std::to_string(at_); }
-  // Blank bytes are padding, a few others litter; what has room for a triangle or a vertex may be
-  // one, from counts that differ from the rows.
-  void read_rest(std::vector<std::string>& notes) const {
-    const uint64_t rest = source_.bytes.size() - at_;
-    if (source_.bytes.find_first_not_of(std::string_view("\0 \t\r\n", 5), at_) ==
-        std::string_view::npos) {
-      return;
-    }
-    if (element_ && rest >= least_row_of_three(*element_)) {
-      reject(source_.name, place(), counted(rest, "byte") + " after the last element",
-             "fewer than a row, or as many rows as the header says");
-    }
-    notes.push_back(counted(rest, "byte") + " after the last element ignored");
+  void read_rest(MeshBuilder& builder) const {
+    check_rest(source_.bytes.substr(at_), at_, element_, builder);
   }
 
   static constexpr bool kRowsAreLines = false;
@@ -179,40 +161,30 @@ void skip_property(Body& body, const Property& property) {
 template <class Body>
 class BodyReader {
  public:
-  BodyReader(const Header& header, const MeshSource& source, TextScanner& scanner)
-      : header_(header), source_(source), body_(scanner, source), builder_(source) {
-    vertex_ = &only_element(header, source, "vertex");
-    face_ = &only_element(header, source, "face");
-    const auto axis = [&](std::string_view name) {
-      return only_property(*vertex_, source, {&name, 1}, false);
-    };
-    axes_ = {axis("x"), axis("y"), axis("z")};
-    corners_property_ = only_property(*face_, source, kCornerLists, true);
-    if (vertex_->count >= UINT32_MAX) {
-      reject(source.name, vertex_->place(), "too many vertices", "fewer than 2^32 - 1");
-    }
-    builder_.reserve(vertex_->count, face_->count);
-  }
+  BodyReader(const Header& header, const Layout& layout, Body body, MeshBuilder& builder)
+      : header_(header), layout_(layout), body_(body), builder_(builder) {}
 
-  Mesh read() && {
+  /// Rows of all elements are counted as one.
+  void read(uint64_t begin, uint64_t end) {
+    uint64_t before = 0;
     for (const Element& element : header_.elements) {
-      for (uint64_t row = 0; row < element.count; ++row) {
-        body_.begin_row(element, row);
+      const uint64_t stop = std::min(before + element.count, end);
+      for (uint64_t row = std::max(begin, before); row < stop; ++row) {
+        body_.begin_row(element, row - before);
         read_row(element);
         body_.end_row();
       }
+      before += element.count;
     }
-    corners_ = std::vector<uint32_t>();  // before more is allocated
-    const std::string place = body_.place();
-    body_.read_rest(builder_.notes);
-    return std::move(builder_).finish(place);
   }
+
+  Body& body() { return body_; }
 
  private:
   void read_row(const Element& element) {
-    if (&element == vertex_) {
+    if (&element == layout_.vertex) {
       read_vertex();
-    } else if (&element == face_) {
+    } else if (&element == layout_.face) {
       read_face();
     } else {
       for (const Property& property : element.properties) skip_property(body_, property);
@@ -221,23 +193,26 @@ class BodyReader {
 
   void read_vertex() {
     glm::dvec3 p{};
-    for (size_t i = 0; i < vertex_->properties.size(); ++i) {
-      const auto axis = std::find(axes_.begin(), axes_.end(), i) - axes_.begin();
+    const std::vector<Property>& properties = layout_.vertex->properties;
+    for (size_t i = 0; i < properties.size(); ++i) {
+      const auto& axes = layout_.axes;
+      const auto axis = std::find(axes.begin(), axes.end(), i) - axes.begin();
       if (axis < 3) {
-        p[static_cast<int>(axis)] = body_.real(vertex_->properties[i].type);
+        p[static_cast<int>(axis)] = body_.real(properties[i].type);
       } else {
-        skip_property(body_, vertex_->properties[i]);
+        skip_property(body_, properties[i]);
       }
     }
     builder_.add_vertex(p);
   }
 
   void read_face() {
-    for (size_t i = 0; i < face_->properties.size(); ++i) {
-      if (i == corners_property_) {
-        read_corners(face_->properties[i]);
+    const std::vector<Property>& properties = layout_.face->properties;
+    for (size_t i = 0; i < properties.size(); ++i) {
+      if (i == layout_.corners) {
+        read_corners(properties[i]);
       } else {
-        skip_property(body_, face_->properties[i]);
+        skip_property(body_, properties[i]);
       }
     }
     builder_.add_face(corners_);
@@ -252,9 +227,9 @@ class BodyReader {
     }
     for (uint64_t left = count; left > 0; --left) {
       const int64_t index = body_.integer(list.type);
-      if (index < 0 || static_cast<uint64_t>(index) >= vertex_->count) {
-        body_.fail("index " + std::to_string(index) + " of " + std::to_string(vertex_->count) +
-                       " vertices",
+      if (index < 0 || static_cast<uint64_t>(index) >= layout_.vertex->count) {
+        body_.fail("index " + std::to_string(index) + " of " +
+                       std::to_string(layout_.vertex->count) + " vertices",
                    "0 or more and below that count");
       }
       corners_.push_back(static_cast<uint32_t>(index));
@@ -262,29 +237,70 @@ class BodyReader {
   }
 
   const Header& header_;
-  const MeshSource& source_;
+  const Layout& layout_;
   Body body_;
-  MeshBuilder builder_;
-  const Element* vertex_ = nullptr;
-  const Element* face_ = nullptr;
-  std::array<size_t, 3> axes_{};
-  size_t corners_property_ = 0;
+  MeshBuilder& builder_;
   std::vector<uint32_t> corners_;
 };
 
-}  // namespace
+template <class Body>
+Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
+  const Layout layout = layout_of(header, source);
+  MeshBuilder builder(source);
+  builder.reserve(layout.vertex->count, layout.face->count);
+  std::optional<BodyReader<Body>> reader;
+  reader.emplace(header, layout, Body(scanner, source), builder);
+  reader->read(0, UINT64_MAX);
+  Body body = reader->body();
+  reader.reset();  // its memory is free before more is taken
+  const std::string place = body.place();
+  body.read_rest(builder);
+  return std::move(builder).finish(place);
+}
 
-Mesh parse_ply(const MeshSource& source) {
+Mesh read_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name);
   const Header header = read_header(scanner, source);
   switch (header.encoding) {
     case Encoding::kAscii:
-      return BodyReader<AsciiBody>(header, source, scanner).read();
+      return read_body<AsciiBody>(header, source, scanner);
     case Encoding::kBig:
-      return BodyReader<BinaryBody<std::endian::big>>(header, source, scanner).read();
+      return read_body<BinaryBody<std::endian::big>>(header, source, scanner);
     default:
-      return BodyReader<BinaryBody<std::endian::little>>(header, source, scanner).read();
+      return read_body<BinaryBody<std::endian::little>>(header, source, scanner);
   }
+}
+
+Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
+  const Layout layout = layout_of(header, source);
+  MeshBuilder(source).check_room(layout.vertex->count, layout.face->count);
+  uint64_t row_count = 0;
+  for (const Element& element : header.elements) row_count += element.count;
+  RowBlocks blocks(source, body_begin, '\0');
+  std::vector<MeshBuilder> builders = blocks.builders();
+  blocks.for_each(row_count, [&](size_t i, const Rows& rows) {
+    BodyReader(header, layout, AsciiBody(rows.scanner, source), builders[i])
+        .read(rows.begin, rows.end);
+  });
+  return MeshBuilder::joined(source, std::move(builders)).finish("byte 0");
+}
+
+Mesh read_by_blocks(const MeshSource& source) {
+  Windows windows(source);
+  Windows::Window window(windows);
+  const auto head = window.read(0, std::min(kTextHeader, source.size()));
+  TextScanner scanner(head, source.name);
+  const Header header = read_header(scanner, source);
+  check_header_ends(scanner, source);
+  if (header.encoding == Encoding::kAscii)
+    return read_ascii_by_blocks(header, source, scanner.offset());
+  return read_binary_by_blocks(header, source, scanner.offset());
+}
+
+}  // namespace
+
+Mesh parse_ply(const MeshSource& source) {
+  return by_blocks_or_whole(source, read_by_blocks, read_whole);
 }
 
 }  // namespace vkh

@@ -148,6 +148,43 @@ void check_no_other_faces(const Header& header, const MeshSource& source) {
   }
 }
 
+// The element of that name; rejects none and several.
+const Element& only_element(const Header& header, const MeshSource& source,
+                            const std::string& name) {
+  const Element* only = nullptr;
+  for (const Element& element : header.elements) {
+    if (element.name != name) continue;
+    if (only) reject(source.name, element.place(), "a second element " + vkh::quoted(name), "one");
+    only = &element;
+  }
+  if (!only)
+    reject(source.name, header.end_place, "a header without element " + vkh::quoted(name), "one");
+  return *only;
+}
+
+// The number of the property of one of those names; rejects none, several and, where `list`, any
+// that is not a list of integers, otherwise any list.
+size_t only_property(const Element& element, const MeshSource& source,
+                     std::span<const std::string_view> names, bool list) {
+  std::optional<size_t> only;
+  for (size_t i = 0; i < element.properties.size(); ++i) {
+    const Property& property = element.properties[i];
+    if (std::find(names.begin(), names.end(), property.name) == names.end()) continue;
+    if (property.list_count.has_value() != list || (list && !is_integer(property.type)) || only) {
+      reject(source.name, element.place(),
+             "property " + quoted(property.name) + " of " + quoted(element.name) +
+                 " is of the wrong kind",
+             list ? "one list of integers" : "one scalar");
+    }
+    only = i;
+  }
+  if (!only) {
+    reject(source.name, element.place(),
+           "element " + quoted(element.name) + " has no such property", quoted(names.front()));
+  }
+  return *only;
+}
+
 }  // namespace
 
 uint64_t size_of(Scalar type) {
@@ -168,42 +205,40 @@ Header read_header(TextScanner& scanner, const MeshSource& source) {
   Header header = parse_header(scanner);
   header.end_place = scanner.place();
   check_no_other_faces(header, source);
-  check_sizes(header, source, scanner.bytes_left());
+  check_sizes(header, source, source.size() - scanner.offset());
   return header;
 }
 
-const Element& only_element(const Header& header, const MeshSource& source,
-                            const std::string& name) {
-  const Element* only = nullptr;
-  for (const Element& element : header.elements) {
-    if (element.name != name) continue;
-    if (only) reject(source.name, element.place(), "a second element " + quoted(name), "one");
-    only = &element;
-  }
-  if (!only)
-    reject(source.name, header.end_place, "a header without element " + quoted(name), "one");
-  return *only;
+Layout layout_of(const Header& header, const MeshSource& source) {
+  Layout layout{.vertex = &only_element(header, source, "vertex"),
+                .face = &only_element(header, source, "face")};
+  const auto axis = [&](std::string_view name) {
+    return only_property(*layout.vertex, source, {&name, 1}, false);
+  };
+  layout.axes = {axis("x"), axis("y"), axis("z")};
+  layout.corners = only_property(*layout.face, source, kCornerLists, true);
+  if (layout.vertex->count >= UINT32_MAX)
+    reject(source.name, layout.vertex->place(), "too many vertices", "fewer than 2^32 - 1");
+  return layout;
 }
 
-size_t only_property(const Element& element, const MeshSource& source,
-                     std::span<const std::string_view> names, bool list) {
-  std::optional<size_t> only;
-  for (size_t i = 0; i < element.properties.size(); ++i) {
-    const Property& property = element.properties[i];
-    if (std::find(names.begin(), names.end(), property.name) == names.end()) continue;
-    if (property.list_count.has_value() != list || (list && !is_integer(property.type)) || only) {
-      reject(source.name, element.place(),
-             "property " + quoted(property.name) + " of " + quoted(element.name) +
-                 " is of the wrong kind",
-             list ? "one list of integers" : "one scalar");
-    }
-    only = i;
+std::string row_place(const Element& element, uint64_t row) {
+  if (element.name == "vertex" || element.name == "face") {
+    return std::string(element.name) + " " + std::to_string(row);
   }
-  if (!only) {
-    reject(source.name, element.place(),
-           "element " + quoted(element.name) + " has no such property", quoted(names.front()));
+  return "row " + std::to_string(row) + " of " + quoted(element.name);
+}
+
+// Blank bytes are padding, a few others litter; what has room for a triangle or a vertex may be
+// one, from counts that differ from the rows.
+void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBuilder& builder) {
+  if (rest.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == std::string_view::npos) return;
+  if (last && rest.size() >= least_row_of_three(*last)) {
+    reject(builder.name(), "byte " + std::to_string(at),
+           counted(rest.size(), "byte") + " after the last element",
+           "fewer than a row, or as many rows as the header says");
   }
-  return *only;
+  builder.notes.push_back(counted(rest.size(), "byte") + " after the last element ignored");
 }
 
 }  // namespace vkh::ply

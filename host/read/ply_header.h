@@ -63,12 +63,26 @@ uint64_t least_row_of_three(const Element& element);
 /// for, none has rows of no bytes, and none but 'face' holds faces.
 Header read_header(TextScanner& scanner, const MeshSource& source);
 
-/// The element of that name; rejects none and several.
-const Element& only_element(const Header& header, const MeshSource& source,
-                            const std::string& name);
-/// The number of the property of one of those names; rejects none, several and, where `list`, any
-/// that is not a list of integers, otherwise any list.
-size_t only_property(const Element& element, const MeshSource& source,
-                     std::span<const std::string_view> names, bool list);
+/// What is read of a body.
+struct Layout {
+  const Element* vertex = nullptr;
+  const Element* face = nullptr;
+  std::array<size_t, 3> axes{};  ///< properties of `vertex`
+  size_t corners = 0;            ///< the property of `face`
+};
+
+/// Rejects a header that has not one of each, or of the wrong kind.
+Layout layout_of(const Header& header, const MeshSource& source);
+
+/// A row's place for errors, such as "face 11", or "row 11 of 'camera'".
+std::string row_place(const Element& element, uint64_t row);
+
+/// Notes or rejects what follows a binary body that ends at `at`. `last`: the element of the last
+/// row.
+void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBuilder& builder);
+
+/// A binary body on several threads. Throws InputError where anything is wrong, and where vertices
+/// have lists.
+Mesh read_binary_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin);
 
 }  // namespace vkh::ply

@@ -7,8 +7,9 @@
 #include <glm/common.hpp>
 
 #include "host/base/hash_index.h"
-#include "host/base/text_scanner.h"
+#include "host/read/merge.h"
 #include "host/read/readers.h"
+#include "host/source/text_blocks.h"
 
 namespace vkh {
 namespace {
@@ -16,8 +17,8 @@ namespace {
 constexpr size_t kHeaderBytes = 84;    // 80 free ones and the triangle count
 constexpr size_t kTriangleBytes = 50;  // normal, three corners, 16-bit attribute
 
-uint64_t announced_triangles(std::string_view bytes) {
-  return load<uint32_t>(bytes.data() + kHeaderBytes - 4);
+uint64_t announced_triangles(std::string_view head) {
+  return load<uint32_t>(head.data() + kHeaderBytes - 4);
 }
 
 class VertexMerger {
@@ -54,18 +55,18 @@ class VertexMerger {
 
 std::string byte_place(uint64_t byte) { return "byte " + std::to_string(byte); }
 
-glm::dvec3 load_position(const char* at) {
+glm::vec3 load_position(const char* at) {
   return {load<float>(at), load<float>(at + 4), load<float>(at + 8)};
 }
 
 // The count of the header, which the file's size has to allow.
 uint64_t checked_count(const MeshSource& source) {
-  const size_t size = source.bytes.size();
+  const uint64_t size = source.size();
   if (size < kHeaderBytes) {
     reject(source.name, byte_place(size), "the file ends inside a binary STL's header",
            "84 bytes of header, or ASCII STL that begins with 'solid'");
   }
-  const uint64_t count = announced_triangles(source.bytes);
+  const uint64_t count = announced_triangles(head_of(source, kHeaderBytes));
   const uint64_t room = (size - kHeaderBytes) / kTriangleBytes;
   const uint64_t litter = (size - kHeaderBytes) % kTriangleBytes;
   if (count > room || (count < room && litter == 0)) {
@@ -104,24 +105,27 @@ bool looks_like_triangle(const char* at, double mesh_size) {
 // Exporters leave litter behind the last triangle. If it holds another one, with or without stray
 // bytes before it, then the count is wrong: measuring only those counted would certify a part of
 // the model.
-void check_rest(const MeshSource& source, MeshBuilder& builder, uint64_t end) {
-  const uint64_t rest = source.bytes.size() - end;
-  if (rest == 0) return;
+void check_rest(std::string_view rest, uint64_t begin, MeshBuilder& builder) {
+  if (rest.empty()) return;
   double mesh_size = 0;
   for (const glm::dvec3& v : builder.vertices()) {
     const glm::dvec3 p = glm::abs(v);
     mesh_size = std::max({mesh_size, p.x, p.y, p.z});
   }
-  const bool may_be_binary = !is_signature(source.bytes.substr(end));
-  for (uint64_t at = end; may_be_binary && at + kTriangleBytes <= source.bytes.size(); ++at) {
-    if (!looks_like_triangle(source.bytes.data() + at, mesh_size)) continue;
-    reject(source.name, byte_place(at), "a triangle after the last one announced",
+  const bool may_be_binary = !is_signature(rest);
+  for (size_t at = 0; may_be_binary && at + kTriangleBytes <= rest.size(); ++at) {
+    if (!looks_like_triangle(rest.data() + at, mesh_size)) continue;
+    reject(builder.name(), byte_place(begin + at), "a triangle after the last one announced",
            "as many triangles as byte 80 says");
   }
-  builder.notes.push_back(counted(rest, "byte") + " after the last triangle ignored");
+  builder.notes.push_back(counted(rest.size(), "byte") + " after the last triangle ignored");
 }
 
-Mesh parse_binary(const MeshSource& source) {
+bool is_finite(const glm::dvec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+Mesh read_binary(const MeshSource& source) {
   MeshBuilder builder(source);
   const uint64_t count = checked_count(source);
   builder.reserve(0, count);
@@ -131,8 +135,8 @@ Mesh parse_binary(const MeshSource& source) {
     glm::uvec3 face{};
     for (int i = 0; i < 3; ++i) {
       const size_t corner = at + 12 * static_cast<size_t>(i);
-      const glm::dvec3 p = load_position(source.bytes.data() + corner);
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      const glm::dvec3 p(load_position(source.bytes.data() + corner));
+      if (!is_finite(p)) {
         reject(source.name, "triangle " + std::to_string(t) + ", " + byte_place(corner),
                "a coordinate is nan or infinite", "finite coordinates");
       }
@@ -140,8 +144,49 @@ Mesh parse_binary(const MeshSource& source) {
     }
     builder.add_triangle(face);
   }
-  check_rest(source, builder, kHeaderBytes + count * kTriangleBytes);
+  const uint64_t end = kHeaderBytes + count * kTriangleBytes;
+  check_rest(source.bytes.substr(end), end, builder);
   return std::move(builder).finish(byte_place(kHeaderBytes));
+}
+
+// Merged corners are refused by whoever reads them one by one: a corner that is there already is
+// counted before it is found.
+template <class Corner>
+MeshBuilder merged(const MeshSource& source, const Crew& crew, Array<Corner> corners) {
+  constexpr uint64_t kSpare = 12;
+  MergedCorners mesh = CornerMerger(crew, corners).merge();
+  const uint64_t bytes = mesh_bytes(mesh.vertices.size(), mesh.faces.size());
+  if (bytes + kSpare > source.limits.max_input_bytes)
+    reject(source.name, "byte 0", counted(bytes, "byte"), "fewer");
+  return {source, std::move(mesh.vertices), std::move(mesh.faces)};
+}
+
+Mesh read_binary_by_blocks(const MeshSource& source) {
+  constexpr uint64_t kMostRest = uint64_t{1} << 20;
+  const uint64_t count = checked_count(source), end = kHeaderBytes + count * kTriangleBytes;
+  const uint64_t per_block = std::max<uint64_t>(1, block_bytes_of(source) / kTriangleBytes);
+  MeshBuilder(source).check_room(0, count);
+  if (source.size() - end > kMostRest)
+    reject(source.name, byte_place(end), "more than is looked at", "less");
+  const Crew crew = crew_of(source);
+  Windows windows(source);
+  Array<glm::vec3> corners(3 * count);
+  crew.for_each((count + per_block - 1) / per_block, [&](size_t i) {
+    const uint64_t begin = i * per_block, stop = std::min(count, begin + per_block);
+    Windows::Window window(windows);
+    const std::string_view bytes =
+        window.read(kHeaderBytes + begin * kTriangleBytes, kHeaderBytes + stop * kTriangleBytes);
+    for (uint64_t c = 0; c < 3 * (stop - begin); ++c) {
+      const char* const at = bytes.data() + c / 3 * kTriangleBytes + 12 + c % 3 * 12;
+      corners[3 * begin + c] = load_position(at);
+      if (!is_finite(corners[3 * begin + c]))
+        reject(source.name, byte_place(0), "a coordinate is nan or infinite", "finite coordinates");
+    }
+    count_read(source, bytes.size());
+  });
+  MeshBuilder builder = merged(source, crew, std::move(corners));
+  check_rest(Windows::Window(windows).read(end, source.size()), end, builder);
+  return std::move(builder).finish(byte_place(kHeaderBytes), Positions::kDiffer);
 }
 
 bool is_word(std::string_view word, std::string_view lower) {
@@ -150,22 +195,28 @@ bool is_word(std::string_view word, std::string_view lower) {
   });
 }
 
+// `Use` gets each corner and the end of each facet.
+template <class Use>
 class AsciiReader {
  public:
-  explicit AsciiReader(const MeshSource& source)
-      : scanner_(source.bytes, source.name),
-        builder_(source),
-        merger_(builder_, source.bytes.size() / 200) {}
+  AsciiReader(const MeshSource& source, const TextBlock& block, Use& use)
+      : block_(block), scanner_(block.scanner(source.name)), use_(use) {}
 
-  Mesh read() && {
-    expect({"solid"});
-    do {
+  // A block that is not the first begins inside a solid, at a facet; one that is not the last ends
+  // so. Then what precedes and follows it is one text with it.
+  void read() {
+    if (block_.is_first) {
+      expect({"solid"});
       skip_name();
-      read_solid();
+    }
+    while (read_solid()) {
       skip_name();
-    } while (another_solid());
-    return std::move(builder_).finish(scanner_.place());
+      if (!another_solid()) return;
+      skip_name();
+    }
   }
+
+  std::string place() const { return scanner_.place(); }
 
  private:
   static constexpr const char* kFacetOrEnd = "'facet' or 'endsolid'";
@@ -177,10 +228,12 @@ class AsciiReader {
     }
   }
 
-  void read_solid() {
+  /// False where the block ends inside it.
+  bool read_solid() {
     for (;;) {
       const std::string_view word = scanner_.word_across_lines();
-      if (is_word(word, "endsolid")) return;
+      if (is_word(word, "endsolid")) return true;
+      if (word.empty() && !block_.is_last) return false;
       if (!is_word(word, "facet")) fail_word(word, kFacetOrEnd);
       read_facet();
     }
@@ -191,20 +244,19 @@ class AsciiReader {
     expect({"normal"});
     for (int i = 0; i < 3; ++i) scanner_.word_across_lines();
     expect({"outer", "loop"});
-    glm::uvec3 face{};
     for (int i = 0; i < 3; ++i) {
       expect({"vertex"});
       glm::dvec3 p{};
       for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
-      face[i] = merger_.insert(p);
+      use_.corner(p);
     }
     expect({"endloop", "endfacet"});
-    builder_.add_triangle(face);
+    use_.end_facet();
   }
 
   bool another_solid() {
     const std::string_view word = scanner_.word_across_lines();
-    if (word.empty()) return false;
+    if (word.empty() && block_.is_last) return false;
     if (!is_word(word, "solid")) fail_word(word, "'solid' or the end of the file");
     return true;
   }
@@ -220,10 +272,40 @@ class AsciiReader {
     scanner_.fail(word.empty() ? "the file ends" : quoted(word), expected);
   }
 
+  const TextBlock block_;
   TextScanner scanner_;
-  MeshBuilder builder_;
-  VertexMerger merger_;
+  Use& use_;
 };
+
+class MergingUse {
+ public:
+  MergingUse(MeshBuilder& builder, size_t triangle_count)
+      : builder_(builder), merger_(builder, triangle_count) {}
+
+  void corner(const glm::dvec3& p) { face_[corners_++] = merger_.insert(p); }
+  void end_facet() {
+    builder_.add_triangle(face_);
+    corners_ = 0;
+  }
+
+ private:
+  MeshBuilder& builder_;
+  VertexMerger merger_;
+  glm::uvec3 face_{};
+  int corners_ = 0;
+};
+
+Mesh read_ascii(const MeshSource& source) {
+  MeshBuilder builder(source);
+  std::string place;
+  {
+    MergingUse use(builder, source.bytes.size() / 200);
+    AsciiReader reader(source, whole_text(source), use);
+    reader.read();
+    place = reader.place();
+  }  // its memory is free before more is taken
+  return std::move(builder).finish(place);
+}
 
 // Binary headers often begin with "solid" too, but hold zero bytes: in the attributes if nowhere
 // else.
@@ -233,18 +315,64 @@ bool is_ascii(std::string_view bytes) {
          is_word(bytes.substr(begin, 5), "solid") && bytes.find('\0') == std::string_view::npos;
 }
 
+/// Of a block.
+struct KeepingUse {
+  std::vector<glm::dvec3> corners;
+
+  void corner(const glm::dvec3& p) { corners.push_back(p); }
+  void end_facet() {}
+};
+
+/// One block's corners after the other's, each freed as it is copied.
+Array<glm::dvec3> joined(const Crew& crew, std::vector<KeepingUse> blocks) {
+  std::vector<size_t> starts;
+  starts.reserve(blocks.size());
+  for (const KeepingUse& block : blocks) starts.push_back(block.corners.size());
+  const size_t count = starts_of(starts);
+  if (count >= UINT32_MAX) throw InputError("more corners than are read by blocks");
+  Array<glm::dvec3> all(count);
+  crew.for_each(blocks.size(), [&](size_t i) {
+    std::vector<glm::dvec3>& corners = blocks[i].corners;
+    std::copy(corners.begin(), corners.end(), all.begin() + starts[i]);
+    corners = {};
+  });
+  return all;
+}
+
+Mesh read_ascii_by_blocks(const MeshSource& source) {
+  const Crew crew = crew_of(source);
+  TextBlocks blocks(source, 0, Cut::kFacet);
+  std::vector<KeepingUse> read(blocks.count());
+  blocks.for_each(crew, [&](size_t i, const TextBlock& block) {
+    if (block.text.find('\0') != std::string_view::npos)
+      reject(source.name, byte_place(0), "a zero byte", "text");
+    AsciiReader(source, block, read[i]).read();
+  });
+  return merged(source, crew, joined(crew, std::move(read))).finish("byte 0", Positions::kDiffer);
+}
+
+Mesh read_whole(const MeshSource& source) {
+  if (!is_exact_binary_stl(source.bytes, source.size()) && is_ascii(source.bytes))
+    return read_ascii(source);
+  return read_binary(source);
+}
+
+Mesh read_by_blocks(const MeshSource& source) {
+  const std::string head = head_of(source, 4096);
+  if (!is_exact_binary_stl(head, source.size()) && is_ascii(head))
+    return read_ascii_by_blocks(source);
+  return read_binary_by_blocks(source);
+}
+
 }  // namespace
 
-bool is_exact_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kHeaderBytes &&
-         bytes.size() == kHeaderBytes + announced_triangles(bytes) * kTriangleBytes;
+bool is_exact_binary_stl(std::string_view head, uint64_t size) {
+  return head.size() >= kHeaderBytes &&
+         size == kHeaderBytes + announced_triangles(head) * kTriangleBytes;
 }
 
 Mesh parse_stl(const MeshSource& source) {
-  if (!is_exact_binary_stl(source.bytes) && is_ascii(source.bytes)) {
-    return AsciiReader(source).read();
-  }
-  return parse_binary(source);
+  return by_blocks_or_whole(source, read_by_blocks, read_whole);
 }
 
 }  // namespace vkh

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "host/base/parallel.h"
@@ -47,16 +48,26 @@ float stored_float(double x) {
   return std::abs(near) >= std::numeric_limits<float>::min() ? near : 0.0f;
 }
 
-// Stores `given` and returns how far that displaced it, rounded up: what two floats leave exactly,
-// the rounding of the subtraction by its bound (2^-53 relative, taken twice over), unless it was
-// exact. Scaling is, but for underflow, which the last term takes: a normal result has not been
-// through one.
-double store(double given, double centre, const Scale& scale, float& high, float& low) {
+struct Halves {
+  float high, low;
+};
+
+Halves halves_of(double exact) {
+  const float high = stored_float(exact);
+  return {high, stored_float(exact - static_cast<double>(high))};
+}
+
+// Of a coordinate: how far storing it displaces it, rounded up, and whether it needs a low part.
+// What two floats leave exactly, the rounding of the subtraction by its bound (2^-53 relative,
+// taken twice over), unless it was exact. Scaling is, but for underflow, which the last term takes:
+// a normal result has not been through one.
+double displaced(double given, double centre, const Scale& scale, bool& has_low) {
   const double offset = given - centre;
   const double exact = scale(offset);
-  high = stored_float(exact);
-  low = stored_float(exact - static_cast<double>(high));
-  const double left = std::abs((exact - static_cast<double>(high)) - static_cast<double>(low));
+  const Halves halves = halves_of(exact);
+  has_low = has_low || halves.low != 0;
+  const double left =
+      std::abs((exact - static_cast<double>(halves.high)) - static_cast<double>(halves.low));
   const double subtraction = sum_error(given, -centre) == 0 ? 0 : std::abs(exact) * 0x1p-52;
   const bool scaled_exactly = offset == 0 || std::abs(exact) >= std::numeric_limits<double>::min();
   return left + subtraction + (scaled_exactly ? 0 : 0x1p-1000);
@@ -88,37 +99,39 @@ struct VertexRange {
   size_t begin = 0, end = 0;
 };
 
+// Ranges of vertices that are worth a thread: 0.3 ms.
+size_t parts_of(const Mesh& mesh) {
+  constexpr size_t kVerticesOfThread = 1 << 16;
+  return std::max<size_t>(mesh.vertices.size() / kVerticesOfThread, 1);
+}
+
+template <class F>
+void for_each_range(const Mesh& mesh, const F& work) {
+  const size_t count = mesh.vertices.size(), parts = parts_of(mesh);
+  for_each_index(parts, [&](size_t part) {
+    work(part, VertexRange{count * part / parts, count * (part + 1) / parts});
+  });
+}
+
 // Stops where `only_high` and a low part is needed.
-Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool only_high,
-                   StoredMesh& out) {
+Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool only_high) {
   const Scale scale(frame.exponent);
   Stored stored;
   for (size_t v = range.begin; v < range.end && !(only_high && stored.has_low); ++v) {
     double sum = 0;  // of the three coordinates: no less than their Euclidean norm, and it does not
                      // underflow
-    for (int i = 0; i < 3; ++i) {
-      const size_t k = 3 * v + static_cast<size_t>(i);
-      sum += store(mesh.vertices[v][i], frame.centre[i], scale, out.high[k], out.low[k]);
-      stored.has_low = stored.has_low || out.low[k] != 0;
-    }
+    for (int i = 0; i < 3; ++i)
+      sum += displaced(mesh.vertices[v][i], frame.centre[i], scale, stored.has_low);
     stored.worst = std::max(stored.worst, sum);
   }
   return stored;
 }
 
-// Vertices that are worth a thread: 0.3 ms.
-constexpr size_t kVerticesOfThread = 1 << 16;
-
 StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
-  const size_t count = mesh.vertices.size();
-  StoredMesh out;
-  out.high.resize(3 * count);
-  out.low.resize(3 * count);
-  const size_t parts = std::max<size_t>(count / kVerticesOfThread, 1);
-  std::vector<Stored> stored(parts);
-  for_each_index(parts, [&](size_t part) {
-    const VertexRange range{count * part / parts, count * (part + 1) / parts};
-    stored[part] = store_range(frame, mesh, range, only_high, out);
+  StoredMesh out{.frame = frame};
+  std::vector<Stored> stored(parts_of(mesh));
+  for_each_range(mesh, [&](size_t part, VertexRange range) {
+    stored[part] = store_range(frame, mesh, range, only_high);
   });
   double worst = 0;
   for (const Stored& s : stored) {
@@ -149,9 +162,14 @@ std::optional<StoredMesh> store_exactly(const Frame& frame, const Mesh& mesh) {
 }  // namespace
 
 Box bounding_box(const Mesh& mesh) {
-  Box box{mesh.vertices.front(), mesh.vertices.front()};
-  for (const glm::dvec3& v : mesh.vertices) box = join(box, {v, v});
-  return box;
+  std::vector<Box> boxes(parts_of(mesh));
+  for_each_range(mesh, [&](size_t part, VertexRange range) {
+    Box box{mesh.vertices[range.begin], mesh.vertices[range.begin]};
+    for (size_t v = range.begin; v < range.end; ++v)
+      box = join(box, {mesh.vertices[v], mesh.vertices[v]});
+    boxes[part] = box;
+  });
+  return std::accumulate(boxes.begin(), boxes.end(), boxes.front(), join);
 }
 
 Box join(const Box& x, const Box& y) {
@@ -201,6 +219,19 @@ FileInterval Frame::to_files(double lower, double upper, double displacement,
 
 StoredMesh store_in(const Frame& frame, const Mesh& mesh) {
   return with_delta(store_in(frame, mesh, false), frame, mesh);
+}
+
+void write_vertices(const StoredMesh& stored, const Mesh& mesh, float* high, float* low) {
+  const Scale scale(stored.frame.exponent);
+  const glm::dvec3 centre = stored.frame.centre;
+  for_each_range(mesh, [&](size_t, VertexRange range) {
+    for (size_t k = 3 * range.begin; k < 3 * range.end; ++k) {
+      const int axis = static_cast<int>(k % 3);
+      const Halves halves = halves_of(scale(mesh.vertices[k / 3][axis] - centre[axis]));
+      high[k] = halves.high;
+      if (stored.has_low) low[k] = halves.low;
+    }
+  });
 }
 
 FramedPair frame_pair(const Mesh& a, const Mesh& b) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "host/mesh/mesh.h"
 
@@ -44,15 +43,19 @@ struct Frame {
   FileInterval to_files(double lower, double upper, double displacement, double farthest) const;
 };
 
-/// A mesh's vertices in a frame: sums of two float32, high and low, three per vertex.
+/// How a mesh's vertices are stored in a frame: as sums of two float32, high and low, three per
+/// vertex. write_vertices makes them, where they are wanted: a second copy of a large mesh takes
+/// time and memory.
 struct StoredMesh {
-  std::vector<float> high, low;
+  Frame frame;
   bool has_low = false;  ///< some low part is not 0
   /// Largest distance of a stored vertex from the exact one, in frame units, rounded up: of what
   /// storing displaced, and Mesh::delta. h is 1-Lipschitz in both meshes.
   double displacement = 0;
 };
 StoredMesh store_in(const Frame& frame, const Mesh& mesh);
+/// Three floats a vertex, none of which is read. `low` is written to only where has_low.
+void write_vertices(const StoredMesh& stored, const Mesh& mesh, float* high, float* low);
 
 struct FramedPair {
   Frame frame;

@@ -4,9 +4,9 @@
 #include <bit>
 #include <cstring>
 #include <string>
-#include <tuple>
 
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/run/mesh_sizes.h"
 
 namespace vkh {
@@ -24,12 +24,14 @@ VkDeviceSize roomy(VkDeviceSize bytes) {
 
 VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
 
-// High parts, low parts, faces, one after the other.
+// High parts, low parts if there are any, faces, one after the other.
 struct MeshBytes {
-  VkDeviceSize vertices, faces;
-  explicit MeshBytes(const Mesh& m)
-      : vertices(aligned(m.vertices.size() * 12)), faces(aligned(m.faces.size() * 12)) {}
-  VkDeviceSize total() const { return 2 * vertices + faces; }
+  VkDeviceSize high, low, faces;
+  explicit MeshBytes(const MeshData& m)
+      : high(aligned(m.mesh->vertices.size() * 12)),
+        low(m.stored->has_low ? high : 0),
+        faces(aligned(m.mesh->faces.size() * 12)) {}
+  VkDeviceSize total() const { return high + low + faces; }
 };
 
 MeshSize counts_of(const Mesh& m) {
@@ -37,26 +39,25 @@ MeshSize counts_of(const Mesh& m) {
 }
 
 VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
-  const MeshBytes bytes(*m.mesh);
+  const MeshBytes bytes(m);
   return {.vertexBuffer = buffer,
           .vertexOffset = offset,
           .vertexStride = 12,
           .vertexCount = static_cast<uint32_t>(m.mesh->vertices.size()),
           .indexBuffer = buffer,
-          .indexOffset = offset + 2 * bytes.vertices,
+          .indexOffset = offset + bytes.high + bytes.low,
           .indexType = VK_INDEX_TYPE_UINT32,
           .faceCount = static_cast<uint32_t>(m.mesh->faces.size()),
           .vertexLowBuffer = m.stored->has_low ? buffer : VK_NULL_HANDLE,
-          .vertexLowOffset = offset + bytes.vertices};
+          .vertexLowOffset = offset + bytes.high};
 }
 
 void write(std::byte* to, const MeshData& m) {
-  const MeshBytes bytes(*m.mesh);
-  const auto& [high, low] = std::tie(m.stored->high, m.stored->low);
-  std::memcpy(to, high.data(), high.size() * sizeof(float));
-  std::memcpy(to + bytes.vertices, low.data(), low.size() * sizeof(float));
-  std::memcpy(to + 2 * bytes.vertices, m.mesh->faces.data(),
-              m.mesh->faces.size() * sizeof(m.mesh->faces[0]));
+  const MeshBytes bytes(m);
+  write_vertices(*m.stored, *m.mesh, reinterpret_cast<float*>(to),
+                 reinterpret_cast<float*>(to + bytes.high));
+  const std::vector<glm::uvec3>& faces = m.mesh->faces;
+  copy_together(to + bytes.high + bytes.low, faces.data(), faces.size() * sizeof(faces[0]));
 }
 
 }  // namespace
@@ -71,8 +72,8 @@ void check_engine(VkhResult result, const char* what) {
 
 // Either may be missing.
 void Seat::upload(const MeshData& a, const MeshData& b) {
-  const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(*a.mesh).total() : 0;
-  const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(*b.mesh).total() : 0;
+  const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(a).total() : 0;
+  const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(b).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
   grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
        Placement::kUpload);

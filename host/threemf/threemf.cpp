@@ -149,14 +149,16 @@ class Builder {
   double delta_ = 0;
 };
 
+Mesh read_whole(const MeshSource& source) {
+  Package package(source);
+  Model model = read_model(source, package);
+  return Builder(source, model).build();
+}
+
 }  // namespace
 }  // namespace threemf
 
-Mesh parse_3mf(const MeshSource& source) {
-  threemf::Package package(source);
-  threemf::Model model = threemf::read_model(source, package);
-  return threemf::Builder(source, model).build();
-}
+Mesh parse_3mf(const MeshSource& source) { return in_memory(source, threemf::read_whole); }
 
 }  // namespace vkh
 #else

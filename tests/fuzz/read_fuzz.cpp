@@ -2,9 +2,11 @@
 // in six times the memory of the larger of file and mesh. --reader=NAME says which; tools/fuzz runs
 // it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -117,7 +119,37 @@ void check_limit(const MeshSource& source, const Mesh& mesh) {
   }
 }
 
-bool same(const Mesh& a, const Mesh& b) { return a.vertices == b.vertices && a.faces == b.faces; }
+bool same_bits(const glm::dvec3& p, const glm::dvec3& q) {
+  return std::memcmp(&p, &q, sizeof(p)) == 0;
+}
+
+bool same(const Mesh& a, const Mesh& b) {
+  const auto counts = [](const MeshCounts& c) {
+    return std::array{c.unreferenced, c.degenerate, c.duplicate, c.polygons};
+  };
+  return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                    same_bits) &&
+         a.faces == b.faces && a.notes == b.notes && counts(a.counts) == counts(b.counts);
+}
+
+/// The mesh, or the error line.
+std::string read(const MeshSource& source, Mesh& mesh) {
+  try {
+    mesh = g_reader->parse(source);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+// Blocks of any size give what one gives.
+void check_blocks(const MeshSource& source) {
+  Mesh whole, joined;
+  MeshSource by_blocks = source;
+  by_blocks.limits = {.threads = 1, .block_bytes = 1 + source.bytes.size() % 61};
+  require(read(source, whole) == read(by_blocks, joined), "blocks give the same error");
+  require(same(whole, joined), "blocks give the same mesh");
+}
 
 }  // namespace
 
@@ -144,6 +176,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Mesh mesh;
   bool accepted = false;
   read_counted(source, mesh, accepted);
+  if (size % 2 == 0) check_blocks(source);  // for speed
   if (!accepted) return 0;
   require_valid(mesh);
   if (size % 4 == 0) {  // for speed

@@ -64,13 +64,23 @@ Rational squared_displacement(const Frame& frame, const glm::dvec3& given, const
   return sum;
 }
 
+/// As they are uploaded.
+struct Written {
+  std::vector<float> high, low;
+  Written(const StoredMesh& stored, const Mesh& mesh)
+      : high(3 * mesh.vertices.size()), low(3 * mesh.vertices.size()) {
+    write_vertices(stored, mesh, high.data(), low.data());
+  }
+};
+
 void check_stored(const Frame& frame, const Mesh& mesh, const StoredMesh& stored_mesh,
                   Tally& tally) {
   const double displacement = stored_mesh.displacement;
+  const Written written(stored_mesh, mesh);
   bool exact = true;
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const float* high = &stored_mesh.high[3 * v];
-    const float* low = &stored_mesh.low[3 * v];
+    const float* high = &written.high[3 * v];
+    const float* low = &written.low[3 * v];
     const Rational squared = squared_displacement(frame, mesh.vertices[v], high, low);
     const auto describe = [&] {
       return hex(mesh.vertices[v]) + " centre " + hex(frame.centre) + " 2^" +
@@ -207,9 +217,10 @@ TEST_CASE("nothing that a device may flush is stored: it is displaced by so much
     const auto mesh = [](double z) {
       return make_mesh("m", {{1, 0, z}, {0, 1, z}, {-1, -1, z}}, {{0, 1, 2}});
     };
-    const FramedPair pair = frame_pair(mesh(0x1p-100 + low), mesh(low));
-    for (const StoredMesh* stored : {&pair.a, &pair.b}) {
-      for (const std::vector<float>* part : {&stored->high, &stored->low})
+    const Mesh a = mesh(0x1p-100 + low), b = mesh(low);
+    const FramedPair pair = frame_pair(a, b);
+    for (const Written& written : {Written(pair.a, a), Written(pair.b, b)}) {
+      for (const std::vector<float>* part : {&written.high, &written.low})
         for (const float x : *part) CHECK((x == 0 || std::abs(x) >= 0x1p-126f));
     }
     const double scale = std::ldexp(1.0, pair.frame.exponent);

@@ -16,10 +16,10 @@ version=$(sed -nE 's/^#define VKH_VERSION_(MAJOR|MINOR|PATCH) //p' "$source/engi
 
 # Whoever looks for these, REQUIRED, fails; whoever looks for them quietly leaves an entry in the cache.
 hidden=()
-for name in glm tinyobjloader CLI11 nlohmann_json pybind11 Python doctest CGAL; do
+for name in glm CLI11 nlohmann_json pybind11 Python doctest CGAL; do
   hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$name=ON")
 done
-found_of_host='^(glm|tinyobjloader|CLI11|nlohmann_json|pybind11|doctest|CGAL)_DIR|^(VKH_PYTHON_EXECUTABLE|VKH_PYTHON_DIR)[:=]'
+found_of_host='^(glm|CLI11|nlohmann_json|pybind11|doctest|CGAL)_DIR|^(VKH_PYTHON_EXECUTABLE|VKH_PYTHON_DIR)[:=]'
 # check_tree BUILD: nothing of the host, and no -Werror.
 check_tree() {
   if grep -E "$found_of_host" "$1/CMakeCache.txt"; then fail "$1 looked for what the host needs (above)"; fi

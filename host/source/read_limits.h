@@ -1,6 +1,8 @@
 // What reading a file may cost.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -12,9 +14,16 @@ struct ReadLimits {
   /// refused before the work. Reading takes at most six times the larger of both, and so at most
   /// six times this (read_cost_test), besides a megabyte.
   uint64_t max_input_bytes = UINT64_MAX;
-  /// Asked now and then while a file is read, perhaps on another thread: false ends it with an
-  /// Interrupted.
+  /// Asked now and then while a file is read, by one thread at a time, perhaps another than that
+  /// which waits: false ends it with an Interrupted.
   std::function<bool()> keep_going = {};
+  /// To which the bytes are added that have been parsed, as they are; null: nobody wants to know.
+  std::atomic<uint64_t>* bytes_read = nullptr;
+  /// On which a file is read; 0: one a core.
+  size_t threads = 0;
+  /// That a thread reads at a time; 0: chosen by the file. For tests: the mesh, or the error, is
+  /// the same whatever stands here.
+  size_t block_bytes = 0;
 };
 
 /// Of a mesh as a file gives it, with vertices that no face uses: 24 bytes a vertex, 12 a face.

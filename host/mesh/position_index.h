@@ -1,0 +1,71 @@
+// Finds elements at equal positions, for several threads at once.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "host/base/crew.h"
+#include "host/base/hash_index.h"
+
+namespace vkh {
+
+/// A hash table with a secret, as HashIndex, of a fixed size. `Position` gives an element's.
+template <class Position>
+class PositionIndex {
+ public:
+  /// For `count` elements at most: two slots of three are taken then.
+  PositionIndex(const Crew& crew, size_t count, Position position)
+      : slots_(filled(crew, count + count / 2 + 16, kFree)), position_(position) {}
+
+  /// found[e - begin] becomes, for the elements from begin to end, an element at the same position:
+  /// for all of a position the same one, but which depends on who came first. Returns how many
+  /// became their own.
+  size_t insert(uint32_t begin, uint32_t end, uint32_t* found) {
+    constexpr uint32_t kAhead = 16;  // so many slots are fetched at once: each is a cache miss
+    std::array<uint64_t, kAhead> hashes;
+    size_t own = 0;
+    for (uint32_t first = begin; first < end; first += std::min(kAhead, end - first)) {
+      const uint32_t count = std::min(kAhead, end - first);
+      for (uint32_t i = 0; i < count; ++i) {
+        hashes[i] = hash_position(secret_, position_(first + i));
+#ifdef __GNUC__
+        __builtin_prefetch(&slots_[start_of(hashes[i])], 1);
+#endif
+      }
+      for (uint32_t i = 0; i < count; ++i) {
+        found[first + i - begin] = insert(first + i, hashes[i]);
+        own += found[first + i - begin] == first + i ? 1 : 0;
+      }
+    }
+    return own;
+  }
+
+ private:
+  static constexpr uint64_t kFree = UINT64_MAX;
+
+  size_t start_of(uint64_t hash) const {
+    return static_cast<size_t>(static_cast<unsigned __int128>(hash) * slots_.size() >> 64);
+  }
+
+  // A slot holds the hash's lower half, so that hardly any other position is looked at. Relaxed:
+  // positions were there before the threads.
+  uint32_t insert(uint32_t element, uint64_t hash) {
+    const uint64_t mine = hash << 32 | element;
+    for (size_t at = start_of(hash);; at = at + 1 == slots_.size() ? 0 : at + 1) {
+      const std::atomic_ref<uint64_t> slot(slots_[at]);
+      uint64_t held = slot.load(std::memory_order_relaxed);
+      if (held == kFree && slot.compare_exchange_strong(held, mine, std::memory_order_relaxed))
+        return element;
+      const auto other = static_cast<uint32_t>(held);
+      if ((held ^ mine) >> 32 == 0 && same_position(position_(other), position_(element)))
+        return other;
+    }
+  }
+
+  Array<uint64_t> slots_;
+  Position position_;
+  HashSecret secret_ = hash_secret();
+};
+
+}  // namespace vkh
