@@ -213,7 +213,7 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
                                       VkhWorkspaceRequirements* requirements) {
   const VkDeviceSize range = context->limits.storage_range;
   if (!vkh::counts_fit(vertexCount, faceCount) || vertexCount * sizeof(vkh::gpu::Vertex) > range ||
-      faceCount * 2 * sizeof(vkh::gpu::Area) > range)
+      2 * sizeof(vkh::gpu::Area) * faceCount > range)
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
   const uint32_t recommended = std::min(largest, vkh::recommended_capacity(faceCount));

@@ -379,5 +379,5 @@ int main(int argc, char** argv) {
 #ifdef __SANITIZE_ADDRESS__
   __lsan_do_leak_check();
 #endif
-  std::_Exit(code);
+  vkh::end_process(code);
 }

@@ -5,6 +5,8 @@
 #include <exception>
 #include <new>
 
+#include "host/system/system.h"
+
 namespace vkh {
 namespace {
 
@@ -14,7 +16,7 @@ int g_code = 0;  // a handler can reach nothing but a global
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
-    std::_Exit(complain_of_memory(g_code));
+    end_process(complain_of_memory(g_code));
   } catch (...) {  // a bug of ours: as loud as it would be
   }
   std::abort();

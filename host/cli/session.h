@@ -13,7 +13,7 @@
 namespace vkh {
 
 /// Runs `work` on a thread of its own, or, where there is none to be had, when its result is asked
-/// for. A result that nobody asks for is not waited for: the program must end by std::_Exit.
+/// for. A result that nobody asks for is not waited for: the program must end by end_process.
 template <class Work>
 auto begin_now(Work work) {
   std::packaged_task<decltype(work())()> task(work);

@@ -241,8 +241,7 @@ FramedPair frame_pair(const Mesh& a, const Mesh& b) {
     std::optional<StoredMesh> stored_a = store_exactly(frame, a);
     std::optional<StoredMesh> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
     if (stored_b) {
-      return {frame, with_delta(std::move(*stored_a), frame, a),
-              with_delta(std::move(*stored_b), frame, b)};
+      return {frame, with_delta(*stored_a, frame, a), with_delta(*stored_b, frame, b)};
     }
   }
   const Frame frame = frame_around(joint, middle_of(joint));
@@ -254,7 +253,7 @@ FramedMesh frame_mesh(const Mesh& mesh) {
   if (may_keep_origin(box)) {
     const Frame frame = frame_around(box, glm::dvec3(0));
     std::optional<StoredMesh> stored = store_exactly(frame, mesh);
-    if (stored) return {frame, with_delta(std::move(*stored), frame, mesh)};
+    if (stored) return {frame, with_delta(*stored, frame, mesh)};
   }
   const Frame frame = frame_around(box, middle_of(box));
   return {frame, store_in(frame, mesh)};

@@ -45,6 +45,10 @@ std::filesystem::path user_cache_folder();
 
 unsigned long process_id();
 
+/// Ends the program now, without exit handlers, and without the libraries' own: threads of ours may
+/// be within a driver.
+[[noreturn]] void end_process(int code);
+
 using AnyFunction = void (*)();
 
 /// A function of the Vulkan loader, which is never closed again: drivers keep threads and exit

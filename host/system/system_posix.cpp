@@ -66,6 +66,8 @@ fs::path user_cache_folder() {
 
 unsigned long process_id() { return static_cast<unsigned long>(getpid()); }
 
+void end_process(int code) { std::_Exit(code); }
+
 AnyFunction vulkan_loader_function(const char* name) {
   void* library = vulkan_loader();
   return library == nullptr ? nullptr : reinterpret_cast<AnyFunction>(dlsym(library, name));

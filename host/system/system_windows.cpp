@@ -91,6 +91,13 @@ fs::path user_cache_folder() {
 
 unsigned long process_id() { return GetCurrentProcessId(); }
 
+// Not ExitProcess, which _Exit calls: it ends the other threads first, then has every library say
+// goodbye, and waits for ever for a lock that one of those threads held.
+void end_process(int code) {
+  TerminateProcess(GetCurrentProcess(), static_cast<UINT>(code));
+  std::abort();  // it does not return
+}
+
 AnyFunction vulkan_loader_function(const char* name) {
   // From the program's folder or Windows' own, not from the one that it is run in.
   const HMODULE library =
