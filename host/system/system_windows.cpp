@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
 
 #include "host/system/system.h"
 #include "host/system/windows_text.h"
