@@ -136,7 +136,7 @@ TEST_CASE("no entry of a node's map, and no moved point, is farther off than is 
     check_moved(map, exact, random, tally);
   }
   tally.conclude(count);
-  CHECK(tally.counted("and said to be") > count / 20);
+  CHECK(tally.counted("and said to be") > count / 40);
 }
 
 TEST_CASE("what moves nothing, or turns by right angles, is exact") {
