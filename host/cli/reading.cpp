@@ -1,5 +1,7 @@
 #include "host/cli/reading.h"
 
+#include <atomic>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>

@@ -80,8 +80,9 @@ bool looks_like_obj(std::string_view head) {
 }
 
 // Windows editors put one before UTF-8 text, where it hides the first word.
+constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
+
 MeshSource without_byte_order_mark(const MeshSource& given, std::string_view head) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
   MeshSource source = given;
   if (!head.starts_with(kMark)) return source;
   if (source.file != nullptr) {
@@ -133,9 +134,10 @@ Mesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
   constexpr size_t kHead = 4096;  // tells the format
   check_going(file.name, file.limits);
-  reject_known_strangers(file, head_of(file, kHead));
-  const MeshSource source = without_byte_order_mark(file, head_of(file, kHead));
-  const std::string head = head_of(source, kHead);
+  const std::string start = head_of(file, kMark.size() + kHead);
+  reject_known_strangers(file, start);
+  const MeshSource source = without_byte_order_mark(file, start);
+  const std::string_view head = std::string_view(start).substr(file.size() - source.size(), kHead);
   Parse parse = parser_by_content(head, source.size());
   if (!parse) parse = parser_by_extension(source.name);
   if (!parse && looks_like_obj(head)) parse = parse_obj;

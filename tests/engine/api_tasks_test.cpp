@@ -19,24 +19,13 @@ constexpr float kTolerance = 1e-6f;
 constexpr uint32_t kWaves = 20;
 
 /// Pairs of unlike sizes, so that their sorts, pyramids and waves differ in number.
-struct Pairs {
-  std::vector<std::unique_ptr<ApiMesh>> meshes;
-  std::vector<std::unique_ptr<ApiPair>> pairs;
-
+struct Pairs : ApiPairs {
   Pairs() {
-    add(icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}));
-    add(height_field(24, 1), height_field(24, 3));
-    add(single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), scaled(soup(2, 80), -1));
-    add(scaled(soup(1, 60), -1), scaled(soup(2, 3), -1));
+    add(icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}), kTolerance);
+    add(height_field(24, 1), height_field(24, 3), kTolerance);
+    add(single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), scaled(soup(2, 80), -1), kTolerance);
+    add(scaled(soup(1, 60), -1), scaled(soup(2, 3), -1), kTolerance);
   }
-  void add(const Mesh& a, const Mesh& b) {
-    meshes.push_back(std::make_unique<ApiMesh>(a));
-    meshes.push_back(std::make_unique<ApiMesh>(b));
-    pairs.push_back(
-        std::make_unique<ApiPair>(*meshes[meshes.size() - 2], *meshes.back(), kTolerance));
-  }
-  ApiPair& operator[](size_t i) { return *pairs[i]; }
-  size_t size() const { return pairs.size(); }
 };
 
 /// So that nothing is right that the tasks have not written.
@@ -62,8 +51,6 @@ VkhReport run_alone(ApiPair& pair) {
     pair.report(c);
   });
 }
-
-bool is_same(const VkhReport& x, const VkhReport& y) { return std::memcmp(&x, &y, sizeof(x)) == 0; }
 
 struct QueryPool {
   static constexpr uint32_t kCapacity = 256;

@@ -183,6 +183,15 @@ VkhTask ApiPair::task(uint32_t waves) {
           .reportOffset = report_offset(0)};
 }
 
+void ApiPairs::add(const Mesh& a, const Mesh& b, float cull_tolerance) {
+  meshes.push_back(std::make_unique<ApiMesh>(a));
+  meshes.push_back(std::make_unique<ApiMesh>(b));
+  pairs.push_back(
+      std::make_unique<ApiPair>(*meshes[meshes.size() - 2], *meshes.back(), cull_tolerance));
+}
+
+bool is_same(const VkhReport& a, const VkhReport& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
 void record_host_barrier(VkCommandBuffer commands) {
   VkMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "engine/vkhausdorff.h"
@@ -91,6 +92,19 @@ class ApiPair {
   VkhMemory scratch_view_{};
   VkhProblem problem_{};
 };
+
+/// Pairs, with the meshes that they refer to: a of pair i is meshes[2 i], b the next one.
+struct ApiPairs {
+  std::vector<std::unique_ptr<ApiMesh>> meshes;
+  std::vector<std::unique_ptr<ApiPair>> pairs;
+
+  void add(const Mesh& a, const Mesh& b, float cull_tolerance);
+  ApiPair& operator[](size_t i) { return *pairs[i]; }
+  size_t size() const { return pairs.size(); }
+};
+
+/// Byte by byte.
+bool is_same(const VkhReport& a, const VkhReport& b);
 
 /// Makes what compute shaders wrote visible to the host.
 void record_host_barrier(VkCommandBuffer commands);
