@@ -52,7 +52,7 @@ void check_ranked(const Mesh& mesh) {
   CHECK(both.wrong == 0);
   // Every place that was given is some node's, and no two have the same.
   const Words ranks = bench.get(ranked.ranks);
-  const auto given = ranks.size() - std::count(ranks.begin(), ranks.end(), gpu::kNone);
+  const auto given = std::ranges::count_if(ranks, [](uint32_t rank) { return rank != gpu::kNone; });
   CHECK(static_cast<size_t>(given) == both.nodes);
   CHECK(*std::max_element(both.reached.begin(), both.reached.end()) == 1);
 }
