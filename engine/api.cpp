@@ -37,13 +37,14 @@ Limits chosen(const VkhContextCreateInfo& info) {
   Limits limits = device_limits(info.device);
   if (info.deviceKind != VKH_DEVICE_KIND_AUTO)
     limits.wide = info.deviceKind == VKH_DEVICE_KIND_WIDE;
+  limits.by_address = info.byAddress != VK_FALSE;
   limits.switches = info.switches & ~uint32_t{VKH_SWITCH_NONE};
   if (info.switches == 0)
     limits.switches = limits.wide ? VKH_SWITCH_DEFAULT_WIDE : VKH_SWITCH_DEFAULT_NARROW;
   return limits;
 }
 
-bool load_functions(const VkhDeviceInfo& info, bool pushes, DeviceFunctions& vk) {
+bool load_functions(const VkhDeviceInfo& info, const Limits& limits, DeviceFunctions& vk) {
   const auto get_device_proc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
       info.getInstanceProcAddr(info.instance, "vkGetDeviceProcAddr"));
   if (get_device_proc == nullptr) return false;
@@ -52,10 +53,13 @@ bool load_functions(const VkhDeviceInfo& info, bool pushes, DeviceFunctions& vk)
   vk.name = reinterpret_cast<PFN_vk##name>(get_device_proc(info.device, "vk" #name)); \
   complete = complete && vk.name != nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_LOAD)
-  if (pushes) {
+  if (limits.pushes) {
     VKH_PUSH_FUNCTIONS(VKH_LOAD)
   } else {
     VKH_SET_FUNCTIONS(VKH_LOAD)
+  }
+  if (limits.by_address) {
+    VKH_ADDRESS_FUNCTIONS(VKH_LOAD)
   }
 #undef VKH_LOAD
 #define VKH_LOAD(name)                                                                      \
@@ -153,6 +157,15 @@ bool record_in_step(Recorder& together, const VkhContext_T& context, const VkhTa
   return true;
 }
 
+// Bytes of the largest stream of a workspace that must be bound and goes with A's size; of its
+// areas, which are not in the workspace, too.
+VkDeviceSize largest_of_a(const Limits& limits, uint32_t vertex_count, uint32_t face_count) {
+  const bool has_areas = !limits.by_address || gpu::covers_area(limits.switches, limits.wide);
+  const VkDeviceSize of_vertex = limits.by_address ? sizeof(uint32_t) : sizeof(gpu::Vertex);
+  const VkDeviceSize of_face = has_areas ? 2 * sizeof(gpu::Area) : sizeof(uint32_t);
+  return std::max(of_vertex * vertex_count, of_face * face_count);
+}
+
 bool counts_fit(uint32_t vertex_count, uint32_t face_count) {
   return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
          face_count <= gpu::kMaxTriangles;
@@ -168,7 +181,9 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
     auto created = std::make_unique<VkhContext_T>();
     created->device = info->device.device;
     created->limits = vkh::chosen(*info);
-    if (!vkh::load_functions(info->device, created->limits.pushes, created->vk))
+    if (created->limits.by_address && !vkh::has_addresses(info->device))
+      return VKH_ERROR_UNSUPPORTED;
+    if (!vkh::load_functions(info->device, created->limits, created->vk))
       return VKH_ERROR_UNSUPPORTED;
     if (!created->limits.pushes) created->sets = std::make_shared<vkh::SetStore>(*created);
     if (vkh::create_kernels(*created, info->pipelineCache) != VK_SUCCESS) {
@@ -205,15 +220,15 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
   const vkh::StreamSizes scratch = vkh::scratch_size(faceCount);
   if (std::max(hierarchy.largest, scratch.largest) > limits.storage_range)
     return VKH_ERROR_TOO_LARGE;
-  *requirements = {hierarchy.all, scratch.all};
+  *requirements = {hierarchy.all, scratch.all, hierarchy.range_count, {}};
+  std::copy(hierarchy.ranges.begin(), hierarchy.ranges.end(), requirements->ranges);
   return VKH_SUCCESS;
 }
 
 VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                       VkhWorkspaceRequirements* requirements) {
-  const VkDeviceSize range = context->limits.storage_range;
-  if (!vkh::counts_fit(vertexCount, faceCount) || vertexCount * sizeof(vkh::gpu::Vertex) > range ||
-      2 * sizeof(vkh::gpu::Area) * faceCount > range)
+  if (!vkh::counts_fit(vertexCount, faceCount) ||
+      vkh::largest_of_a(context->limits, vertexCount, faceCount) > context->limits.storage_range)
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
   const uint32_t recommended = std::min(largest, vkh::recommended_capacity(faceCount));

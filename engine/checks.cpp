@@ -1,8 +1,10 @@
 #include "engine/checks.h"
 
 #ifndef NDEBUG
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "engine/workspace.h"
 
@@ -27,6 +29,23 @@ bool overlap(const VkhMemory& a, const VkhMemory& b) {
   return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
 }
 
+bool overlap(const VkhMemory& memory, const VkhHierarchy& hierarchy) {
+  const auto with_it = [&](const VkhMemory& range) { return overlap(memory, range); };
+  return with_it(hierarchy.memory) ||
+         std::any_of(std::begin(hierarchy.more), std::end(hierarchy.more), with_it);
+}
+
+void check_ranges(const VkhHierarchy& hierarchy, const StreamSizes& needed) {
+  for (uint32_t i = 0; i < needed.range_count; ++i) {
+    const VkhMemory& range = i == 0 ? hierarchy.memory : hierarchy.more[i - 1];
+    check_memory(range);
+    VKH_RULE(
+        "VkhHierarchy::memory and ::more: VkhHierarchyRequirements::rangeCount ranges, each "
+        "of its bytes",
+        range.size >= needed.ranges[i]);
+  }
+}
+
 void check_mesh(const VkhMesh& m) {
   VKH_RULE("VkhMesh::vertexBuffer: not null", m.vertexBuffer != VK_NULL_HANDLE);
   VKH_RULE("VkhMesh::vertexOffset: a multiple of 4 bytes", m.vertexOffset % 4 == 0);
@@ -45,9 +64,7 @@ void check_mesh(const VkhMesh& m) {
 void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& hierarchy,
                  const VkhMemory* scratch) {
   check_mesh(mesh);
-  check_memory(hierarchy.memory);
-  VKH_RULE("VkhHierarchy::memory: at least hierarchySize bytes",
-           hierarchy.memory.size >= hierarchy_size(limits, mesh.vertexCount, mesh.faceCount).all);
+  check_ranges(hierarchy, hierarchy_size(limits, mesh.vertexCount, mesh.faceCount));
   if (scratch == nullptr) {
     VKH_RULE("vkhCmdRefitHierarchy: a mesh with the counts of the build",
              hierarchy.vertexCount == mesh.vertexCount && hierarchy.faceCount == mesh.faceCount);
@@ -56,7 +73,7 @@ void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& 
   check_memory(*scratch);
   VKH_RULE("scratch: at least scratchSize bytes",
            scratch->size >= scratch_size(mesh.faceCount).all);
-  VKH_RULE("scratch and hierarchy: apart", !overlap(*scratch, hierarchy.memory));
+  VKH_RULE("scratch and hierarchy: apart", !overlap(*scratch, hierarchy));
 }
 
 void check_begin(const VkhProblem& p) {
@@ -75,7 +92,7 @@ void check_problem(const VkhContext_T& context, const VkhProblem& p) {
   VKH_RULE("VkhProblem::workspace: at least VkhWorkspaceRequirements::minimum bytes",
            p.workspace.size >= workspace_size(p.a.vertexCount, p.a.faceCount, kSmallestCapacity,
                                               context.limits.switches));
-  VKH_RULE("VkhProblem::workspace and ::b: apart", !overlap(p.workspace, p.b.memory));
+  VKH_RULE("VkhProblem::workspace and ::b: apart", !overlap(p.workspace, p.b));
   const bool covers = gpu::covers_area(context.limits.switches, context.limits.wide);
   VKH_RULE("VkhProblem::coverageBuffer: with a context of VKH_SWITCH_COVERAGE, and with no other",
            (p.coverageBuffer != VK_NULL_HANDLE) == covers);
@@ -87,7 +104,7 @@ void check_move(const VkhProblem& p, const VkhMemory& to) {
   const bool stays = to.buffer == p.workspace.buffer && to.offset == p.workspace.offset;
   VKH_RULE("vkhCmdMoveRun: the run's own workspace, or one apart from it",
            stays || !overlap(to, p.workspace));
-  VKH_RULE("vkhCmdMoveRun: a workspace apart from VkhProblem::b", !overlap(to, p.b.memory));
+  VKH_RULE("vkhCmdMoveRun: a workspace apart from VkhProblem::b", !overlap(to, p.b));
   VKH_RULE("vkhCmdMoveRun: at least as large as the run's workspace",
            stays ? to.size == p.workspace.size : to.size >= p.workspace.size);
 }

@@ -39,6 +39,9 @@ namespace vkh {
   X(UpdateDescriptorSets)    \
   X(CmdBindDescriptorSets)
 
+// Where large buffers are given by address (engine/by_address.h).
+#define VKH_ADDRESS_FUNCTIONS(X) X(GetBufferDeviceAddress)
+
 // Labels for captures; null where the caller has not enabled VK_EXT_debug_utils.
 #define VKH_OPTIONAL_FUNCTIONS(X) \
   X(CmdBeginDebugUtilsLabelEXT)   \
@@ -51,6 +54,7 @@ struct DeviceFunctions {
   VKH_PROMOTED_FUNCTIONS(VKH_DECLARE)
   VKH_PUSH_FUNCTIONS(VKH_DECLARE)
   VKH_SET_FUNCTIONS(VKH_DECLARE)
+  VKH_ADDRESS_FUNCTIONS(VKH_DECLARE)
   VKH_OPTIONAL_FUNCTIONS(VKH_DECLARE)
 #undef VKH_DECLARE
 };
@@ -59,6 +63,7 @@ struct KernelPipeline {
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
+  uint32_t by_address = 0;  // bindings, as bits, that are addresses instead
 };
 
 constexpr uint32_t kMaxKernels = 64;
@@ -69,6 +74,8 @@ struct Limits {
   bool wide = true;                // many workgroups run at once (base/switches.glsl)
   bool cpu = false;                // the device is a CPU
   bool pushes = true;              // it has push descriptors
+  bool by_address = false;         // of the context: large buffers are given by address, and where
+  VkDeviceSize allocation = ~VkDeviceSize{0};  // bytes of one allocation
 };
 
 class SetStore;  // engine/descriptors.h

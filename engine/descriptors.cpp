@@ -2,25 +2,34 @@
 
 #include <algorithm>
 
+#include "engine/by_address.h"
+
 namespace vkh {
 namespace {
 
 constexpr uint32_t kSetsOfPool = 64;
 
+bool is_by_address(const Command& c, uint32_t binding) {
+  return (c.kernel->by_address >> binding & 1) != 0;
+}
+
 struct Writes {
   std::array<VkDescriptorBufferInfo, kMaxBindings> infos;
   std::array<VkWriteDescriptorSet, kMaxBindings> writes;
+  uint32_t count = 0;
 
   Writes(const Command& c, VkDescriptorSet set) {
     for (uint32_t i = 0; i < c.slice_count; ++i) {
+      if (is_by_address(c, i)) continue;
       infos[i] = info(c.slices[i]);
-      writes[i] = {};
-      writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-      writes[i].dstSet = set;
-      writes[i].dstBinding = i;
-      writes[i].descriptorCount = 1;
-      writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-      writes[i].pBufferInfo = &infos[i];
+      VkWriteDescriptorSet& write = writes[count++];
+      write = {};
+      write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+      write.dstSet = set;
+      write.dstBinding = i;
+      write.descriptorCount = 1;
+      write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+      write.pBufferInfo = &infos[i];
     }
   }
   Writes(const Writes&) = delete;
@@ -76,14 +85,31 @@ bool Binder::bind(const Command& c) {
     if (!bind_set(c)) return false;
   } else {
     const Writes pushed(c, VK_NULL_HANDLE);
-    context_.vk.CmdPushDescriptorSetKHR(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, c.kernel->layout,
-                                        0, c.slice_count, pushed.writes.data());
+    if (pushed.count > 0)
+      context_.vk.CmdPushDescriptorSetKHR(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                          c.kernel->layout, 0, pushed.count, pushed.writes.data());
   }
   context_.vk.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, c.kernel->pipeline);
   if (c.push_bytes > 0)
     context_.vk.CmdPushConstants(commands_, c.kernel->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                  c.push_bytes, c.push.data());
+  if (c.kernel->by_address != 0) push_addresses(c);
   return true;
+}
+
+void Binder::push_addresses(const Command& c) const {
+  std::array<VkDeviceAddress, kMaxAddresses> addresses{};
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < c.slice_count; ++i) {
+    if (!is_by_address(c, i)) continue;
+    VkBufferDeviceAddressInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    info.buffer = c.slices[i].buffer;
+    addresses[count++] =
+        context_.vk.GetBufferDeviceAddress(context_.device, &info) + c.slices[i].offset;
+  }
+  context_.vk.CmdPushConstants(commands_, c.kernel->layout, VK_SHADER_STAGE_COMPUTE_BIT,
+                               kAddressOffset, count * 8, addresses.data());
 }
 
 // Without one of its commands, none of the others is right: after a failure nothing is bound.
@@ -119,8 +145,7 @@ VkDescriptorSet Binder::allocate(const Command& c) {
     return VK_NULL_HANDLE;
   --sets_->left;
   const Writes writes(c, set);
-  context_.vk.UpdateDescriptorSets(context_.device, c.slice_count, writes.writes.data(), 0,
-                                   nullptr);
+  context_.vk.UpdateDescriptorSets(context_.device, writes.count, writes.writes.data(), 0, nullptr);
   try {
     written_.push_back({c.kernel, c.slices, set});
   } catch (...) {  // the next command that binds the same has one of its own

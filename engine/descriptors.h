@@ -60,6 +60,7 @@ class Binder {
   };
 
   bool bind_set(const Command& command);
+  void push_addresses(const Command& command) const;
   VkDescriptorSet find(const Command& command) const;
   VkDescriptorSet allocate(const Command& command);
   bool add_pool();

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <numeric>
 #include <span>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "engine/by_address.h"
 
 namespace vkh {
 namespace {
@@ -17,6 +20,11 @@ struct KernelSource {
   std::span<const Binding> bindings;
   uint32_t push_bytes;
 };
+
+#define VKH_ADDRESSES(K) \
+  static_assert(std::popcount(bindings_by_address(k::K::kBindings)) <= int{kMaxAddresses});
+VKH_KERNELS(VKH_ADDRESSES)
+#undef VKH_ADDRESSES
 
 template <class Push>
 constexpr uint32_t push_size() {
@@ -57,12 +65,16 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
     return result;
   }
 
-  const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, source.push_bytes};
+  if (c.limits.by_address) out.by_address = bindings_by_address(source.bindings);
+  const auto addresses = static_cast<uint32_t>(std::popcount(out.by_address));
+  const VkPushConstantRange push{
+      VK_SHADER_STAGE_COMPUTE_BIT, 0,
+      addresses > 0 ? kAddressOffset + 8 * addresses : source.push_bytes};
   VkPipelineLayoutCreateInfo layout{};
   layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
   layout.setLayoutCount = 1;
   layout.pSetLayouts = &out.set_layout;
-  layout.pushConstantRangeCount = source.push_bytes > 0 ? 1 : 0;
+  layout.pushConstantRangeCount = push.size > 0 ? 1 : 0;
   layout.pPushConstantRanges = &push;
   result = c.vk.CreatePipelineLayout(c.device, &layout, nullptr, &out.layout);
   if (result != VK_SUCCESS) out.layout = VK_NULL_HANDLE;
@@ -71,10 +83,13 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
 
 VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
                          KernelPipeline& out) {
+  std::vector<uint32_t> rewritten;
+  if (out.by_address != 0) rewritten = by_address(source.words, out.by_address);
+  const std::span<const uint32_t> words = rewritten.empty() ? source.words : rewritten;
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  module_info.codeSize = source.words.size_bytes();
-  module_info.pCode = source.words.data();
+  module_info.codeSize = words.size_bytes();
+  module_info.pCode = words.data();
   VkShaderModule shader = VK_NULL_HANDLE;
   VkResult result = c.vk.CreateShaderModule(c.device, &module_info, nullptr, &shader);
   if (result != VK_SUCCESS) return result;
@@ -94,6 +109,15 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
   result = c.vk.CreateComputePipelines(c.device, cache, 1, &info, nullptr, &out.pipeline);
   c.vk.DestroyShaderModule(c.device, shader, nullptr);
   return result;
+}
+
+// On a thread of its own, which no exception may leave.
+VkResult create_kernel(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
+                       KernelPipeline& out) try {
+  const VkResult result = create_layouts(c, source, out);
+  return result == VK_SUCCESS ? create_pipeline(c, source, cache, out) : result;
+} catch (...) {
+  return VK_ERROR_OUT_OF_HOST_MEMORY;
 }
 
 constexpr uint32_t kMostThreads = 8;
@@ -154,8 +178,7 @@ VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache) {
       if (!is_needed(order[i], context.limits)) continue;
       KernelPipeline& kernel = context.kernels[order[i]];
       const KernelSource& source = sources[order[i]];
-      VkResult result = create_layouts(context, source, kernel);
-      if (result == VK_SUCCESS) result = create_pipeline(context, source, cache, kernel);
+      const VkResult result = create_kernel(context, source, cache, kernel);
       if (result != VK_SUCCESS) outcome = result;
     }
   };

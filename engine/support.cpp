@@ -37,6 +37,8 @@ struct DeviceFacts {
   VkPhysicalDeviceFeatures2 features{};
   VkPhysicalDeviceScalarBlockLayoutFeatures scalar{};
   VkPhysicalDeviceSynchronization2Features synchronization{};
+  VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+  VkPhysicalDeviceMaintenance3Properties allocations{};
   std::vector<VkExtensionProperties> extensions;
 };
 
@@ -65,7 +67,9 @@ void query_properties(const VkhDeviceInfo& info, DeviceFacts& facts) {
   facts.properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   facts.subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   facts.push.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR;
-  facts.properties.pNext = &facts.subgroup;
+  facts.allocations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  facts.properties.pNext = &facts.allocations;
+  facts.allocations.pNext = &facts.subgroup;
   // Structs of extensions that it has not are a warning on stderr for some drivers.
   if (has_extension(facts, kExtensions[1])) facts.subgroup.pNext = &facts.push;
   load<PFN_vkGetPhysicalDeviceProperties2>(info, "vkGetPhysicalDeviceProperties2")(
@@ -83,6 +87,8 @@ void query_features(const VkhDeviceInfo& info, DeviceFacts& facts) {
   facts.synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
   facts.features.pNext = &facts.scalar;
   facts.scalar.pNext = &facts.synchronization;
+  facts.addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+  facts.synchronization.pNext = &facts.addresses;
   load<PFN_vkGetPhysicalDeviceFeatures2>(info, "vkGetPhysicalDeviceFeatures2")(info.physicalDevice,
                                                                                &facts.features);
 }
@@ -145,7 +151,14 @@ Limits device_limits(const VkhDeviceInfo& info) {
   return {.storage_range = properties.limits.maxStorageBufferRange,
           .wide = properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU,
           .cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
-          .pushes = pushes_descriptors(facts)};
+          .pushes = pushes_descriptors(facts),
+          .allocation = facts.allocations.maxMemoryAllocationSize};
+}
+
+bool has_addresses(const VkhDeviceInfo& info) {
+  DeviceFacts facts;
+  query_features(info, facts);
+  return facts.addresses.bufferDeviceAddress == VK_TRUE;
 }
 
 }  // namespace vkh

@@ -6,5 +6,7 @@
 namespace vkh {
 
 Limits device_limits(const VkhDeviceInfo& info);
+// Whether buffers can be given by address (VkhContextCreateInfo::byAddress).
+bool has_addresses(const VkhDeviceInfo& info);
 
 }  // namespace vkh

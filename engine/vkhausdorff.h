@@ -88,7 +88,8 @@ typedef enum VkhResult {
   VKH_SUCCESS = 0,
   VKH_ERROR_UNSUPPORTED = -1, /* the device lacks something; vkhQuerySupport says what */
   VKH_ERROR_PIPELINE = -2,  /* the driver refused a pipeline or ran out of host or device memory */
-  VKH_ERROR_TOO_LARGE = -3, /* a mesh exceeds 2^28, or one storage buffer binding; or is empty */
+  VKH_ERROR_TOO_LARGE = -3, /* a mesh exceeds 2^28, or one storage buffer binding (but see
+                             * VkhContextCreateInfo::byAddress); or is empty */
   VKH_ERROR_MEMORY = -4     /* no host or device memory for descriptor sets */
 } VkhResult;
 
@@ -160,6 +161,13 @@ typedef struct VkhContextCreateInfo {
   VkPipelineCache pipelineCache; /* may be null */
   uint32_t switches;             /* VkhSwitchBits that are on; 0: what pays on the device */
   VkhDeviceKind deviceKind;      /* 0: by the device's type */
+  /* VK_TRUE: for meshes whose buffers no binding reaches. What holds a mesh or a hierarchy is then
+   * given to kernels by address, and at most 4 bytes a face are bound: on a device that binds 128
+   * MiB a mesh may have 33 million faces instead of 2 million. Every bit of a report is the same.
+   * Needs the feature bufferDeviceAddress (Vulkan 1.2), enabled; and of the buffers of each
+   * VkhMesh, VkhMemory and hierarchy the usage SHADER_DEVICE_ADDRESS besides, their memory
+   * allocated with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. */
+  VkBool32 byAddress;
 } VkhContextCreateInfo;
 
 /* Zeros but for `device` are right: certified, and what pays on the device. Creates the pipelines,
@@ -182,10 +190,11 @@ void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount.
  * The GPU checks nothing: coordinates not finite and indices out of range give an untrue interval;
- * robustBufferAccess keeps the latter from reading elsewhere. Unused vertices are no part of the
- * mesh. Degenerate faces are segments or points. Both buffers: usage STORAGE_BUFFER; each range is
- * at most maxStorageBufferRange less 256 bytes, and with 16-bit indices it must reach to the end of
- * the last index's 4-byte word. A and B may share buffers. The engine never writes them. */
+ * the latter are taken for the last vertex. Unused vertices are no part of the mesh. Degenerate
+ * faces are segments or points. Both buffers: usage STORAGE_BUFFER; each range is at most
+ * maxStorageBufferRange less 256 bytes, unless byAddress, and with 16-bit indices it must reach to
+ * the end of the last index's 4-byte word. A and B may share buffers. The engine never writes them.
+ */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */
@@ -212,9 +221,15 @@ typedef struct VkhMemory {
   VkDeviceSize size;   /* bytes */
 } VkhMemory;
 
+enum { VKH_MAX_RANGES = 8 };
+
 typedef struct VkhHierarchyRequirements {
   VkDeviceSize hierarchySize; /* bytes; kept as long as the hierarchy is used */
   VkDeviceSize scratchSize;   /* bytes; free again once the build has run, e.g. for the workspace */
+  /* The ranges of memory that hold it, and the bytes of each: one, of hierarchySize, unless that is
+   * more than the device allocates at once (maxMemoryAllocationSize). */
+  uint32_t rangeCount;
+  VkDeviceSize ranges[VKH_MAX_RANGES];
 } VkhHierarchyRequirements;
 
 /* B's bounding volume hierarchy: memory that vkhCmdBuildHierarchy has filled. It holds a copy of B
@@ -223,6 +238,8 @@ typedef struct VkhHierarchy {
   VkhMemory memory;
   uint32_t faceCount;   /* set by the build */
   uint32_t vertexCount; /* set by the build */
+  /* Where VkhHierarchyRequirements::rangeCount is above 1: its second range, its third, .. */
+  VkhMemory more[VKH_MAX_RANGES - 1];
 } VkhHierarchy;
 
 /* Sizes for B. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */

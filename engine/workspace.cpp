@@ -1,7 +1,9 @@
 #include "engine/workspace.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace vkh {
 namespace {
@@ -9,24 +11,47 @@ namespace {
 // The largest value that minStorageBufferOffsetAlignment may have.
 constexpr VkDeviceSize kAlignment = 256;
 
-// Hands out one stream after the other; without a buffer it only adds up.
+using Ranges = std::array<VkhMemory, VKH_MAX_RANGES>;
+
+// Hands out one stream after the other; without buffers it only adds up. What an allocation has no
+// room for goes to the next range; what is larger than any, and the rest, to one of its own.
 class Suballocator {
  public:
-  explicit Suballocator(const VkhMemory& memory) : memory_(memory) {}
+  explicit Suballocator(const Ranges& memory) : memory_(memory) {}
+  Suballocator(const Ranges& memory, const Limits& limits)
+      : memory_(memory), by_address_(limits.by_address), allocation_(limits.allocation) {}
 
+  // A stream that must be bound.
   template <class T>
   void operator()(Slice<T>& slice, uint64_t count) {
-    const VkDeviceSize size = std::max<uint64_t>(count, 1) * sizeof(T);
-    slice = {memory_.buffer, memory_.offset + used_, size};
-    used_ += (size + kAlignment - 1) / kAlignment * kAlignment;
-    largest_ = std::max(largest_, size);
+    take(slice, count);
+    largest_ = std::max(largest_, slice.size);
   }
-  VkDeviceSize used() const { return used_; }
-  StreamSizes sizes() const { return {used_, largest_}; }
+  // One that engine/by_address.h has.
+  template <class T>
+  void large(Slice<T>& slice, uint64_t count) {
+    take(slice, count);
+    if (!by_address_) largest_ = std::max(largest_, slice.size);
+  }
+  VkDeviceSize used() const { return std::reduce(used_.begin(), used_.end()); }
+  StreamSizes sizes() const { return {used(), largest_, range_ + 1, used_}; }
 
  private:
-  VkhMemory memory_;
-  VkDeviceSize used_ = 0, largest_ = 0;
+  template <class T>
+  void take(Slice<T>& slice, uint64_t count) {
+    const VkDeviceSize size = std::max<uint64_t>(count, 1) * sizeof(T);
+    const bool fits = used_[range_] == 0 || used_[range_] + size <= allocation_;
+    if (!fits && range_ + 1 < used_.size()) ++range_;
+    slice = {memory_[range_].buffer, memory_[range_].offset + used_[range_], size};
+    used_[range_] += (size + kAlignment - 1) / kAlignment * kAlignment;
+  }
+
+  Ranges memory_;
+  bool by_address_ = false;
+  VkDeviceSize allocation_ = ~VkDeviceSize{0};
+  uint32_t range_ = 0;
+  std::array<VkDeviceSize, VKH_MAX_RANGES> used_{};
+  VkDeviceSize largest_ = 0;
 };
 
 // Of a B whose branches all have a node within 128 MiB, which any device can bind, all have one:
@@ -50,16 +75,16 @@ uint32_t nodes_of(uint32_t face_count, bool ranked) {
 }
 
 void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face_count) {
-  take(h.branches, std::max(face_count, 2u) - 1);
-  take(h.nodes, nodes_of(face_count, h.ranked));
+  take.large(h.branches, std::max(face_count, 2u) - 1);
+  take.large(h.nodes, nodes_of(face_count, h.ranked));
   take(h.ranks, h.ranked ? face_count - 1 : 1);
-  take(h.boxes, pyramid_size(face_count) + quads_size(face_count));
-  take(h.triangles, face_count);
-  take(h.triangle_lows, face_count);
+  take.large(h.boxes, pyramid_size(face_count) + quads_size(face_count));
+  take.large(h.triangles, face_count);
+  take.large(h.triangle_lows, face_count);
   take(h.codes, face_count);
   take(h.box, 1);
-  take(h.vertices, vertex_count);
-  take(h.faces, face_count);
+  take.large(h.vertices, vertex_count);
+  take.large(h.faces, face_count);
   take(h.groups_done, 1);
   h.face_count = face_count;
 }
@@ -90,8 +115,8 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   const uint64_t parents = capacity / 4 + 1;
   take(w.control, 1);
   take(w.sizes, 1);
-  take(w.vertices, vertex_count);
-  take(w.faces, face_count);
+  take.large(w.vertices, vertex_count);
+  take.large(w.faces, face_count);
   take(w.vertex_nearest, vertex_count);
   take(w.vertex_distance, vertex_count);
   take(w.face_shared, face_count);
@@ -147,7 +172,7 @@ uint32_t quads_size(uint32_t face_count) {
 }
 
 StreamSizes hierarchy_size(const Limits& limits, uint32_t vertex_count, uint32_t face_count) {
-  Suballocator count({});
+  Suballocator count({}, limits);
   Hierarchy h;
   h.ranked = is_ranked(limits, face_count);
   list(count, h, vertex_count, face_count);
@@ -155,7 +180,7 @@ StreamSizes hierarchy_size(const Limits& limits, uint32_t vertex_count, uint32_t
 }
 
 StreamSizes scratch_size(uint32_t face_count) {
-  Suballocator count({});
+  Suballocator count(Ranges{});
   BuildScratch s;
   list(count, s, face_count);
   return count.sizes();
@@ -163,7 +188,7 @@ StreamSizes scratch_size(uint32_t face_count) {
 
 VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
                             uint32_t switches) {
-  Suballocator count({});
+  Suballocator count(Ranges{});
   Workspace w;
   list(count, w, vertex_count, face_count, {capacity, switches});
   return count.used();
@@ -194,7 +219,9 @@ uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face
 }
 
 Hierarchy view_hierarchy(const VkhHierarchy& hierarchy, const Limits& limits) {
-  Suballocator take(hierarchy.memory);
+  Ranges ranges{hierarchy.memory};
+  std::copy(std::begin(hierarchy.more), std::end(hierarchy.more), ranges.begin() + 1);
+  Suballocator take(ranges, limits);
   Hierarchy h;
   h.ranked = is_ranked(limits, hierarchy.faceCount);
   list(take, h, hierarchy.vertexCount, hierarchy.faceCount);
@@ -202,7 +229,7 @@ Hierarchy view_hierarchy(const VkhHierarchy& hierarchy, const Limits& limits) {
 }
 
 BuildScratch view_scratch(const VkhMemory& memory, uint32_t face_count) {
-  Suballocator take(memory);
+  Suballocator take(Ranges{memory});
   BuildScratch s;
   list(take, s, face_count);
   return s;
@@ -210,7 +237,7 @@ BuildScratch view_scratch(const VkhMemory& memory, uint32_t face_count) {
 
 Workspace view_workspace(const VkhMemory& memory, const Limits& limits, uint32_t vertex_count,
                          uint32_t face_count) {
-  Suballocator take(memory);
+  Suballocator take(Ranges{memory});
   Workspace w;
   list(take, w, vertex_count, face_count,
        {capacity_for(limits, vertex_count, face_count, memory.size), limits.switches});

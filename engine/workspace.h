@@ -2,6 +2,7 @@
 // so that they cannot disagree: a new stream is one line in it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "engine/context.h"
@@ -78,9 +79,12 @@ inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, size_t o
 uint32_t pyramid_size(uint32_t face_count);
 // And of those between them, over four boxes of a level each.
 uint32_t quads_size(uint32_t face_count);
-// Bytes of all streams, and of the largest.
+// Bytes of all streams, of the largest that must be bound, and of the ranges of memory that they
+// are in: as a rule one.
 struct StreamSizes {
   VkDeviceSize all, largest;
+  uint32_t range_count;
+  std::array<VkDeviceSize, VKH_MAX_RANGES> ranges;
 };
 StreamSizes hierarchy_size(const Limits& limits, uint32_t vertex_count, uint32_t face_count);
 StreamSizes scratch_size(uint32_t face_count);

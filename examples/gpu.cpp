@@ -63,7 +63,8 @@ Gpu::Gpu(const GpuRequest& request) {
   const VkhContextCreateInfo info{{vkGetInstanceProcAddr, instance_, physical_, device_},
                                   VK_NULL_HANDLE,
                                   0,
-                                  VKH_DEVICE_KIND_AUTO};
+                                  VKH_DEVICE_KIND_AUTO,
+                                  VK_FALSE};
   if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
   keep([this] { vkhDestroyContext(context_); });
 }

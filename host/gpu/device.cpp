@@ -231,12 +231,20 @@ uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
   return static_cast<uint32_t>((timed != families.end() ? timed : any) - families.begin());
 }
 
-VkBool32 has_robust_access(const VulkanApi& vk, VkPhysicalDevice physical) {
+// What is used where it is there.
+struct Wishes {
   VkPhysicalDeviceFeatures2 features{};
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  vk.GetPhysicalDeviceFeatures2(physical, &features);
-  return features.features.robustBufferAccess;
-}
+  VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+
+  Wishes(const VulkanApi& vk, VkPhysicalDevice physical) {
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    features.pNext = &addresses;
+    vk.GetPhysicalDeviceFeatures2(physical, &features);
+  }
+  Wishes(const Wishes&) = delete;
+  Wishes& operator=(const Wishes&) = delete;
+};
 
 }  // namespace
 
@@ -310,7 +318,13 @@ void Device::create_device(bool robust) {
   queue.queueFamilyIndex = queue_family_;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
+  const Wishes has(vk_, physical_);
+  VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+  addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+  addresses.bufferDeviceAddress = has.addresses.bufferDeviceAddress;
+  has_addresses_ = has.addresses.bufferDeviceAddress == VK_TRUE;
   VkPhysicalDeviceSynchronization2Features synchronization{};
+  synchronization.pNext = &addresses;
   synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
   synchronization.synchronization2 = VK_TRUE;
   VkPhysicalDeviceScalarBlockLayoutFeatures scalar{};
@@ -318,7 +332,7 @@ void Device::create_device(bool robust) {
   scalar.pNext = &synchronization;
   scalar.scalarBlockLayout = VK_TRUE;
   VkPhysicalDeviceFeatures features{};
-  features.robustBufferAccess = robust ? has_robust_access(vk_, physical_) : VK_FALSE;
+  features.robustBufferAccess = robust ? has.features.features.robustBufferAccess : VK_FALSE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &scalar;
@@ -357,6 +371,7 @@ void Device::adopt(const AdoptedDevice& adopted) {
   device_ = adopted.device;
   queue_ = adopted.queue;
   queue_family_ = adopted.queue_family;
+  has_addresses_ = adopted.has_addresses;
   if (adopted.queue_mutex != nullptr) queue_mutex_ = adopted.queue_mutex;
   load_device(vk_, device_);
   read_limits();

@@ -33,6 +33,7 @@ struct AdoptedDevice {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queue_family = 0;
+  bool has_addresses = false;         ///< bufferDeviceAddress is enabled: meshes may be of any size
   std::mutex* queue_mutex = nullptr;  ///< held around every vkQueueSubmit; null: the Device's own
 };
 
@@ -61,6 +62,8 @@ class Device {
   std::mutex& queue_mutex() const { return *queue_mutex_; }
   /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.
   bool has_timestamps() const { return has_timestamps_; }
+  /// Buffers can be given by address: those for storage are made for it.
+  bool has_addresses() const { return has_addresses_; }
   double timestamp_period_ns() const { return timestamp_period_ns_; }
   /// For the engine's C API.
   VkhDeviceInfo engine_info() const;
@@ -88,6 +91,7 @@ class Device {
   std::mutex* queue_mutex_ = &own_mutex_;
   bool owned_ = true;
   bool has_timestamps_ = true;
+  bool has_addresses_ = false;
   double timestamp_period_ns_ = 1;
   // The messenger keeps its address, and calls from any thread.
   std::unique_ptr<std::atomic<uint32_t>> messages_ = std::make_unique<std::atomic<uint32_t>>(0);

@@ -50,13 +50,19 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size;
-  info.usage = usage;
+  const bool has_address =
+      device.has_addresses() && (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0;
+  info.usage = usage | (has_address ? VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT : 0);
   check_made(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), buffer_,
              "creating a buffer");
   VkMemoryRequirements requirements;
   vk.GetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  if (has_address) allocate.pNext = &flags;
   allocate.allocationSize = requirements.size;
   allocate.memoryTypeIndex = memory_type(device, requirements.memoryTypeBits, placement);
   const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);

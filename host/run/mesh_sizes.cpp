@@ -33,24 +33,41 @@ void check_size(const char* name, const MeshSize& counts, Takes&& takes) {
                     "; try a device with larger ones (vkhausdorff doctor), or simplify the mesh");
 }
 
-}  // namespace
+VkhResult ask(VkhContext context, const MeshSize& a, VkhWorkspaceRequirements& needed) {
+  return vkhGetWorkspaceRequirements(context, a.vertices, a.faces, &needed);
+}
+VkhResult ask(VkhContext context, const MeshSize& b, VkhHierarchyRequirements& needed) {
+  return vkhGetHierarchyRequirements(context, b.vertices, b.faces, &needed);
+}
 
-VkhWorkspaceRequirements workspace_for(VkhContext context, const MeshSize& a) {
-  VkhWorkspaceRequirements needed{};
-  check_size("A", a, [&](const MeshSize& counts) {
-    return vkhGetWorkspaceRequirements(context, counts.vertices, counts.faces, &needed) ==
-           VKH_SUCCESS;
-  });
+template <class Requirements>
+Requirements needed_for(const char* name, VkhContext context, const MeshSize& mesh) {
+  Requirements needed{};
+  check_size(name, mesh,
+             [&](const MeshSize& counts) { return ask(context, counts, needed) == VKH_SUCCESS; });
   return needed;
 }
 
+template <class Requirements>
+bool takes(VkhContext context, const MeshSize& mesh) {
+  Requirements needed{};
+  return ask(context, mesh, needed) == VKH_SUCCESS;
+}
+
+}  // namespace
+
+bool takes_as_a(VkhContext context, const MeshSize& a) {
+  return takes<VkhWorkspaceRequirements>(context, a);
+}
+bool takes_as_b(VkhContext context, const MeshSize& b) {
+  return takes<VkhHierarchyRequirements>(context, b);
+}
+
+VkhWorkspaceRequirements workspace_for(VkhContext context, const MeshSize& a) {
+  return needed_for<VkhWorkspaceRequirements>("A", context, a);
+}
 VkhHierarchyRequirements hierarchy_for(VkhContext context, const MeshSize& b) {
-  VkhHierarchyRequirements needed{};
-  check_size("B", b, [&](const MeshSize& counts) {
-    return vkhGetHierarchyRequirements(context, counts.vertices, counts.faces, &needed) ==
-           VKH_SUCCESS;
-  });
-  return needed;
+  return needed_for<VkhHierarchyRequirements>("B", context, b);
 }
 
 }  // namespace vkh

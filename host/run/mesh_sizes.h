@@ -9,6 +9,10 @@ struct MeshSize {
   uint32_t vertices = 0, faces = 0;
 };
 
+/// Whether the context's device takes a mesh of that size.
+bool takes_as_a(VkhContext context, const MeshSize& a);
+bool takes_as_b(VkhContext context, const MeshSize& b);
+
 /// Throw DeviceError where a mesh of that size is too large for the context's device: with its
 /// size, the largest that is not, and what helps.
 VkhWorkspaceRequirements workspace_for(VkhContext context, const MeshSize& a);

@@ -1,6 +1,7 @@
 #include "host/run/run.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "host/base/error.h"
@@ -68,14 +69,24 @@ VkhContext Runner::context_for(uint32_t switches) {
   if (known != contexts_.end()) return known->second.get();
   const bool wide = (switches & kSwitchWide) != 0;
   const VkhContextCreateInfo info{device_.engine_info(), cache_.handle(),
-                                  (switches & ~kSwitchWide) | VKH_SWITCH_NONE,
-                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW};
+                                  (switches & ~(kSwitchWide | kSwitchByAddress)) | VKH_SWITCH_NONE,
+                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
+                                  (switches & kSwitchByAddress) != 0 ? VK_TRUE : VK_FALSE};
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
   ContextHandle kept(context, vkhDestroyContext);
   cache_.save();
   contexts_.emplace(switches, std::move(kept));
   return context;
+}
+
+// Where a mesh is too large to be bound, it is given by address, which gives the same bits.
+VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inputs) {
+  const VkhContext context = context_for(switches);
+  const bool fits = std::all_of(inputs.begin(), inputs.end(), [&](const RunInput& input) {
+    return fits_bindings(context, input);
+  });
+  return fits || !device_.has_addresses() ? context : context_for(switches | kSwitchByAddress);
 }
 
 // Seats are kept, for their buffers, unless there is no memory beside those of an earlier run.
@@ -113,10 +124,12 @@ void Runner::stamp(VkCommandBuffer commands, const char* name) {
 ResidentMesh Runner::build(const MeshData& b) {
   const Turns::Turn turn(turns_);
   // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
-  context_ = context_for(default_switches(device_));
+  std::array<RunInput, 1> alone;
+  alone[0].b = b;
+  context_ = context_for(default_switches(device_), alone);
   ResidentMesh resident;
   seat(1, [&] { resident = seats_[0]->take_resident(context_, b); });
-  VkhHierarchy hierarchy{{resident.hierarchy.handle(), 0, resident.hierarchy.size()}, 0, 0};
+  VkhHierarchy hierarchy = resident.memory.view();
   const VkCommandBuffer commands = begin();
   seats_[0]->record_upload(commands);
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
@@ -196,7 +209,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   std::vector<RunOutput> outputs(inputs.size());
   if (inputs.empty()) return outputs;
   const Turns::Turn turn(turns_);
-  context_ = context_for(inputs[0].switches);
+  context_ = context_for(inputs[0].switches, inputs);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();
   seat(inputs.size(), [&] {

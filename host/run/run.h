@@ -29,6 +29,7 @@ class Runner {
  private:
   struct Round;
   VkhContext context_for(uint32_t switches);
+  VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs);
   void seat(size_t count, const std::function<void()>& take);
   VkCommandBuffer begin();
   VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }

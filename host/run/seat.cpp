@@ -62,6 +62,24 @@ void write(std::byte* to, const MeshData& m) {
 
 }  // namespace
 
+void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed) {
+  for (uint32_t i = 0; i < needed.rangeCount; ++i)
+    vkh::grow(ranges_[i], device, roomy(needed.ranges[i]), kWorking, Placement::kDevice);
+}
+
+VkhHierarchy HierarchyMemory::view() const {
+  VkhHierarchy hierarchy{};
+  hierarchy.memory = {ranges_[0].handle(), 0, ranges_[0].size()};
+  for (uint32_t i = 1; i < ranges_.size(); ++i)
+    hierarchy.more[i - 1] = {ranges_[i].handle(), 0, ranges_[i].size()};
+  return hierarchy;
+}
+
+bool fits_bindings(VkhContext context, const RunInput& in) {
+  return (in.a.mesh == nullptr || takes_as_a(context, counts_of(*in.a.mesh))) &&
+         (in.b.mesh == nullptr || takes_as_b(context, counts_of(*in.b.mesh)));
+}
+
 void check_engine(VkhResult result, const char* what) {
   if (result == VKH_SUCCESS) return;
   const char* reason = result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
@@ -87,13 +105,15 @@ void Seat::upload(const MeshData& a, const MeshData& b) {
 // Where B's hierarchy is or will be built; returns the scratch that building needs.
 VkDeviceSize Seat::place_b(const VkhHierarchyRequirements& needed, const RunInput& in) {
   if (in.resident != nullptr) {
-    const ResidentMesh& b = *in.resident;
-    problem_.b = {{b.hierarchy.handle(), 0, b.hierarchy.size()}, b.face_count, b.vertex_count};
+    problem_.b = in.resident->memory.view();
+    problem_.b.faceCount = in.resident->face_count;
+    problem_.b.vertexCount = in.resident->vertex_count;
     return 0;
   }
-  grow(hierarchy_, device_, roomy(needed.hierarchySize), kWorking, Placement::kDevice);
-  problem_.b = {
-      {hierarchy_.handle(), 0, hierarchy_.size()}, mesh_b_.faceCount, mesh_b_.vertexCount};
+  hierarchy_.grow(device_, needed);
+  problem_.b = hierarchy_.view();
+  problem_.b.faceCount = mesh_b_.faceCount;
+  problem_.b.vertexCount = mesh_b_.vertexCount;
   return needed.scratchSize;
 }
 
@@ -169,8 +189,8 @@ void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile*
 ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {
   const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
   upload({}, b);
-  ResidentMesh resident{Buffer(device_, needed.hierarchySize, kWorking, Placement::kDevice),
-                        mesh_b_.vertexCount, mesh_b_.faceCount};
+  ResidentMesh resident{{}, mesh_b_.vertexCount, mesh_b_.faceCount};
+  resident.memory.grow(device_, needed);
   grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
   is_resident_ = false;

@@ -2,6 +2,7 @@
 // the library is told of them.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -17,9 +18,20 @@ struct MeshData {
   const StoredMesh* stored = nullptr;
 };
 
-/// Mesh B on the device: its hierarchy, in a buffer of its own.
+/// A hierarchy's ranges of memory, each a buffer of its own.
+class HierarchyMemory {
+ public:
+  /// Makes each at least as large as is needed.
+  void grow(const Device& device, const VkhHierarchyRequirements& needed);
+  VkhHierarchy view() const;
+
+ private:
+  std::array<Buffer, VKH_MAX_RANGES> ranges_;
+};
+
+/// Mesh B on the device.
 struct ResidentMesh {
-  Buffer hierarchy;
+  HierarchyMemory memory;
   uint32_t vertex_count = 0, face_count = 0;
 };
 
@@ -88,7 +100,8 @@ class Seat {
   VkhMemory take_room(VkDeviceSize bytes);
 
   const Device& device_;
-  Buffer staging_, meshes_, hierarchy_, workspace_, report_, readback_, areas_, areas_readback_;
+  HierarchyMemory hierarchy_;
+  Buffer staging_, meshes_, workspace_, report_, readback_, areas_, areas_readback_;
   Buffer larger_, left_;           // where a run that paused went on, and before that
   std::optional<VkhMemory> next_;  // where it goes on now
   VkDeviceSize uploaded_bytes_ = 0;
@@ -97,6 +110,9 @@ class Seat {
   VkhProblem problem_{};
   VkhMemory scratch_{};
 };
+
+/// Whether the context takes the pair, or what there is of it.
+bool fits_bindings(VkhContext context, const RunInput& input);
 
 /// Throws DeviceError that names `what` unless it is VKH_SUCCESS.
 void check_engine(VkhResult result, const char* what);

@@ -16,6 +16,8 @@ namespace vkh {
 constexpr uint32_t kSwitchMultiwave = 1u << 31;
 /// The device is of VKH_DEVICE_KIND_WIDE, else NARROW.
 constexpr uint32_t kSwitchWide = 1u << 29;
+/// VkhContextCreateInfo::byAddress: for meshes that the device cannot bind.
+constexpr uint32_t kSwitchByAddress = 1u << 28;
 
 /// What is on unless somebody asks for something else; what pays depends on the kind of device.
 uint32_t default_switches(const Device& device);

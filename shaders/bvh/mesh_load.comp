@@ -1,6 +1,6 @@
 // What: copies a mesh from the caller's buffers (any stride, 16- or 32-bit indices) into packed
 // ones. In: vertex_words, index_words, low_words as given. Out: vertices[vertex_count],
-// indices[index_count].
+// indices[index_count], each below vertex_count.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -30,11 +30,10 @@ void main() {
     vertices[i].lo = lo;
   }
   if (i < push.index_count) {
-    if (push.index_is_16bit != 0u) {
-      uint half_word = push.index_half + i;
-      indices[i] = (index_words[half_word >> 1] >> (16u * (half_word & 1u))) & 0xffffu;
-    } else {
-      indices[i] = index_words[(push.index_half >> 1) + i];
-    }
+    uint half_word = push.index_half + i;
+    uint index = push.index_is_16bit != 0u
+                     ? (index_words[half_word >> 1] >> (16u * (half_word & 1u))) & 0xffffu
+                     : index_words[(push.index_half >> 1) + i];
+    indices[i] = min(index, push.vertex_count - 1u);
   }
 }

@@ -95,7 +95,7 @@ static VkDevice create_device(const VkhDeviceInfo* info) {
 }
 
 static void check_sizes(VkhContext context) {
-  VkhHierarchyRequirements hierarchy = {0, 0}, larger = {0, 0};
+  VkhHierarchyRequirements hierarchy = {0}, larger = {0};
   VkhWorkspaceRequirements workspace = {0, 0, 0};
   CHECK(vkhGetHierarchyRequirements(context, 3, 1, &hierarchy) == VKH_SUCCESS);
   CHECK(vkhGetHierarchyRequirements(context, 30000, 60000, &larger) == VKH_SUCCESS);

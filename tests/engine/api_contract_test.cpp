@@ -84,7 +84,7 @@ TEST_CASE("a supported device has no reasons against it, whatever the room for t
 
 TEST_CASE("sizes: refused where the header says so") {
   KernelBench bench;
-  VkhHierarchyRequirements hierarchy{1, 2};
+  VkhHierarchyRequirements hierarchy{1, 2, 3, {}};
   VkhWorkspaceRequirements workspace{1, 2, 3};
   const uint32_t most = 1u << 28;
   for (const auto& [vertices, faces] :

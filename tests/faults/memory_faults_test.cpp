@@ -158,7 +158,7 @@ TEST_CASE("the C API") {
     return result == VKH_SUCCESS ? std::string() : throw std::bad_alloc();
   });
   try_all("vkhCreateContext", 6, [&] {
-    const VkhContextCreateInfo create{info, VK_NULL_HANDLE, 0, VKH_DEVICE_KIND_AUTO};
+    const VkhContextCreateInfo create{info, VK_NULL_HANDLE, 0, VKH_DEVICE_KIND_AUTO, VK_FALSE};
     VkhContext context = nullptr;
     const VkhResult result = vkhCreateContext(&create, &context);
     CHECK((context != nullptr) == (result == VKH_SUCCESS));

@@ -49,7 +49,7 @@ REFUSED = {
     "little shared memory": (limits(maxComputeSharedMemorySize=8192), "bytes of shared memory are missing"),
     "subgroups of 2": (limits(subgroupSize=2), "subgroups are 2 wide, not 4 to 64"),
     "subgroups of 128": (limits(subgroupSize=128), "subgroups are 128 wide, not 4 to 64"),
-    "a small binding": (limits(maxStorageBufferRange=1 << 18), "too large"),
+    "a small binding": (limits(maxStorageBufferRange=1 << 15), "too large"),
 }
 
 failures = 0
@@ -81,8 +81,23 @@ for mib in (1, 2, 4):
     meets = answer and answer["lower"] <= expected["upper"] and expected["lower"] <= answer["upper"]
     if not meets or answer["status"] != "closed" or not all(answer["verified"].values()):
         fail(f"bindings of {mib} MiB", done)
-# Half of that holds not all of B: the refusal says what it would hold.
-done = demo(**limits(maxStorageBufferRange=1 << 19))
+# Half of that holds not all of B, which is then given by address, and in several allocations: the same bits, with the same
+# memory for the search.
+little = "--memory=1300KiB"
+expected = json.loads(demo(little, VK_INSTANCE_LAYERS="").stdout)
+for what, environment in {
+    "bindings of 512 KiB": limits(maxStorageBufferRange=1 << 19),
+    "allocations of 2 MiB": limits(maxMemoryAllocationSize=2 << 20),
+    "both": limits(maxStorageBufferRange=1 << 19, maxMemoryAllocationSize=2 << 20),
+    "both, and no push descriptors": NO_PUSH | limits(maxStorageBufferRange=1 << 19, maxMemoryAllocationSize=2 << 20),
+}.items():
+    done = demo(little, **environment)
+    answer = json.loads(done.stdout) if done.returncode == 0 else {}
+    different = [key for key in SAME if answer.get(key) != expected[key]]
+    if different or done.stderr:
+        fail(f"{what}: {different}", done)
+# Without addresses the refusal says what it would hold.
+done = demo(VKH_LAYER_HIDE="bufferDeviceAddress", **limits(maxStorageBufferRange=1 << 19))
 words = ("mesh B is too large for this device: 15134 faces", "take about ", "simplify the mesh")
 if done.returncode != 5 or not all(word in done.stderr for word in words) or done.stderr.count("\n") != 1:
     fail("bindings of 512 KiB", done)

@@ -91,17 +91,23 @@ class Windows(Platform):
             if not number:
                 raise Skip("Xvfb does not start")
             self.environment["DISPLAY"] = f":{number}"
-            if not (self.prefix / "system.reg").exists():
-                self.build.mkdir(parents=True, exist_ok=True)
-                subprocess.run([*self.starter, "wineboot", "-i"], env=self.environment, cwd=self.build, timeout=300,
-                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            # Server and services start here and stay. Those that a test's program started would hold its output, and its
+            # reader would wait for them to end, which takes them twenty seconds.
+            self.prefix.mkdir(parents=True, exist_ok=True)
+            self.tell_server("-p")
+            subprocess.run([*self.starter, "wineboot"], env=self.environment, cwd=self.build, timeout=300,
+                           stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             yield
         finally:
-            server = shutil.which("wineserver") or shutil.which("wineserver-stable") or "/usr/lib/wine/wineserver"
-            if pathlib.Path(server).exists():
-                subprocess.run([server, "-k"], env=self.environment, timeout=60, capture_output=True)
+            self.tell_server("-k")
             display.terminate()
             display.wait(timeout=30)
+
+    def tell_server(self, word: str) -> None:
+        server = shutil.which("wineserver") or shutil.which("wineserver-stable") or "/usr/lib/wine/wineserver"
+        if pathlib.Path(server).exists():  # it keeps what it is given as its output
+            subprocess.run([server, word], env=self.environment, timeout=60, stdin=subprocess.DEVNULL,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 class Arm64(Platform):

@@ -145,7 +145,7 @@ class Run:
 
     def presets(self) -> str:
         """Every kernel, under every set of switches; and the C API's frames."""
-        return self.doctests(["presets_test", "api_frames_test", "api_tasks_test"])
+        return self.doctests(["presets_test", "api_frames_test", "api_tasks_test", "api_address_test"])
 
     def host(self) -> str:
         return self.doctests(HOST)

@@ -117,7 +117,8 @@ void ApiCommands::submit_and_wait(VkCommandBuffer commands) {
   check(device.vk().ResetFences(device.handle(), 1, &fence_), "resetting a fence");
 }
 
-ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance) : context_(shared_context()), b_(b) {
+ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance, VkhContext context)
+    : context_(context != nullptr ? context : shared_context()), b_(b) {
   VkhHierarchyRequirements hierarchy{};
   check_engine(
       vkhGetHierarchyRequirements(context_, b.view().vertexCount, b.view().faceCount, &hierarchy));
@@ -125,12 +126,15 @@ ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance) : context_(shared
   check_engine(
       vkhGetWorkspaceRequirements(context_, a.view().vertexCount, a.view().faceCount, &workspace));
   const VkDeviceSize bytes = std::min(workspace.recommended, workspace.minimum + (8u << 20));
-  hierarchy_ = garbage(hierarchy.hierarchySize, kWorking);
+  for (uint32_t i = 0; i < hierarchy.rangeCount; ++i) {
+    const VkDeviceSize size = hierarchy.ranges[i];
+    hierarchy_.push_back(garbage(size, kWorking));
+    (i == 0 ? problem_.b.memory : problem_.b.more[i - 1]) = {hierarchy_[i].handle(), 0, size};
+  }
   scratch_ = garbage(hierarchy.scratchSize, kWorking);
   workspace_ = garbage(bytes, kWorking);
   reports_ = garbage(kFirstReport + 4 * kReportStride, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   problem_.a = a.view();
-  problem_.b.memory = {hierarchy_.handle(), 0, hierarchy.hierarchySize};
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = cull_tolerance;
   scratch_view_ = {scratch_.handle(), 0, scratch_.size()};
@@ -169,7 +173,7 @@ void ApiPair::spoil_report() {
 }
 
 void ApiPair::spoil_hierarchy() {
-  std::memset(hierarchy_.mapped(), kGarbage, problem_.b.memory.size);
+  for (const Buffer& range : hierarchy_) std::memset(range.mapped(), kGarbage, range.size());
   problem_.b.faceCount = problem_.b.vertexCount = 0;
 }
 

@@ -56,7 +56,8 @@ class ApiCommands {
 /// h(a, b): memory filled with garbage, a problem, reports.
 class ApiPair {
  public:
-  ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance);
+  /// Null: the context that all such pairs share.
+  ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance, VkhContext context = nullptr);
 
   void build(VkCommandBuffer commands);
   void refit(VkCommandBuffer commands);
@@ -88,7 +89,8 @@ class ApiPair {
   VkhContext context_;
   ApiCommands commands_;
   ApiMesh& b_;
-  Buffer hierarchy_, scratch_, workspace_, reports_;
+  std::vector<Buffer> hierarchy_;  // its ranges
+  Buffer scratch_, workspace_, reports_;
   VkhMemory scratch_view_{};
   VkhProblem problem_{};
 };

@@ -37,7 +37,8 @@ VkhContext context_for(uint32_t switches, bool wide) {
   Device& device = test_device();
   VkhContext& context = made()->contexts[{switches, wide}];
   const VkhContextCreateInfo info{device.engine_info(), VK_NULL_HANDLE, switches | VKH_SWITCH_NONE,
-                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW};
+                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
+                                  *environment("VKH_TEST_BY_ADDRESS") != '\0' ? VK_TRUE : VK_FALSE};
   if (context == nullptr && vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw std::runtime_error("no context");
   return context;
@@ -146,7 +147,7 @@ BuiltHierarchy build_hierarchy(KernelBench& bench, const Mesh& mesh, const Limit
       bench.garbage<uint32_t>(hierarchy_size(limits, b.vertexCount, faces).all / 4);
   const Slice<uint32_t> spare = bench.garbage<uint32_t>(scratch_size(faces).all / 4);
   const BuiltHierarchy built{
-      view_hierarchy({{kept.buffer, 0, kept.size}, faces, b.vertexCount}, limits),
+      view_hierarchy({{kept.buffer, 0, kept.size}, faces, b.vertexCount, {}}, limits),
       view_scratch({spare.buffer, 0, spare.size}, faces)};
   bench.run([&](Recorder& rec) { record_build(rec, b, built.scratch, built.hierarchy); });
   return built;

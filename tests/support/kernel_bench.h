@@ -36,7 +36,8 @@ inline void release_kept() {
 }
 
 /// The device of this test program, made once, with the validation layer if VKH_VALIDATION is set
-/// and not empty. VKH_TEST_DEVICE selects another than the best one.
+/// and not empty. VKH_TEST_DEVICE selects another than the best one. Contexts are byAddress where
+/// VKH_TEST_BY_ADDRESS is not empty.
 vkh::Device& test_device();
 
 /// A device as somebody else's, to be adopted.

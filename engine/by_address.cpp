@@ -1,0 +1,242 @@
+#include "engine/by_address.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <set>
+
+namespace vkh {
+namespace {
+
+// The few words of the SPIR-V 1.5 specification that this needs.
+enum Op : uint32_t {
+  kName = 5,
+  kMemoryModel = 14,
+  kEntryPoint = 15,
+  kCapability = 17,
+  kTypeVoid = 19,
+  kTypeInt = 21,
+  kTypeVector = 23,
+  kTypeStruct = 30,
+  kTypePointer = 32,
+  kConstant = 43,
+  kFunction = 54,
+  kVariable = 59,
+  kLoad = 61,
+  kStore = 62,
+  kAccessChain = 65,
+  kInBoundsAccessChain = 66,
+  kDecorate = 71,
+  kMemberDecorate = 72
+};
+constexpr uint32_t kPushConstant = 9, kPhysical = 5349;            // storage classes
+constexpr uint32_t kPhysicalAddresses = 5347, kPhysical64 = 5348;  // capability, addressing
+constexpr uint32_t kBlock = 2, kBinding = 33, kOffset = 35;        // decorations
+constexpr uint32_t kAligned = 2;                                   // of a memory access
+constexpr uint32_t kHeaderWords = 5, kBoundAt = 3, kAnyId = 0;
+
+struct Instruction {
+  uint32_t op;
+  std::span<const uint32_t> args;
+};
+
+template <class Visit>
+void for_each_instruction(std::span<const uint32_t> words, Visit&& visit) {
+  for (size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16)
+    visit(Instruction{words[at] & 0xffff, words.subspan(at + 1, (words[at] >> 16) - 1)});
+}
+
+bool is_chain(uint32_t op) { return op == kAccessChain || op == kInBoundsAccessChain; }
+
+// What the module declares, as far as it concerns the buffers that are given by address.
+struct Declarations {
+  struct Pointer {
+    uint32_t storage, pointee;
+  };
+  std::map<uint32_t, uint32_t> bindings;  // of their variables
+  std::map<uint32_t, uint32_t> blocks;    // of their variables
+  std::map<uint32_t, Pointer> pointers;
+  std::set<uint32_t> wide;         // vectors of four
+  std::set<uint32_t> moved;        // pointers into them
+  std::set<uint32_t> moved_types;  // what those point to
+  uint32_t word_type = kAnyId;     // uint
+  uint32_t push = kAnyId;          // variable of the push constants
+  uint32_t push_member = kAnyId;   // type of what they are
+
+  Declarations(std::span<const uint32_t> words, uint32_t wanted) {
+    std::map<uint32_t, uint32_t> first_members;
+    for_each_instruction(words, [&](const Instruction& i) {
+      if (i.op == kDecorate && i.args[1] == kBinding && (wanted >> i.args[2] & 1) != 0)
+        bindings[i.args[0]] = i.args[2];
+      if (i.op == kTypeStruct && i.args.size() > 1) first_members[i.args[0]] = i.args[1];
+      declare(i);
+      if (i.op == kVariable && i.args[2] == kPushConstant) {
+        push = i.args[1];
+        push_member = first_members[pointers[i.args[0]].pointee];
+      }
+    });
+  }
+
+  bool is_given(uint32_t variable) const { return bindings.contains(variable); }
+
+ private:
+  void declare(const Instruction& i) {
+    if (i.op == kTypeInt && i.args[1] == 32 && i.args[2] == 0) word_type = i.args[0];
+    if (i.op == kTypeVector && i.args[2] == 4) wide.insert(i.args[0]);
+    if (i.op == kTypePointer) pointers[i.args[0]] = {i.args[1], i.args[2]};
+    if (i.op == kVariable && is_given(i.args[1])) blocks[i.args[1]] = pointers[i.args[0]].pointee;
+    if (is_chain(i.op) && (is_given(i.args[2]) || moved.contains(i.args[2]))) {
+      moved.insert(i.args[1]);
+      moved_types.insert(pointers[i.args[0]].pointee);
+    }
+  }
+};
+
+class Rewriter {
+ public:
+  Rewriter(std::span<const uint32_t> words, uint32_t bindings)
+      : words_(words), d_(words, bindings), bound_(words[kBoundAt]) {
+    uint32_t place = 0;
+    for (uint32_t binding = 0; binding < kMaxBindings; ++binding) {
+      if ((bindings >> binding & 1) != 0) places_[binding] = place++;
+    }
+  }
+
+  std::vector<uint32_t> rewritten() {
+    out_.assign(words_.begin(), words_.begin() + kHeaderWords);
+    put(kCapability, {kPhysicalAddresses});
+    name_ids();
+    bool has_decorations = false, has_types = false;
+    for_each_instruction(words_, [&](const Instruction& i) {
+      if (i.op >= kTypeVoid && i.op < kConstant && !has_decorations) {
+        put_decorations();
+        has_decorations = true;
+      }
+      if (i.op == kFunction && !has_types) {
+        put_types();
+        has_types = true;
+      }
+      rewrite(i);
+    });
+    out_[kBoundAt] = bound_;
+    return std::move(out_);
+  }
+
+ private:
+  using Words = std::vector<uint32_t>;
+
+  uint32_t fresh() { return bound_++; }
+
+  void put(uint32_t op, const Words& args) {
+    out_.push_back(static_cast<uint32_t>(args.size() + 1) << 16 | op);
+    out_.insert(out_.end(), args.begin(), args.end());
+  }
+
+  void name_ids() {
+    new_push_ = d_.push == kAnyId;
+    push_ = new_push_ ? fresh() : d_.push;
+    push_block_ = fresh();
+    push_pointer_ = fresh();
+    for (const uint32_t type : d_.moved_types) physical_[type] = fresh();
+    for (const auto& [variable, block] : d_.blocks) {
+      if (!physical_.contains(block)) physical_[block] = fresh();
+      if (!address_pointers_.contains(block)) address_pointers_[block] = fresh();
+      members_[variable] = fresh();
+    }
+  }
+
+  // Of the block of push constants: the struct that they were, if any, then the addresses.
+  uint32_t first_address() const { return new_push_ ? 0 : 1; }
+
+  void put_decorations() {
+    put(kDecorate, {push_block_, kBlock});
+    if (!new_push_) put(kMemberDecorate, {push_block_, 0, kOffset, 0});
+    uint32_t member = first_address();
+    for (const auto& [variable, binding] : d_.bindings)
+      put(kMemberDecorate, {push_block_, member++, kOffset, kAddressOffset + 8 * places_[binding]});
+  }
+
+  void put_types() {
+    for (const auto& [type, pointer] : physical_) put(kTypePointer, {pointer, kPhysical, type});
+    for (const auto& [block, pointer] : address_pointers_)
+      put(kTypePointer, {pointer, kPushConstant, physical_[block]});
+    Words block{push_block_};
+    if (!new_push_) block.push_back(d_.push_member);
+    uint32_t member = first_address();
+    for (const auto& [variable, binding] : d_.bindings) {
+      block.push_back(physical_[d_.blocks[variable]]);
+      put(kConstant, {d_.word_type, members_[variable], member++});
+    }
+    put(kTypeStruct, block);
+    put(kTypePointer, {push_pointer_, kPushConstant, push_block_});
+    put(kVariable, {push_pointer_, push_, kPushConstant});
+  }
+
+  void rewrite(const Instruction& i) {
+    const std::span<const uint32_t> a = i.args;
+    if ((i.op == kName || i.op == kDecorate) && d_.is_given(a[0])) return;
+    if (i.op == kVariable && (d_.is_given(a[1]) || a[1] == d_.push)) return;
+    if (i.op == kMemoryModel) return put(kMemoryModel, {kPhysical64, a[1]});
+    if (i.op == kEntryPoint) return put_entry_point(a);
+    if (is_chain(i.op) && d_.moved.contains(a[1])) return put_chain(i);
+    if (i.op == kLoad && d_.moved.contains(a[2])) return put_access(i, 3);
+    if (i.op == kStore && d_.moved.contains(a[0])) return put_access(i, 2);
+    put(i.op, Words(a.begin(), a.end()));
+  }
+
+  // Its name, in words that end with a zero byte, and then all variables that it uses.
+  void put_entry_point(std::span<const uint32_t> a) {
+    const auto name_end =
+        std::find_if(a.begin() + 2, a.end(), [](uint32_t w) { return w >> 24 == 0; });
+    Words kept(a.begin(), name_end + 1);
+    std::copy_if(name_end + 1, a.end(), std::back_inserter(kept),
+                 [&](uint32_t id) { return !d_.is_given(id); });
+    if (new_push_) kept.push_back(push_);
+    put(kEntryPoint, kept);
+  }
+
+  void put_chain(const Instruction& i) {
+    Words args(i.args.begin(), i.args.end());
+    args[0] = physical_[d_.pointers[args[0]].pointee];
+    if (d_.is_given(args[2])) {
+      const uint32_t block = d_.blocks[args[2]], at = fresh(), address = fresh();
+      put(kAccessChain, {address_pointers_[block], at, push_, members_[args[2]]});
+      put(kLoad, {physical_[block], address, at});
+      args[2] = address;
+    }
+    pointees_[args[1]] = d_.pointers[i.args[0]].pointee;
+    put(i.op, args);
+  }
+
+  // What is reached by address says how it is aligned: behind `operands` arguments, and before any
+  // of a higher bit.
+  void put_access(const Instruction& i, size_t operands) {
+    Words args(i.args.begin(), i.args.end());
+    if (args.size() == operands) args.push_back(0);
+    args[operands] |= kAligned;
+    const bool is_wide = d_.wide.contains(pointees_[i.op == kLoad ? args[2] : args[0]]);
+    args.insert(args.begin() + static_cast<std::ptrdiff_t>(operands) + 1, is_wide ? 16 : 4);
+    put(i.op, args);
+  }
+
+  std::span<const uint32_t> words_;
+  Declarations d_;
+  uint32_t bound_;
+  Words out_;
+  std::array<uint32_t, kMaxBindings> places_{};
+  bool new_push_ = false;
+  uint32_t push_ = kAnyId, push_block_ = kAnyId, push_pointer_ = kAnyId;
+  std::map<uint32_t, uint32_t> physical_;          // pointers by address, by what they point to
+  std::map<uint32_t, uint32_t> address_pointers_;  // to where an address stands, by its block
+  std::map<uint32_t, uint32_t> members_;           // constants: which address, by its variable
+  std::map<uint32_t, uint32_t> pointees_;          // of pointers by address
+};
+
+}  // namespace
+
+std::vector<uint32_t> by_address(std::span<const uint32_t> words, uint32_t bindings) {
+  return Rewriter(words, bindings).rewritten();
+}
+
+}  // namespace vkh
