@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A Python program that forks, and objects and arrays that are not what they seem. Run through ctest."""
+import os
 import pathlib
 import sys
 import unittest
@@ -45,6 +46,8 @@ class Forks(Lives):
             print("done")
         """)
 
+    # GCC 12's does not lock its allocator over a fork: a thread may be in it then, and the child waits for ever.
+    @unittest.skipIf("asan" in os.environ.get("LD_PRELOAD", ""), "AddressSanitizer does not survive it")
     def test_while_a_thread_runs(self):
         self.lives(f"""
             stop = []
