@@ -1,7 +1,8 @@
 // What a binding does not reach. A device binds maxStorageBufferRange bytes of a buffer, often no
-// more than 128 MiB. The kernels of a context for large meshes have bindings for the other buffers
-// alone: those that hold a mesh or its hierarchy are given as addresses, behind the push constants.
-// Their words are rewritten for it when the context is created, so that a shader is written once.
+// more than 128 MiB. A context for large meshes gives its kernels addresses of the buffers that
+// hold a mesh or its hierarchy, behind the push constants. The other buffers are bound. The
+// kernels' words are rewritten for it when the context is created, so that a shader is written
+// once.
 #pragma once
 
 #include <algorithm>

@@ -46,11 +46,16 @@ void check_ranges(const VkhHierarchy& hierarchy, const StreamSizes& needed) {
   }
 }
 
+// What words of vertices an index of 31 bits reaches.
+constexpr uint64_t kMostVertexBytes = uint64_t{8} << 30;
+
 void check_mesh(const VkhMesh& m) {
   VKH_RULE("VkhMesh::vertexBuffer: not null", m.vertexBuffer != VK_NULL_HANDLE);
   VKH_RULE("VkhMesh::vertexOffset: a multiple of 4 bytes", m.vertexOffset % 4 == 0);
   VKH_RULE("VkhMesh::vertexStride: a multiple of 4 bytes", m.vertexStride % 4 == 0);
   VKH_RULE("VkhMesh::vertexCount: 1 to 2^28", is_count(m.vertexCount));
+  VKH_RULE("VkhMesh::vertexCount * vertexStride: at most 8 GiB",
+           uint64_t{m.vertexCount} * m.vertexStride <= kMostVertexBytes);
   VKH_RULE("VkhMesh::indexBuffer: not null", m.indexBuffer != VK_NULL_HANDLE);
   VKH_RULE("VkhMesh::indexType: VK_INDEX_TYPE_UINT16 or _UINT32", is_index_type(m.indexType));
   VKH_RULE("VkhMesh::indexOffset: a multiple of an index's size",
@@ -87,7 +92,7 @@ void check_problem(const VkhContext_T& context, const VkhProblem& p) {
   VKH_RULE("VkhMesh::faceCount: 1 to 2^28", is_count(p.a.faceCount));
   VKH_RULE("VkhProblem::b: a hierarchy that was built",
            is_count(p.b.faceCount) && is_count(p.b.vertexCount));
-  check_memory(p.b.memory);
+  check_ranges(p.b, hierarchy_size(context.limits, p.b.vertexCount, p.b.faceCount));
   check_memory(p.workspace);
   VKH_RULE("VkhProblem::workspace: at least VkhWorkspaceRequirements::minimum bytes",
            p.workspace.size >= workspace_size(p.a.vertexCount, p.a.faceCount, kSmallestCapacity,

@@ -161,12 +161,14 @@ typedef struct VkhContextCreateInfo {
   VkPipelineCache pipelineCache; /* may be null */
   uint32_t switches;             /* VkhSwitchBits that are on; 0: what pays on the device */
   VkhDeviceKind deviceKind;      /* 0: by the device's type */
-  /* VK_TRUE: for meshes whose buffers no binding reaches. What holds a mesh or a hierarchy is then
-   * given to kernels by address, and at most 4 bytes a face are bound: on a device that binds 128
-   * MiB a mesh may have 33 million faces instead of 2 million. Every bit of a report is the same.
-   * Needs the feature bufferDeviceAddress (Vulkan 1.2), enabled; and of the buffers of each
-   * VkhMesh, VkhMemory and hierarchy the usage SHADER_DEVICE_ADDRESS besides, their memory
-   * allocated with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. */
+  /* VK_TRUE: for meshes whose buffers no binding reaches. Kernels are given the address of what
+   * holds a mesh or a hierarchy. At most 4 bytes a face and a vertex are bound, 16 a face of A with
+   * VKH_SWITCH_COVERAGE: a device that binds 128 MiB takes 33 million faces. It binds 2 million of
+   * B. Every bit of a report is the same. Needs the feature bufferDeviceAddress (Vulkan 1.2),
+   * enabled; without it vkhCreateContext returns VKH_ERROR_UNSUPPORTED. The buffers of each VkhMesh
+   * and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
+   * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
+   * at most 8 GiB. robustBufferAccess does not hold for addresses. */
   VkBool32 byAddress;
 } VkhContextCreateInfo;
 
@@ -227,7 +229,8 @@ typedef struct VkhHierarchyRequirements {
   VkDeviceSize hierarchySize; /* bytes; kept as long as the hierarchy is used */
   VkDeviceSize scratchSize;   /* bytes; free again once the build has run, e.g. for the workspace */
   /* The ranges of memory that hold it, and the bytes of each: one, of hierarchySize, unless that is
-   * more than the device allocates at once (maxMemoryAllocationSize). */
+   * more than the device allocates at once (maxMemoryAllocationSize). A list larger than that has a
+   * range to itself, for many devices allocate more than they promise. */
   uint32_t rangeCount;
   VkDeviceSize ranges[VKH_MAX_RANGES];
 } VkhHierarchyRequirements;
@@ -272,10 +275,10 @@ typedef struct VkhProfile {
   const char** names; /* static strings */
 } VkhProfile;
 
-/* Builds the hierarchy of B into `hierarchy->memory` (filled in by the caller, hierarchySize bytes)
- * and sets hierarchy->faceCount and vertexCount. Reads the mesh's buffers in compute shaders;
- * writes hierarchy and scratch (scratchSize bytes; it may lie in what will be the workspace). The
- * mesh's buffers are not needed afterwards. */
+/* Builds the hierarchy of B into `hierarchy->memory` and `more` (filled in by the caller, with the
+ * ranges of VkhHierarchyRequirements) and sets hierarchy->faceCount and vertexCount. Reads the
+ * mesh's buffers in compute shaders; writes hierarchy and scratch (scratchSize bytes; it may lie in
+ * what will be the workspace). The mesh's buffers are not needed afterwards. */
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile);
 
@@ -408,7 +411,7 @@ void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const 
 
 /* What is to be done for one pair, in the order of the members; each part may be left out. */
 typedef struct VkhTask {
-  /* B's hierarchy first. With `scratch`, as vkhCmdBuildHierarchy into problem->b.memory, whose
+  /* B's hierarchy first. With `scratch`, as vkhCmdBuildHierarchy into problem->b, whose
    * counts are set; without, as vkhCmdRefitHierarchy. Null: it is left as it is. */
   const VkhMesh* mesh;
   const VkhMemory* scratch;

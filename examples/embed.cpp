@@ -15,7 +15,8 @@ VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float 
   VkhHierarchyRequirements hierarchy;
   VkhWorkspaceRequirements workspace;
   if (vkhGetHierarchyRequirements(vkh, b.vertexCount, b.faceCount, &hierarchy) != VKH_SUCCESS ||
-      vkhGetWorkspaceRequirements(vkh, a.vertexCount, a.faceCount, &workspace) != VKH_SUCCESS)
+      vkhGetWorkspaceRequirements(vkh, a.vertexCount, a.faceCount, &workspace) != VKH_SUCCESS ||
+      hierarchy.rangeCount > 1)  // of a B of several GB
     throw std::runtime_error("the meshes are too large for this device");
   const VkDeviceSize split = (hierarchy.hierarchySize + 255) / 256 * 256;
   const VkDeviceSize room = std::max(workspace.recommended, hierarchy.scratchSize);

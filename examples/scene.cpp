@@ -85,7 +85,8 @@ Pair::Pair(Gpu& gpu, const Scene& scene, uint32_t a, uint32_t b)
   if (vkhGetHierarchyRequirements(context_, b_.vertexCount, b_.faceCount, &hierarchy) !=
           VKH_SUCCESS ||
       vkhGetWorkspaceRequirements(context_, problem_.a.vertexCount, problem_.a.faceCount,
-                                  &workspace) != VKH_SUCCESS)
+                                  &workspace) != VKH_SUCCESS ||
+      hierarchy.rangeCount > 1)
     throw std::runtime_error("the meshes are too large for this device");
   // The scratch has a place of its own: a warm start needs what the last frame left in the
   // workspace.

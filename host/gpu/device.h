@@ -33,7 +33,8 @@ struct AdoptedDevice {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queue_family = 0;
-  bool has_addresses = false;         ///< bufferDeviceAddress is enabled: meshes may be of any size
+  bool has_addresses =
+      false;  ///< bufferDeviceAddress is enabled: meshes may be larger than bindings
   std::mutex* queue_mutex = nullptr;  ///< held around every vkQueueSubmit; null: the Device's own
 };
 

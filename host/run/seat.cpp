@@ -62,9 +62,15 @@ void write(std::byte* to, const MeshData& m) {
 
 }  // namespace
 
+void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements& needed) {
+  for (uint32_t i = 0; i < needed.rangeCount; ++i)
+    ranges_[i] = Buffer(device, needed.ranges[i], kWorking, Placement::kDevice);
+}
+
 void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
     vkh::grow(ranges_[i], device, roomy(needed.ranges[i]), kWorking, Placement::kDevice);
+  for (uint32_t i = needed.rangeCount; i < ranges_.size(); ++i) ranges_[i] = Buffer();
 }
 
 VkhHierarchy HierarchyMemory::view() const {
@@ -190,7 +196,7 @@ ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {
   const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
   upload({}, b);
   ResidentMesh resident{{}, mesh_b_.vertexCount, mesh_b_.faceCount};
-  resident.memory.grow(device_, needed);
+  resident.memory.take(device_, needed);
   grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
   is_resident_ = false;

@@ -21,7 +21,10 @@ struct MeshData {
 /// A hierarchy's ranges of memory, each a buffer of its own.
 class HierarchyMemory {
  public:
-  /// Makes each at least as large as is needed.
+  /// Makes each as large as is needed, and no larger.
+  void take(const Device& device, const VkhHierarchyRequirements& needed);
+  /// Makes each at least as large, with room for the next hierarchy; frees those that are not
+  /// needed.
   void grow(const Device& device, const VkhHierarchyRequirements& needed);
   VkhHierarchy view() const;
 

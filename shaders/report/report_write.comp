@@ -38,12 +38,15 @@ Two3 b_corner(uint v) {
   return p;
 }
 
+// A face of A, whatever the coordinates were.
+uint root_of(Witness w) { return min(w.root, control.face_count - 1u); }
+
 // Of this invocation's triangle. Those past the end repeat the last one: every one takes part in
 // the subgroup's minimum.
 float certified_distance() {
   uint i = min(item_index(), push.count - 1u);
   Witness w = control.witness;
-  Root root = load_root(w.root);
+  Root root = load_root(root_of(w));
   Two3 p = position_of(root, uvec2(w.j, w.k));
   uvec3 f = b_faces[i];
   Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
@@ -53,7 +56,7 @@ float certified_distance() {
   return triangle_distance_down(s, enough);
 }
 
-float witness_slack(Witness w) { return local_corners(load_root(w.root), whole_root()).slack; }
+float witness_slack(Witness w) { return local_corners(load_root(root_of(w)), whole_root()).slack; }
 
 bool is_running() { return control.status == kStatusRunning; }
 
@@ -95,7 +98,7 @@ void write_report() {
   report.wave = is_planned ? control.wave - 1u : control.wave;
   report.witness = w;
   report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
-  report.witness_face = triangles[w.nearest].face;
+  report.witness_face = triangles[min(w.nearest, push.count - 1u)].face;
   report.remaining = remaining();
   report.candidate_total = control.candidate_total;
   report.query_total = control.query_total;

@@ -157,14 +157,17 @@ TEST_CASE("the C API") {
     CHECK((result == VKH_SUCCESS || result == VKH_ERROR_UNSUPPORTED));
     return result == VKH_SUCCESS ? std::string() : throw std::bad_alloc();
   });
-  try_all("vkhCreateContext", 6, [&] {
-    const VkhContextCreateInfo create{info, VK_NULL_HANDLE, 0, VKH_DEVICE_KIND_AUTO, VK_FALSE};
+  const auto create_context = [&](VkBool32 by_address) {
+    const VkhContextCreateInfo create{info, VK_NULL_HANDLE, 0, VKH_DEVICE_KIND_AUTO, by_address};
     VkhContext context = nullptr;
     const VkhResult result = vkhCreateContext(&create, &context);
     CHECK((context != nullptr) == (result == VKH_SUCCESS));
     vkhDestroyContext(context);
     return result == VKH_SUCCESS ? std::string() : throw std::bad_alloc();
-  });
+  };
+  try_all("vkhCreateContext", 6, [&] { return create_context(VK_FALSE); });
+  if (device.has_addresses())
+    try_all("vkhCreateContext by address", 6, [&] { return create_context(VK_TRUE); });
 }
 
 }  // namespace

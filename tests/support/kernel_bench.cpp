@@ -1,6 +1,7 @@
 #include "tests/support/kernel_bench.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
@@ -33,12 +34,21 @@ TestDevice*& made() {
   return device;
 }
 
+// Whether contexts are to be byAddress; ends a program that is to be skipped.
+VkBool32 by_address(const Device& device) {
+  if (*environment("VKH_TEST_BY_ADDRESS") == '\0') return VK_FALSE;
+  if (device.has_addresses()) return VK_TRUE;
+  std::puts("SKIP: the device has no bufferDeviceAddress");
+  std::fflush(nullptr);
+  std::_Exit(77);
+}
+
 VkhContext context_for(uint32_t switches, bool wide) {
   Device& device = test_device();
   VkhContext& context = made()->contexts[{switches, wide}];
   const VkhContextCreateInfo info{device.engine_info(), VK_NULL_HANDLE, switches | VKH_SWITCH_NONE,
                                   wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
-                                  *environment("VKH_TEST_BY_ADDRESS") != '\0' ? VK_TRUE : VK_FALSE};
+                                  by_address(device)};
   if (context == nullptr && vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw std::runtime_error("no context");
   return context;
