@@ -1,8 +1,7 @@
 #include "engine/by_address.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -34,7 +33,7 @@ constexpr uint32_t kPushConstant = 9, kPhysical = 5349;            // storage cl
 constexpr uint32_t kPhysicalAddresses = 5347, kPhysical64 = 5348;  // capability, addressing
 constexpr uint32_t kBlock = 2, kBinding = 33, kOffset = 35;        // decorations
 constexpr uint32_t kAligned = 2;                                   // of a memory access
-constexpr uint32_t kHeaderWords = 5, kBoundAt = 3, kAnyId = 0;
+constexpr uint32_t kHeaderWords = 5, kBoundAt = 3, kNoId = 0;
 
 struct Instruction {
   uint32_t op;
@@ -60,9 +59,9 @@ struct Declarations {
   std::set<uint32_t> wide;         // vectors of four
   std::set<uint32_t> moved;        // pointers into them
   std::set<uint32_t> moved_types;  // what those point to
-  uint32_t word_type = kAnyId;     // uint
-  uint32_t push = kAnyId;          // variable of the push constants
-  uint32_t push_member = kAnyId;   // type of what they are
+  uint32_t word_type = kNoId;      // uint
+  uint32_t push = kNoId;           // variable of the push constants
+  uint32_t push_member = kNoId;    // type of what they are
 
   Declarations(std::span<const uint32_t> words, uint32_t wanted) {
     std::map<uint32_t, uint32_t> first_members;
@@ -134,7 +133,7 @@ class Rewriter {
   }
 
   void name_ids() {
-    new_push_ = d_.push == kAnyId;
+    new_push_ = d_.push == kNoId;
     push_ = new_push_ ? fresh() : d_.push;
     push_block_ = fresh();
     push_pointer_ = fresh();
@@ -226,7 +225,7 @@ class Rewriter {
   Words out_;
   std::array<uint32_t, kMaxBindings> places_{};
   bool new_push_ = false;
-  uint32_t push_ = kAnyId, push_block_ = kAnyId, push_pointer_ = kAnyId;
+  uint32_t push_ = kNoId, push_block_ = kNoId, push_pointer_ = kNoId;
   std::map<uint32_t, uint32_t> physical_;          // pointers by address, by what they point to
   std::map<uint32_t, uint32_t> address_pointers_;  // to where an address stands, by its block
   std::map<uint32_t, uint32_t> members_;           // constants: which address, by its variable

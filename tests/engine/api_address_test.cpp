@@ -2,9 +2,9 @@
 // of a run that binds everything.
 #include <doctest/doctest.h>
 
-#include <memory>
 #include <vector>
 
+#include "host/run/run.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
@@ -27,9 +27,7 @@ constexpr Ways kWays[] = {
          VKH_SWITCH_PAIRS | VKH_SWITCH_LARGEST_FIRST | VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4,
      VKH_DEVICE_KIND_WIDE}};
 
-using Context = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
-
-Context make_context(const Ways& ways, VkBool32 by_address) {
+ContextHandle make_context(const Ways& ways, VkBool32 by_address) {
   const VkhContextCreateInfo info{test_device().engine_info(), VK_NULL_HANDLE, ways.switches,
                                   ways.kind, by_address};
   VkhContext context = nullptr;
@@ -79,7 +77,8 @@ void check_same(const std::vector<VkhReport>& x, const std::vector<VkhReport>& y
 TEST_CASE("what is given by address is found there: the same reports, bit by bit") {
   if (!device_has_addresses()) return;
   for (const Ways& ways : kWays) {
-    const Context bound = make_context(ways, VK_FALSE), addressed = make_context(ways, VK_TRUE);
+    const ContextHandle bound = make_context(ways, VK_FALSE),
+                        addressed = make_context(ways, VK_TRUE);
     const std::vector<VkhReport> expected = reports_of(bound.get());
     CHECK(expected[1].status == VKH_STATUS_DECIDED);
     check_same(reports_of(addressed.get()), expected);
@@ -89,7 +88,7 @@ TEST_CASE("what is given by address is found there: the same reports, bit by bit
 }
 
 TEST_CASE("a hierarchy in several ranges is the hierarchy in one") {
-  const Context context = make_context(kWays[0], VK_FALSE);
+  const ContextHandle context = make_context(kWays[0], VK_FALSE);
   const std::vector<VkhReport> expected = reports_of(context.get());
   context->limits.allocation = kAllocation;
   VkhHierarchyRequirements needed{};
@@ -103,8 +102,8 @@ TEST_CASE("a hierarchy in several ranges is the hierarchy in one") {
 
 TEST_CASE("by address meshes may be larger: up to four bytes a face of what is bound") {
   if (!device_has_addresses()) return;
-  const Context bound = make_context(kWays[0], VK_FALSE),
-                addressed = make_context(kWays[0], VK_TRUE);
+  const ContextHandle bound = make_context(kWays[0], VK_FALSE),
+                      addressed = make_context(kWays[0], VK_TRUE);
   constexpr VkDeviceSize kRange = 1 << 20;
   bound->limits.storage_range = addressed->limits.storage_range = kRange;
   constexpr uint32_t kMost = kRange / 4;
