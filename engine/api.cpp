@@ -80,6 +80,9 @@ bool load_functions(const VkhDeviceInfo& info, const Limits& limits, DeviceFunct
 
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   check_problem(context, p);
+  const Workspace ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount);
+  // For more room than the device's limits let it have, a run would wait for ever.
+  const bool can_grow = ws.capacity < largest_capacity(context.limits);
   return {.vertex_count = p.a.vertexCount,
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
@@ -89,9 +92,9 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .wide = context.limits.wide,
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
-          .pauses = p.pauseWhenFull != VK_FALSE,
+          .pauses = can_grow && p.pauseWhenFull != VK_FALSE,
           .b = view_hierarchy(p.b, context.limits),
-          .ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount),
+          .ws = ws,
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
 }
 
@@ -280,7 +283,7 @@ void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem from = vkh::view_problem(*context, *problem);
   problem->workspace = *workspace;
-  vkh::record_move(rec, from, vkh::view_problem(*context, *problem).ws);
+  vkh::record_move(rec, from, vkh::view_problem(*context, *problem));
 }
 
 // NOLINTNEXTLINE(readability-function-size)

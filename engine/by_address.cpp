@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
+#include <utility>
 
 namespace vkh {
 namespace {
@@ -17,6 +19,8 @@ enum Op : uint32_t {
   kTypeVoid = 19,
   kTypeInt = 21,
   kTypeVector = 23,
+  kTypeArray = 28,
+  kTypeRuntimeArray = 29,
   kTypeStruct = 30,
   kTypePointer = 32,
   kConstant = 43,
@@ -31,9 +35,11 @@ enum Op : uint32_t {
 };
 constexpr uint32_t kPushConstant = 9, kPhysical = 5349;            // storage classes
 constexpr uint32_t kPhysicalAddresses = 5347, kPhysical64 = 5348;  // capability, addressing
-constexpr uint32_t kBlock = 2, kBinding = 33, kOffset = 35;        // decorations
-constexpr uint32_t kAligned = 2;                                   // of a memory access
+constexpr uint32_t kBlock = 2, kArrayStride = 6, kBinding = 33, kOffset = 35;  // decorations
+constexpr uint32_t kAligned = 2;                                               // of a memory access
 constexpr uint32_t kHeaderWords = 5, kBoundAt = 3, kNoId = 0;
+// Of every buffer that is given by address, and the most that a load can use.
+constexpr uint32_t kBaseAlignment = 16, kWordBytes = 4;
 
 struct Instruction {
   uint32_t op;
@@ -56,23 +62,22 @@ struct Declarations {
   std::map<uint32_t, uint32_t> bindings;  // of their variables
   std::map<uint32_t, uint32_t> blocks;    // of their variables
   std::map<uint32_t, Pointer> pointers;
-  std::set<uint32_t> wide;         // vectors of four
-  std::set<uint32_t> moved;        // pointers into them
-  std::set<uint32_t> moved_types;  // what those point to
-  uint32_t word_type = kNoId;      // uint
-  uint32_t push = kNoId;           // variable of the push constants
-  uint32_t push_member = kNoId;    // type of what they are
+  std::map<uint32_t, uint32_t> moved;     // pointers into them, by their alignment in bytes
+  std::map<uint32_t, uint32_t> pointees;  // of those
+  std::set<uint32_t> moved_types;
+  uint32_t word_type = kNoId;    // uint
+  uint32_t push = kNoId;         // variable of the push constants
+  uint32_t push_member = kNoId;  // type of what they are
 
   Declarations(std::span<const uint32_t> words, uint32_t wanted) {
-    std::map<uint32_t, uint32_t> first_members;
     for_each_instruction(words, [&](const Instruction& i) {
       if (i.op == kDecorate && i.args[1] == kBinding && (wanted >> i.args[2] & 1) != 0)
         bindings[i.args[0]] = i.args[2];
-      if (i.op == kTypeStruct && i.args.size() > 1) first_members[i.args[0]] = i.args[1];
+      lay_out(i);
       declare(i);
       if (i.op == kVariable && i.args[2] == kPushConstant) {
         push = i.args[1];
-        push_member = first_members[pointers[i.args[0]].pointee];
+        push_member = structs[pointers[i.args[0]].pointee].at(0);
       }
     });
   }
@@ -82,14 +87,48 @@ struct Declarations {
  private:
   void declare(const Instruction& i) {
     if (i.op == kTypeInt && i.args[1] == 32 && i.args[2] == 0) word_type = i.args[0];
-    if (i.op == kTypeVector && i.args[2] == 4) wide.insert(i.args[0]);
     if (i.op == kTypePointer) pointers[i.args[0]] = {i.args[1], i.args[2]};
     if (i.op == kVariable && is_given(i.args[1])) blocks[i.args[1]] = pointers[i.args[0]].pointee;
     if (is_chain(i.op) && (is_given(i.args[2]) || moved.contains(i.args[2]))) {
-      moved.insert(i.args[1]);
+      moved[i.args[1]] = alignment_of(i.args);
+      pointees[i.args[1]] = pointers[i.args[0]].pointee;
       moved_types.insert(pointers[i.args[0]].pointee);
     }
   }
+
+  void lay_out(const Instruction& i) {
+    const std::span<const uint32_t> a = i.args;
+    if (i.op == kTypeStruct) structs[a[0]].assign(a.begin() + 1, a.end());
+    if (i.op == kTypeArray || i.op == kTypeRuntimeArray) elements[a[0]] = a[1];
+    if (i.op == kConstant) constants[a[1]] = a[2];
+    if (i.op == kDecorate && a[1] == kArrayStride) strides[a[0]] = a[2];
+    if (i.op == kMemberDecorate && a[2] == kOffset) offsets[{a[0], a[1]}] = a[3];
+  }
+
+  // Of what a chain of indices reaches: the greatest common divisor of where it starts and of each
+  // step. Drivers load 16 bytes at once only where that many are known to be aligned.
+  uint32_t alignment_of(std::span<const uint32_t> chain) const {
+    const uint32_t base = chain[2];
+    uint32_t alignment = is_given(base) ? kBaseAlignment : moved.at(base);
+    uint32_t type = is_given(base) ? blocks.at(base) : pointees.at(base);
+    for (const uint32_t index : chain.subspan(3)) {
+      if (const auto array = elements.find(type); array != elements.end()) {
+        alignment = std::gcd(alignment, strides.at(type));
+        type = array->second;
+      } else if (const auto members = structs.find(type); members != structs.end()) {
+        const uint32_t member = constants.at(index);
+        alignment = std::gcd(alignment, offsets.at({type, member}));
+        type = members->second.at(member);
+      } else {  // a component
+        alignment = std::gcd(alignment, kWordBytes);
+      }
+    }
+    return alignment;
+  }
+
+  std::map<uint32_t, std::vector<uint32_t>> structs;          // their members' types
+  std::map<uint32_t, uint32_t> elements, strides, constants;  // of arrays, arrays, by their ids
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> offsets;  // of structs' members
 };
 
 class Rewriter {
@@ -204,7 +243,6 @@ class Rewriter {
       put(kLoad, {physical_[block], address, at});
       args[2] = address;
     }
-    pointees_[args[1]] = d_.pointers[i.args[0]].pointee;
     put(i.op, args);
   }
 
@@ -214,8 +252,8 @@ class Rewriter {
     Words args(i.args.begin(), i.args.end());
     if (args.size() == operands) args.push_back(0);
     args[operands] |= kAligned;
-    const bool is_wide = d_.wide.contains(pointees_[i.op == kLoad ? args[2] : args[0]]);
-    args.insert(args.begin() + static_cast<std::ptrdiff_t>(operands) + 1, is_wide ? 16 : 4);
+    const uint32_t alignment = d_.moved.at(i.op == kLoad ? args[2] : args[0]);
+    args.insert(args.begin() + static_cast<std::ptrdiff_t>(operands) + 1, alignment);
     put(i.op, args);
   }
 
@@ -229,7 +267,6 @@ class Rewriter {
   std::map<uint32_t, uint32_t> physical_;          // pointers by address, by what they point to
   std::map<uint32_t, uint32_t> address_pointers_;  // to where an address stands, by its block
   std::map<uint32_t, uint32_t> members_;           // constants: which address, by its variable
-  std::map<uint32_t, uint32_t> pointees_;          // of pointers by address
 };
 
 }  // namespace

@@ -48,13 +48,14 @@ Slice<uint32_t> word_of(const Slice<gpu::Control>& control, size_t offset) {
 
 }  // namespace
 
-void record_move(Recorder& rec, const Problem& p, const Workspace& to) {
+void record_move(Recorder& rec, const Problem& from, const Problem& to) {
   const auto scope = rec.scope("move");
+  const Slice<gpu::Control>& control = to.ws.control;
   const bool stays =
-      to.control.buffer == p.ws.control.buffer && to.control.offset == p.ws.control.offset;
-  if (!stays) record_copies(rec, p, to);
-  rec.fill(word_of(to.control, offsetof(gpu::Control, capacity)), to.capacity);
-  rec.fill(word_of(to.control, offsetof(gpu::Control, pauses)), p.pauses ? 1u : 0u,
+      control.buffer == from.ws.control.buffer && control.offset == from.ws.control.offset;
+  if (!stays) record_copies(rec, from, to.ws);
+  rec.fill(word_of(control, offsetof(gpu::Control, capacity)), to.ws.capacity);
+  rec.fill(word_of(control, offsetof(gpu::Control, pauses)), to.pauses ? 1u : 0u,
            Order::kIndependent);
   rec.stage("move");
 }

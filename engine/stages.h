@@ -84,8 +84,8 @@ void record_wave(Recorder& rec, const Problem& p);
 // The places of the frontier's candidates in the order in which they are refined; where the plan
 // finds it worth it. The paper's.
 void record_order(Recorder& rec, const RunBuffers& run);
-// The run goes on in another workspace, or in its own; p.pauses holds from now on.
-void record_move(Recorder& rec, const Problem& p, const Workspace& to);
+// The run goes on in another workspace, or in its own; to.pauses holds from now on.
+void record_move(Recorder& rec, const Problem& from, const Problem& to);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

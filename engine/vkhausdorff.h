@@ -331,9 +331,9 @@ typedef struct VkhProblem {
   uint32_t sortFrom;
   /* VK_TRUE: where the workspace has not room for all that a wave would do, the run pauses: waves
    * change nothing, and VkhReport::wanted says for how many candidates room is wanted, until
-   * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE: what
-   * has no room waits for a later wave, which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun.
-   */
+   * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE, or in
+   * a workspace of VkhWorkspaceRequirements::maximum: what has no room waits for a later wave,
+   * which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun. */
   VkBool32 pauseWhenFull;
 } VkhProblem;
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine/context.h"
+#include "engine/workspace.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
@@ -159,6 +161,27 @@ TEST_CASE("a run can be moved between any two waves") {
       report = mover.move(mover.memory(mover.bytes_for(300 + 200 * wave)));
     }
     check_true(to_the_end(mover, report), exact);
+  }
+}
+
+TEST_CASE("a run in the largest workspace waits for no larger one") {
+  Pairs all;
+  for (const auto& pair : all.pairs) {
+    const uint64_t range = pair->context()->limits.storage_range;
+    pair->context()->limits.storage_range =
+        uint64_t{2} * sizeof(gpu::Candidate) * kSmallestCapacity;
+    VkhReport cramped;
+    {
+      Mover mover(*pair, least_bytes(*pair));
+      cramped = to_the_end(mover, mover.start());
+    }
+    Mover mover(*pair, least_bytes(*pair));
+    CHECK(mover.bytes_for(UINT32_MAX) == least_bytes(*pair));
+    mover.problem().pauseWhenFull = VK_TRUE;
+    const VkhReport report = to_the_end(mover, mover.start());
+    CHECK(report.wanted == 0);
+    CHECK(is_same(report, cramped));
+    pair->context()->limits.storage_range = range;
   }
 }
 
