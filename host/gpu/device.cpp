@@ -248,13 +248,13 @@ struct Wishes {
 
 }  // namespace
 
-// Threads that a driver starts inherit the environment that they are started in; and a driver that
-// was linked with -ffast-math changes it as it is loaded.
+// A driver's threads inherit the environment; one linked with -ffast-math changes it on loading.
 Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   const FloatEnvironment ours;
   create_instance(request.validation);
   choose(request.selector);
   create_device(request.robust);
+  maps_memory_ = request.maps_memory;
 }
 
 Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }

@@ -19,6 +19,8 @@ struct DeviceRequest {
                             ///< and count messages
   bool robust = true;  ///< robustBufferAccess, where there is any: an index out of range, on the
                        ///< GPU, reads nothing outside of its buffer
+  bool maps_memory = true;  ///< meshes are written straight into the device's memory, where the
+                            ///< host sees it; else copied there from memory of the host
 };
 
 /// Handles of the caller's, who keeps and destroys them, after the Device and all that was made
@@ -65,6 +67,7 @@ class Device {
   bool has_timestamps() const { return has_timestamps_; }
   /// Buffers can be given by address: those for storage are made for it.
   bool has_addresses() const { return has_addresses_; }
+  bool maps_memory() const { return maps_memory_; }
   double timestamp_period_ns() const { return timestamp_period_ns_; }
   /// For the engine's C API.
   VkhDeviceInfo engine_info() const;
@@ -93,6 +96,7 @@ class Device {
   bool owned_ = true;
   bool has_timestamps_ = true;
   bool has_addresses_ = false;
+  bool maps_memory_ = true;
   double timestamp_period_ns_ = 1;
   // The messenger keeps its address, and calls from any thread.
   std::unique_ptr<std::atomic<uint32_t>> messages_ = std::make_unique<std::atomic<uint32_t>>(0);

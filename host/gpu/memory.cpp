@@ -1,6 +1,7 @@
 #include "host/gpu/memory.h"
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -15,6 +16,8 @@ VkMemoryPropertyFlags wanted(Placement placement) {
   switch (placement) {
     case Placement::kDevice:
       return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    case Placement::kMapped:
+      return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | visible;
     case Placement::kUpload:
       return visible;
     case Placement::kReadback:
@@ -23,17 +26,28 @@ VkMemoryPropertyFlags wanted(Placement placement) {
   return 0;
 }
 
-uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement) {
+VkPhysicalDeviceMemoryProperties memory_of(const Device& device) {
   VkPhysicalDeviceMemoryProperties memory;
   device.vk().GetPhysicalDeviceMemoryProperties(device.physical(), &memory);
-  // Cached memory is a wish, the rest a must.
-  for (const VkMemoryPropertyFlags flags :
-       {wanted(placement),
-        wanted(placement) & ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT}}) {
-    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-      if ((allowed & (1u << i)) != 0 && (memory.memoryTypes[i].propertyFlags & flags) == flags)
-        return i;
-    }
+  return memory;
+}
+
+std::optional<uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                  VkMemoryPropertyFlags flags) {
+  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+    if ((allowed & (1u << i)) != 0 && (memory.memoryTypes[i].propertyFlags & flags) == flags)
+      return i;
+  }
+  return std::nullopt;
+}
+
+// Cached memory is a wish, the rest a must.
+uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement) {
+  const VkPhysicalDeviceMemoryProperties memory = memory_of(device);
+  const VkMemoryPropertyFlags flags = wanted(placement);
+  for (const VkMemoryPropertyFlags asked :
+       {flags, flags & ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT}}) {
+    if (const auto type = find_type(memory, allowed, asked)) return *type;
   }
   throw DeviceError("the device has no fitting memory type");
 }
@@ -86,6 +100,14 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(memory_, other.memory_);
   std::swap(size_, other.size_);
   std::swap(mapped_, other.mapped_);
+}
+
+bool is_mappable(const Device& device, VkDeviceSize size) {
+  constexpr uint32_t kAnyType = ~0u;
+  const VkPhysicalDeviceMemoryProperties memory = memory_of(device);
+  const auto type = find_type(memory, kAnyType, wanted(Placement::kMapped));
+  return type && device.maps_memory() &&
+         size <= memory.memoryHeaps[memory.memoryTypes[*type].heapIndex].size / 4;
 }
 
 void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,

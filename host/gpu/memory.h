@@ -9,7 +9,8 @@
 
 namespace vkh {
 
-enum class Placement { kDevice, kUpload, kReadback };
+/// kMapped: the device's own, and the host writes into it.
+enum class Placement { kDevice, kMapped, kUpload, kReadback };
 
 /// A buffer bound to its own allocation; move-only. Host-visible ones stay mapped.
 class Buffer {
@@ -36,6 +37,10 @@ class Buffer {
   VkDeviceSize size_ = 0;
   void* mapped_ = nullptr;
 };
+
+/// Whether there is Placement::kMapped for so many bytes: where the host sees all of the device's
+/// memory, and for what is small beside the part that it sees.
+bool is_mappable(const Device& device, VkDeviceSize size);
 
 /// Makes `buffer` at least `size` bytes; its content is lost if it grows.
 void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,

@@ -94,17 +94,32 @@ void check_engine(VkhResult result, const char* what) {
   throw DeviceError(std::string(what) + ": " + reason);
 }
 
+// Where the host writes the meshes: straight into where the device reads them, or into memory of
+// the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. What of its
+// memory the host sees may be small, and taken.
+std::byte* Seat::take_meshes() {
+  const VkDeviceSize bytes = roomy(uploaded_bytes_);
+  if (meshes_.size() < bytes && is_mappable(device_, bytes)) {
+    try {
+      grow(meshes_, device_, bytes, kWorking, Placement::kMapped);
+    } catch (const DeviceError&) {
+    }
+  }
+  grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
+  if (meshes_.mapped() != nullptr) return meshes_.mapped();
+  grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+  return staging_.mapped();
+}
+
 // Either may be missing.
 void Seat::upload(const MeshData& a, const MeshData& b) {
   const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(a).total() : 0;
   const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(b).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
-  grow(staging_, device_, roomy(uploaded_bytes_), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-       Placement::kUpload);
-  grow(meshes_, device_, roomy(uploaded_bytes_), kWorking, Placement::kDevice);
-  if (bytes_a > 0) write(staging_.mapped(), a);
+  std::byte* const to = take_meshes();
+  if (bytes_a > 0) write(to, a);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
-  if (bytes_b > 0) write(staging_.mapped() + bytes_a, b);
+  if (bytes_b > 0) write(to + bytes_a, b);
   if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
 }
 
@@ -214,6 +229,7 @@ void Seat::place_areas(const RunInput& in, RunOutput& out) {
 }
 
 void Seat::record_upload(VkCommandBuffer commands) const {
+  if (meshes_.mapped() != nullptr) return;
   const VkBufferCopy copy{0, 0, uploaded_bytes_};
   device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
 }

@@ -85,7 +85,8 @@ class Seat {
   const VkhMemory* scratch() const { return &scratch_; }
   VkBuffer report() const { return report_.handle(); }
 
-  /// Copies the meshes into device memory; a barrier to compute shaders is the caller's.
+  /// Copies the meshes to where the device reads them, unless they were written there; a barrier
+  /// to compute shaders is the caller's.
   void record_upload(VkCommandBuffer commands) const;
   /// Where the run pauses for want of room: takes the memory for it, or has it go on with what
   /// there is, from the next record_move() on.
@@ -97,6 +98,7 @@ class Seat {
   void read(RunOutput& output) const;
 
  private:
+  std::byte* take_meshes();
   void upload(const MeshData& a, const MeshData& b);
   VkDeviceSize place_b(const VkhHierarchyRequirements& needed, const RunInput& input);
   void place_areas(const RunInput& input, RunOutput& output);

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -373,4 +374,22 @@ TEST_CASE("tolerances: relative to A, absolute, coarse and fine") {
   for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()})
     CHECK_THROWS_AS(distance(a, b, with_tolerance(wrong)), UsageError);
+}
+
+TEST_CASE("meshes copied to the device give the bits of those that are written there") {
+  const DeviceRequest request{.selector = test_device().description().name,
+                              .validation = std::getenv("VKH_VALIDATION") != nullptr,
+                              .robust = true,
+                              .maps_memory = false};
+  Device copying(request);
+  Solver solver(copying);
+  // The second fits what the first took, the third does not.
+  for (const int level : {2, 1, 3}) {
+    const Mesh a = icosphere(1, level), b = translated(icosphere(1.1, level), {0.1, 0.2, 0});
+    const Report r = solver.distance(a, b), expected = distance(a, b);
+    CHECK(r.lower == expected.lower);
+    CHECK(r.upper == expected.upper);
+    CHECK(r.candidates == expected.candidates);
+  }
+  CHECK(copying.validation_messages() == 0);
 }

@@ -9,7 +9,7 @@
 //   default,paper,baseline-gpu,-sort,+packet,paper-thin,-u3@64MiB]
 //             [--filter TEXT] [--max-faces N] [--repeat N] [--tol T] [--device D] [--time SECONDS]
 //             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
-//             [--together N] [--not-robust]
+//             [--together N] [--not-robust] [--not-mapped]
 //
 // With --together, the default preset alone: each pair alone and N side by side, a row a group.
 #include <CLI/CLI.hpp>
@@ -34,7 +34,7 @@ struct Arguments {
   std::string manifest, device, memory;
   std::vector<std::string> presets = {"default"};
   Choice choice;
-  bool plain = false, not_robust = false;
+  bool plain = false, not_robust = false, not_mapped = false;
   int repeat = 5;
   size_t together = 0;
   SolveOptions common;
@@ -64,7 +64,10 @@ class Race {
   explicit Race(const Arguments& args)
       : args_(args),
         made_at_(Clock::now()),
-        device_({.selector = args.device, .validation = false, .robust = !args.not_robust}),
+        device_({.selector = args.device,
+                 .validation = false,
+                 .robust = !args.not_robust,
+                 .maps_memory = !args.not_mapped}),
         solver_(device_),
         device_ms_(ms_since(made_at_)) {
     for (const std::string& name : args.presets) variants_.push_back(variant_of(name, args.common));
@@ -130,10 +133,11 @@ class Race {
   }
 
   void print_device() const {
-    std::printf("# device %s, driver %s, tolerance %g, repeat %d, time limit %g s%s%s\n",
+    std::printf("# device %s, driver %s, tolerance %g, repeat %d, time limit %g s%s%s%s\n",
                 device_.description().name.c_str(), device_.description().driver.c_str(),
                 args_.common.tolerance, args_.repeat, args_.common.time_limit_s,
-                args_.plain ? "; NOT CERTIFIED" : "", args_.not_robust ? "; NOT ROBUST" : "");
+                args_.plain ? "; NOT CERTIFIED" : "", args_.not_robust ? "; NOT ROBUST" : "",
+                args_.not_mapped ? "; NOT MAPPED" : "");
   }
 
   ExitCode print_tail() const {
@@ -188,6 +192,7 @@ int main(int argc, char** argv) {
   app.add_option("--enable", args.common.enabled, "in every preset")->delimiter(',');
   app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
   app.add_flag("--not-robust", args.not_robust, "without robustBufferAccess: what it costs");
+  app.add_flag("--not-mapped", args.not_mapped, "meshes copied from the host: what that costs");
   app.add_option("--memory", args.memory);
   app.add_option("--time", args.common.time_limit_s);
   app.add_option("--together", args.together, "pairs side by side, and each alone")
