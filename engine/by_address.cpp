@@ -31,7 +31,13 @@ enum Op : uint32_t {
   kAccessChain = 65,
   kInBoundsAccessChain = 66,
   kDecorate = 71,
-  kMemberDecorate = 72
+  kMemberDecorate = 72,
+  kCompositeConstruct = 80,
+  kCompositeExtract = 81,
+  kBitcast = 124,
+  kIAdd = 128,
+  kIAddCarry = 149,
+  kUMulExtended = 151
 };
 constexpr uint32_t kPushConstant = 9, kPhysical = 5349;            // storage classes
 constexpr uint32_t kPhysicalAddresses = 5347, kPhysical64 = 5348;  // capability, addressing
@@ -66,6 +72,7 @@ struct Declarations {
   std::map<uint32_t, uint32_t> pointees;  // of those
   std::set<uint32_t> moved_types;
   uint32_t word_type = kNoId;    // uint
+  uint32_t pair_type = kNoId;    // uvec2, if there is one
   uint32_t push = kNoId;         // variable of the push constants
   uint32_t push_member = kNoId;  // type of what they are
 
@@ -84,9 +91,19 @@ struct Declarations {
 
   bool is_given(uint32_t variable) const { return bindings.contains(variable); }
 
+  // What a binding holds: an array of these, so many bytes apart.
+  struct Array {
+    uint32_t element, stride;
+  };
+  Array array_in(uint32_t variable) const {
+    const uint32_t array = structs.at(blocks.at(variable)).at(0);
+    return {elements.at(array), strides.at(array)};
+  }
+
  private:
   void declare(const Instruction& i) {
     if (i.op == kTypeInt && i.args[1] == 32 && i.args[2] == 0) word_type = i.args[0];
+    if (i.op == kTypeVector && i.args[1] == word_type && i.args[2] == 2) pair_type = i.args[0];
     if (i.op == kTypePointer) pointers[i.args[0]] = {i.args[1], i.args[2]};
     if (i.op == kVariable && is_given(i.args[1])) blocks[i.args[1]] = pointers[i.args[0]].pointee;
     if (is_chain(i.op) && (is_given(i.args[2]) || moved.contains(i.args[2]))) {
@@ -174,12 +191,15 @@ class Rewriter {
   void name_ids() {
     new_push_ = d_.push == kNoId;
     push_ = new_push_ ? fresh() : d_.push;
-    push_block_ = fresh();
-    push_pointer_ = fresh();
+    new_pair_ = d_.pair_type == kNoId;
+    pair_ = new_pair_ ? fresh() : d_.pair_type;
+    for (uint32_t* id : {&push_block_, &push_pointer_, &pair_pointer_, &two_words_, &zero_})
+      *id = fresh();
     for (const uint32_t type : d_.moved_types) physical_[type] = fresh();
-    for (const auto& [variable, block] : d_.blocks) {
-      if (!physical_.contains(block)) physical_[block] = fresh();
-      if (!address_pointers_.contains(block)) address_pointers_[block] = fresh();
+    for (const auto& [variable, binding] : d_.bindings) {
+      const auto [element, stride] = d_.array_in(variable);
+      if (!physical_.contains(element)) physical_[element] = fresh();
+      if (!strides_.contains(stride)) strides_[stride] = fresh();
       members_[variable] = fresh();
     }
   }
@@ -197,13 +217,16 @@ class Rewriter {
 
   void put_types() {
     for (const auto& [type, pointer] : physical_) put(kTypePointer, {pointer, kPhysical, type});
-    for (const auto& [block, pointer] : address_pointers_)
-      put(kTypePointer, {pointer, kPushConstant, physical_[block]});
+    if (new_pair_) put(kTypeVector, {pair_, d_.word_type, 2});
+    put(kTypePointer, {pair_pointer_, kPushConstant, pair_});
+    put(kTypeStruct, {two_words_, d_.word_type, d_.word_type});
+    put(kConstant, {d_.word_type, zero_, 0});
+    for (const auto& [stride, id] : strides_) put(kConstant, {d_.word_type, id, stride});
     Words block{push_block_};
     if (!new_push_) block.push_back(d_.push_member);
     uint32_t member = first_address();
     for (const auto& [variable, binding] : d_.bindings) {
-      block.push_back(physical_[d_.blocks[variable]]);
+      block.push_back(pair_);
       put(kConstant, {d_.word_type, members_[variable], member++});
     }
     put(kTypeStruct, block);
@@ -234,15 +257,44 @@ class Rewriter {
     put(kEntryPoint, kept);
   }
 
+  uint32_t put_value(uint32_t op, uint32_t type, const Words& operands) {
+    const uint32_t value = fresh();
+    Words args{type, value};
+    args.insert(args.end(), operands.begin(), operands.end());
+    put(op, args);
+    return value;
+  }
+  uint32_t put_word(uint32_t op, const Words& operands) {
+    return put_value(op, d_.word_type, operands);
+  }
+
+  // Of an element, in 64 bits. Where the driver is left to add up what lies 4 GiB and more behind
+  // an address, an H200's (580.159) reaches something else.
+  uint32_t put_address(uint32_t variable, uint32_t index) {
+    const uint32_t at = put_value(kAccessChain, pair_pointer_, {push_, members_[variable]});
+    const uint32_t start = put_value(kLoad, pair_, {at});
+    const uint32_t number = put_word(kIAdd, {index, zero_});  // as uint, if it is an int
+    const uint32_t stride = strides_[d_.array_in(variable).stride];
+    const uint32_t offset = put_value(kUMulExtended, two_words_, {number, stride});
+    const uint32_t sum = put_value(
+        kIAddCarry, two_words_,
+        {put_word(kCompositeExtract, {start, 0}), put_word(kCompositeExtract, {offset, 0})});
+    const uint32_t high = put_word(
+        kIAdd, {put_word(kCompositeExtract, {start, 1}), put_word(kCompositeExtract, {offset, 1})});
+    const uint32_t carried = put_word(kIAdd, {high, put_word(kCompositeExtract, {sum, 1})});
+    return put_value(kCompositeConstruct, pair_, {put_word(kCompositeExtract, {sum, 0}), carried});
+  }
+
+  // A chain into a binding names the block's one member, an element, and what is meant within it.
   void put_chain(const Instruction& i) {
     Words args(i.args.begin(), i.args.end());
     args[0] = physical_[d_.pointers[args[0]].pointee];
-    if (d_.is_given(args[2])) {
-      const uint32_t block = d_.blocks[args[2]], at = fresh(), address = fresh();
-      put(kAccessChain, {address_pointers_[block], at, push_, members_[args[2]]});
-      put(kLoad, {physical_[block], address, at});
-      args[2] = address;
-    }
+    if (!d_.is_given(args[2])) return put(i.op, args);
+    const uint32_t variable = args[2];
+    const uint32_t address = put_address(variable, args.at(4));
+    if (args.size() == 5) return put(kBitcast, {args[0], args[1], address});
+    args[2] = put_value(kBitcast, physical_[d_.array_in(variable).element], {address});
+    args.erase(args.begin() + 3, args.begin() + 5);
     put(i.op, args);
   }
 
@@ -262,11 +314,14 @@ class Rewriter {
   uint32_t bound_;
   Words out_;
   std::array<uint32_t, kMaxBindings> places_{};
-  bool new_push_ = false;
+  bool new_push_ = false, new_pair_ = false;
   uint32_t push_ = kNoId, push_block_ = kNoId, push_pointer_ = kNoId;
-  std::map<uint32_t, uint32_t> physical_;          // pointers by address, by what they point to
-  std::map<uint32_t, uint32_t> address_pointers_;  // to where an address stands, by its block
-  std::map<uint32_t, uint32_t> members_;           // constants: which address, by its variable
+  uint32_t pair_ = kNoId, pair_pointer_ = kNoId;  // uvec2, and to where an address stands
+  uint32_t two_words_ = kNoId;                    // struct of two uints
+  uint32_t zero_ = kNoId;
+  std::map<uint32_t, uint32_t> strides_;   // constants
+  std::map<uint32_t, uint32_t> physical_;  // pointers by address, by what they point to
+  std::map<uint32_t, uint32_t> members_;   // constants: which address, by its variable
 };
 
 }  // namespace

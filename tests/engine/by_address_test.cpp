@@ -1,0 +1,118 @@
+// Kernels by address reckon where an element lies: in 64 bits, with every carry.
+#include "engine/by_address.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/kernels.h"
+
+namespace {
+
+using namespace vkh;
+
+// Of SPIR-V.
+constexpr uint32_t kTypePointer = 32, kConstant = 43, kLoad = 61, kDecorate = 71, kConstruct = 80,
+                   kExtract = 81, kBitcast = 124, kIAdd = 128, kIAddCarry = 149,
+                   kUMulExtended = 151;
+constexpr uint32_t kPhysical = 5349, kArrayStride = 6, kHeaderWords = 5, kBoundAt = 3;
+
+using Pair = std::array<uint32_t, 2>;
+
+/// A rewritten module: what was added to it, and what it says of strides.
+struct Module {
+  struct Instruction {
+    uint32_t op;
+    std::span<const uint32_t> args;  // behind its type and its result
+  };
+  std::map<uint32_t, Instruction> added;  // by their results
+  std::map<uint32_t, uint32_t> constants;
+  std::vector<uint32_t> addresses;  // what is taken for a pointer
+  std::set<uint64_t> strides;
+
+  Module(const std::vector<uint32_t>& words, uint32_t bound_before) {
+    std::set<uint32_t> pointers;
+    for (size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
+      const uint32_t op = words[at] & 0xffff;
+      const std::span args(words.data() + at + 1, (words[at] >> 16) - 1);
+      if (op == kTypePointer && args[1] == kPhysical) pointers.insert(args[0]);
+      if (op == kConstant) constants[args[1]] = args[2];
+      if (op == kDecorate && args[1] == kArrayStride) strides.insert(args[2]);
+      if (op == kBitcast && pointers.contains(args[0])) addresses.push_back(args[2]);
+      for (const uint32_t known : {kLoad, kConstruct, kExtract, kIAdd, kIAddCarry, kUMulExtended}) {
+        if (op == known && args[1] >= bound_before) added[args[1]] = {op, args.subspan(2)};
+      }
+    }
+  }
+};
+
+/// Does what was added, with `start` where it loads an address and `index` for what the shader has.
+struct Reckoner {
+  const Module& module;
+  uint64_t start;
+  uint32_t index;
+
+  static Pair halves(uint64_t x) {
+    return {static_cast<uint32_t>(x), static_cast<uint32_t>(x >> 32)};
+  }
+  Pair pair(uint32_t id) const {
+    const auto& [op, args] = module.added.at(id);
+    if (op == kConstruct) return {word(args[0]), word(args[1])};
+    if (op == kIAddCarry) return halves(uint64_t{word(args[0])} + word(args[1]));
+    if (op == kUMulExtended) return halves(uint64_t{word(args[0])} * word(args[1]));
+    REQUIRE(op == kLoad);
+    return halves(start);
+  }
+  uint32_t word(uint32_t id) const {
+    if (const auto constant = module.constants.find(id); constant != module.constants.end())
+      return constant->second;
+    if (!module.added.contains(id)) return index;
+    const auto& [op, args] = module.added.at(id);
+    REQUIRE((op == kExtract || op == kIAdd));
+    return op == kExtract ? pair(args[0])[args[1]] : word(args[0]) + word(args[1]);
+  }
+  uint64_t address(uint32_t id) const { return uint64_t{pair(id)[1]} << 32 | pair(id)[0]; }
+};
+
+/// How many places are reckoned.
+size_t check_kernel(std::span<const uint32_t> words, std::span<const Binding> bindings) {
+  const uint32_t given = bindings_by_address(bindings);
+  if (given == 0) return 0;
+  const std::vector<uint32_t> rewritten = by_address(words, given);
+  const Module module(rewritten, words[kBoundAt]);
+  size_t wrong = 0;
+  constexpr uint64_t kBelowCarry = (uint64_t{7} << 32) - 256;
+  for (const uint64_t start : {uint64_t{4096}, kBelowCarry, uint64_t{0x7f3412345600}}) {
+    for (const uint32_t index : {1u, 1000003u, 400000009u, 2147483659u, 4294967291u}) {
+      for (const uint32_t id : module.addresses) {
+        const uint64_t offset = Reckoner{module, start, index}.address(id) - start;
+        const bool is_element = offset % index == 0 && module.strides.contains(offset / index);
+        wrong += offset == 0 || is_element ? 0 : 1;  // the first is asked for by a constant
+      }
+    }
+  }
+  CHECK(wrong == 0);
+  return module.addresses.size();
+}
+
+}  // namespace
+
+TEST_CASE("an element by address lies its number times the stride behind the start") {
+  size_t places = 0;
+#define VKH_CHECK(K)                                                \
+  {                                                                 \
+    const std::string kernel = k::K::kName;                         \
+    CAPTURE(kernel);                                                \
+    places += check_kernel(k::K::words(), k::K::kBindings);         \
+    places += check_kernel(k::K::words_for_cpu(), k::K::kBindings); \
+  }
+  VKH_KERNELS(VKH_CHECK)
+#undef VKH_CHECK
+  CHECK(places > 500);
+}
