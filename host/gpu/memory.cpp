@@ -60,6 +60,7 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
     : Buffer() {
   device_ = &device;
   size_ = size;
+  placement_ = placement;
   const VulkanApi& vk = device.vk();
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -99,6 +100,7 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(buffer_, other.buffer_);
   std::swap(memory_, other.memory_);
   std::swap(size_, other.size_);
+  std::swap(placement_, other.placement_);
   std::swap(mapped_, other.mapped_);
 }
 

@@ -27,6 +27,7 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_; }
   VkDeviceSize size() const { return size_; }
+  Placement placement() const { return placement_; }
   std::byte* mapped() const { return static_cast<std::byte*>(mapped_); }
 
  private:
@@ -35,6 +36,7 @@ class Buffer {
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   VkDeviceSize size_ = 0;
+  Placement placement_ = Placement::kDevice;
   void* mapped_ = nullptr;
 };
 

@@ -32,7 +32,8 @@ py::dict stats_of(const Report& r) {
                   "mesh_b"_a = counts_of(r.mesh_b), "device"_a = device_of(r.device),
                   "waves"_a = r.waves, "candidates"_a = r.candidates, "queries"_a = r.queries,
                   "peak_frontier"_a = r.peak_frontier, "culled"_a = culled_of(r.culled),
-                  "workspace_bytes"_a = r.workspace_bytes, "preset"_a = r.preset,
+                  "workspace_bytes"_a = r.workspace_bytes,
+                  "host_memory_bytes"_a = r.host_memory_bytes, "preset"_a = r.preset,
                   "switched_on"_a = r.switched_on, "switched_off"_a = r.switched_off,
                   "upload_ms"_a = t.upload_ms, "hierarchy_ms"_a = t.hierarchy_ms,
                   "solve_ms"_a = t.solve_ms, "wall_ms"_a = t.wall_ms);

@@ -89,21 +89,29 @@ VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inpu
   return fits || !device_.has_addresses() ? context : context_for(switches | kSwitchByAddress);
 }
 
-// Seats are kept, for their buffers, unless there is no memory beside those of an earlier run.
-void Runner::seat(size_t count, const std::function<void()>& take) {
+// Seats are kept, for their buffers, unless there is no memory beside those of an earlier run, or
+// they lie in the host's.
+void Runner::seat(size_t count, const std::function<void(Reach)>& take) {
+  if (reach_ == Reach::kHost) seats_.clear();
   const bool has_kept = !seats_.empty();
-  const auto add = [&] {
+  const auto try_with = [&](Reach reach) {
+    reach_ = reach;
     while (seats_.size() < count) seats_.push_back(std::make_unique<Seat>(device_));
+    take(reach);
   };
   try {
-    add();
-    take();
+    return try_with(Reach::kDevice);
   } catch (const DeviceError&) {
     seats_.clear();
-    if (!has_kept) throw;
-    add();
-    take();
   }
+  if (has_kept) {
+    try {
+      return try_with(Reach::kDevice);
+    } catch (const DeviceError&) {
+      seats_.clear();
+    }
+  }
+  try_with(Reach::kHost);
 }
 
 VkCommandBuffer Runner::begin() {
@@ -128,7 +136,7 @@ ResidentMesh Runner::build(const MeshData& b) {
   alone[0].b = b;
   context_ = context_for(default_switches(device_), alone);
   ResidentMesh resident;
-  seat(1, [&] { resident = seats_[0]->take_resident(context_, b); });
+  seat(1, [&](Reach reach) { resident = seats_[0]->take_resident(context_, b, reach); });
   VkhHierarchy hierarchy = resident.memory.view();
   const VkCommandBuffer commands = begin();
   seats_[0]->record_upload(commands);
@@ -212,9 +220,9 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   context_ = context_for(inputs[0].switches, inputs);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();
-  seat(inputs.size(), [&] {
+  seat(inputs.size(), [&](Reach reach) {
     for_each_index(inputs.size(),
-                   [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i]); });
+                   [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i], reach); });
   });
   for (RunOutput& output : outputs) output.upload_ms = now_ms() - start;
   const auto is_over = [&](size_t i) {

@@ -30,7 +30,7 @@ class Runner {
   struct Round;
   VkhContext context_for(uint32_t switches);
   VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs);
-  void seat(size_t count, const std::function<void()>& take);
+  void seat(size_t count, const std::function<void(Reach)>& take);
   VkCommandBuffer begin();
   VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }
   void stamp(VkCommandBuffer commands, const char* name);
@@ -46,6 +46,7 @@ class Runner {
   std::map<uint32_t, ContextHandle> contexts_;
   Submitter submitter_;
   std::vector<std::unique_ptr<Seat>> seats_;
+  Reach reach_ = Reach::kDevice;  // of those
   VkhContext context_ = nullptr;
   VkhProfile profile_{};
   bool stage_times_ = true;

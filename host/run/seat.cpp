@@ -52,6 +52,20 @@ VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
           .vertexLowOffset = offset + bytes.high};
 }
 
+// Of the device's memory, or of the host's, where `reach` lets it and the device has no more.
+void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, Reach reach) {
+  try {
+    grow(buffer, device, bytes, kWorking, Placement::kDevice);
+  } catch (const DeviceError&) {
+    if (reach == Reach::kDevice) throw;
+    buffer = Buffer(device, bytes, kWorking, Placement::kUpload);
+  }
+}
+
+VkDeviceSize host_bytes(const Buffer& buffer) {
+  return buffer.placement() == Placement::kUpload ? buffer.size() : 0;
+}
+
 void write(std::byte* to, const MeshData& m) {
   const MeshBytes bytes(m);
   write_vertices(*m.stored, *m.mesh, reinterpret_cast<float*>(to),
@@ -62,15 +76,23 @@ void write(std::byte* to, const MeshData& m) {
 
 }  // namespace
 
-void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements& needed) {
+void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements& needed,
+                           Reach reach) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
-    ranges_[i] = Buffer(device, needed.ranges[i], kWorking, Placement::kDevice);
+    take_buffer(ranges_[i], device, needed.ranges[i], reach);
 }
 
-void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed) {
+void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed,
+                           Reach reach) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
-    vkh::grow(ranges_[i], device, roomy(needed.ranges[i]), kWorking, Placement::kDevice);
+    take_buffer(ranges_[i], device, roomy(needed.ranges[i]), reach);
   for (uint32_t i = needed.rangeCount; i < ranges_.size(); ++i) ranges_[i] = Buffer();
+}
+
+VkDeviceSize HierarchyMemory::host_bytes() const {
+  VkDeviceSize bytes = 0;
+  for (const Buffer& range : ranges_) bytes += vkh::host_bytes(range);
+  return bytes;
 }
 
 VkhHierarchy HierarchyMemory::view() const {
@@ -97,8 +119,12 @@ void check_engine(VkhResult result, const char* what) {
 // Where the host writes the meshes: straight into where the device reads them, or into memory of
 // the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. What of its
 // memory the host sees may be small, and taken.
-std::byte* Seat::take_meshes() {
+std::byte* Seat::take_meshes(Reach reach) {
   const VkDeviceSize bytes = roomy(uploaded_bytes_);
+  if (reach == Reach::kHost) {  // they are read once
+    grow(meshes_, device_, bytes, kWorking, Placement::kUpload);
+    return meshes_.mapped();
+  }
   if (meshes_.size() < bytes && is_mappable(device_, bytes)) {
     try {
       grow(meshes_, device_, bytes, kWorking, Placement::kMapped);
@@ -112,45 +138,64 @@ std::byte* Seat::take_meshes() {
 }
 
 // Either may be missing.
-void Seat::upload(const MeshData& a, const MeshData& b) {
+void Seat::upload(const MeshData& a, const MeshData& b, Reach reach) {
   const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(a).total() : 0;
   const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(b).total() : 0;
   uploaded_bytes_ = bytes_a + bytes_b;
-  std::byte* const to = take_meshes();
+  std::byte* const to = take_meshes(reach);
   if (bytes_a > 0) write(to, a);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
   if (bytes_b > 0) write(to + bytes_a, b);
   if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
 }
 
-// Where B's hierarchy is or will be built; returns the scratch that building needs.
-VkDeviceSize Seat::place_b(const VkhHierarchyRequirements& needed, const RunInput& in) {
+// Where B's hierarchy is or will be built.
+void Seat::place_b(const VkhHierarchyRequirements& needed, const RunInput& in, Reach reach) {
   if (in.resident != nullptr) {
     problem_.b = in.resident->memory.view();
     problem_.b.faceCount = in.resident->face_count;
     problem_.b.vertexCount = in.resident->vertex_count;
-    return 0;
+    return;
   }
-  hierarchy_.grow(device_, needed);
+  hierarchy_.grow(device_, needed, reach);
   problem_.b = hierarchy_.view();
   problem_.b.faceCount = mesh_b_.faceCount;
   problem_.b.vertexCount = mesh_b_.vertexCount;
-  return needed.scratchSize;
 }
 
-void Seat::take(VkhContext context, const RunInput& in, RunOutput& out) {
+// Before B's hierarchy, which is read less often. The run gets `bytes`, or, where the device has
+// not so many, `least` of its memory; building B needs `scratch`, before. Returns what the run
+// gets.
+VkDeviceSize Seat::take_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize scratch,
+                                  Reach reach) {
+  for (const VkDeviceSize run : {bytes, least}) {
+    try {
+      take_buffer(workspace_, device_, std::max(run, scratch), Reach::kDevice);
+      return run;
+    } catch (const DeviceError&) {
+      if (reach == Reach::kDevice) throw;
+    }
+  }
+  take_buffer(workspace_, device_, std::max(bytes, scratch), reach);
+  return bytes;
+}
+
+void Seat::take(VkhContext context, const RunInput& in, RunOutput& out, Reach reach) {
   is_resident_ = in.resident != nullptr;
   const VkhWorkspaceRequirements workspace = workspace_for(context, counts_of(*in.a.mesh));
   VkhHierarchyRequirements hierarchy{};
   if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
-  upload(in.a, is_resident_ ? MeshData{} : in.b);
+  upload(in.a, is_resident_ ? MeshData{} : in.b, reach);
   const VkDeviceSize start =
       in.start_memory_bytes == 0 ? workspace.recommended : in.start_memory_bytes;
-  const VkDeviceSize bytes = std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes,
-                                        workspace.minimum, workspace.maximum);
+  const VkDeviceSize wanted = std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes,
+                                         workspace.minimum, workspace.maximum);
+  const VkDeviceSize bytes =
+      take_workspace(wanted, workspace.minimum, hierarchy.scratchSize, reach);
+  place_b(hierarchy, in, reach);
   out.workspace_bytes = bytes;
-  const VkDeviceSize scratch = place_b(hierarchy, in);
-  grow(workspace_, device_, std::max(bytes, scratch), kWorking, Placement::kDevice);
+  out.host_memory_bytes = host_bytes(workspace_) +
+                          (in.resident != nullptr ? in.resident->memory : hierarchy_).host_bytes();
   grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
   grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
        Placement::kReadback);
@@ -207,12 +252,12 @@ void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile*
   next_.reset();
 }
 
-ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b) {
+ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b, Reach reach) {
   const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
-  upload({}, b);
+  upload({}, b, reach);
   ResidentMesh resident{{}, mesh_b_.vertexCount, mesh_b_.faceCount};
-  resident.memory.take(device_, needed);
-  grow(workspace_, device_, needed.scratchSize, kWorking, Placement::kDevice);
+  take_buffer(workspace_, device_, needed.scratchSize, reach);
+  resident.memory.take(device_, needed, reach);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
   is_resident_ = false;
   return resident;

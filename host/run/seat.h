@@ -18,15 +18,20 @@ struct MeshData {
   const StoredMesh* stored = nullptr;
 };
 
+/// Whose memory a run may use: the device's own, or the host's besides, which the device reads much
+/// more slowly.
+enum class Reach { kDevice, kHost };
+
 /// A hierarchy's ranges of memory, each a buffer of its own.
 class HierarchyMemory {
  public:
   /// Makes each as large as is needed, and no larger.
-  void take(const Device& device, const VkhHierarchyRequirements& needed);
+  void take(const Device& device, const VkhHierarchyRequirements& needed, Reach reach);
   /// Makes each at least as large, with room for the next hierarchy; frees those that are not
   /// needed.
-  void grow(const Device& device, const VkhHierarchyRequirements& needed);
+  void grow(const Device& device, const VkhHierarchyRequirements& needed, Reach reach);
   VkhHierarchy view() const;
+  VkDeviceSize host_bytes() const;  ///< of the host's memory
 
  private:
   std::array<Buffer, VKH_MAX_RANGES> ranges_;
@@ -64,6 +69,7 @@ struct RunOutput {
   VkhReport report{};
   std::vector<StageTime> stages;  ///< one per timestamp interval, in order
   uint64_t workspace_bytes = 0;
+  uint64_t host_memory_bytes = 0;  ///< of the workspace and of B's hierarchy, in the host's memory
   /// Asked for: of each face of A the closed part, then of each the open one; 2^40 is a whole face.
   std::vector<uint64_t> areas;
   double upload_ms = 0;  ///< host: buffers and copying into them; of all that were run at once
@@ -74,9 +80,9 @@ class Seat {
   explicit Seat(const Device& device) : device_(device) {}
 
   /// Takes the pair: its buffers and, mapped, its meshes. Throws DeviceError if it does not fit.
-  void take(VkhContext context, const RunInput& input, RunOutput& output);
+  void take(VkhContext context, const RunInput& input, RunOutput& output, Reach reach);
   /// Takes B alone, and gives the memory for its hierarchy.
-  ResidentMesh take_resident(VkhContext context, const MeshData& b);
+  ResidentMesh take_resident(VkhContext context, const MeshData& b, Reach reach);
 
   /// What the library works on. `mesh_b` and `scratch` are for building B's hierarchy; null where
   /// it is resident.
@@ -98,9 +104,11 @@ class Seat {
   void read(RunOutput& output) const;
 
  private:
-  std::byte* take_meshes();
-  void upload(const MeshData& a, const MeshData& b);
-  VkDeviceSize place_b(const VkhHierarchyRequirements& needed, const RunInput& input);
+  std::byte* take_meshes(Reach reach);
+  void upload(const MeshData& a, const MeshData& b, Reach reach);
+  void place_b(const VkhHierarchyRequirements& needed, const RunInput& input, Reach reach);
+  VkDeviceSize take_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize scratch,
+                              Reach reach);
   void place_areas(const RunInput& input, RunOutput& output);
   VkhMemory take_room(VkDeviceSize bytes);
 

@@ -97,6 +97,7 @@ struct Report {
   MeshPlace place_a, place_b;
   DeviceDescription device;
   uint64_t workspace_bytes = 0;
+  uint64_t host_memory_bytes = 0;  ///< what the device had no room for, and reads from the host
   uint32_t waves = 0;
   uint64_t candidates = 0, queries = 0, peak_frontier = 0;
   std::vector<CullCount> culled;

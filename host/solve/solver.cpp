@@ -174,6 +174,7 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   out.place_a = {pair.a.delta, pair.a.unit};
   out.place_b = {pair.b.delta, pair.b.unit};
   out.workspace_bytes = run.workspace_bytes;
+  out.host_memory_bytes = run.host_memory_bytes;
   out.preset = options.preset.empty() ? "default" : options.preset;
   fill_counts(run.report, pair.frame, out);
   fill_stages(run, out);

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "tests/layer/limits.h"
 #include "tests/layer/rules.h"
 #include "tests/layer/settings.h"
 #include "tests/layer/spirv.h"
@@ -97,10 +98,22 @@ std::optional<VkResult> unless(bool fits) {
   return fits ? std::nullopt : std::optional(VK_ERROR_OUT_OF_DEVICE_MEMORY);
 }
 
-uint32_t heap_of(const Table& table, uint32_t type) {
+VkPhysicalDeviceMemoryProperties memory_of(const Table& table) {
   VkPhysicalDeviceMemoryProperties memory;
   table_of(key_of(table.physical)).GetPhysicalDeviceMemoryProperties(table.physical, &memory);
-  return memory.memoryTypes[type].heapIndex;
+  return memory;
+}
+
+uint32_t heap_of(const Table& table, uint32_t type) {
+  const VkPhysicalDeviceMemoryProperties memory = memory_of(table);
+  return is_split(memory) ? type : memory.memoryTypes[type].heapIndex;
+}
+
+bool fits_heap(uint32_t heap, VkDeviceSize bytes) {
+  const bool is_local = heap == 0;
+  const auto local = is_local ? settings().limit("localMemory") : std::nullopt;
+  return bytes <=
+         std::min(local.value_or(UINT64_MAX), settings().limit("heapSize").value_or(UINT64_MAX));
 }
 
 bool keeps_barrier() {
@@ -137,18 +150,33 @@ void forget_allocation(uint64_t memory) {
   known().allocations.erase(memory);
 }
 
-// More than a heap has is no violation: a driver says that it has not the memory.
-std::optional<VkResult> refusal(fn::AllocateMemory, Table& table, VkDevice,
-                                const VkMemoryAllocateInfo* info, Allocator, VkDeviceMemory*) {
+void made(fn::GetBufferMemoryRequirements, Table& table, VkDevice, VkBuffer,
+          VkMemoryRequirements* requirements) {
+  if (is_split(memory_of(table))) requirements->memoryTypeBits |= requirements->memoryTypeBits << 1;
+}
+
+// More than a heap has is no violation: a driver says that it has not the memory. What is split for
+// the program is one type to the driver.
+std::optional<VkResult> refusal(fn::AllocateMemory tag, Table& table, VkDevice device,
+                                const VkMemoryAllocateInfo* info, Allocator allocator,
+                                VkDeviceMemory* out) {
   const char* where = "vkAllocateMemory";
   if (!at_most(info->allocationSize, "maxMemoryAllocationSize", where)) return unless(false);
   const uint32_t heap = heap_of(table, info->memoryTypeIndex);
-  const std::lock_guard lock(known().mutex);
-  VkDeviceSize bytes = info->allocationSize;
-  for (const auto& [memory, taken] : known().allocations)
-    bytes += taken.first == heap ? taken.second : 0;
-  const bool counted = at_most(known().allocations.size() + 1, "maxMemoryAllocationCount", where);
-  return unless(counted && bytes <= settings().limit("heapSize").value_or(UINT64_MAX));
+  {
+    const std::lock_guard lock(known().mutex);
+    VkDeviceSize bytes = info->allocationSize;
+    for (const auto& [memory, taken] : known().allocations)
+      bytes += taken.first == heap ? taken.second : 0;
+    const bool counted = at_most(known().allocations.size() + 1, "maxMemoryAllocationCount", where);
+    if (!counted || !fits_heap(heap, bytes)) return unless(false);
+  }
+  if (!is_split(memory_of(table))) return std::nullopt;
+  VkMemoryAllocateInfo of_driver = *info;
+  of_driver.memoryTypeIndex = 0;
+  const VkResult result = table.AllocateMemory(device, &of_driver, allocator, out);
+  if (result == VK_SUCCESS) made(tag, table, device, info, allocator, out);
+  return result;
 }
 
 std::optional<VkResult> refusal(fn::CreateBuffer, Table&, VkDevice, const VkBufferCreateInfo* info,

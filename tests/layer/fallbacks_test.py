@@ -96,6 +96,20 @@ for what, environment in {
     different = [key for key in SAME if answer.get(key) != expected[key]]
     if different or done.stderr:
         fail(f"{what}: {different}", done)
+# A device with memory of its own, which the host does not see: meshes are copied there. Where it holds not all of B, B lies in
+# the host's memory.
+for what, environment, in_host in (
+    ("memory apart", limits(localMemory=64 << 20), False),
+    ("2 MiB of its own", limits(localMemory=2 << 20), True),
+    ("2 MiB of its own, by address", limits(localMemory=2 << 20, maxStorageBufferRange=1 << 19), True),
+    ("next to none of its own", limits(localMemory=4096), True),
+):
+    done = demo(little, **environment)
+    answer = json.loads(done.stdout) if done.returncode == 0 else {}
+    different = [key for key in SAME if answer.get(key) != expected[key]]
+    noted = any("from the host's, slowly" in note for note in answer.get("notes", ()))
+    if different or done.stderr or noted != in_host:
+        fail(f"{what}: {different}, noted: {noted}", done)
 # Without addresses the refusal says what it would hold.
 done = demo(VKH_LAYER_HIDE="bufferDeviceAddress", **limits(maxStorageBufferRange=1 << 19))
 words = ("mesh B is too large for this device: 15134 faces", "take about ", "simplify the mesh")

@@ -156,6 +156,7 @@ constexpr unsigned kCreateDeviceErrors =
   X(DestroyDescriptorUpdateTemplate) \
   X(DestroyCommandPool)              \
   X(DestroyPipeline)                 \
+  X(GetBufferMemoryRequirements)     \
   X(FreeMemory)                      \
   X(FreeCommandBuffers)              \
   X(UpdateDescriptorSets)            \

@@ -128,6 +128,7 @@ bool is_limit(const std::string& name) {
                                             "deviceType",
                                             "heapSize",
                                             "hostCached",
+                                            "localMemory",
                                             "timestampValidBits"};
 #define VKH_IS(limit, ...) \
   if (name == #limit) return true;
@@ -163,7 +164,21 @@ void lower(VkPhysicalDeviceProperties& properties) {
     properties.deviceType = static_cast<VkPhysicalDeviceType>(*type);
 }
 
+bool is_split(const VkPhysicalDeviceMemoryProperties& of_driver) {
+  return settings().limit("localMemory") && of_driver.memoryTypeCount == 1;
+}
+
+void split(VkPhysicalDeviceMemoryProperties& memory) {
+  constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  memory.memoryTypeCount = memory.memoryHeapCount = 2;
+  memory.memoryTypes[1] = {memory.memoryTypes[0].propertyFlags & ~local, 1};
+  memory.memoryTypes[0].propertyFlags = local;
+  memory.memoryHeaps[1] = {memory.memoryHeaps[0].size, 0};
+  to_most(memory.memoryHeaps[0].size, "localMemory");
+}
+
 void lower(VkPhysicalDeviceMemoryProperties& memory) {
+  if (is_split(memory)) split(memory);
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     to_most(memory.memoryHeaps[i].size, "heapSize");
   if (settings().limit("hostCached") != std::optional<uint64_t>(0)) return;

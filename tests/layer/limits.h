@@ -14,6 +14,9 @@ bool is_feature(const std::string& name);
 void lower(VkPhysicalDeviceProperties& properties);
 void lower(VkPhysicalDeviceMemoryProperties& memory);
 void lower_chain(void* next);
+/// `localMemory`: the one type of memory that a CPU device has is reported as two, the device's own
+/// and, by the number 1, the host's. Other devices have the first of their own.
+bool is_split(const VkPhysicalDeviceMemoryProperties& of_driver);
 void hide(VkPhysicalDeviceFeatures& features);
 void hide_chain(void* next);
 /// The feature that is asked for though it is hidden; empty if none.

@@ -114,8 +114,9 @@ void spoil(fn::CreateGraphicsPipelines, VkDevice, VkPipelineCache, uint32_t coun
 bool allowed(fn::DestroyPipeline, Table&, VkDevice, VkPipeline pipeline, Allocator);
 
 // checks.cpp: limits and barriers.
-std::optional<VkResult> refusal(fn::AllocateMemory, Table& table, VkDevice,
-                                const VkMemoryAllocateInfo* info, Allocator, VkDeviceMemory*);
+std::optional<VkResult> refusal(fn::AllocateMemory, Table& table, VkDevice device,
+                                const VkMemoryAllocateInfo* info, Allocator allocator,
+                                VkDeviceMemory* out);
 std::optional<VkResult> refusal(fn::CreateBuffer, Table&, VkDevice, const VkBufferCreateInfo* info,
                                 Allocator, VkBuffer*);
 std::optional<VkResult> refusal(fn::CreateDescriptorSetLayout, Table&, VkDevice,
@@ -127,6 +128,8 @@ std::optional<VkResult> refusal(fn::CreatePipelineLayout, Table&, VkDevice,
 std::optional<VkResult> refusal(fn::CreateComputePipelines, Table&, VkDevice, VkPipelineCache,
                                 uint32_t count, const VkComputePipelineCreateInfo* infos, Allocator,
                                 VkPipeline*);
+void made(fn::GetBufferMemoryRequirements, Table& table, VkDevice, VkBuffer,
+          VkMemoryRequirements* requirements);
 bool allowed(fn::UpdateDescriptorSets, Table&, VkDevice, uint32_t count,
              const VkWriteDescriptorSet* writes, uint32_t, const VkCopyDescriptorSet*);
 bool allowed(fn::CmdPushDescriptorSetKHR, Table&, VkCommandBuffer, VkPipelineBindPoint,
