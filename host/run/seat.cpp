@@ -164,17 +164,18 @@ void Seat::place_b(const VkhHierarchyRequirements& needed, const RunInput& in, R
 }
 
 // Before B's hierarchy, which is read less often. The run gets `bytes`, or, where the device has
-// not so many, `least` of its memory; building B needs `scratch`, before. Returns what the run
-// gets.
+// not so many, half as many, and so on, from `least` on; building B needs `scratch`, before.
+// Returns what the run gets.
 VkDeviceSize Seat::take_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize scratch,
                                   Reach reach) {
-  for (const VkDeviceSize run : {bytes, least}) {
+  for (VkDeviceSize run = bytes;; run = std::max(run / 2, least)) {
     try {
       take_buffer(workspace_, device_, std::max(run, scratch), Reach::kDevice);
       return run;
     } catch (const DeviceError&) {
       if (reach == Reach::kDevice) throw;
     }
+    if (run == least) break;
   }
   take_buffer(workspace_, device_, std::max(bytes, scratch), reach);
   return bytes;
@@ -190,8 +191,11 @@ void Seat::take(VkhContext context, const RunInput& in, RunOutput& out, Reach re
       in.start_memory_bytes == 0 ? workspace.recommended : in.start_memory_bytes;
   const VkDeviceSize wanted = std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes,
                                          workspace.minimum, workspace.maximum);
-  const VkDeviceSize bytes =
-      take_workspace(wanted, workspace.minimum, hierarchy.scratchSize, reach);
+  // B's hierarchy, which every query reads, is to have most of a memory that is too small.
+  const VkDeviceSize share = device_.description().memory_bytes / 4;
+  const bool is_cut = reach == Reach::kHost && in.memory_bytes == 0 && wanted > share;
+  const VkDeviceSize bytes = take_workspace(is_cut ? std::max(share, workspace.minimum) : wanted,
+                                            workspace.minimum, hierarchy.scratchSize, reach);
   place_b(hierarchy, in, reach);
   out.workspace_bytes = bytes;
   out.host_memory_bytes = host_bytes(workspace_) +
