@@ -88,7 +88,30 @@ def switch_table():
     return table(["change", "time, ratio of sums", "p99 of the pairs' ratios", "pairs that no longer end"], body)
 
 
-TABLES = {"race": race_table, "together": together_table, "switches": switch_table}
+def growth(surface):
+    return [row for row in rows("docs/data/h200-growth.csv") if row["surface"] == surface]
+
+
+def gpu_ms(row):
+    return float(row["hierarchy_ms"]) + float(row["solve_ms"])
+
+
+def millions(faces):
+    return f"{int(faces) / 1e6:.1f} M"
+
+
+def growth_table():
+    body = []
+    for row in growth("torus") + growth("frog"):
+        million_faces = (int(row["faces_a"]) + int(row["faces_b"])) / 1e6
+        body.append([row["surface"], millions(row["faces_a"]), millions(row["faces_b"]), f"{gpu_ms(row):.1f} ms",
+                     f"{gpu_ms(row) / million_faces:.2f} ms", f"{float(row['load_ms']) / 1e3:.2f} s",
+                     f"{float(row['upload_ms']) / 1e3:.2f} s", f"{float(row['process_ms']) / 1e3:.2f} s",
+                     f"{float(row['peak_memory_gib']):.1f} GiB"])
+    return table(["surface", "A", "B", "GPU", "of a million faces", "reading", "upload", "process", "host's memory"], body)
+
+
+TABLES = {"race": race_table, "together": together_table, "switches": switch_table, "growth": growth_table}
 
 
 def with_tables(text):
@@ -138,6 +161,22 @@ def draw(kind):
              title="Off costs time: blue. On costs time: orange. Under 3 %: grey.")
     axis.title.set_fontsize(9.5)
     save(figure, "benchmark-switches")
+
+    figure, axis = plt.subplots(figsize=(7.6, 4.2))
+    # What is half of A only: the same kind of pair at every size.
+    found = [row for row in growth("torus") if int(row["faces_b"]) < 0.6 * int(row["faces_a"])]
+    faces = [int(row["faces_a"]) + int(row["faces_b"]) for row in found]
+    for name, colour, value in (("process", COSTS, lambda row: float(row["process_ms"])),
+                                ("reading", NEITHER, lambda row: float(row["load_ms"])), ("GPU", PAYS, gpu_ms)):
+        axis.plot(faces, [value(row) for row in found], color=colour, marker="o", markersize=4, label=name)
+    first = gpu_ms(found[0])
+    axis.plot(faces, [first * f / faces[0] for f in faces], color="black", linewidth=0.8, linestyle=":", label="linear")
+    axis.set(xscale="log", yscale="log", xlabel="faces of A and B together", ylabel="time, ms",
+             title="A noisy torus against another of half its faces. One H200, 16 cores.")
+    axis.title.set_fontsize(9.5)
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=8)
+    save(figure, "benchmark-growth")
 
 
 def main():
