@@ -91,6 +91,13 @@ struct Declarations {
 
   bool is_given(uint32_t variable) const { return bindings.contains(variable); }
 
+  // What is said of a block's member besides its place: that others see what is written (Coherent),
+  // that nothing is written.
+  std::span<const uint32_t> said_of(uint32_t variable) const {
+    const auto found = said.find(blocks.at(variable));
+    return found == said.end() ? std::span<const uint32_t>() : found->second;
+  }
+
   // What a binding holds: an array of these, so many bytes apart.
   struct Array {
     uint32_t element, stride;
@@ -120,6 +127,7 @@ struct Declarations {
     if (i.op == kConstant) constants[a[1]] = a[2];
     if (i.op == kDecorate && a[1] == kArrayStride) strides[a[0]] = a[2];
     if (i.op == kMemberDecorate && a[2] == kOffset) offsets[{a[0], a[1]}] = a[3];
+    if (i.op == kMemberDecorate && a.size() == 3) said[a[0]].push_back(a[2]);
   }
 
   // Of what a chain of indices reaches: the greatest common divisor of where it starts and of each
@@ -144,6 +152,7 @@ struct Declarations {
   }
 
   std::map<uint32_t, std::vector<uint32_t>> structs;          // their members' types
+  std::map<uint32_t, std::vector<uint32_t>> said;             // of structs of one member
   std::map<uint32_t, uint32_t> elements, strides, constants;  // of arrays, arrays, by their ids
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> offsets;  // of structs' members
 };
@@ -197,10 +206,10 @@ class Rewriter {
       *id = fresh();
     for (const uint32_t type : d_.moved_types) physical_[type] = fresh();
     for (const auto& [variable, binding] : d_.bindings) {
-      const auto [element, stride] = d_.array_in(variable);
-      if (!physical_.contains(element)) physical_[element] = fresh();
+      const uint32_t stride = d_.array_in(variable).stride;
       if (!strides_.contains(stride)) strides_[stride] = fresh();
       members_[variable] = fresh();
+      holders_[variable] = {fresh(), fresh()};
     }
   }
 
@@ -208,6 +217,12 @@ class Rewriter {
   uint32_t first_address() const { return new_push_ ? 0 : 1; }
 
   void put_decorations() {
+    for (const auto& [variable, holder] : holders_) {
+      put(kDecorate, {holder.block, kBlock});
+      put(kMemberDecorate, {holder.block, 0, kOffset, 0});
+      for (const uint32_t said : d_.said_of(variable))
+        put(kMemberDecorate, {holder.block, 0, said});
+    }
     put(kDecorate, {push_block_, kBlock});
     if (!new_push_) put(kMemberDecorate, {push_block_, 0, kOffset, 0});
     uint32_t member = first_address();
@@ -217,6 +232,10 @@ class Rewriter {
 
   void put_types() {
     for (const auto& [type, pointer] : physical_) put(kTypePointer, {pointer, kPhysical, type});
+    for (const auto& [variable, holder] : holders_) {
+      put(kTypeStruct, {holder.block, d_.array_in(variable).element});
+      put(kTypePointer, {holder.pointer, kPhysical, holder.block});
+    }
     if (new_pair_) put(kTypeVector, {pair_, d_.word_type, 2});
     put(kTypePointer, {pair_pointer_, kPushConstant, pair_});
     put(kTypeStruct, {two_words_, d_.word_type, d_.word_type});
@@ -292,9 +311,9 @@ class Rewriter {
     if (!d_.is_given(args[2])) return put(i.op, args);
     const uint32_t variable = args[2];
     const uint32_t address = put_address(variable, args.at(4));
-    if (args.size() == 5) return put(kBitcast, {args[0], args[1], address});
-    args[2] = put_value(kBitcast, physical_[d_.array_in(variable).element], {address});
-    args.erase(args.begin() + 3, args.begin() + 5);
+    args[2] = put_value(kBitcast, holders_[variable].pointer, {address});
+    args[3] = zero_;
+    args.erase(args.begin() + 4);
     put(i.op, args);
   }
 
@@ -319,6 +338,11 @@ class Rewriter {
   uint32_t pair_ = kNoId, pair_pointer_ = kNoId;  // uvec2, and to where an address stands
   uint32_t two_words_ = kNoId;                    // struct of two uints
   uint32_t zero_ = kNoId;
+  // A block of one element, of which is said what was said of the array, and a pointer to it.
+  struct Holder {
+    uint32_t block, pointer;
+  };
+  std::map<uint32_t, Holder> holders_;     // by variable
   std::map<uint32_t, uint32_t> strides_;   // constants
   std::map<uint32_t, uint32_t> physical_;  // pointers by address, by what they point to
   std::map<uint32_t, uint32_t> members_;   // constants: which address, by its variable

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -18,10 +19,11 @@ namespace {
 using namespace vkh;
 
 // Of SPIR-V.
-constexpr uint32_t kTypePointer = 32, kConstant = 43, kLoad = 61, kDecorate = 71, kConstruct = 80,
-                   kExtract = 81, kBitcast = 124, kIAdd = 128, kIAddCarry = 149,
-                   kUMulExtended = 151;
-constexpr uint32_t kPhysical = 5349, kArrayStride = 6, kHeaderWords = 5, kBoundAt = 3;
+constexpr uint32_t kTypePointer = 32, kVariable = 59, kMemberDecorate = 72, kConstant = 43,
+                   kLoad = 61, kDecorate = 71, kConstruct = 80, kExtract = 81, kBitcast = 124,
+                   kIAdd = 128, kIAddCarry = 149, kUMulExtended = 151;
+constexpr uint32_t kBinding = 33, kPhysical = 5349, kArrayStride = 6, kHeaderWords = 5,
+                   kBoundAt = 3;
 
 using Pair = std::array<uint32_t, 2>;
 
@@ -49,6 +51,17 @@ struct Module {
         if (op == known && args[1] >= bound_before) added[args[1]] = {op, args.subspan(2)};
       }
     }
+  }
+  // Whether what is added to get the address is a constant 0 times the stride.
+  bool asks_for_first(uint32_t id) const {
+    const auto& [op, args] = added.at(id);
+    if (op == kUMulExtended) {
+      const auto& number = added.at(args[0]);  // index + 0
+      return constants.contains(number.args[0]) && constants.at(number.args[0]) == 0;
+    }
+    return std::any_of(args.begin(), args.end(), [&](uint32_t arg) {
+      return op != kLoad && added.contains(arg) && asks_for_first(arg);
+    });
   }
 };
 
@@ -80,12 +93,46 @@ struct Reckoner {
   uint64_t address(uint32_t id) const { return uint64_t{pair(id)[1]} << 32 | pair(id)[0]; }
 };
 
+/// Of each block that is reached as `wanted` says: what is said of its member besides its place.
+template <class Wanted>
+std::multiset<std::set<uint32_t>> said_of_blocks(std::span<const uint32_t> words, Wanted&& wanted) {
+  std::map<uint32_t, std::set<uint32_t>> said;
+  std::map<uint32_t, uint32_t> bindings, pointees;  // of variables; of pointers
+  std::multiset<std::set<uint32_t>> found;
+  for (size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
+    const uint32_t op = words[at] & 0xffff;
+    const std::span args(words.data() + at + 1, (words[at] >> 16) - 1);
+    if (op == kMemberDecorate && args.size() == 3) said[args[0]].insert(args[2]);
+    if (op == kDecorate && args[1] == kBinding) bindings[args[0]] = args[2];
+    if (op == kTypePointer) pointees[args[0]] = args[2];
+    if (op == kVariable && bindings.contains(args[1]) && wanted(bindings[args[1]]))
+      found.insert(said[pointees[args[0]]]);
+  }
+  return found;
+}
+
+/// Of the blocks that were added and are pointed to.
+std::multiset<std::set<uint32_t>> said_of_added(std::span<const uint32_t> words, uint32_t bound) {
+  std::map<uint32_t, std::set<uint32_t>> said;
+  std::multiset<std::set<uint32_t>> found;
+  for (size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
+    const uint32_t op = words[at] & 0xffff;
+    const std::span args(words.data() + at + 1, (words[at] >> 16) - 1);
+    if (op == kMemberDecorate && args.size() == 3) said[args[0]].insert(args[2]);
+    if (op == kTypePointer && args[1] == kPhysical && args[2] >= bound) found.insert(said[args[2]]);
+  }
+  return found;
+}
+
 /// How many places are reckoned.
 size_t check_kernel(std::span<const uint32_t> words, std::span<const Binding> bindings) {
   const uint32_t given = bindings_by_address(bindings);
   if (given == 0) return 0;
   const std::vector<uint32_t> rewritten = by_address(words, given);
   const Module module(rewritten, words[kBoundAt]);
+  // Coherent, NonWritable and the like stay with what is given.
+  CHECK(said_of_added(rewritten, words[kBoundAt]) ==
+        said_of_blocks(words, [&](uint32_t binding) { return (given >> binding & 1) != 0; }));
   size_t wrong = 0;
   constexpr uint64_t kBelowCarry = (uint64_t{7} << 32) - 256;
   for (const uint64_t start : {uint64_t{4096}, kBelowCarry, uint64_t{0x7f3412345600}}) {
@@ -93,7 +140,8 @@ size_t check_kernel(std::span<const uint32_t> words, std::span<const Binding> bi
       for (const uint32_t id : module.addresses) {
         const uint64_t offset = Reckoner{module, start, index}.address(id) - start;
         const bool is_element = offset % index == 0 && module.strides.contains(offset / index);
-        wrong += offset == 0 || is_element ? 0 : 1;  // the first is asked for by a constant
+        const bool is_first = offset == 0 && module.asks_for_first(id);
+        wrong += is_first || is_element ? 0 : 1;
       }
     }
   }
