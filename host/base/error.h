@@ -18,6 +18,11 @@ struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// No memory for what the device is to work on.
+struct MemoryError : DeviceError {
+  using DeviceError::DeviceError;
+};
+
 /// An answer that is there and a file, pipe or disk that does not take it.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -141,7 +141,8 @@ Answer answer_for(const Arguments& arguments, const Request& request, const Mesh
                                     answer.b_to_a ? answer.b_to_a->host_memory_bytes : 0);
   if (in_host > 0) {
     answer.notes.push_back("the device has too little memory: it reads " +
-                           std::to_string((in_host >> 20) + 1) + " MiB from the host's, slowly");
+                           std::to_string((in_host + 0xfffff) >> 20) +
+                           " MiB from the host's, slowly");
   }
   if (arguments.verify) {
     answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);

@@ -60,7 +60,6 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
     : Buffer() {
   device_ = &device;
   size_ = size;
-  placement_ = placement;
   const VulkanApi& vk = device.vk();
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -80,9 +79,13 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   if (has_address) allocate.pNext = &flags;
   allocate.allocationSize = requirements.size;
   allocate.memoryTypeIndex = memory_type(device, requirements.memoryTypeBits, placement);
+  in_host_ = (memory_of(device).memoryTypes[allocate.memoryTypeIndex].propertyFlags &
+              VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) == 0;
   const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
   check_made(result, memory_,
-             ("allocating " + std::to_string(size >> 20) + " MiB on the device").c_str());
+             ("allocating " + std::to_string(size >> 20) + " MiB " +
+              (in_host_ ? "of the host's memory for the device" : "on the device"))
+                 .c_str());
   check(vk.BindBufferMemory(device.handle(), buffer_, memory_, 0), "binding a buffer");
   if (placement != Placement::kDevice) {
     check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
@@ -100,7 +103,7 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(buffer_, other.buffer_);
   std::swap(memory_, other.memory_);
   std::swap(size_, other.size_);
-  std::swap(placement_, other.placement_);
+  std::swap(in_host_, other.in_host_);
   std::swap(mapped_, other.mapped_);
 }
 

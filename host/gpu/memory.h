@@ -16,7 +16,7 @@ enum class Placement { kDevice, kMapped, kUpload, kReadback };
 class Buffer {
  public:
   Buffer() = default;
-  /// Throws DeviceError if the device has not the memory.
+  /// Throws MemoryError if there is not so much.
   Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
@@ -27,7 +27,7 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_; }
   VkDeviceSize size() const { return size_; }
-  Placement placement() const { return placement_; }
+  bool is_in_host() const { return in_host_; }  ///< no memory of the device's own
   std::byte* mapped() const { return static_cast<std::byte*>(mapped_); }
 
  private:
@@ -36,7 +36,7 @@ class Buffer {
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   VkDeviceSize size_ = 0;
-  Placement placement_ = Placement::kDevice;
+  bool in_host_ = false;
   void* mapped_ = nullptr;
 };
 

@@ -55,7 +55,10 @@ void check(VkResult result, const char* what) {
                                    [&](const auto& reason) { return reason.first == result; });
   const std::string reason =
       known != kReasons.end() ? known->second : "error " + std::to_string(static_cast<int>(result));
-  throw DeviceError(std::string(what) + " failed: " + reason);
+  const std::string said = std::string(what) + " failed: " + reason;
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    throw MemoryError(said);
+  throw DeviceError(said);
 }
 
 }  // namespace vkh

@@ -101,13 +101,13 @@ void Runner::seat(size_t count, const std::function<void(Reach)>& take) {
   };
   try {
     return try_with(Reach::kDevice);
-  } catch (const DeviceError&) {
+  } catch (const MemoryError&) {
     seats_.clear();
   }
   if (has_kept) {
     try {
       return try_with(Reach::kDevice);
-    } catch (const DeviceError&) {
+    } catch (const MemoryError&) {
       seats_.clear();
     }
   }
@@ -213,6 +213,18 @@ void Runner::read_stages(const Round& round, std::vector<RunOutput>& outputs) {
   }
 }
 
+// Where memory is scarce, in order: who gets what must not depend on threads.
+void Runner::take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
+  const VkDeviceSize share = device_.description().memory_bytes / 4 / inputs.size();
+  seat(inputs.size(), [&](Reach reach) {
+    const auto take = [&](size_t i) {
+      seats_[i]->take(context_, inputs[i], outputs[i], {reach, share});
+    };
+    if (reach == Reach::kDevice) return for_each_index(inputs.size(), take);
+    for (size_t i = 0; i < inputs.size(); ++i) take(i);
+  });
+}
+
 std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   std::vector<RunOutput> outputs(inputs.size());
   if (inputs.empty()) return outputs;
@@ -220,10 +232,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   context_ = context_for(inputs[0].switches, inputs);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();
-  seat(inputs.size(), [&](Reach reach) {
-    for_each_index(inputs.size(),
-                   [&](size_t i) { seats_[i]->take(context_, inputs[i], outputs[i], reach); });
-  });
+  take_seats(inputs, outputs);
   for (RunOutput& output : outputs) output.upload_ms = now_ms() - start;
   const auto is_over = [&](size_t i) {
     const VkhReport& r = outputs[i].report;

@@ -30,6 +30,7 @@ class Runner {
   struct Round;
   VkhContext context_for(uint32_t switches);
   VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs);
+  void take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
   void seat(size_t count, const std::function<void(Reach)>& take);
   VkCommandBuffer begin();
   VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }

@@ -34,6 +34,8 @@ struct MeshBytes {
   VkDeviceSize total() const { return high + low + faces; }
 };
 
+VkDeviceSize bytes_of(const MeshData& m) { return m.mesh != nullptr ? MeshBytes(m).total() : 0; }
+
 MeshSize counts_of(const Mesh& m) {
   return {static_cast<uint32_t>(m.vertices.size()), static_cast<uint32_t>(m.faces.size())};
 }
@@ -56,15 +58,13 @@ VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
 void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, Reach reach) {
   try {
     grow(buffer, device, bytes, kWorking, Placement::kDevice);
-  } catch (const DeviceError&) {
+  } catch (const MemoryError&) {
     if (reach == Reach::kDevice) throw;
     buffer = Buffer(device, bytes, kWorking, Placement::kUpload);
   }
 }
 
-VkDeviceSize host_bytes(const Buffer& buffer) {
-  return buffer.placement() == Placement::kUpload ? buffer.size() : 0;
-}
+VkDeviceSize bytes_in_host(const Buffer& buffer) { return buffer.is_in_host() ? buffer.size() : 0; }
 
 void write(std::byte* to, const MeshData& m) {
   const MeshBytes bytes(m);
@@ -85,13 +85,14 @@ void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements&
 void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed,
                            Reach reach) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
-    take_buffer(ranges_[i], device, roomy(needed.ranges[i]), reach);
+    take_buffer(ranges_[i], device,
+                reach == Reach::kDevice ? roomy(needed.ranges[i]) : needed.ranges[i], reach);
   for (uint32_t i = needed.rangeCount; i < ranges_.size(); ++i) ranges_[i] = Buffer();
 }
 
 VkDeviceSize HierarchyMemory::host_bytes() const {
   VkDeviceSize bytes = 0;
-  for (const Buffer& range : ranges_) bytes += vkh::host_bytes(range);
+  for (const Buffer& range : ranges_) bytes += bytes_in_host(range);
   return bytes;
 }
 
@@ -119,34 +120,34 @@ void check_engine(VkhResult result, const char* what) {
 // Where the host writes the meshes: straight into where the device reads them, or into memory of
 // the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. What of its
 // memory the host sees may be small, and taken.
-std::byte* Seat::take_meshes(Reach reach) {
-  const VkDeviceSize bytes = roomy(uploaded_bytes_);
-  if (reach == Reach::kHost) {  // they are read once
-    grow(meshes_, device_, bytes, kWorking, Placement::kUpload);
-    return meshes_.mapped();
-  }
+void Seat::take_meshes(VkDeviceSize bytes, Reach reach) {
+  uploaded_bytes_ = bytes;
+  bytes = roomy(bytes);
+  if (reach == Reach::kHost)  // they are read once
+    return grow(meshes_, device_, bytes, kWorking, Placement::kUpload);
   if (meshes_.size() < bytes && is_mappable(device_, bytes)) {
     try {
       grow(meshes_, device_, bytes, kWorking, Placement::kMapped);
-    } catch (const DeviceError&) {
+    } catch (const MemoryError&) {
     }
   }
   grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
-  if (meshes_.mapped() != nullptr) return meshes_.mapped();
-  grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
-  return staging_.mapped();
+  if (meshes_.mapped() == nullptr)
+    grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
 }
 
 // Either may be missing.
-void Seat::upload(const MeshData& a, const MeshData& b, Reach reach) {
-  const VkDeviceSize bytes_a = a.mesh != nullptr ? MeshBytes(a).total() : 0;
-  const VkDeviceSize bytes_b = b.mesh != nullptr ? MeshBytes(b).total() : 0;
-  uploaded_bytes_ = bytes_a + bytes_b;
-  std::byte* const to = take_meshes(reach);
-  if (bytes_a > 0) write(to, a);
+void Seat::place_meshes(const MeshData& a, const MeshData& b, Reach reach) {
+  const VkDeviceSize bytes_a = bytes_of(a), bytes_b = bytes_of(b);
+  take_meshes(bytes_a + bytes_b, reach);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
-  if (bytes_b > 0) write(to + bytes_a, b);
   if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
+}
+
+void Seat::write_meshes(const MeshData& a, const MeshData& b) {
+  std::byte* const to = meshes_.mapped() != nullptr ? meshes_.mapped() : staging_.mapped();
+  if (bytes_of(a) > 0) write(to, a);
+  if (bytes_of(b) > 0) write(to + bytes_of(a), b);
 }
 
 // Where B's hierarchy is or will be built.
@@ -163,57 +164,78 @@ void Seat::place_b(const VkhHierarchyRequirements& needed, const RunInput& in, R
   problem_.b.vertexCount = mesh_b_.vertexCount;
 }
 
-// Before B's hierarchy, which is read less often. The run gets `bytes`, or, where the device has
-// not so many, half as many, and so on, from `least` on; building B needs `scratch`, before.
-// Returns what the run gets.
-VkDeviceSize Seat::take_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize scratch,
-                                  Reach reach) {
-  for (VkDeviceSize run = bytes;; run = std::max(run / 2, least)) {
+// Of a memory that is too small the run gets `share` at most, half of that where there is not so
+// much, and so on, and B's hierarchy what is left: all queries read it. What the caller asked for,
+// `given`, the run gets whole.
+VkDeviceSize Seat::take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize share,
+                                         bool given) {
+  const VkDeviceSize most = given ? bytes : std::clamp(share, least, std::max(bytes, least));
+  for (VkDeviceSize run = most;; run = std::max(run / 2, least)) {
     try {
-      take_buffer(workspace_, device_, std::max(run, scratch), Reach::kDevice);
+      take_buffer(workspace_, device_, run, Reach::kDevice);
       return run;
-    } catch (const DeviceError&) {
-      if (reach == Reach::kDevice) throw;
+    } catch (const MemoryError&) {
     }
-    if (run == least) break;
+    if (given || run == least) break;
   }
-  take_buffer(workspace_, device_, std::max(bytes, scratch), reach);
+  take_buffer(workspace_, device_, bytes, Reach::kHost);
   return bytes;
 }
 
-void Seat::take(VkhContext context, const RunInput& in, RunOutput& out, Reach reach) {
-  is_resident_ = in.resident != nullptr;
-  const VkhWorkspaceRequirements workspace = workspace_for(context, counts_of(*in.a.mesh));
-  VkhHierarchyRequirements hierarchy{};
-  if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
-  upload(in.a, is_resident_ ? MeshData{} : in.b, reach);
+// Building B needs scratch, before the run needs its workspace.
+VkDeviceSize Seat::take_workspace(const VkhWorkspaceRequirements& needed, VkDeviceSize scratch,
+                                  const RunInput& in, Terms terms) {
   const VkDeviceSize start =
-      in.start_memory_bytes == 0 ? workspace.recommended : in.start_memory_bytes;
-  const VkDeviceSize wanted = std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes,
-                                         workspace.minimum, workspace.maximum);
-  // B's hierarchy, which every query reads, is to have most of a memory that is too small.
-  const VkDeviceSize share = device_.description().memory_bytes / 4;
-  const bool is_cut = reach == Reach::kHost && in.memory_bytes == 0 && wanted > share;
-  const VkDeviceSize bytes = take_workspace(is_cut ? std::max(share, workspace.minimum) : wanted,
-                                            workspace.minimum, hierarchy.scratchSize, reach);
-  place_b(hierarchy, in, reach);
-  out.workspace_bytes = bytes;
-  out.host_memory_bytes = host_bytes(workspace_) +
-                          (in.resident != nullptr ? in.resident->memory : hierarchy_).host_bytes();
-  grow(report_, device_, sizeof(VkhReport), kWorking, Placement::kDevice);
-  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-       Placement::kReadback);
+      in.start_memory_bytes == 0 ? needed.recommended : in.start_memory_bytes;
+  const VkDeviceSize bytes =
+      std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes, needed.minimum, needed.maximum);
+  if (terms.reach == Reach::kDevice) {
+    take_buffer(workspace_, device_, std::max(bytes, scratch), Reach::kDevice);
+    scratch_ = {workspace_.handle(), 0, workspace_.size()};
+    return bytes;
+  }
+  const VkDeviceSize taken =
+      take_scarce_workspace(bytes, needed.minimum, terms.share, in.memory_bytes != 0);
+  if (scratch > 0) take_buffer(building_, device_, scratch, Reach::kHost);
+  scratch_ = {building_.handle(), 0, building_.size()};
+  return taken;
+}
+
+VkDeviceSize Seat::host_bytes(const RunInput& in) const {
+  const bool is_moved = problem_.workspace.buffer != workspace_.handle();
+  return bytes_in_host(meshes_) + bytes_in_host(areas_) + bytes_in_host(building_) +
+         (is_moved ? 0 : bytes_in_host(workspace_)) +
+         (in.resident != nullptr ? in.resident->memory : hierarchy_).host_bytes();
+}
+
+void Seat::set_problem(const RunInput& in, VkDeviceSize bytes, bool may_grow) {
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
   problem_.knownLower = in.known_lower;
   problem_.sortFrom = in.sort_from;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
-  const bool grows = in.memory_bytes == 0 && bytes < workspace.maximum;
-  problem_.pauseWhenFull = grows ? VK_TRUE : VK_FALSE;
+  problem_.pauseWhenFull = may_grow && in.memory_bytes == 0 ? VK_TRUE : VK_FALSE;
   next_.reset();
   left_ = Buffer();
-  place_areas(in, out);
-  scratch_ = {workspace_.handle(), 0, workspace_.size()};
+}
+
+void Seat::take(VkhContext context, const RunInput& in, RunOutput& out, Terms terms) {
+  is_resident_ = in.resident != nullptr;
+  const MeshData b = is_resident_ ? MeshData{} : in.b;
+  const VkhWorkspaceRequirements workspace = workspace_for(context, counts_of(*in.a.mesh));
+  VkhHierarchyRequirements hierarchy{};
+  if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
+  place_meshes(in.a, b, terms.reach);
+  take_buffer(report_, device_, sizeof(VkhReport), terms.reach);
+  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+       Placement::kReadback);
+  place_areas(in, out, terms.reach);
+  const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, terms);
+  place_b(hierarchy, in, terms.reach);
+  set_problem(in, bytes, bytes < workspace.maximum);
+  write_meshes(in.a, b);
+  out.workspace_bytes = bytes;
+  out.host_memory_bytes = host_bytes(in);
 }
 
 // The kept one, where it is large enough and not the run's own; else a new one, before which the
@@ -244,10 +266,13 @@ void Seat::make_room(VkhContext context, RunOutput& out) {
   next_ = problem_.workspace;
   try {
     if (bytes > problem_.workspace.size) next_ = take_room(bytes);
-  } catch (const DeviceError&) {  // what has no room can wait
+  } catch (const MemoryError&) {  // what has no room can wait
   }
   problem_.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
   out.workspace_bytes = next_->size;
+  const bool leaves = problem_.workspace.buffer == workspace_.handle() &&
+                      next_->buffer != problem_.workspace.buffer;
+  if (leaves) out.host_memory_bytes -= bytes_in_host(workspace_);
 }
 
 void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile) {
@@ -258,21 +283,22 @@ void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile*
 
 ResidentMesh Seat::take_resident(VkhContext context, const MeshData& b, Reach reach) {
   const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
-  upload({}, b, reach);
+  place_meshes({}, b, reach);
   ResidentMesh resident{{}, mesh_b_.vertexCount, mesh_b_.faceCount};
-  take_buffer(workspace_, device_, needed.scratchSize, reach);
   resident.memory.take(device_, needed, reach);
+  take_buffer(workspace_, device_, needed.scratchSize, reach);
+  write_meshes({}, b);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
   is_resident_ = false;
   return resident;
 }
 
-void Seat::place_areas(const RunInput& in, RunOutput& out) {
+void Seat::place_areas(const RunInput& in, RunOutput& out, Reach reach) {
   problem_.coverageBuffer = VK_NULL_HANDLE;
   if (!in.coverage) return;
   out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
-  grow(areas_, device_, bytes, kWorking, Placement::kDevice);
+  take_buffer(areas_, device_, bytes, reach);
   grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
   problem_.coverageBuffer = areas_.handle();
 }

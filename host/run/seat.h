@@ -22,6 +22,12 @@ struct MeshData {
 /// more slowly.
 enum class Reach { kDevice, kHost };
 
+/// And how much of the device's a run may take at first, where it may use the host's.
+struct Terms {
+  Reach reach;
+  VkDeviceSize share;  // bytes
+};
+
 /// A hierarchy's ranges of memory, each a buffer of its own.
 class HierarchyMemory {
  public:
@@ -69,7 +75,7 @@ struct RunOutput {
   VkhReport report{};
   std::vector<StageTime> stages;  ///< one per timestamp interval, in order
   uint64_t workspace_bytes = 0;
-  uint64_t host_memory_bytes = 0;  ///< of the workspace and of B's hierarchy, in the host's memory
+  uint64_t host_memory_bytes = 0;  ///< what the device had no room for, in the host's memory
   /// Asked for: of each face of A the closed part, then of each the open one; 2^40 is a whole face.
   std::vector<uint64_t> areas;
   double upload_ms = 0;  ///< host: buffers and copying into them; of all that were run at once
@@ -79,8 +85,9 @@ class Seat {
  public:
   explicit Seat(const Device& device) : device_(device) {}
 
-  /// Takes the pair: its buffers and, mapped, its meshes. Throws DeviceError if it does not fit.
-  void take(VkhContext context, const RunInput& input, RunOutput& output, Reach reach);
+  /// Takes the pair: its buffers and, mapped, its meshes. Throws MemoryError if there is no room
+  /// for it, DeviceError if the device cannot have it.
+  void take(VkhContext context, const RunInput& input, RunOutput& output, Terms terms);
   /// Takes B alone, and gives the memory for its hierarchy.
   ResidentMesh take_resident(VkhContext context, const MeshData& b, Reach reach);
 
@@ -104,17 +111,23 @@ class Seat {
   void read(RunOutput& output) const;
 
  private:
-  std::byte* take_meshes(Reach reach);
-  void upload(const MeshData& a, const MeshData& b, Reach reach);
+  void take_meshes(VkDeviceSize bytes, Reach reach);
+  void place_meshes(const MeshData& a, const MeshData& b, Reach reach);
+  void write_meshes(const MeshData& a, const MeshData& b);
   void place_b(const VkhHierarchyRequirements& needed, const RunInput& input, Reach reach);
-  VkDeviceSize take_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize scratch,
-                              Reach reach);
-  void place_areas(const RunInput& input, RunOutput& output);
+  VkDeviceSize take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize share,
+                                     bool given);
+  VkDeviceSize take_workspace(const VkhWorkspaceRequirements& needed, VkDeviceSize scratch,
+                              const RunInput& input, Terms terms);
+  VkDeviceSize host_bytes(const RunInput& input) const;
+  void set_problem(const RunInput& input, VkDeviceSize bytes, bool may_grow);
+  void place_areas(const RunInput& input, RunOutput& output, Reach reach);
   VkhMemory take_room(VkDeviceSize bytes);
 
   const Device& device_;
   HierarchyMemory hierarchy_;
   Buffer staging_, meshes_, workspace_, report_, readback_, areas_, areas_readback_;
+  Buffer building_;                // scratch, where it is not the workspace
   Buffer larger_, left_;           // where a run that paused went on, and before that
   std::optional<VkhMemory> next_;  // where it goes on now
   VkDeviceSize uploaded_bytes_ = 0;

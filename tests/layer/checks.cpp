@@ -179,6 +179,15 @@ std::optional<VkResult> refusal(fn::AllocateMemory tag, Table& table, VkDevice d
   return result;
 }
 
+std::optional<VkResult> refusal(fn::MapMemory, Table& table, VkDevice, VkDeviceMemory memory,
+                                VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void**) {
+  if (!is_split(memory_of(table))) return std::nullopt;
+  const std::lock_guard lock(known().mutex);
+  if (known().allocations[number_of(memory)].first != 0) return std::nullopt;
+  violation("vkMapMemory: the host does not see the device's own memory");
+  return VK_ERROR_MEMORY_MAP_FAILED;
+}
+
 std::optional<VkResult> refusal(fn::CreateBuffer, Table&, VkDevice, const VkBufferCreateInfo* info,
                                 Allocator, VkBuffer*) {
   return unless(at_most(info->size, "maxBufferSize", "vkCreateBuffer"));

@@ -101,6 +101,7 @@ for what, environment in {
 for what, environment, in_host in (
     ("memory apart", limits(localMemory=64 << 20), False),
     ("2 MiB of its own", limits(localMemory=2 << 20), True),
+    ("1 MiB of its own, less than the search's memory", limits(localMemory=1 << 20), True),
     ("2 MiB of its own, by address", limits(localMemory=2 << 20, maxStorageBufferRange=1 << 19), True),
     ("next to none of its own", limits(localMemory=4096), True),
 ):
@@ -110,6 +111,19 @@ for what, environment, in_host in (
     noted = any("from the host's, slowly" in note for note in answer.get("notes", ()))
     if different or done.stderr or noted != in_host:
         fail(f"{what}: {different}, noted: {noted}", done)
+# Where the search's memory is not given, it is cut, and grows into what is left.
+for what, environment in {
+    "2 MiB of its own": limits(localMemory=2 << 20),
+    "7 MiB of its own": limits(localMemory=7 << 20),
+    "4 KiB of its own": limits(localMemory=4096),
+}.items():
+    done = demo("--verify", "--symmetric", **environment)
+    answer = json.loads(done.stdout) if done.returncode == 0 else {}
+    parts = answer.get("directed", [])
+    good = [part["status"] == "closed" and all(part["verified"].values()) for part in parts]
+    noted = any("from the host's, slowly" in note for part in [answer, *parts] for note in part.get("notes", ()))
+    if done.stderr or good != [True, True] or not noted:
+        fail(f"{what}, cut: {good}, noted: {noted}", done)
 # Without addresses the refusal says what it would hold.
 done = demo(VKH_LAYER_HIDE="bufferDeviceAddress", **limits(maxStorageBufferRange=1 << 19))
 words = ("mesh B is too large for this device: 15134 faces", "take about ", "simplify the mesh")

@@ -117,6 +117,8 @@ bool allowed(fn::DestroyPipeline, Table&, VkDevice, VkPipeline pipeline, Allocat
 std::optional<VkResult> refusal(fn::AllocateMemory, Table& table, VkDevice device,
                                 const VkMemoryAllocateInfo* info, Allocator allocator,
                                 VkDeviceMemory* out);
+std::optional<VkResult> refusal(fn::MapMemory, Table& table, VkDevice, VkDeviceMemory memory,
+                                VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void**);
 std::optional<VkResult> refusal(fn::CreateBuffer, Table&, VkDevice, const VkBufferCreateInfo* info,
                                 Allocator, VkBuffer*);
 std::optional<VkResult> refusal(fn::CreateDescriptorSetLayout, Table&, VkDevice,
