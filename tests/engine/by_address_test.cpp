@@ -54,14 +54,14 @@ struct Module {
   }
   // Whether what is added to get the address is a constant 0 times the stride.
   bool asks_for_first(uint32_t id) const {
-    const auto& [op, args] = added.at(id);
-    if (op == kUMulExtended) {
-      const auto& number = added.at(args[0]);  // index + 0
-      return constants.contains(number.args[0]) && constants.at(number.args[0]) == 0;
+    const Instruction& i = added.at(id);
+    if (i.op == kLoad) return false;
+    if (i.op == kUMulExtended) {
+      const auto number = constants.find(added.at(i.args[0]).args[0]);  // index + 0
+      return number != constants.end() && number->second == 0;
     }
-    return std::any_of(args.begin(), args.end(), [&](uint32_t arg) {
-      return op != kLoad && added.contains(arg) && asks_for_first(arg);
-    });
+    return std::any_of(i.args.begin(), i.args.end(),
+                       [&](uint32_t arg) { return added.contains(arg) && asks_for_first(arg); });
   }
 };
 
