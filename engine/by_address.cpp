@@ -4,7 +4,6 @@
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace vkh {
@@ -68,13 +67,14 @@ struct Declarations {
   std::map<uint32_t, uint32_t> bindings;  // of their variables
   std::map<uint32_t, uint32_t> blocks;    // of their variables
   std::map<uint32_t, Pointer> pointers;
-  std::map<uint32_t, uint32_t> moved;     // pointers into them, by their alignment in bytes
-  std::map<uint32_t, uint32_t> pointees;  // of those
-  std::set<uint32_t> moved_types;
-  uint32_t word_type = kNoId;    // uint
-  uint32_t pair_type = kNoId;    // uvec2, if there is one
-  uint32_t push = kNoId;         // variable of the push constants
-  uint32_t push_member = kNoId;  // type of what they are
+  struct Moved {
+    uint32_t pointee, alignment;  // its type; bytes
+  };
+  std::map<uint32_t, Moved> moved;  // pointers into them
+  uint32_t word_type = kNoId;       // uint
+  uint32_t pair_type = kNoId;       // uvec2, if there is one
+  uint32_t push = kNoId;            // variable of the push constants
+  uint32_t push_member = kNoId;     // type of what they are
 
   Declarations(std::span<const uint32_t> words, uint32_t wanted) {
     for_each_instruction(words, [&](const Instruction& i) {
@@ -114,9 +114,7 @@ struct Declarations {
     if (i.op == kTypePointer) pointers[i.args[0]] = {i.args[1], i.args[2]};
     if (i.op == kVariable && is_given(i.args[1])) blocks[i.args[1]] = pointers[i.args[0]].pointee;
     if (is_chain(i.op) && (is_given(i.args[2]) || moved.contains(i.args[2]))) {
-      moved[i.args[1]] = alignment_of(i.args);
-      pointees[i.args[1]] = pointers[i.args[0]].pointee;
-      moved_types.insert(pointers[i.args[0]].pointee);
+      moved[i.args[1]] = {pointers[i.args[0]].pointee, alignment_of(i.args)};
     }
   }
 
@@ -134,8 +132,8 @@ struct Declarations {
   // step. Drivers load 16 bytes at once only where that many are known to be aligned.
   uint32_t alignment_of(std::span<const uint32_t> chain) const {
     const uint32_t base = chain[2];
-    uint32_t alignment = is_given(base) ? kBaseAlignment : moved.at(base);
-    uint32_t type = is_given(base) ? blocks.at(base) : pointees.at(base);
+    auto [type, alignment] =
+        is_given(base) ? Moved{blocks.at(base), kBaseAlignment} : moved.at(base);
     for (const uint32_t index : chain.subspan(3)) {
       if (const auto array = elements.find(type); array != elements.end()) {
         alignment = std::gcd(alignment, strides.at(type));
@@ -204,7 +202,9 @@ class Rewriter {
     pair_ = new_pair_ ? fresh() : d_.pair_type;
     for (uint32_t* id : {&push_block_, &push_pointer_, &pair_pointer_, &two_words_, &zero_})
       *id = fresh();
-    for (const uint32_t type : d_.moved_types) physical_[type] = fresh();
+    for (const auto& [pointer, moved] : d_.moved) {
+      if (!physical_.contains(moved.pointee)) physical_[moved.pointee] = fresh();
+    }
     for (const auto& [variable, binding] : d_.bindings) {
       const uint32_t stride = d_.array_in(variable).stride;
       if (!strides_.contains(stride)) strides_[stride] = fresh();
@@ -323,7 +323,7 @@ class Rewriter {
     Words args(i.args.begin(), i.args.end());
     if (args.size() == operands) args.push_back(0);
     args[operands] |= kAligned;
-    const uint32_t alignment = d_.moved.at(i.op == kLoad ? args[2] : args[0]);
+    const uint32_t alignment = d_.moved.at(i.op == kLoad ? args[2] : args[0]).alignment;
     args.insert(args.begin() + static_cast<std::ptrdiff_t>(operands) + 1, alignment);
     put(i.op, args);
   }

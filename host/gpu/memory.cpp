@@ -42,8 +42,8 @@ std::optional<uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& memory
 }
 
 // Cached memory is a wish, the rest a must.
-uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement) {
-  const VkPhysicalDeviceMemoryProperties memory = memory_of(device);
+uint32_t memory_type(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                     Placement placement) {
   const VkMemoryPropertyFlags flags = wanted(placement);
   for (const VkMemoryPropertyFlags asked :
        {flags, flags & ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT}}) {
@@ -78,8 +78,9 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   if (has_address) allocate.pNext = &flags;
   allocate.allocationSize = requirements.size;
-  allocate.memoryTypeIndex = memory_type(device, requirements.memoryTypeBits, placement);
-  in_host_ = (memory_of(device).memoryTypes[allocate.memoryTypeIndex].propertyFlags &
+  const VkPhysicalDeviceMemoryProperties memory = memory_of(device);
+  allocate.memoryTypeIndex = memory_type(memory, requirements.memoryTypeBits, placement);
+  in_host_ = (memory.memoryTypes[allocate.memoryTypeIndex].propertyFlags &
               VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) == 0;
   const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
   check_made(result, memory_,

@@ -202,9 +202,8 @@ VkDeviceSize Seat::take_workspace(const VkhWorkspaceRequirements& needed, VkDevi
 }
 
 VkDeviceSize Seat::host_bytes(const RunInput& in) const {
-  const bool is_moved = problem_.workspace.buffer != workspace_.handle();
   return bytes_in_host(meshes_) + bytes_in_host(areas_) + bytes_in_host(building_) +
-         (is_moved ? 0 : bytes_in_host(workspace_)) +
+         bytes_in_host(workspace_) +
          (in.resident != nullptr ? in.resident->memory : hierarchy_).host_bytes();
 }
 

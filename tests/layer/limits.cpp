@@ -168,6 +168,8 @@ bool is_split(const VkPhysicalDeviceMemoryProperties& of_driver) {
   return settings().limit("localMemory") && of_driver.memoryTypeCount == 1;
 }
 
+namespace {
+
 void split(VkPhysicalDeviceMemoryProperties& memory) {
   constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
   memory.memoryTypeCount = memory.memoryHeapCount = 2;
@@ -176,6 +178,8 @@ void split(VkPhysicalDeviceMemoryProperties& memory) {
   memory.memoryHeaps[1] = {memory.memoryHeaps[0].size, 0};
   to_most(memory.memoryHeaps[0].size, "localMemory");
 }
+
+}  // namespace
 
 void lower(VkPhysicalDeviceMemoryProperties& memory) {
   if (is_split(memory)) split(memory);
