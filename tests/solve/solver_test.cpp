@@ -384,7 +384,7 @@ TEST_CASE("meshes copied to the device give the bits of those that are written t
   Device copying(request);
   Solver solver(copying);
   // The second fits what the first took, the third does not.
-  for (const int level : {2, 1, 3}) {
+  for (const std::uint32_t level : {2U, 1U, 3U}) {
     const Mesh a = icosphere(1, level), b = translated(icosphere(1.1, level), {0.1, 0.2, 0});
     const Report r = solver.distance(a, b), expected = distance(a, b);
     CHECK(r.lower == expected.lower);
