@@ -87,6 +87,8 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .face_count = p.a.faceCount,
           .cull_tolerance = p.cullTolerance,
           .known_lower = p.knownLower,
+          .limit = p.limit,
+          .limit_up = p.limitUp,
           .sort_from = p.sortFrom,
           .switches = context.limits.switches,
           .wide = context.limits.wide,

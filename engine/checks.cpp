@@ -85,6 +85,8 @@ void check_begin(const VkhProblem& p) {
   check_mesh(p.a);
   VKH_RULE("VkhProblem::cullTolerance: at least 0", p.cullTolerance >= 0);
   VKH_RULE("VkhProblem::knownLower: at least 0", p.knownLower >= 0);
+  VKH_RULE("VkhProblem::limit: at least 0", p.limit >= 0);
+  VKH_RULE("VkhProblem::limitUp: 0 or at least limit", p.limitUp == 0 || p.limitUp >= p.limit);
 }
 
 void check_problem(const VkhContext_T& context, const VkhProblem& p) {

@@ -9,6 +9,8 @@ gpu::BeginPush begin_push(const Problem& p) {
           .face_count = p.face_count,
           .cull_tolerance = p.cull_tolerance,
           .known_lower = p.known_lower,
+          .limit = p.limit,
+          .limit_up = p.limit_up,
           .two_float = p.two_float ? 1u : 0u,
           .warm = p.warm ? 1u : 0u,
           .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom,

@@ -36,7 +36,7 @@ void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& hierarchy);
 // What a run works on.
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
-  float cull_tolerance = 0, known_lower = 0;
+  float cull_tolerance = 0, known_lower = 0, limit = 0, limit_up = 0;
   uint32_t sort_from = 0;            // kSortFrom if 0
   uint32_t switches = gpu::kUseAll;  // of the context,
   bool wide = true;                  // and the kind of its device

@@ -335,6 +335,15 @@ typedef struct VkhProblem {
    * a workspace of VkhWorkspaceRequirements::maximum: what has no room waits for a later wave,
    * which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun. */
   VkBool32 pauseWhenFull;
+  /* > 0, in the coordinates' units: whether h(a, b) is within it is all that is asked. Candidates
+   * within limit + cullTolerance are closed, and the first sample that is surely farther ends the
+   * run: waves after it are empty. The report's status is then VKH_STATUS_WITHIN or
+   * VKH_STATUS_BEYOND, both proven. Any other is undecided: the run goes on, or its budget or its
+   * precision ended, or h is within about cullTolerance of the limit. 0: no such question. */
+  float limit;
+  /* 0, which stands for limit, or more than that: what lower must exceed for VKH_STATUS_BEYOND. For
+   * a limit that is no float: limit is then that rounded down, and this is it rounded up. */
+  float limitUp;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound,
@@ -365,7 +374,9 @@ typedef enum VkhStatus {
   VKH_STATUS_RUNNING = 0, /* candidates are left: advance further, or take the interval as it is */
   VKH_STATUS_DECIDED = 1, /* none is left: upper - lower is at most cullTolerance and rounding */
   VKH_STATUS_PRECISION = 2, /* none is left, but some could not be decided in float32 */
-  VKH_STATUS_MEMORY = 3     /* no room for some, and nothing could wait: their u is in upper */
+  VKH_STATUS_MEMORY = 3,    /* no room for some, and nothing could wait: their u is in upper */
+  VKH_STATUS_WITHIN = 4,    /* with VkhProblem::limit: upper is at most that */
+  VKH_STATUS_BEYOND = 5     /* with VkhProblem::limit: lower is more than limit and limitUp */
 } VkhStatus;
 
 enum { VKH_MAX_WAVE_RECORDS = 64, VKH_MAX_CULLS = 16 };

@@ -197,11 +197,13 @@ VKH_CONST uint kVertexUsed = 1u;
 VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
 
 // Status of the report: the one list; VKH_STATUS_<api's> in vkhausdorff.h.
-#define VKH_STATUSES(X)                                                                        \
-  X(kStatusRunning, 0u, RUNNING)     /* candidates are left: advance, or take what there is */ \
-  X(kStatusDecided, 1u, DECIDED)     /* none is left */                                        \
-  X(kStatusPrecision, 2u, PRECISION) /* none, but some closed at a u above the tolerance */    \
-  X(kStatusMemory, 3u, MEMORY) /* candidates were spilled: nothing could wait, or be refined */
+#define VKH_STATUSES(X)                                                                         \
+  X(kStatusRunning, 0u, RUNNING)     /* candidates are left: advance, or take what there is */  \
+  X(kStatusDecided, 1u, DECIDED)     /* none is left */                                         \
+  X(kStatusPrecision, 2u, PRECISION) /* none, but some closed at a u above the tolerance */     \
+  X(kStatusMemory, 3u, MEMORY) /* candidates were spilled: nothing could wait, or be refined */ \
+  X(kStatusWithin, 4u, WITHIN) /* with a limit: upper <= limit */                               \
+  X(kStatusBeyond, 5u, BEYOND) /* with a limit: lower > limit_up; in control, nearly surely */
 #define VKH_STATUS(constant, value, api) VKH_CONST uint constant = value;
 VKH_STATUSES(VKH_STATUS)
 #undef VKH_STATUS
@@ -332,6 +334,8 @@ struct Control {
   Offer offers[64];  // kMaxOffers
   float cull_tolerance;
   float known_lower;  // candidates near it are closed as if it were a sample's distance
+  float limit;        // > 0: whether h is within it is all that is asked
+  float limit_up;     // at least that: what is beyond is farther than this
   float base;         // distances of the run are kept as what they are above it
   // The old base less the new one, in two floats: what the frontier being read is to be moved by. 0
   // but in the wave that follows a change of base.
@@ -494,6 +498,7 @@ struct BeginPush {
   uint face_count;
   float cull_tolerance;
   float known_lower;
+  float limit, limit_up;
   uint two_float;
   uint warm;  // the last run's witness is kept
   uint sort_from;

@@ -22,4 +22,15 @@ bool needs_sharp(float distance) { return 3.0e-5 * distance > control.cull_toler
 // Whether plain floats are too coarse to compare samples in.
 bool is_tight(float base) { return control.two_float != 0u || needs_sharp(base); }
 
+// Whether a sample, `above` the base, is farther than the limit by more than it may be wrong: in
+// plain floats by 14 ulp of its distance and about as many of the coordinates, which are of order 1
+// (base_of_run); else by far less than the tolerance, but for a position in plain floats. The
+// report proves it.
+bool is_beyond_limit(float above) {
+  float position = control.two_float != 0u ? 0.0 : 2.5e-7;
+  float error =
+      control.tight != 0u ? control.cull_tolerance + position : 4.0e-6 * (control.limit_up + 1.0);
+  return control.limit > 0.0 && (control.base - control.limit_up) + above > error;
+}
+
 #endif

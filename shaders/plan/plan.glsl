@@ -128,6 +128,14 @@ void end_if_done() {
   }
 }
 
+// A sample above the limit is all that was asked for.
+bool ends_beyond() {
+  if (control.measuring != 0u) return false;
+  if (!is_beyond_limit(uintBitsToFloat(control.maximum[kMaxLower]))) return false;
+  control.status = kStatusBeyond;
+  return true;
+}
+
 void refine_nothing() {
   control.sorted = 0u;
   control.split_twice = 0u;
@@ -172,8 +180,9 @@ void plan() {
   if ((kSwitches & kUseUncertified) != 0u) control.certified = 0u;
   if (control.status == kStatusRunning) {
     if (control.wanted == 0u) end_wave();
-    if (control.measuring == 0u) pause_if_short();
-    if (control.measuring != 0u || control.wanted != 0u) {
+    bool ends = ends_beyond();
+    if (control.measuring == 0u && !ends) pause_if_short();
+    if (control.measuring != 0u || control.wanted != 0u || ends) {
       refine_nothing();
     } else {
       share_room();

@@ -58,6 +58,15 @@ float certified_distance() {
 
 float witness_slack(Witness w) { return local_corners(load_root(root_of(w)), whole_root()).slack; }
 
+// What a limit asks for, if it is proven; `lower` and `upper` are what they are above the base.
+uint proven_status(float lower, float upper) {
+  if (control.limit > 0.0 && control.certified != 0u) {
+    if (lower > raised(control.limit_up - control.base)) return kStatusBeyond;
+    if (upper <= lowered(control.limit - control.base)) return kStatusWithin;
+  }
+  return control.status == kStatusBeyond ? kStatusPrecision : control.status;
+}
+
 bool is_running() { return control.status == kStatusRunning; }
 
 // Faces of A that no wave has bounded; the planned wave's are admitted only.
@@ -66,7 +75,7 @@ uint waiting_faces() {
 }
 
 uint remaining() {
-  bool open = is_running() || control.status == kStatusMemory;
+  bool open = control.status != kStatusDecided && control.status != kStatusPrecision;
   return (open ? control.count[kCountFrontier] : 0u) + waiting_faces();
 }
 
@@ -92,7 +101,7 @@ void write_report() {
   report.upper_above = upper;
   report.lower = max(lowered(control.base + lower), 0.0);
   report.upper = raised(control.base + upper);
-  report.status = control.status;
+  report.status = proven_status(lower, upper);
   report.certified = control.certified;
   bool is_planned = is_running() && control.wanted == 0u;
   report.wave = is_planned ? control.wave - 1u : control.wave;

@@ -56,11 +56,14 @@ void plan_first_wave() {
   bool base_is_right = !needs_sharp(uintBitsToFloat(control.maximum[kMaxLower]));
   bool has_room = control.pauses == 0u || room_for_all(0u) <= control.capacity;
   bool begins = base_is_right && has_room;
+  bool ends = is_beyond_limit(uintBitsToFloat(control.maximum[kMaxLower]));
+  if (ends) control.status = kStatusBeyond;
+  begins = begins && !ends;
   uint roots = begins ? roots_to_admit(0u, control.capacity) : 0u;
   control.roots = roots;
   control.root_cursor = roots;
   control.wave = begins ? 1u : 0u;
-  write_child_sizes(roots, true);
+  write_child_sizes(roots, !ends);
 }
 
 void main() {
