@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <limits>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
@@ -11,10 +13,10 @@
 namespace vkh {
 namespace {
 
-// Waves of the first submission: enough for most pairs on a GPU; on a CPU one wave can take
-// seconds.
+// Waves of the first submission, the begin's among them: enough for most pairs on a GPU; on a CPU
+// one wave can take seconds, and so can the hierarchy, which is then a submission of its own.
 constexpr uint32_t kFirstWaves = 8;
-constexpr uint32_t kFirstWavesOnCpu = 2;
+constexpr uint32_t kFirstWavesOnCpu = 1;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
 // H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
 // get longer ones.
@@ -44,12 +46,21 @@ void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStage
                         nullptr, 0, nullptr);
 }
 
+// Of a run that has not begun.
+VkhReport nothing_known() {
+  VkhReport report{};
+  report.upper = report.upperAbove = std::numeric_limits<float>::max();
+  report.certified = 1;
+  report.witnessFaceA = report.witnessFaceB = UINT32_MAX;
+  return report;
+}
+
 }  // namespace
 
 // One submission.
 struct Runner::Round {
   std::vector<size_t> running;  // seats
-  bool first;
+  bool uploads, builds, begins;
   uint32_t waves;
 };
 
@@ -158,12 +169,13 @@ void Runner::record_one(VkCommandBuffer commands, const Round& round) {
   VkhProblem& problem = seat.problem();
   stamp(commands, nullptr);
   seat.record_move(context_, commands, profile());
-  if (round.first && seat.mesh_b() != nullptr) {
+  if (round.builds && seat.mesh_b() != nullptr) {
     vkhCmdBuildHierarchy(context_, commands, seat.mesh_b(), &problem.b, seat.scratch(), profile());
     stamp(commands, "hierarchy");
   }
-  if (round.first) vkhCmdBegin(context_, commands, &problem, profile());
-  const uint32_t waves = round.first ? round.waves - 1 : round.waves;  // the begin has one
+  if (round.waves == 0) return;
+  if (round.begins) vkhCmdBegin(context_, commands, &problem, profile());
+  const uint32_t waves = round.begins ? round.waves - 1 : round.waves;  // the begin has one
   vkhCmdAdvance(context_, commands, &problem, waves, profile());
   vkhCmdWriteReport(context_, commands, &problem, seat.report(), 0, profile());
   stamp(commands, "solve");
@@ -175,11 +187,11 @@ void Runner::record_together(VkCommandBuffer commands, const Round& round) {
   for (const size_t i : round.running) {
     Seat& seat = *seats_[i];
     seat.record_move(context_, commands, nullptr);
-    tasks.push_back({.mesh = round.first ? seat.mesh_b() : nullptr,
+    tasks.push_back({.mesh = round.builds ? seat.mesh_b() : nullptr,
                      .scratch = seat.scratch(),
                      .problem = &seat.problem(),
-                     .begin = round.first ? VK_TRUE : VK_FALSE,
-                     .waves = round.first ? round.waves - 1 : round.waves,
+                     .begin = round.begins ? VK_TRUE : VK_FALSE,
+                     .waves = round.begins ? round.waves - 1 : round.waves,
                      .reportBuffer = seat.report(),
                      .reportOffset = 0});
   }
@@ -189,7 +201,7 @@ void Runner::record_together(VkCommandBuffer commands, const Round& round) {
 
 VkCommandBuffer Runner::record(const Round& round, const std::vector<RunOutput>& outputs) {
   const VkCommandBuffer commands = begin();
-  if (round.first) {
+  if (round.uploads) {
     for (const size_t i : round.running) seats_[i]->record_upload(commands);
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
   }
@@ -198,6 +210,7 @@ VkCommandBuffer Runner::record(const Round& round, const std::vector<RunOutput>&
   } else {
     record_together(commands, round);
   }
+  if (round.waves == 0) return commands;  // there is no report yet
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
   for (const size_t i : round.running) seats_[i]->record_readback(commands, outputs[i]);
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
@@ -225,6 +238,17 @@ void Runner::take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>
   });
 }
 
+// Submits, and takes what came of it. Returns how long that took, in milliseconds.
+double Runner::submit(const Round& round, std::vector<RunOutput>& outputs) {
+  const double submitted = now_ms();
+  submit_and_wait(record(round, outputs));
+  if (round.waves > 0) {
+    for (const size_t i : round.running) seats_[i]->read(outputs[i]);
+  }
+  read_stages(round, outputs);
+  return now_ms() - submitted;
+}
+
 std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   std::vector<RunOutput> outputs(inputs.size());
   if (inputs.empty()) return outputs;
@@ -233,16 +257,29 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();
   take_seats(inputs, outputs);
-  for (RunOutput& output : outputs) output.upload_ms = now_ms() - start;
+  for (RunOutput& output : outputs) {
+    output.upload_ms = now_ms() - start;
+    output.report = nothing_known();
+  }
   const auto is_over = [&](size_t i) {
     const VkhReport& r = outputs[i].report;
     const bool is_wanted = inputs[i].advanced(r);
     return !is_wanted || r.waves >= inputs[i].wave_limit || r.status != VKH_STATUS_RUNNING;
   };
+  const bool on_cpu = device_.description().type == "cpu";
   Round round{.running = {},
-              .first = true,
-              .waves = device_.description().type == "cpu" ? kFirstWavesOnCpu : kFirstWaves};
+              .uploads = true,
+              .builds = true,
+              .begins = true,
+              .waves = on_cpu ? kFirstWavesOnCpu : kFirstWaves};
   for (size_t i = 0; i < inputs.size(); ++i) round.running.push_back(i);
+  if (on_cpu && inputs.size() == 1 && seats_[0]->mesh_b() != nullptr) {
+    const uint32_t waves = std::exchange(round.waves, 0);
+    submit(round, outputs);
+    round.waves = waves;
+    round.uploads = round.builds = false;
+    if (!inputs[0].advanced(outputs[0].report)) return outputs;
+  }
   uint32_t submissions = 0;
   while (!round.running.empty()) {
     if (!inputs[0].multiwave) round.waves = 1;
@@ -250,12 +287,9 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
     for (const size_t i : round.running)
       round.waves =
           std::min(round.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);
-    const double submitted = now_ms();
-    submit_and_wait(record(round, outputs));
-    for (const size_t i : round.running) seats_[i]->read(outputs[i]);
-    read_stages(round, outputs);
-    round.waves = next_waves(++submissions, round.waves, now_ms() - submitted);
-    round.first = false;
+    const double ms = submit(round, outputs);
+    round.waves = next_waves(++submissions, round.waves, ms);
+    round.uploads = round.builds = round.begins = false;
     std::erase_if(round.running, is_over);
     for (const size_t i : round.running) seats_[i]->make_room(context_, outputs[i]);
   }

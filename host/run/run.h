@@ -38,6 +38,7 @@ class Runner {
   void record_one(VkCommandBuffer commands, const Round& round);
   void record_together(VkCommandBuffer commands, const Round& round);
   VkCommandBuffer record(const Round& round, const std::vector<RunOutput>& outputs);
+  double submit(const Round& round, std::vector<RunOutput>& outputs);
   void submit_and_wait(VkCommandBuffer commands);
   void read_stages(const Round& round, std::vector<RunOutput>& outputs);
 
