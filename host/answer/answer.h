@@ -1,38 +1,98 @@
-// A report for people (a short table) and for programs (one versioned JSON object).
+// An answer: in words, as a table for people, as one versioned JSON object for programs, and as
+// what build servers take (JUnit XML, GitHub's workflow commands).
 #pragma once
 
+#include <array>
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/answer/options.h"
+#include "host/answer/length.h"
 #include "host/solve/report.h"
 
 namespace vkh {
 
 const char* program_version();
 
+/// A mesh that was given. Before it is read, only its path is known.
+struct Input {
+  std::string path;
+  bool is_read = false;
+  MeshCounts counts = {};
+  MeshPlace place = {};
+  std::string sha256 = {};              ///< of the file, in hexadecimal digits; empty: not known
+  std::vector<std::string> notes = {};  ///< what people should know about it
+};
+
+/// What was asked about a limit (`gate`).
+struct Asked {
+  Length length;
+  Limit limit;  ///< that, in the files' unit
+};
+
+/// What a user waited for, in milliseconds; parts that ran side by side overlap.
+struct Waits {
+  double read = 0;   ///< files to meshes
+  double start = 0;  ///< instance, device and pipelines
+  double total = 0;  ///< from the process's start to the answer
+};
+
 /// What was asked about a pair of meshes and what came out of it.
 struct Answer {
-  std::string file_a, file_b;
-  Tolerance tolerance;             ///< a fraction is of A's diagonal in both directions
-  std::vector<std::string> notes;  ///< what people should know about the input
+  std::string command;             ///< "distance", "gate" or "demo"
+  std::vector<std::string> words;  ///< as typed after the program's name
+  std::string started, host;       ///< UTC, as ISO 8601 has it; the machine's name
+  std::array<Input, 2> inputs;     ///< A, B
+  std::vector<std::string> notes;  ///< on the pair
+  std::string unit;                ///< of every length; empty: the files' own, whatever it is
+  Length tolerance;                ///< a fraction is of A's diagonal in both directions
+  std::optional<Asked> max;
   Report a_to_b;
   std::optional<Report> b_to_a;  ///< there for a symmetric run
+  Waits waits;
 };
 
 /// The whole answer's interval.
 CertifiedInterval interval_of(const Answer& answer);
+/// Of an answer with `max`.
+Verdict verdict_of(const Answer& answer);
 
 /// One sentence for each status.
 const char* stop_reason(Status status);
 
-/// One line of JSON, without a newline at its end: schema "vkhausdorff.distance/1", or
-/// "vkhausdorff.symmetric/1" with the two directed objects in "directed".
+/// The answer's first line: the verdict, or what the interval means.
+std::string in_words(const Answer& answer);
+
+/// Lengths of an interval as they are printed: "0.0443813 mm", rounded outward to the digits that
+/// matter.
+std::string length_down(const Answer& answer, double length, double gap);
+std::string length_up(const Answer& answer, double length, double gap);
+
+/// A file's name as a terminal may see it: control characters are written as \xNN.
+std::string printable(const std::string& text);
+
+/// One line of JSON, without a newline at its end, of docs/schema/answer.schema.json.
 std::string to_json(const Answer& answer);
 
-/// Ten to fifteen lines; `verbose` adds the stages, the waves and the cull histogram.
+/// What went wrong instead of an answer, likewise. `code`: the exit code; `file`: empty if it is no
+/// file's fault; `place`: a line, byte or element of it, or empty.
+struct Failure {
+  int code;
+  std::string message, file, place;
+};
+std::string to_json(const Failure& failure);
+
+/// The words, and ten to fifteen lines; `verbose` adds switches, stages, waves and the cull
+/// histogram.
 void print_table(std::ostream& out, const Answer& answer, bool verbose);
+
+/// A test suite of one test case: JUnit's XML, as build servers read it.
+std::string to_junit(const Answer& answer);
+std::string to_junit(const Failure& failure);
+
+/// A line that GitHub's runner makes an annotation of, and what it shows on the run's page.
+std::string github_annotation(const Answer& answer);
+std::string github_summary(const Answer& answer);
 
 }  // namespace vkh

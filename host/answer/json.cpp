@@ -4,7 +4,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "engine/vkhausdorff.h"
 #include "host/answer/answer.h"
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
@@ -40,38 +39,42 @@ class JsonObject {
 Json vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json witness_json(const Report& r) {
-  return {{"a",
+  if (!r.has_witness) return nullptr;
+  return {{"from",
            {{"face", r.witness_a.face},
             {"barycentric", vector_json(r.witness_a.barycentric)},
             {"point", vector_json(r.witness_a.point)}}},
-          {"b", {{"face", r.witness_b.face}, {"point", vector_json(r.witness_b.point)}}}};
+          {"to", {{"face", r.witness_b.face}, {"point", vector_json(r.witness_b.point)}}}};
 }
 
-// The delta is written so that it is read back as the same double.
-Json mesh_json(const std::string& file, const MeshCounts& counts, const MeshPlace& place) {
-  return {{"file", file},
-          {"vertices", counts.vertices},
-          {"faces", counts.faces},
-          {"unreferenced", counts.unreferenced},
-          {"degenerate", counts.degenerate},
-          {"duplicate", counts.duplicate},
-          {"polygons", counts.polygons},
-          {"delta", place.delta},
-          {"unit", place.unit.empty() ? Json() : Json(place.unit)}};
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+// Before a mesh is read, its counts are null. The delta is written so that it is read back as the
+// same double.
+Json input_json(const char* name, const Input& input) {
+  Json json = {{"name", name}, {"path", input.path}, {"sha256", text_or_null(input.sha256)}};
+  const auto add = [&](const char* key, uint64_t count) {
+    json[key] = input.is_read ? Json(count) : Json();
+  };
+  add("vertices", input.counts.vertices);
+  add("faces", input.counts.faces);
+  add("unreferenced", input.counts.unreferenced);
+  add("degenerate", input.counts.degenerate);
+  add("duplicate", input.counts.duplicate);
+  add("polygons", input.counts.polygons);
+  json["delta"] = input.place.delta;
+  json["unit"] = text_or_null(input.place.unit);
+  json["notes"] = input.notes;
+  return json;
 }
 
 Json device_json(const DeviceDescription& d) {
+  if (d.name.empty()) return nullptr;  // none was opened yet
   return {{"index", d.index},
           {"name", d.name},
-          {"driver", d.driver},
           {"type", d.type},
           {"api_version", d.api_version},
           {"memory_bytes", d.memory_bytes}};
-}
-
-Json times_json(const Times& t) {
-  return {{"load_ms", t.load_ms},           {"setup_ms", t.setup_ms}, {"upload_ms", t.upload_ms},
-          {"hierarchy_ms", t.hierarchy_ms}, {"solve_ms", t.solve_ms}, {"wall_ms", t.wall_ms}};
 }
 
 Json stages_json(const std::vector<StageStats>& stages) {
@@ -103,29 +106,60 @@ Json wave_stats_json(const std::vector<WaveStats>& waves) {
   return rows;
 }
 
-void add_head(JsonObject& json, const char* schema, const CertifiedInterval& interval) {
-  json.add("schema", schema);
-  json.add("version", program_version());
-  json.add("status", status_name(interval.status));
-  json.add("stop_reason", stop_reason(interval.status));
-  json.add_bound("lower", interval.lower, Rounding::kDown);
-  json.add_bound("upper", interval.upper, Rounding::kUp);
-  json.add("gap", interval.gap);
+std::string interval_json(double lower, double upper, double gap, const std::string& unit) {
+  JsonObject json;
+  json.add_bound("lower", lower, Rounding::kDown);
+  json.add_bound("upper", upper, Rounding::kUp);
+  json.add("gap", gap);
+  json.add("unit", text_or_null(unit));
+  return json.text();
 }
 
-/// One direction's parts, in that direction's own words: mesh_a is where it starts.
-struct Directed {
-  const Report& report;
-  const std::string& file_a;
-  const std::string& file_b;
-  const char* diagonal_of;  ///< the mesh whose diagonal resolved the tolerance, in those words
-};
+void add_status(JsonObject& json, Status status) {
+  json.add("status", status_name(status));
+  json.add("stop_reason", stop_reason(status));
+}
 
-Json tolerance_json(const Tolerance& asked, const Report& r, const char* diagonal_of) {
-  return {{"requested", asked.requested},
-          {"absolute", r.tolerance},
-          {"diagonal_of", asked.is_absolute ? Json(nullptr) : Json(diagonal_of)},
-          {"diagonal_a", r.diagonal_a}};
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kWithin:
+      return "pass";
+    case Verdict::kBeyond:
+      return "fail";
+    case Verdict::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
+Json diagonal_of(const Length& length) {
+  return length.of == Length::Of::kDiagonal ? Json("a") : Json();
+}
+
+std::string max_json(const Answer& answer) {
+  JsonObject json;
+  json.add("requested", answer.max->length.requested);
+  json.add("within", answer.max->limit.within);
+  json.add("beyond", answer.max->limit.beyond);
+  json.add("unit", text_or_null(answer.unit));
+  json.add("diagonal_of", diagonal_of(answer.max->length));
+  return json.text();
+}
+
+Json tolerance_json(const Answer& answer) {
+  return {{"requested", answer.tolerance.requested},
+          {"absolute", answer.a_to_b.tolerance},
+          {"unit", text_or_null(answer.unit)},
+          {"diagonal_of", diagonal_of(answer.tolerance)},
+          {"diagonal", answer.a_to_b.diagonal_a}};
+}
+
+Json options_json(const Answer& answer) {
+  const Report& r = answer.a_to_b;
+  return {{"symmetric", answer.b_to_a.has_value()},
+          {"preset", r.preset},
+          {"switched_on", r.switched_on},
+          {"switched_off", r.switched_off}};
 }
 
 std::string verified_json(const Report& r) {
@@ -143,74 +177,79 @@ std::string verified_json(const Report& r) {
   return json.text();
 }
 
-std::string directed_json(const Answer& answer, const Directed& d) {
-  const Report& r = d.report;
+Json times_json(const Times& t) {
+  return {{"upload_ms", t.upload_ms},
+          {"hierarchy_ms", t.hierarchy_ms},
+          {"solve_ms", t.solve_ms},
+          {"wall_ms", t.wall_ms}};
+}
+
+std::string direction_json(const Answer& answer, const Report& r, bool back) {
   JsonObject json;
-  add_head(json, "vkhausdorff.distance/1", {r.lower, r.upper, r.gap(), r.status});
-  json.add("tolerance", tolerance_json(answer.tolerance, r, d.diagonal_of));
+  json.add("from", back ? "b" : "a");
+  json.add("to", back ? "a" : "b");
+  add_status(json, r.status);
+  json.add_text("interval", interval_json(r.lower, r.upper, r.gap(), answer.unit));
   json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
   if (r.witness_check) json.add_text("verified", verified_json(r));
-  json.add("mesh_a", mesh_json(d.file_a, r.mesh_a, r.place_a));
-  json.add("mesh_b", mesh_json(d.file_b, r.mesh_b, r.place_b));
-  json.add("device", device_json(r.device));
   json.add("times", times_json(r.times));
+  json.add("counts", {{"waves", r.waves},
+                      {"candidates", r.candidates},
+                      {"queries", r.queries},
+                      {"peak_frontier", r.peak_frontier},
+                      {"workspace_bytes", r.workspace_bytes}});
   json.add("stages", stages_json(r.stages));
   json.add("culled", culled_json(r.culled));
-  json.add("waves", r.waves);
   json.add("wave_stats", wave_stats_json(r.wave_stats));
-  json.add("candidates", r.candidates);
-  json.add("queries", r.queries);
-  json.add("peak_frontier", r.peak_frontier);
-  json.add("workspace_bytes", r.workspace_bytes);
-  json.add("preset", r.preset);
-  json.add("switched_on", r.switched_on);
-  json.add("switched_off", r.switched_off);
-  json.add("notes", answer.notes);
   return json.text();
 }
 
+constexpr const char* kSchema = "vkhausdorff.answer/1";
+
 }  // namespace
 
-const char* program_version() { return VKH_VERSION_STRING; }
-
-const char* stop_reason(Status status) {
-  switch (status) {
-    case Status::kClosed:
-      return "the interval meets the tolerance";
-    case Status::kPrecision:
-      return "what is left cannot be decided in this arithmetic";
-    case Status::kTime:
-      return "the time budget ended";
-    case Status::kWaves:
-      return "the wave budget ended";
-    case Status::kMemory:
-      return "the memory did not hold what had to be refined";
-    case Status::kCancelled:
-      return "it was interrupted";
-    case Status::kPruned:
-      return "it exceeds the other direction's lower bound by no more than the tolerance";
-  }
-  return "unknown";
-}
-
-CertifiedInterval interval_of(const Answer& answer) {
-  const Report& r = answer.a_to_b;
-  if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
-  return symmetric_interval(r, *answer.b_to_a);
-}
-
 std::string to_json(const Answer& answer) {
-  std::string forward =
-      directed_json(answer, {answer.a_to_b, answer.file_a, answer.file_b, "mesh_a"});
-  if (!answer.b_to_a) return forward;
+  const CertifiedInterval whole = interval_of(answer);
   JsonObject json;
-  add_head(json, "vkhausdorff.symmetric/1", interval_of(answer));
-  json.add("tolerance", tolerance_json(answer.tolerance, answer.a_to_b, "mesh_a"));
-  json.add_text(
-      "directed",
-      "[" + forward + "," +
-          directed_json(answer, {*answer.b_to_a, answer.file_b, answer.file_a, "mesh_b"}) + "]");
+  json.add("schema", kSchema);
+  json.add("version", program_version());
+  json.add("words", in_words(answer));
+  add_status(json, whole.status);
+  if (answer.max) {
+    json.add("verdict", name_of(verdict_of(answer)));
+    json.add_text("max", max_json(answer));
+  }
+  json.add_text("interval", interval_json(whole.lower, whole.upper, whole.gap, answer.unit));
+  std::string directions = direction_json(answer, answer.a_to_b, false);
+  if (answer.b_to_a) directions += "," + direction_json(answer, *answer.b_to_a, true);
+  json.add_text("directions", "[" + directions + "]");
+  json.add("inputs",
+           Json::array({input_json("a", answer.inputs[0]), input_json("b", answer.inputs[1])}));
+  json.add("notes", answer.notes);
+  json.add("tolerance", tolerance_json(answer));
+  json.add("options", options_json(answer));
+  const DeviceDescription& device = answer.a_to_b.device;
+  json.add("device", device_json(device));
+  json.add("driver", text_or_null(device.driver));
+  json.add("times", {{"read_ms", answer.waits.read},
+                     {"start_ms", answer.waits.start},
+                     {"total_ms", answer.waits.total}});
+  json.add("command", answer.command);
+  json.add("arguments", answer.words);
+  json.add("host", answer.host);
+  json.add("started", answer.started);
+  return json.text();
+}
+
+std::string to_json(const Failure& failure) {
+  JsonObject json;
+  json.add("schema", kSchema);
+  json.add("version", program_version());
+  json.add("error", {{"code", failure.code},
+                     {"message", failure.message},
+                     {"file", text_or_null(failure.file)},
+                     {"place", text_or_null(failure.place)}});
   return json.text();
 }
 

@@ -69,20 +69,6 @@ constexpr std::array<Unit, 5> kTimeUnits = {
 
 }  // namespace
 
-Tolerance parse_tolerance(const std::string& text) {
-  constexpr const char* kExpected =
-      "a positive number: a fraction of diag(A) such as 1e-6, percent of it such as 0.1%, or the "
-      "files' own units such as 0.01abs";
-  Quantity quantity;
-  if (!split(text, quantity)) refuse("--tol", text, kExpected);
-  if (quantity.unit == "abs") return {text, quantity.number, true};
-  if (quantity.unit == "%") quantity.number /= 100;
-  if ((quantity.unit != "%" && !quantity.unit.empty()) || quantity.number <= 0) {
-    refuse("--tol", text, kExpected);
-  }
-  return {text, quantity.number, false};
-}
-
 uint64_t parse_size(const char* option, const std::string& text) {
   constexpr const char* kExpected =
       "a size of at least one byte such as 2GiB, 512MiB, 1.5GB or a number of bytes";

@@ -1,20 +1,11 @@
-// Quantities as people type them: tolerances, sizes of memory, times. All throw UsageError, naming
-// the option, what was typed and what was expected.
+// Sizes of memory, times and counts as people type them; lengths are in length.h. All throw
+// UsageError, naming the option, what was typed and what was expected.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 namespace vkh {
-
-struct Tolerance {
-  std::string requested;  ///< as typed
-  double value = 0;       ///< a fraction of diag(A), or in the files' units
-  bool is_absolute = false;
-};
-
-/// "1e-6": a fraction of diag(A); "0.1%": percent of diag(A); "0.01abs": in the files' own units.
-Tolerance parse_tolerance(const std::string& text);
 
 /// "2GiB", "512M", "1.5GB", or a plain number of bytes; at least one byte. K, M, G and T are powers
 /// of 1024. `option` stands in the error.

@@ -39,8 +39,9 @@ std::string bounds(double lower, double upper) {
   return text + "]";
 }
 
-std::string verdict(Status status) {
-  if (status == Status::kPruned) return std::string("pruned: ") + stop_reason(status);
+std::string ending(Status status) {
+  if (status == Status::kPruned || status == Status::kLimit)
+    return std::string(status == Status::kPruned ? "pruned: " : "decided: ") + stop_reason(status);
   return std::string(status == Status::kClosed ? "closed" : "NOT CLOSED (") +
          (status == Status::kClosed ? "" : std::string(status_name(status)) + ")") + ": " +
          stop_reason(status);
@@ -55,34 +56,41 @@ void row(std::ostream& out, const char* label, const std::string& text) {
   out << printed("  %-10s ", label) << text << '\n';
 }
 
-void print_mesh(std::ostream& out, const char* label, const std::string& file,
-                const MeshCounts& counts, const MeshPlace& place) {
-  std::string text = file + ": " + counted(counts.faces, "face") + ", " +
-                     printed("%llu", Count{counts.vertices}) +
-                     (counts.vertices == 1 ? " vertex" : " vertices");
+void print_input(std::ostream& out, const char* label, const Input& input) {
+  const MeshCounts& counts = input.counts;
+  std::string text = printable(input.path) + ": ";
+  if (!input.is_read) return row(out, label, text + "not read");
+  text += counted(counts.faces, "face") + ", " + printed("%llu", Count{counts.vertices}) +
+          (counts.vertices == 1 ? " vertex" : " vertices");
   const auto also = [&](uint64_t n, const char* what) {
     if (n > 0) text += printed(", %llu %s", static_cast<Count>(n), what);
   };
   also(counts.unreferenced, "unreferenced (dropped)");
   also(counts.degenerate, "degenerate (kept)");
   also(counts.duplicate, "duplicate (kept)");
-  if (!place.unit.empty()) text += ", in " + place.unit;
+  if (!input.place.unit.empty()) text += ", in " + input.place.unit;
   row(out, label, text);
-  if (place.delta > 0) {
+  if (input.place.delta > 0) {
     row(out, "",
-        "each vertex within " + decimal(place.delta, 3, Rounding::kUp) +
+        "each vertex within " + decimal(input.place.delta, 3, Rounding::kUp) +
             " of its exact place: the interval is wider by it");
   }
+  for (const std::string& note : input.notes)
+    row(out, "note", std::string(label) + ": " + printable(note));
 }
 
-std::string tolerance_text(const Answer& answer) {
-  const Report& r = answer.a_to_b;
-  const std::string diagonal = printed("%.9g", r.diagonal_a);
-  if (answer.tolerance.is_absolute) {
-    return printed("%.6g in the files' units, as asked; diag(A) = ", r.tolerance) + diagonal;
+std::string unit_text(const Answer& answer) {
+  return answer.unit.empty() ? "in the files' unit" : answer.unit;
+}
+
+// What was asked for, and what it is in the files' unit.
+std::string length_text(const Answer& answer, const Length& asked, double resolved) {
+  std::string text = asked.requested;
+  if (asked.of == Length::Of::kDiagonal) {
+    text += text.ends_with("diag") ? "(A)" : " of diag(A)";
+    text += printed(" = %.9g", answer.a_to_b.diagonal_a);
   }
-  return answer.tolerance.requested + " of diag(A) = " + diagonal +
-         printed(": %.6g in the files' units", r.tolerance);
+  return text + printed(": %.6g ", resolved) + unit_text(answer);
 }
 
 std::string device_text(const DeviceDescription& d) {
@@ -103,19 +111,34 @@ std::string coverage_text(const CoverageCheck& c) {
 }
 
 void print_direction(std::ostream& out, const Report& r, const char* a, const char* b) {
-  row(out, "witness", std::string(a) + " " + at(r.witness_a));
-  row(out, "", std::string(b) + " " + at(r.witness_b));
+  if (r.has_witness) {
+    row(out, "witness", std::string(a) + " " + at(r.witness_a));
+    row(out, "", std::string(b) + " " + at(r.witness_b));
+  }
   if (r.witness_check) row(out, "verified", verified_text(*r.witness_check));
   if (r.coverage_check) row(out, "", coverage_text(*r.coverage_check));
-  const Times& t = r.times;
+  if (r.waves == 0) return;  // nothing was sought
   row(out, "work",
       counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +
           printed(" (at most %llu at once), ", static_cast<Count>(r.peak_frontier)) +
           printed("%llu queries, workspace ", static_cast<Count>(r.queries)) +
           megabytes(r.workspace_bytes));
-  row(out, "times",
-      printed("load %.4g, setup %.4g, upload %.4g, hierarchy %.4g, solve %.4g, wall %.4g ms",
-              t.load_ms, t.setup_ms, t.upload_ms, t.hierarchy_ms, t.solve_ms, t.wall_ms));
+}
+
+std::string seconds(double ms) { return printed("%.3g s", ms / 1000); }
+
+std::string times_text(const Answer& answer) {
+  double upload = 0, hierarchy = 0, solve = 0;
+  for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (r == nullptr) continue;
+    upload += r->times.upload_ms;
+    hierarchy += r->times.hierarchy_ms;
+    solve += r->times.solve_ms;
+  }
+  const Waits& w = answer.waits;
+  return seconds(w.total) + " in all: read " + seconds(w.read) + " beside start " +
+         seconds(w.start) + ", upload " + seconds(upload) + ", hierarchy " + seconds(hierarchy) +
+         ", search " + seconds(solve);
 }
 
 void print_stages(std::ostream& out, const std::vector<StageStats>& stages) {
@@ -151,40 +174,47 @@ void print_details(std::ostream& out, const Report& r) {
   print_culled(out, r.culled);
 }
 
-void print_switched_off(std::ostream& out, const std::vector<std::string>& names) {
+void print_names(std::ostream& out, const char* label, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  row(out, "off", text);
+  row(out, label, text);
+}
+
+void print_summary(std::ostream& out, const Answer& answer) {
+  const Report& r = answer.a_to_b;
+  const CertifiedInterval whole = interval_of(answer);
+  row(out, "interval", bounds(whole.lower, whole.upper) + "  " + ending(whole.status));
+  row(out, "width",
+      decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " + unit_text(answer) +
+          ", " + decimal(whole.gap, 3, Rounding::kUp) + " of diag(A)");
+  if (answer.max)
+    row(out, "max", length_text(answer, answer.max->length, answer.max->limit.within));
+  row(out, "tolerance", length_text(answer, answer.tolerance, r.tolerance));
+  print_input(out, "A", answer.inputs[0]);
+  print_input(out, "B", answer.inputs[1]);
+  for (const std::string& note : answer.notes) row(out, "note", printable(note));
+  if (!r.device.name.empty()) row(out, "device", device_text(r.device));
+  if (r.preset != "default") row(out, "preset", r.preset);
 }
 
 }  // namespace
 
 void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   const Report& r = answer.a_to_b;
-  const CertifiedInterval whole = interval_of(answer);
-  out << "vkhausdorff " << program_version() << ": "
-      << (answer.b_to_a ? "symmetric distance max(h(A,B), h(B,A))" : "directed distance h(A,B)")
-      << '\n';
-  row(out, "interval", bounds(whole.lower, whole.upper) + "  " + verdict(whole.status));
-  row(out, "gap",
-      decimal(whole.gap, 3, Rounding::kUp) + " of diag(A), " +
-          decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " in the files' units");
-  row(out, "tolerance", tolerance_text(answer));
-  print_mesh(out, "A", answer.file_a, r.mesh_a, r.place_a);
-  print_mesh(out, "B", answer.file_b, r.mesh_b, r.place_b);
-  for (const std::string& note : answer.notes) row(out, "note", note);
-  row(out, "device", device_text(r.device));
-  if (r.preset != "default") row(out, "preset", r.preset);
-  print_switched_off(out, r.switched_off);
-  if (answer.b_to_a) row(out, "h(A,B)", bounds(r.lower, r.upper) + "  " + verdict(r.status));
+  out << in_words(answer) << '\n';
+  print_summary(out, answer);
+  if (verbose) print_names(out, "off", r.switched_off);
+  if (answer.b_to_a) row(out, "h(A,B)", bounds(r.lower, r.upper) + "  " + ending(r.status));
   print_direction(out, r, "A", "B");
   if (verbose) print_details(out, r);
-  if (!answer.b_to_a) return;
-  const Report& back = *answer.b_to_a;
-  row(out, "h(B,A)", bounds(back.lower, back.upper) + "  " + verdict(back.status));
-  print_direction(out, back, "B", "A");
-  if (verbose) print_details(out, back);
+  if (answer.b_to_a) {
+    const Report& back = *answer.b_to_a;
+    row(out, "h(B,A)", bounds(back.lower, back.upper) + "  " + ending(back.status));
+    print_direction(out, back, "B", "A");
+    if (verbose) print_details(out, back);
+  }
+  row(out, "times", times_text(answer));
 }
 
 }  // namespace vkh

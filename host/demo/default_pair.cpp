@@ -303,6 +303,7 @@ MeshPair default_pair() {
   MeshPair pair;
   pair.a = coupling_hub();
   pair.b = simplify(pair.a, pair.a.faces.size() / 2);
+  pair.a.unit = pair.b.unit = "mm";
   return pair;
 }
 

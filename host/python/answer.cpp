@@ -26,30 +26,43 @@ py::dict device_of(const DeviceDescription& d) {
 
 py::dict stats_of(const Report& r) {
   const Times& t = r.times;
-  return py::dict("status"_a = status_name(r.status), "lower"_a = r.lower, "upper"_a = r.upper,
-                  "gap"_a = r.gap(), "tolerance"_a = r.tolerance, "known_lower"_a = r.known_lower,
-                  "diagonal_a"_a = r.diagonal_a, "mesh_a"_a = counts_of(r.mesh_a),
-                  "mesh_b"_a = counts_of(r.mesh_b), "device"_a = device_of(r.device),
-                  "waves"_a = r.waves, "candidates"_a = r.candidates, "queries"_a = r.queries,
-                  "peak_frontier"_a = r.peak_frontier, "culled"_a = culled_of(r.culled),
-                  "workspace_bytes"_a = r.workspace_bytes,
-                  "host_memory_bytes"_a = r.host_memory_bytes, "preset"_a = r.preset,
-                  "switched_on"_a = r.switched_on, "switched_off"_a = r.switched_off,
-                  "upload_ms"_a = t.upload_ms, "hierarchy_ms"_a = t.hierarchy_ms,
-                  "solve_ms"_a = t.solve_ms, "wall_ms"_a = t.wall_ms);
+  return py::dict(
+      "status"_a = status_name(r.status), "lower"_a = r.lower, "upper"_a = r.upper,
+      "gap"_a = r.gap(), "tolerance"_a = r.tolerance, "known_lower"_a = r.known_lower,
+      "max"_a = r.limit.within, "diagonal_a"_a = r.diagonal_a, "mesh_a"_a = counts_of(r.mesh_a),
+      "mesh_b"_a = counts_of(r.mesh_b), "device"_a = device_of(r.device), "waves"_a = r.waves,
+      "candidates"_a = r.candidates, "queries"_a = r.queries, "peak_frontier"_a = r.peak_frontier,
+      "culled"_a = culled_of(r.culled), "workspace_bytes"_a = r.workspace_bytes,
+      "host_memory_bytes"_a = r.host_memory_bytes, "preset"_a = r.preset,
+      "switched_on"_a = r.switched_on, "switched_off"_a = r.switched_off,
+      "upload_ms"_a = t.upload_ms, "hierarchy_ms"_a = t.hierarchy_ms, "solve_ms"_a = t.solve_ms,
+      "wall_ms"_a = t.wall_ms);
 }
 
 }  // namespace
 
 Answer answer_of(const Report& r) {
-  return {r.lower, r.upper, r.status, r.witness_a, r.witness_b, stats_of(r)};
+  return {r.lower, r.upper, r.status, r.limit, r.witness_a, r.witness_b, stats_of(r)};
+}
+
+const char* Answer::verdict() const {
+  if (!(limit.within > 0)) return nullptr;
+  switch (verdict_of(lower, upper, limit)) {
+    case Verdict::kWithin:
+      return "pass";
+    case Verdict::kBeyond:
+      return "fail";
+    case Verdict::kUndecided:
+      break;
+  }
+  return "undecided";
 }
 
 Answer answer_of(const SymmetricReport& both) {
   const CertifiedInterval whole = both.interval();
   const bool there = both.a_to_b.lower >= both.b_to_a.lower;
   const Report& r = there ? both.a_to_b : both.b_to_a;
-  Answer answer{whole.lower, whole.upper, whole.status, r.witness_a, r.witness_b, {}};
+  Answer answer{whole.lower, whole.upper, whole.status, r.limit, r.witness_a, r.witness_b, {}};
   if (!there) std::swap(answer.witness_a, answer.witness_b);
   answer.stats["status"] = status_name(whole.status);
   answer.stats["gap"] = whole.gap;

@@ -12,10 +12,13 @@ namespace vkh::python {
 struct Answer {
   double lower = 0, upper = 0;
   Status status = Status::kClosed;
+  Limit limit;  ///< 0: none was given
   SurfacePoint witness_a, witness_b;
   pybind11::dict stats;
 
   bool closed() const { return status == Status::kClosed; }
+  /// "pass", "fail", "undecided"; null without a limit.
+  const char* verdict() const;
 };
 
 Answer answer_of(const Report& report);

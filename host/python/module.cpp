@@ -1,4 +1,5 @@
-// vkhausdorff._core: what the Python package vkhausdorff has, distance and Solver.
+// vkhausdorff._core: what the Python package vkhausdorff has, distance, Solver, and gate for
+// arrays.
 #include <pybind11/pybind11.h>
 
 #include "engine/vkhausdorff.h"
@@ -54,7 +55,11 @@ void define_result(py::module_& m) {
                              "whether upper - lower met the tolerance")
       .def_property_readonly(
           "status", of_result([](const Answer& r) { return status_name(r.status); }),
-          "why the run ended: closed, precision, time, waves, memory or cancelled")
+          "why the run ended: closed, precision, time, waves, memory, cancelled, or limit where\n"
+          "the limit of gate() was decided")
+      .def_property_readonly(
+          "verdict", of_result([](const Answer& r) { return r.verdict(); }),
+          "of gate(): 'pass', 'fail' or 'undecided', the first two proven; else None")
       .def_property_readonly(
           "witness_a", of_result([](const Answer& r) { return point_of(r.witness_a); }),
           "the point of A (x, y, z) that is farthest from B as far as found, proving lower; in a "
@@ -85,6 +90,13 @@ void define_distance(py::module_& m) {
       "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval is\n"
       "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError for\n"
       "the device. Ctrl-C ends a run.");
+}
+
+void define_gate(py::module_& m) {
+  m.def("gate", gate,
+        "gate(va, fa, vb, fb, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
+        "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='')\n--\n\n"
+        "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
 void define_solver(py::module_& m) {
@@ -142,6 +154,7 @@ PYBIND11_MODULE(_core, m) {
   quiet.disable_function_signatures();
   define_result(m);
   define_distance(m);
+  define_gate(m);
   define_solver(m);
   m.attr("__name__") = own_name;
   watch_interpreter();

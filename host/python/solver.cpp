@@ -4,11 +4,13 @@
 #include <limits>
 #include <map>
 
+#include "host/answer/length.h"
 #include "host/answer/options.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/python/arrays.h"
 #include "host/python/interpreter.h"
+#include "host/run/frame.h"
 
 namespace vkh::python {
 namespace {
@@ -28,21 +30,50 @@ auto parsed(Parse parse, const std::string& text) {
   }
 }
 
+/// A string such as '0.1%' or '0.01abs'. Arrays are in nobody knows what: '0.1mm' is refused.
+Length length_of(const Arguments& given, const char* name, const char* expected,
+                 PlainNumber plain) {
+  Length length;
+  try {
+    length = parse_length(name, given.text(name, expected), plain);
+  } catch (const UsageError&) {
+    refuse_value(name, expected, given.at(name));
+  }
+  if (length.of == Length::Of::kUnit) refuse_value(name, expected, given.at(name));
+  return length;
+}
+
 void read_tolerance(const Arguments& given, SolveOptions& options) {
   constexpr const char* kExpected =
       "a positive number, a fraction of A's diagonal, or a string such as '0.1%' or '0.01abs'";
   const py::object* tol = given.find("tol");
   if (tol == nullptr) return;
   if (py::isinstance<py::str>(*tol)) {
-    const Tolerance tolerance = parsed(parse_tolerance, given.text("tol", kExpected));
-    options.tolerance = tolerance.value;
-    options.tolerance_is_absolute = tolerance.is_absolute;
+    const Length length = length_of(given, "tol", kExpected, PlainNumber::kFraction);
+    options.tolerance = length.number;
+    options.tolerance_is_absolute = length.of == Length::Of::kFiles;
     return;
   }
   const std::optional<double> value = given.number("tol", kExpected);
   if (!value) refuse_type("tol", kExpected, *tol);
   if (!(*value > 0) || std::isinf(*value)) refuse_value("tol", kExpected, *tol);
   options.tolerance = *value;
+}
+
+/// In A's own coordinates: a number as it is, or a string such as '0.1%'.
+Limit read_max(const Arguments& given, const Mesh& a) {
+  constexpr const char* kExpected =
+      "a positive number, in the coordinates' unit, or a string such as '0.1%' or '0.01abs'";
+  const FloatEnvironment ours;
+  const py::object& max = given.at("max");
+  if (py::isinstance<py::str>(max)) {
+    return in_files(length_of(given, "max", kExpected, PlainNumber::kRefused), "max", "",
+                    diagonal(bounding_box(a)));
+  }
+  const std::optional<double> value = given.number("max", kExpected);
+  if (!value) refuse_type("max", kExpected, max);
+  if (!(*value > 0) || std::isinf(*value)) refuse_value("max", kExpected, max);
+  return {*value, *value};
 }
 
 void read_memory(const Arguments& given, SolveOptions& options) {
@@ -111,20 +142,17 @@ Answer answered(const Found& found) {
 
 }  // namespace
 
-Answer distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distance",
-                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
-                     "memory", "disable", "progress", "enable", "preset"},
-                    4,
-                    6};
-  const Call call;
-  const Arguments given(*signature, positional, named);
-  const SolveOptions options = options_of(given);
+namespace {
+
+/// Of either function: `options` is completed by what the meshes say.
+template <class Complete>
+Answer solve(const Arguments& given, const Complete& complete) {
+  SolveOptions options = options_of(given);
   const bool is_symmetric = given.flag("symmetric");
   const std::string device = given.text("device", kDevice);
   const Mesh a = mesh_from("A", given.at("va"), given.at("fa"));
   const Mesh b = mesh_from("B", given.at("vb"), given.at("fb"));
+  complete(a, options);
   Session& session = session_for(device);
   if (is_symmetric) {
     SymmetricReport both;
@@ -134,6 +162,35 @@ Answer distance(const py::args& positional, const py::kwargs& named) {
   Report report;
   session.use([&](Solver& solver) { report = solver.distance(a, b, options); });
   return answered(report);
+}
+
+}  // namespace
+
+Answer distance(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature =
+      new Signature{"distance",
+                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
+                     "memory", "disable", "progress", "enable", "preset"},
+                    4,
+                    6};
+  const Call call;
+  return solve(Arguments(*signature, positional, named), [](const Mesh&, SolveOptions&) {});
+}
+
+Answer gate(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature =
+      new Signature{"gate",
+                    {"va", "fa", "vb", "fb", "max", "tol", "symmetric", "device", "time", "waves",
+                     "memory", "disable", "progress", "enable", "preset"},
+                    5,
+                    5};
+  constexpr double kTolerance = 1e-7;
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  return solve(given, [&](const Mesh& a, SolveOptions& options) {
+    options.limit = read_max(given, a);
+    if (given.find("tol") == nullptr) options.tolerance = kTolerance;
+  });
 }
 
 void free_devices() { Session::free_all(); }

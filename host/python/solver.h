@@ -1,4 +1,4 @@
-// What Python calls: distance(), and the Solver that keeps B.
+// What Python calls: distance(), gate(), and the Solver that keeps B.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,8 @@
 namespace vkh::python {
 
 Answer distance(const pybind11::args& positional, const pybind11::kwargs& named);
+/// The same with a limit: the answer has a verdict.
+Answer gate(const pybind11::args& positional, const pybind11::kwargs& named);
 
 /// Frees the devices that distance() keeps, and those of all Solvers.
 void free_devices();

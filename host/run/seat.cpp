@@ -211,6 +211,8 @@ void Seat::set_problem(const RunInput& in, VkDeviceSize bytes, bool may_grow) {
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.cullTolerance = in.cull_tolerance;
   problem_.knownLower = in.known_lower;
+  problem_.limit = in.limit;
+  problem_.limitUp = in.limit_up;
   problem_.sortFrom = in.sort_from;
   problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
   problem_.pauseWhenFull = may_grow && in.memory_bytes == 0 ? VK_TRUE : VK_FALSE;

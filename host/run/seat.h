@@ -58,7 +58,7 @@ struct RunInput {
   uint32_t wave_limit = UINT32_MAX;
   bool multiwave = true;   ///< false: the host looks at the report after every wave
   uint32_t sort_from = 0;  ///< VkhProblem::sortFrom
-  float cull_tolerance = 0, known_lower = 0;
+  float cull_tolerance = 0, known_lower = 0, limit = 0, limit_up = 0;
   bool two_float = false;
   bool stage_times = true;  ///< false: "hierarchy" and "solve" in their place
   bool coverage = false;    ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too

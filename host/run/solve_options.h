@@ -21,6 +21,12 @@ struct Progress {
   size_t pair = 0;    ///< which one of Solver::distances
 };
 
+/// A length in the files' units, rounded down and up to doubles: a distance of at most `within` is
+/// surely within it, one above `beyond` surely is not. 0: none.
+struct Limit {
+  double within = 0, beyond = 0;
+};
+
 struct SolveOptions {
   double tolerance = 1e-6;  ///< fraction of diag(A), or in the files' units if absolute
   bool tolerance_is_absolute = false;
@@ -48,6 +54,9 @@ struct SolveOptions {
   /// In the files' units; 0: nothing. A distance that the answer need not resolve below: candidates
   /// within the tolerance of it are closed, and a run that this decides ends as Status::kPruned.
   double known_lower = 0;
+  /// Whether the distance is within it is all that is asked: candidates within the tolerance of it
+  /// are closed, and the run ends as soon as either is proven, as Status::kLimit (verdict_of).
+  Limit limit = {};
 };
 
 /// Names that `enabled` and `disabled` take.

@@ -39,8 +39,15 @@ const char* status_name(Status status) {
       return "cancelled";
     case Status::kPruned:
       return "pruned";
+    case Status::kLimit:
+      return "limit";
   }
   return "unknown";
+}
+
+Verdict verdict_of(double lower, double upper, const Limit& limit) {
+  if (upper <= limit.within) return Verdict::kWithin;
+  return lower > limit.beyond ? Verdict::kBeyond : Verdict::kUndecided;
 }
 
 double gap_of(double lower, double upper, double diagonal_a) {

@@ -10,6 +10,7 @@
 
 #include "host/gpu/device_description.h"
 #include "host/mesh/mesh.h"
+#include "host/run/solve_options.h"
 
 namespace vkh {
 
@@ -24,9 +25,13 @@ enum class Status {
   kCancelled,  ///< the caller asked for the end
   kPruned,     ///< upper <= known_lower + tolerance, which was all that was asked; the interval is
                ///< true, but lower was not sought: only upper says something
+  kLimit,      ///< upper <= limit or lower > limit is proven, which was all that was asked
 };
 const char* status_name(Status status);  ///< "closed", "precision", "time", "waves", "memory",
-                                         ///< "cancelled", "pruned"
+                                         ///< "cancelled", "pruned", "limit"
+
+/// Whether a distance is within a limit; each but the last is proven.
+enum class Verdict { kWithin, kBeyond, kUndecided };
 
 /// A point on a face, in the files' own coordinates.
 struct SurfacePoint {
@@ -57,8 +62,6 @@ struct WaveStats {
 };
 
 struct Times {
-  double load_ms = 0;       ///< files to meshes (filled by the CLI)
-  double setup_ms = 0;      ///< instance, device and pipelines (filled by the CLI)
   double upload_ms = 0;     ///< meshes to device buffers, frame included
   double hierarchy_ms = 0;  ///< GPU: B's hierarchy
   double solve_ms = 0;      ///< GPU: seed and waves and report, without the hierarchy
@@ -92,7 +95,9 @@ struct Report {
   double diagonal_a = 0;        ///< of A's bounding box, rounded to nearest
   double tolerance = 0;    ///< in the files' units; of a fraction: times diagonal_a, rounded down
   double known_lower = 0;  ///< SolveOptions::known_lower
+  Limit limit;             ///< SolveOptions::limit
   SurfacePoint witness_a, witness_b;
+  bool has_witness = false;  ///< false: no sample was measured yet
   MeshCounts mesh_a, mesh_b;
   MeshPlace place_a, place_b;
   DeviceDescription device;
@@ -111,6 +116,9 @@ struct Report {
 
   double gap() const;  ///< (upper - lower) / diag(A), rounded up
 };
+
+/// By the interval alone, whatever ended the run.
+Verdict verdict_of(double lower, double upper, const Limit& limit);
 
 /// (upper - lower) / diagonal_a, or the width itself where that is 0; rounded up.
 double gap_of(double lower, double upper, double diagonal_a);

@@ -47,6 +47,7 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
   const glm::uvec3 fb = b.faces[r.witnessFaceB];
   const ClosestPoint q = closest_point(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
   out.witness_b = {r.witnessFaceB, q.barycentric, q.point};
+  out.has_witness = true;
 }
 
 }  // namespace vkh

@@ -14,53 +14,15 @@
 #include "host/run/run.h"
 #include "host/run/switches.h"
 #include "host/solve/coverage.h"
+#include "host/solve/pair.h"
 #include "host/solve/run_report.h"
 
 namespace vkh {
 namespace {
 
-// Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
-// up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that
-// is certified in the end.
-constexpr double kRoundedPosition = 1.1e-7;
-// Tolerances from here on can afford that.
-constexpr double kPlainTolerance = 8 * kRoundedPosition;
-// With low parts, feet placed by 24-bit weights leave as much; tighter tolerances give up this part
-// of themselves for it.
-constexpr double kMostForWeights = 0.1;
-// Of the tolerance, kept for rounding it and the sum of it and the lower bound to float32.
-constexpr double kKept = 1e-4;
-// 48-bit arithmetic in a frame of order 1 leaves less than this (3.9e-11 seen, where faces of A and
-// B are as large as the frame); asking for less would refine noise.
-constexpr double kToleranceFloor = 6e-11;
-
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-// A run's meshes as they are stored in one frame. Proof that any frame will do: the device encloses
-// the stored meshes' h in the frame's units, whatever the frame, for coordinates up to 2^15
-// (vkhausdorff.h); a stored vertex is within the displacement, which store_in() bounded for this
-// very frame, of its exact place; h moves by no more than both displacements together.
-struct Pair {
-  const Mesh& a;
-  const Mesh& b;
-  const Frame& frame;
-  const StoredMesh& stored_a;
-  const StoredMesh* stored_b;  // null: resident
-  const ResidentMesh* resident;
-  double displacement;  // of both
-  bool has_low;         // either
-  Box box_a, joint;
-};
-
-FileInterval to_files(const VkhReport& r, const Pair& pair) {
-  const double base = static_cast<double>(r.base);
-  const double lower = add_down(base, static_cast<double>(r.lowerAbove));
-  const double upper = add_up(base, static_cast<double>(r.upperAbove));
-  const double farthest = farthest_in(pair.joint, add_up(pair.a.delta, pair.b.delta));
-  return pair.frame.to_files(lower, upper, pair.displacement, farthest);
 }
 
 // Where the device found the stored meshes' h to be 0, and only what storing displaced is left: is
@@ -76,10 +38,16 @@ bool is_surely_zero(const VkhReport& r, const Pair& pair) {
   }
 }
 
+// Whether a limit was asked about, and there is an answer.
+bool is_decided(double lower, double upper, const Limit& limit) {
+  return limit.within > 0 && verdict_of(lower, upper, limit) != Verdict::kUndecided;
+}
+
 Status status_of(const VkhReport& r, const Report& out, Status ended) {
   if (is_within(out.lower, out.upper, out.tolerance)) return Status::kClosed;
   if (out.known_lower > 0 && is_within(out.known_lower, out.upper, out.tolerance))
     return Status::kPruned;
+  if (is_decided(out.lower, out.upper, out.limit)) return Status::kLimit;
   if (r.status == VKH_STATUS_RUNNING && ended != Status::kClosed) return ended;
   return r.status == VKH_STATUS_MEMORY ? Status::kMemory : Status::kPrecision;
 }
@@ -135,6 +103,7 @@ struct Watch {
   bool operator()(const VkhReport& r) {
     if (r.status != VKH_STATUS_RUNNING) return false;
     const FileInterval now = to_files(r, pair);
+    if (is_decided(now.lower, now.upper, options.limit)) return false;
     if (options.progress && !options.progress(progress_of(r, now))) {
       ended = Status::kCancelled;
     } else if (ms_since(start) > 1000 * options.time_limit_s) {
@@ -165,6 +134,7 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   out.diagonal_a = watch.diagonal_a;
   out.tolerance = watch.tolerance();
   out.known_lower = options.known_lower;
+  out.limit = options.limit;
   const FileInterval bounds = to_files(run.report, pair);
   out.lower = bounds.lower;
   out.upper = is_surely_zero(run.report, pair) ? 0 : bounds.upper;
@@ -184,39 +154,13 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   return out;
 }
 
-// How finely the device has to work. Its errors are relative to the coordinates, which a prepared
-// B's frame lets exceed 1.
-RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
-                   double tolerance_given) {
-  const double size = std::max(1.0, pair.frame.reach(pair.joint));
-  const double tolerance = pair.frame.to_frame(tolerance_given);
-  const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
-  const double floor = kToleranceFloor * size;
-  const double weights = std::min(kRoundedPosition * size, kMostForWeights * tolerance);
-  const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
-                       (two_float ? floor + weights : kRoundedPosition * size);
-  const double known = std::clamp(pair.frame.to_frame(options.known_lower), 0.0, 1e30);
-  return {.a = {&pair.a, &pair.stored_a},
-          .b = {&pair.b, pair.stored_b},
-          .resident = pair.resident,
-          .switches = switches & ~kSwitchMultiwave,
-          .memory_bytes = options.memory_bytes,
-          .start_memory_bytes = options.start_memory_bytes,
-          .wave_limit = options.wave_limit,
-          .multiwave = (switches & kSwitchMultiwave) != 0,
-          .sort_from = options.sort_from,
-          .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
-          .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
-          .two_float = two_float,
-          .stage_times = options.stage_times,
-          .coverage = options.coverage,
-          .advanced = {}};
-}
-
 void check_options(const SolveOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw UsageError("the tolerance must be positive and finite");
   if (!(options.known_lower >= 0)) throw UsageError("the known lower bound must be 0 or more");
+  const bool has_order = options.limit.within >= 0 && options.limit.within <= options.limit.beyond;
+  if (!has_order || !std::isfinite(options.limit.beyond))
+    throw UsageError("the limit must be 0 or more and finite");
 }
 
 // What the caller listens with runs in the caller's own floating-point environment.
@@ -375,6 +319,26 @@ SolveOptions options_back(const SolveOptions& options, const Report& there, doub
   return back;
 }
 
+// The way back where the way there has decided the limit: true, and nothing was sought.
+Report unsought_back(const Mesh& a, const Mesh& b, const Report& there) {
+  Report back;
+  back.status = Status::kLimit;
+  const Box box_b = bounding_box(b);
+  back.upper = farthest_in(join(bounding_box(a), box_b), add_up(a.delta, b.delta));
+  back.diagonal_a = diagonal(box_b);
+  back.tolerance = there.tolerance;
+  back.limit = there.limit;
+  back.mesh_a = there.mesh_b;
+  back.mesh_b = there.mesh_a;
+  back.place_a = there.place_b;
+  back.place_b = there.place_a;
+  back.device = there.device;
+  back.preset = there.preset;
+  back.switched_on = there.switched_on;
+  back.switched_off = there.switched_off;
+  return back;
+}
+
 }  // namespace
 
 SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options) {
@@ -387,7 +351,11 @@ SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptio
   };
   SymmetricReport both;
   both.a_to_b = one({a, b}, heard);
-  both.b_to_a = one({b, a}, options_back(heard, both.a_to_b, ms_since(start) / 1000));
+  if (both.a_to_b.lower > options.limit.beyond && options.limit.beyond > 0) {
+    both.b_to_a = unsought_back(a, b, both.a_to_b);
+  } else {
+    both.b_to_a = one({b, a}, options_back(heard, both.a_to_b, ms_since(start) / 1000));
+  }
   return both;
 }
 

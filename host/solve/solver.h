@@ -72,7 +72,8 @@ class Solver {
   Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
 
   /// Encloses max(h(a, b), h(b, a)). The way back has the way there's tolerance, what is left of
-  /// the time, and is pruned by the way there's lower bound.
+  /// the time, and is pruned by the way there's lower bound. It is not sought, its interval true
+  /// and wide, where the way there is beyond options.limit.
   SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
  private:

@@ -35,7 +35,7 @@ class Console {
 /// Whether standard error is a terminal.
 bool is_error_terminal();
 
-/// From now on the first Ctrl-C is noted, and the second one ends the program.
+/// From now on the first Ctrl-C or SIGTERM is noted, and the second one ends the program.
 void note_interrupts();
 bool is_interrupted();
 
@@ -44,6 +44,9 @@ bool is_interrupted();
 std::filesystem::path user_cache_folder();
 
 unsigned long process_id();
+
+/// What this machine is called; empty where it has no name.
+std::string host_name();
 
 /// Ends the program now, without exit handlers, and without the libraries' own: threads of ours may
 /// be within a driver.

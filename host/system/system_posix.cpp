@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 
@@ -54,7 +55,10 @@ Console::~Console() = default;
 
 bool is_error_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-void note_interrupts() { std::signal(SIGINT, on_interrupt); }
+void note_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
 bool is_interrupted() { return g_interrupted != 0; }
 
 fs::path user_cache_folder() {
@@ -65,6 +69,11 @@ fs::path user_cache_folder() {
 }
 
 unsigned long process_id() { return static_cast<unsigned long>(getpid()); }
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
 
 void end_process(int code) { std::_Exit(code); }
 

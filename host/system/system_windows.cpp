@@ -2,6 +2,7 @@
 #include <io.h>
 #include <windows.h>
 
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -88,6 +89,12 @@ bool is_interrupted() { return g_interrupted; }
 fs::path user_cache_folder() {
   const fs::path folder = variable(L"LOCALAPPDATA");
   return folder.is_absolute() ? folder / "vkhausdorff" : fs::path();
+}
+
+std::string host_name() {
+  std::array<wchar_t, MAX_COMPUTERNAME_LENGTH + 1> name{};
+  DWORD length = static_cast<DWORD>(name.size());
+  return GetComputerNameW(name.data(), &length) != 0 ? name_of(fs::path(name.data())) : "";
 }
 
 unsigned long process_id() { return GetCurrentProcessId(); }

@@ -134,18 +134,21 @@ TEST_CASE("a file is replaced at once, by its links' target, with its permission
   CHECK(entries_of(inside) == 1);  // nothing is left beside
 }
 
-TEST_CASE("a run that is refused changes nothing") {
+TEST_CASE("a run that is refused says so in the file, too: no older answer stands for it") {
   const std::string dangling = folder() / "dangling.json", kept = write_file("kept.json", "kept");
   fs::create_symlink("nowhere.json", dangling);
   for (const std::string& file : {dangling, kept, folder() / "new.json"}) {
     const Outcome outcome =
         run_soon({"distance", mesh_a(), folder() / "missing.obj", "--json=" + file});
     check_line(outcome, 4, "missing.obj");
+    CHECK(json::parse(read_file(file))["error"]["code"] == 4);
   }
   CHECK(fs::is_symlink(dangling));
-  CHECK(!fs::exists(folder() / "nowhere.json"));
-  CHECK(!fs::exists(folder() / "new.json"));
-  CHECK(read_file(kept) == "kept");
+  // Of a command line that makes no sense nothing is known.
+  const std::string other = write_file("other.json", "kept");
+  check_line(run_soon({"distance", mesh_a(), mesh_b(), "--tol", "x", "--json=" + other}), 2,
+             "--tol");
+  CHECK(read_file(other) == "kept");
 }
 
 TEST_CASE("what cannot be written is refused before the run, where that can be told") {

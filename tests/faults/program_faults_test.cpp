@@ -38,8 +38,9 @@ Words pair() {
 
 std::string interval_in(const std::string& out) {
   const auto json = nlohmann::json::parse(out, nullptr, false);
-  if (!json.is_object() || !json.contains("lower_hex")) return out;
-  return json["lower_hex"].get<std::string>() + " " + json["upper_hex"].get<std::string>();
+  if (!json.is_object() || !json.contains("interval")) return out;
+  const auto& interval = json["interval"];
+  return interval["lower_hex"].get<std::string>() + " " + interval["upper_hex"].get<std::string>();
 }
 
 Outcome run_with(const Words& words,

@@ -18,8 +18,8 @@ ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
     "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "answer", "check",
-             "demo", "cli"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "pairs",
+             "demo", "job", "cli"],
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "answer", "pairs",
               "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)

@@ -182,7 +182,7 @@ class Exits(Lives):
             s = vkh.Solver(vb, fb)
             print("done", flush=True)
             s.distance(va, fa, tol="x")
-        """, exit_code=1, err="ValueError: tol 'x': expected a positive number")
+        """, exit_code=1, err="ValueError: tol: expected a positive number")
 
     def test_while_a_daemon_runs(self):
         for made, call in (("", "vkh.distance(*dense, vb, fb, **LONG)"), ("s = vkh.Solver(vb, fb)", "s.distance(*dense, **LONG)")):

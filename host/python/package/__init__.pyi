@@ -2,19 +2,34 @@
 
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any, Literal, SupportsFloat, SupportsIndex, Union
+from typing import Any, Literal, Protocol, SupportsFloat, SupportsIndex, Union
 
 import numpy.typing as npt
 
-__all__ = ["DeviceError", "Result", "Solver", "__version__", "distance"]
+__all__ = ["DeviceError", "Result", "Solver", "__version__", "assert_within", "distance", "gate"]
 __version__: str
 
 _Names = Union[list[str], tuple[str, ...], set[str], frozenset[str]]
 _Number = Union[SupportsFloat, SupportsIndex]
-_Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled"]
+_Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled", "limit", "pruned"]
+_Verdict = Literal["pass", "fail", "undecided"]
 _Preset = Literal["", "default", "paper", "baseline-gpu"]
 # progress(wave, lower, upper): False cancels the run.
 _Progress = Callable[[int, float, float], Any]
+
+class _WithFaces(Protocol):
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+class _WithTriangles(Protocol):
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def triangles(self) -> Any: ...
+
+_Mesh = Union[tuple[npt.ArrayLike, npt.ArrayLike], _WithFaces, _WithTriangles]
 
 class DeviceError(RuntimeError): ...
 
@@ -29,6 +44,8 @@ class Result:
     def closed(self) -> bool: ...
     @property
     def status(self) -> _Status: ...
+    @property
+    def verdict(self) -> _Verdict | None: ...
     @property
     def witness_a(self) -> tuple[float, float, float]: ...
     @property
@@ -82,3 +99,20 @@ def distance(
     enable: _Names = (),
     preset: _Preset = "",
 ) -> Result: ...
+def gate(
+    a: _Mesh,
+    b: _Mesh,
+    max: _Number | str,
+    *,
+    tol: _Number | str = 1e-7,
+    symmetric: bool = False,
+    device: str = "",
+    time: _Number | None = None,
+    waves: SupportsIndex | None = None,
+    memory: SupportsIndex | str | None = None,
+    disable: _Names = (),
+    progress: _Progress | None = None,
+    enable: _Names = (),
+    preset: _Preset = "",
+) -> Result: ...
+def assert_within(a: _Mesh, b: _Mesh, max: _Number | str, **options: Any) -> None: ...

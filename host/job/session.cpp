@@ -1,4 +1,4 @@
-#include "host/cli/session.h"
+#include "host/job/session.h"
 
 #include <chrono>
 

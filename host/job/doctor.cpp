@@ -1,4 +1,4 @@
-#include "host/cli/doctor.h"
+#include "host/job/doctor.h"
 
 #include <chrono>
 #include <cstdint>

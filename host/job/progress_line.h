@@ -1,10 +1,11 @@
-// How far a run is, on a terminal.
+// How far a job is: a line that rewrites itself on a terminal, a line each ten seconds elsewhere.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
 #include <string>
 
 #include "host/base/decimal.h"
@@ -13,28 +14,27 @@
 
 namespace vkh {
 
-/// A line on stderr that rewrites itself, on a terminal only.
+/// On stderr. Threads may share it.
 class ProgressLine {
  public:
-  ProgressLine() : shown_(is_error_terminal()) {}
-  ~ProgressLine() {
-    if (width_ > 0) draw("");
-  }
+  ProgressLine() : is_terminal_(is_error_terminal()) {}
+  ~ProgressLine() { end(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// Files, before there is a run.
   void show_reading(uint64_t bytes, uint64_t all) {
+    const std::lock_guard lock(mutex_);
     if (!is_time()) return;
     std::array<char, 80> line{};
     std::snprintf(line.data(), line.size(), "reading  %llu of %llu MB",
                   static_cast<unsigned long long>(bytes / 1'000'000),
                   static_cast<unsigned long long>(all / 1'000'000));
-    draw(line.data());
-    last_ = Clock::now();
+    show_line(line.data());
   }
 
   void show(const Progress& p) {
+    const std::lock_guard lock(mutex_);
     if (!is_time()) return;
     std::array<char, 160> line{};
     std::snprintf(line.data(), line.size(), "%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
@@ -42,8 +42,14 @@ class ProgressLine {
                   static_cast<unsigned long long>(p.candidates),
                   decimal(p.lower, 7, Rounding::kDown).c_str(),
                   decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
-    draw(line.data());
-    last_ = Clock::now();
+    show_line(line.data());
+  }
+
+  /// Takes the line away. Whoever still shows something shows it to nobody.
+  void end() {
+    const std::lock_guard lock(mutex_);
+    if (width_ > 0) draw("");
+    is_over_ = true;
   }
 
  private:
@@ -51,7 +57,17 @@ class ProgressLine {
 
   bool is_time() const {
     constexpr std::chrono::milliseconds kRedraw(100);
-    return shown_ && (width_ == 0 || Clock::now() - last_ >= kRedraw);
+    constexpr std::chrono::seconds kAnotherLine(10);
+    if (is_over_) return false;
+    if (is_terminal_) return width_ == 0 || Clock::now() - last_ >= kRedraw;
+    return Clock::now() - last_ >= kAnotherLine;
+  }
+
+  void show_line(const std::string& line) {
+    last_ = Clock::now();
+    if (is_terminal_) return draw(line);
+    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fflush(stderr);
   }
 
   /// Over the older line, by blanks: not every console of Windows takes escape sequences.
@@ -63,9 +79,11 @@ class ProgressLine {
     width_ = line.size();
   }
 
-  bool shown_;
+  const bool is_terminal_;
+  std::mutex mutex_;
+  bool is_over_ = false;
   size_t width_ = 0;  ///< of the line that is there
-  Clock::time_point last_;
+  Clock::time_point last_ = Clock::now();
 };
 
 }  // namespace vkh

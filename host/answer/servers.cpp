@@ -1,0 +1,196 @@
+// An answer as build servers take it. JUnit: the schema that Jenkins and GitLab read, one test case
+// for the pair. GitHub: docs.github.com, "Workflow commands for GitHub Actions".
+#include <cstdio>
+
+#include "host/answer/answer.h"
+
+namespace vkh {
+namespace {
+
+/// Text within XML 1.0, which has no control characters but tab and the ends of lines; and no bytes
+/// that are no UTF-8, which printable() leaves alone.
+std::string xml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// `text` with what is no UTF-8 replaced by U+FFFD.
+std::string valid_utf8(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size();) {
+    const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[k]); };
+    const unsigned char c = byte(i);
+    const size_t length = c < 0x80   ? 1
+                          : c < 0xc2 ? 0
+                          : c < 0xe0 ? 2
+                          : c < 0xf0 ? 3
+                          : c < 0xf5 ? 4
+                                     : 0;
+    bool is_whole = length > 0 && i + length <= text.size();
+    for (size_t k = 1; is_whole && k < length; ++k) is_whole = (byte(i + k) & 0xc0) == 0x80;
+    if (is_whole && length == 3) {
+      const unsigned second = byte(i + 1);  // overlong; surrogates
+      is_whole = !(c == 0xe0 && second < 0xa0) && !(c == 0xed && second >= 0xa0);
+    } else if (is_whole && length == 4) {
+      const unsigned second = byte(i + 1);  // overlong; past U+10FFFF
+      is_whole = !(c == 0xf0 && second < 0x90) && !(c == 0xf4 && second >= 0x90);
+    }
+    if (is_whole) {
+      out.append(text, i, length);
+      i += length;
+    } else {
+      out += "\xef\xbf\xbd";
+      ++i;
+    }
+  }
+  return out;
+}
+
+std::string in_xml(const std::string& text) { return xml(valid_utf8(printable(text))); }
+
+/// What GitHub takes for a value: percent signs and ends of lines are escaped; in a property colons
+/// and commas, too.
+std::string github(const std::string& text, bool is_property) {
+  std::string out;
+  for (const char c : text) {
+    const bool escapes =
+        c == '%' || c == '\r' || c == '\n' || (is_property && (c == ':' || c == ','));
+    if (!escapes) {
+      out += c;
+      continue;
+    }
+    char code[8];
+    std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned>(c));
+    out += code;
+  }
+  return out;
+}
+
+/// Between backticks, in a table of Markdown.
+std::string code(const std::string& text) {
+  std::string out = "`";
+  for (const char c : printable(text)) {
+    if (c == '|') out += '\\';
+    out += c == '`' ? '\'' : c;
+  }
+  return out + "`";
+}
+
+bool is_undecided(const Answer& answer) {
+  return answer.max ? verdict_of(answer) == Verdict::kUndecided
+                    : interval_of(answer).status != Status::kClosed;
+}
+bool is_failed(const Answer& answer) {
+  return answer.max && verdict_of(answer) == Verdict::kBeyond;
+}
+
+std::string pair_name(const Answer& answer) {
+  const char* arrow = answer.b_to_a ? " <-> " : " -> ";
+  std::string name = answer.inputs[0].path + arrow + answer.inputs[1].path;
+  if (answer.max) name += " within " + answer.max->length.requested;
+  return name;
+}
+
+/// A test case as it ended; `element` empty: it passed.
+struct Case {
+  std::string command, name, words;
+  std::string host = {}, started = {};
+  double seconds = 0;
+  std::string element = {}, type = {};
+};
+
+std::string suite_of(const Case& one) {
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.3f", one.seconds);
+  const std::string counts = std::string("tests=\"1\" failures=\"") +
+                             (one.element == "failure" ? "1" : "0") + "\" errors=\"" +
+                             (one.element == "error" ? "1" : "0") + "\" skipped=\"0\" time=\"" +
+                             seconds + "\"";
+  const std::string words = in_xml(one.words);
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
+                     ">\n<testsuite name=\"vkhausdorff\" " + counts;
+  if (!one.started.empty())
+    text += " timestamp=\"" + in_xml(one.started.substr(0, one.started.find('Z'))) +
+            "\" hostname=\"" + in_xml(one.host) + "\"";
+  text += ">\n<testcase classname=\"vkhausdorff." + one.command + "\" name=\"" + in_xml(one.name) +
+          "\" time=\"" + seconds + "\">\n";
+  if (!one.element.empty()) {
+    text += "<" + one.element + " type=\"" + one.type + "\" message=\"" + words + "\">" + words +
+            "</" + one.element + ">\n";
+  }
+  return text + "<system-out>" + words +
+         "</system-out>\n</testcase>\n</testsuite>\n</testsuites>\n";
+}
+
+}  // namespace
+
+std::string to_junit(const Answer& answer) {
+  Case one{.command = answer.command,
+           .name = pair_name(answer),
+           .words = in_words(answer),
+           .host = answer.host,
+           .started = answer.started,
+           .seconds = answer.waits.total / 1000};
+  if (is_failed(answer)) {
+    one.element = "failure";
+    one.type = "beyond the limit";
+  } else if (is_undecided(answer)) {
+    one.element = "error";
+    one.type = "undecided";
+  }
+  return suite_of(one);
+}
+
+std::string to_junit(const Failure& failure) {
+  return suite_of({.command = "gate",
+                   .name = failure.file.empty() ? "vkhausdorff" : failure.file,
+                   .words = failure.message,
+                   .element = "error",
+                   .type = "no answer"});
+}
+
+std::string github_annotation(const Answer& answer) {
+  const char* level = is_failed(answer) ? "error" : is_undecided(answer) ? "warning" : "notice";
+  return std::string("::") + level + " file=" + github(printable(answer.inputs[0].path), true) +
+         ",title=vkhausdorff " + answer.command + "::" + github(in_words(answer), false) + "\n";
+}
+
+std::string github_summary(const Answer& answer) {
+  const char* mark = is_failed(answer)      ? ":x:"
+                     : is_undecided(answer) ? ":grey_question:"
+                                            : ":white_check_mark:";
+  std::string text = std::string("### ") + mark + " vkhausdorff " + answer.command + "\n\n" +
+                     code(in_words(answer)) + "\n\n";
+  text += "| | |\n|---|---|\n| A | " + code(answer.inputs[0].path) + " |\n| B | " +
+          code(answer.inputs[1].path) + " |\n";
+  if (answer.max) text += "| max | " + code(answer.max->length.requested) + " |\n";
+  const CertifiedInterval whole = interval_of(answer);
+  const double gap = whole.upper - whole.lower;
+  text += "| interval | " +
+          code("[" + length_down(answer, whole.lower, gap) + ", " +
+               length_up(answer, whole.upper, gap) + "]") +
+          " |\n";
+  if (!answer.a_to_b.device.name.empty())
+    text += "| device | " + code(answer.a_to_b.device.name) + " |\n";
+  return text + "\n";
+}
+
+}  // namespace vkh

@@ -1,0 +1,223 @@
+#include "host/job/pair_job.h"
+
+#include <ctime>
+#include <limits>
+#include <mutex>
+
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/base/rounding.h"
+#include "host/check/verify.h"
+#include "host/job/progress_line.h"
+#include "host/job/reading.h"
+#include "host/run/frame.h"
+
+namespace vkh {
+namespace {
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32] = "";
+  if (const std::tm* parts = std::gmtime(&now))
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", parts);
+  return text;
+}
+
+Input input_of(const Mesh& mesh) {
+  return {.path = mesh.name,
+          .is_read = true,
+          .counts = mesh.counts,
+          .place = {mesh.delta, mesh.unit},
+          .notes = mesh.notes};
+}
+
+/// What the lengths of a pair are in: what the files say, else what was asked.
+std::string unit_of(const PairJob& job, const MeshPair& pair) {
+  for (const Mesh* mesh : {&pair.a, &pair.b}) {
+    if (!job.unit.empty() && !mesh->unit.empty() && mesh->unit != job.unit)
+      throw UsageError("--unit " + job.unit + ": " + mesh->name + " is in " + mesh->unit);
+  }
+  if (!job.unit.empty()) return job.unit;
+  if (pair.a.unit == pair.b.unit || pair.b.unit.empty()) return pair.a.unit;
+  return pair.a.unit.empty() ? pair.b.unit : "";
+}
+
+std::vector<std::string> pair_notes(const PairJob& job, const MeshPair& pair) {
+  const std::string &a = pair.a.unit, &b = pair.b.unit;
+  if (a == b || !job.unit.empty()) return {};
+  if (!a.empty() && !b.empty())
+    return {"A is in " + a + " and B in " + b + ": neither was converted"};
+  const bool a_says = !a.empty();
+  return {std::string(a_says ? "B" : "A") + "'s file does not say what it is in: taken as " +
+          (a_says ? a : b) + ", as " + (a_says ? "A" : "B") + " is"};
+}
+
+/// A job in progress: what its threads share, and what is known of its answer at any time.
+class Progressing {
+ public:
+  Progressing(const PairJob& asked, const Stop& until) : job(asked), stop(until) {
+    known_.command = job.command;
+    known_.words = job.words;
+    known_.started = utc_now();
+    known_.host = host_name();
+    known_.inputs[0].path = job.file_a;
+    known_.inputs[1].path = job.file_b;
+    known_.tolerance = job.tolerance;
+    if (job.max) known_.max = Asked{*job.max, {}};
+    known_.a_to_b.upper = std::numeric_limits<double>::infinity();
+    if (job.symmetric) known_.b_to_a = known_.a_to_b;
+  }
+
+  const PairJob job;
+  const Stop stop;
+  ProgressLine line;
+
+  /// The meshes are there: so are units, and a first bound.
+  void read(const MeshPair& pair, double ms) {
+    const Box a = bounding_box(pair.a);
+    const double farthest =
+        farthest_in(join(a, bounding_box(pair.b)), add_up(pair.a.delta, pair.b.delta));
+    const std::lock_guard lock(mutex_);
+    known_.inputs = {input_of(pair.a), input_of(pair.b)};
+    known_.unit = unit_of(job, pair);
+    known_.notes = pair_notes(job, pair);
+    known_.waits.read = ms;
+    for (Report* r : directions()) {
+      r->diagonal_a = diagonal(a);
+      r->upper = farthest;
+      r->tolerance = in_files(job.tolerance, "--tol", known_.unit, r->diagonal_a).within;
+    }
+    if (job.max) known_.max->limit = in_files(*job.max, "--max", known_.unit, diagonal(a));
+    farthest_ = farthest;
+  }
+  void open(const DeviceDescription& device, double ms) {
+    const std::lock_guard lock(mutex_);
+    for (Report* r : directions()) r->device = device;
+    known_.waits.start = ms;
+  }
+  void advance(const Progress& progress) {
+    line.show(progress);
+    const std::lock_guard lock(mutex_);
+    Report& r = progress.back && known_.b_to_a ? *known_.b_to_a : known_.a_to_b;
+    r.lower = progress.lower;
+    r.upper = std::min(progress.upper, farthest_);
+  }
+
+  Answer known() const {
+    const std::lock_guard lock(mutex_);
+    return known_;
+  }
+
+ private:
+  std::vector<Report*> directions() {
+    if (known_.b_to_a) return {&known_.a_to_b, &*known_.b_to_a};
+    return {&known_.a_to_b};
+  }
+
+  mutable std::mutex mutex_;
+  Answer known_;
+  double farthest_ = std::numeric_limits<double>::infinity();
+};
+
+SolveOptions options_for(Progressing& at, const Answer& known) {
+  const PairJob& job = at.job;
+  SolveOptions options = job.options;
+  options.tolerance_is_absolute = job.tolerance.of != Length::Of::kDiagonal;
+  options.tolerance = options.tolerance_is_absolute ? known.a_to_b.tolerance : job.tolerance.number;
+  if (known.max) options.limit = known.max->limit;
+  options.time_limit_s = std::max(at.stop.left_s(), 1e-3);
+  options.coverage = job.verify;
+  options.progress = [&at](const Progress& progress) {
+    at.advance(progress);
+    return !is_interrupted();
+  };
+  return options;
+}
+
+void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
+  const SolveOptions options = options_for(at, answer);
+  if (at.job.symmetric) {
+    SymmetricReport both = solver.symmetric(pair.a, pair.b, options);
+    answer.a_to_b = std::move(both.a_to_b);
+    answer.b_to_a = std::move(both.b_to_a);
+  } else {
+    answer.a_to_b = solver.distance(pair.a, pair.b, options);
+  }
+  const uint64_t in_host = std::max(answer.a_to_b.host_memory_bytes,
+                                    answer.b_to_a ? answer.b_to_a->host_memory_bytes : 0);
+  if (in_host > 0) {
+    answer.notes.push_back("the device has too little memory: it reads " +
+                           std::to_string((in_host + 0xfffff) >> 20) +
+                           " MiB from the host's, slowly");
+  }
+  if (!at.job.verify) return;
+  answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
+  if (answer.b_to_a) answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
+}
+
+Done work(Progressing& at) {
+  const PairJob& job = at.job;
+  auto opening = begin_now([selector = job.device, options = job.options,
+                            cache = job.caches ? user_cache_folder() : std::filesystem::path()] {
+    return open_session(selector, options, cache);
+  });
+  const auto start = Clock::now();
+  Done done;
+  done.pair = job.file_a.empty() ? default_pair()
+                                 : read_pair(job.file_a, job.file_b, job.limits, at.line, at.stop);
+  at.read(done.pair, ms_since(start));
+  done.session = opening.get();
+  at.open(done.session.device->description(), done.session.setup_ms);
+  done.answer = at.known();
+  solve(at, done.pair, *done.session.solver, done.answer);
+  return done;
+}
+
+/// What is known when nobody waits for the rest.
+Done unfinished(Progressing& at) {
+  at.line.end();
+  Done done;
+  done.answer = at.known();
+  done.answer.a_to_b.status = at.stop.why();
+  if (done.answer.b_to_a) done.answer.b_to_a->status = at.stop.why();
+  return done;
+}
+
+/// True once `result` is there; false when nobody is to wait any longer.
+bool wait_for(const std::future<Done>& result, const Stop& stop) {
+  constexpr std::chrono::milliseconds kLook(20);
+  constexpr double kGraceful = 0.06;  // in which a run on a GPU ends by itself, with more to say
+  double asked_at = std::numeric_limits<double>::infinity();
+  while (result.wait_for(kLook) == std::future_status::timeout) {
+    if (!stop.is_asked()) continue;
+    asked_at = std::min(asked_at, stop.elapsed_s());
+    if (stop.elapsed_s() - asked_at > kGraceful) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Done run_job(const PairJob& job, const Stop& stop) {
+  // Shared: threads that are left behind still look at it.
+  const auto at = std::make_shared<Progressing>(job, stop);
+  auto result = begin_now([at] {
+    const FloatEnvironment ours;
+    return work(*at);
+  });
+  Done done;
+  try {
+    done = wait_for(result, stop) ? result.get() : unfinished(*at);
+  } catch (const Interrupted&) {
+    done = unfinished(*at);
+  }
+  at->line.end();
+  done.answer.waits.total = stop.elapsed_s() * 1000;
+  return done;
+}
+
+}  // namespace vkh

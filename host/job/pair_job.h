@@ -1,0 +1,45 @@
+// A pair from files to an answer: read, opened and solved on other threads, so that the end of its
+// time, Ctrl-C and SIGTERM are heard whatever a driver does meanwhile.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/answer/answer.h"
+#include "host/demo/default_pair.h"
+#include "host/job/session.h"
+#include "host/job/stop.h"
+#include "host/source/read_limits.h"
+
+namespace vkh {
+
+/// What was asked for, before any file or device is touched.
+struct PairJob {
+  std::string command;             ///< Answer::command
+  std::vector<std::string> words;  ///< Answer::words
+  std::string file_a, file_b;      ///< both empty: the built-in pair
+  std::string unit;                ///< of files that do not say; empty: unknown
+  Length tolerance;
+  std::optional<Length> max;  ///< gate
+  bool symmetric = false, verify = false;
+  std::string device;    ///< DeviceRequest::selector
+  bool caches = true;    ///< compiled pipelines, in the user's folder
+  SolveOptions options;  ///< but for tolerance, limit, time and progress
+  ReadLimits limits;     ///< but for what listens
+};
+
+/// An answer, with what is taken apart only after it is out.
+struct Done {
+  Answer answer;
+  MeshPair pair;
+  Session session;
+};
+
+/// Throws what reading, Device and Solver throw, and UsageError for a length that the files' units
+/// do not resolve. When `stop` is asked for, the answer is what is known: its interval is true, if
+/// only [0, infinity). Threads may then be left behind: the program must end by end_process.
+Done run_job(const PairJob& job, const Stop& stop);
+
+}  // namespace vkh

@@ -1,0 +1,87 @@
+#include "host/solve/pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/base/rounding.h"
+#include "host/run/switches.h"
+
+namespace vkh {
+namespace {
+
+// Without low parts, a sample that is no vertex of A is queried at its position rounded to float32,
+// up to sqrt(3) 2^-24 off: by so much the lower bound that steers the run can be above the one that
+// is certified in the end.
+constexpr double kRoundedPosition = 1.1e-7;
+// Tolerances from here on can afford that.
+constexpr double kPlainTolerance = 8 * kRoundedPosition;
+// With low parts, feet placed by 24-bit weights leave as much; tighter tolerances give up this part
+// of themselves for it.
+constexpr double kMostForWeights = 0.1;
+// Of the tolerance, kept for rounding it and the sum of it and the lower bound to float32.
+constexpr double kKept = 1e-4;
+// 48-bit arithmetic in a frame of order 1 leaves less than this (3.9e-11 seen, where faces of A and
+// B are as large as the frame); asking for less would refine noise.
+constexpr double kToleranceFloor = 6e-11;
+
+// The limit in the frame, so that what the device proves of the stored meshes holds in the files'
+// units: to_files() takes off, or adds, what storing displaced. What no float is left for is
+// decided as the smallest one, within which nothing is.
+float limit_in_frame(const Pair& pair, double within) {
+  if (!(within > 0)) return 0;
+  const double inner = pair.frame.to_frame(within) - pair.displacement;
+  auto least = static_cast<float>(std::clamp(inner, 0.0, 1e30));
+  for (int ulp = 0; ulp < 2; ++ulp) least = std::nextafter(least, 0.0f);
+  return std::max(least, std::numeric_limits<float>::min());
+}
+float limit_up_in_frame(const Pair& pair, double beyond) {
+  if (!(beyond > 0)) return 0;
+  auto most =
+      static_cast<float>(std::clamp(pair.frame.to_frame(beyond) + pair.displacement, 0.0, 1e30));
+  for (int ulp = 0; ulp < 2; ++ulp) most = std::nextafter(most, std::numeric_limits<float>::max());
+  return std::max(most, 2 * std::numeric_limits<float>::min());
+}
+
+}  // namespace
+
+FileInterval to_files(const VkhReport& r, const Pair& pair) {
+  const double base = static_cast<double>(r.base);
+  const double lower = add_down(base, static_cast<double>(r.lowerAbove));
+  const double upper = add_up(base, static_cast<double>(r.upperAbove));
+  const double farthest = farthest_in(pair.joint, add_up(pair.a.delta, pair.b.delta));
+  return pair.frame.to_files(lower, upper, pair.displacement, farthest);
+}
+
+// How finely the device has to work. Its errors are relative to the coordinates, which a prepared
+// B's frame lets exceed 1.
+RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
+                   double tolerance_given) {
+  const double size = std::max(1.0, pair.frame.reach(pair.joint));
+  const double tolerance = pair.frame.to_frame(tolerance_given);
+  const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
+  const double floor = kToleranceFloor * size;
+  const double weights = std::min(kRoundedPosition * size, kMostForWeights * tolerance);
+  const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
+                       (two_float ? floor + weights : kRoundedPosition * size);
+  const double known = std::clamp(pair.frame.to_frame(options.known_lower), 0.0, 1e30);
+  return {.a = {&pair.a, &pair.stored_a},
+          .b = {&pair.b, pair.stored_b},
+          .resident = pair.resident,
+          .switches = switches & ~kSwitchMultiwave,
+          .memory_bytes = options.memory_bytes,
+          .start_memory_bytes = options.start_memory_bytes,
+          .wave_limit = options.wave_limit,
+          .multiwave = (switches & kSwitchMultiwave) != 0,
+          .sort_from = options.sort_from,
+          .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
+          .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
+          .limit = limit_in_frame(pair, options.limit.within),
+          .limit_up = limit_up_in_frame(pair, options.limit.beyond),
+          .two_float = two_float,
+          .stage_times = options.stage_times,
+          .coverage = options.coverage,
+          .advanced = {}};
+}
+
+}  // namespace vkh

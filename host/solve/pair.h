@@ -1,0 +1,33 @@
+// A pair of meshes in its frame, and what the device is asked about it.
+#pragma once
+
+#include "host/run/frame.h"
+#include "host/run/seat.h"
+#include "host/run/solve_options.h"
+
+namespace vkh {
+
+/// A run's meshes as they are stored in one frame. Proof that any frame will do: the device
+/// encloses the stored meshes' h in the frame's units, whatever the frame, for coordinates up to
+/// 2^15 (vkhausdorff.h); a stored vertex is within the displacement, which store_in() bounded for
+/// this very frame, of its exact place; h moves by no more than both displacements together.
+struct Pair {
+  const Mesh& a;
+  const Mesh& b;
+  const Frame& frame;
+  const StoredMesh& stored_a;
+  const StoredMesh* stored_b;  // null: resident
+  const ResidentMesh* resident;
+  double displacement;  // of both
+  bool has_low;         // either
+  Box box_a, joint;
+};
+
+/// What the device certifies of it, in the files' units.
+FileInterval to_files(const VkhReport& report, const Pair& pair);
+
+/// `tolerance`: in the files' units. Budgets by the clock and what listens are not in it.
+RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
+                   double tolerance);
+
+}  // namespace vkh

@@ -1,0 +1,213 @@
+// The gate: verdicts, exit codes and words; units; what build servers read; and the end of its
+// time. Runs the real program, $VKH_PROGRAM.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/program.h"
+
+namespace {
+
+using nlohmann::json;
+using namespace vkh::test;
+
+std::string square(const std::string& name, double width, double z) {
+  std::ostringstream obj;
+  obj << "v 0 0 " << z << "\nv " << width << " 0 " << z << "\nv " << width << " 1 " << z
+      << "\nv 0 1 " << z << "\nf 1 2 3\nf 1 3 4\n";
+  return write_file(name, obj.str());
+}
+/// A quarter apart.
+std::string square_a() { return square("gate_a.obj", 1, 0); }
+std::string square_b() { return square("gate_b.obj", 1, 0.25); }
+/// In the plane of A and twice as long: 0 from A to it, 1 back.
+std::string long_one() { return square("gate_long.obj", 2, 0); }
+
+Outcome gate(const std::string& max, Words more = {}) {
+  Words words = {"gate", square_a(), square_b(), "--max", max};
+  words.insert(words.end(), more.begin(), more.end());
+  return run(words);
+}
+
+bool starts_with(const std::string& text, const std::string& begin) {
+  CAPTURE(text);
+  return text.starts_with(begin);
+}
+
+TEST_CASE("PASS, FAIL and UNDECIDED: words first, and the exit code") {
+  const Outcome pass = gate("0.3abs");
+  CHECK(pass.exit_code == 0);
+  CHECK(starts_with(pass.out, "PASS  h(A,B) <= 0.3abs, proven: it is in [0.2"));
+  const Outcome fail = gate("0.2abs");
+  CHECK(fail.exit_code == 1);
+  CHECK(starts_with(fail.out, "FAIL  ("));
+  CHECK(fail.out.find(") on face ") != std::string::npos);
+  CHECK(fail.out.find(" of A is at least 0.2") != std::string::npos);
+  const Outcome undecided = gate("0.25abs");
+  CHECK(undecided.exit_code == 3);
+  CHECK(starts_with(undecided.out, "UNDECIDED  0.25abs lies in [0.2"));
+  const Outcome early = gate("0.251abs", {"--time", "1ms"});
+  CHECK(early.exit_code == 3);
+  CHECK(early.out.find("ask for more --time") != std::string::npos);
+}
+
+TEST_CASE("a limit is required, and no number alone") {
+  for (const Words& words : {Words{"gate", square_a(), square_b()},
+                             Words{"gate", square_a(), square_b(), "--max", "0.3"},
+                             Words{"gate", square_a(), square_b(), "--max", "0abs"}}) {
+    const Outcome outcome = run(words);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.err.find("--max") != std::string::npos);
+  }
+}
+
+TEST_CASE("both directions: what is beyond may be a point of B") {
+  const Words pair = {"gate", square_a(), long_one(), "--max", "0.5abs"};
+  CHECK(run(pair).exit_code == 0);
+  Words both = pair;
+  both.emplace_back("--symmetric");
+  const Outcome outcome = run(both);
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find(" of B is at least 0.9") != std::string::npos);
+  both[4] = "1.01abs";
+  CHECK(run(both).exit_code == 0);
+}
+
+TEST_CASE("units: what the files are in, and what a length is in") {
+  CHECK(gate("7mm", {"--unit", "in"}).exit_code == 0);  // 0.2756 in
+  CHECK(gate("6mm", {"--unit", "in"}).exit_code == 1);
+  const Outcome unknown = gate("6mm");
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.err.find("--unit") != std::string::npos);
+  CHECK(gate("6mm", {"--unit", "miles"}).exit_code == 2);
+  const std::string line = gate("7mm", {"--unit", "in"}).out;
+  CHECK(line.substr(0, line.find('\n')).ends_with("] in"));
+  const json r = json::parse(gate("7mm", {"--unit", "in", "--json"}).out);
+  CHECK(r["interval"]["unit"] == "in");
+  CHECK(r["max"]["within"].get<double>() < 7 / 25.4);
+  CHECK(r["max"]["beyond"].get<double>() > 7 / 25.4);
+  CHECK(r["max"]["beyond"].get<double>() == doctest::Approx(7 / 25.4).epsilon(1e-14));
+}
+
+TEST_CASE("the object says what was asked, the verdict and the words") {
+  const json pass = json::parse(gate("0.3abs", {"--json"}).out);
+  CHECK(pass["verdict"] == "pass");
+  CHECK(pass["command"] == "gate");
+  CHECK(pass["max"]["requested"] == "0.3abs");
+  CHECK(starts_with(pass["words"].get<std::string>(), "PASS"));
+  CHECK(pass["interval"]["upper"].get<double>() <= 0.3);
+  const json fail = json::parse(gate("0.2abs", {"--json"}).out);
+  CHECK(fail["verdict"] == "fail");
+  CHECK(fail["interval"]["lower"].get<double>() > 0.2);
+  const json& witness = fail["directions"][0]["witness"];
+  CHECK(witness["to"]["point"][2].get<double>() - witness["from"]["point"][2].get<double>() ==
+        doctest::Approx(0.25));
+  CHECK(json::parse(gate("0.25abs", {"--json"}).out)["verdict"] == "undecided");
+}
+
+TEST_CASE("--github: an annotation, and the run's summary after what is there") {
+  const std::string summary = write_file("summary.md", "before\n");
+  setenv("GITHUB_STEP_SUMMARY", summary.c_str(), 1);
+  const Outcome fail = gate("0.2abs", {"--github"});
+  CHECK(fail.exit_code == 1);
+  CHECK(starts_with(fail.out, "::error file="));
+  CHECK(fail.out.find(",title=vkhausdorff gate::FAIL") != std::string::npos);
+  CHECK(starts_with(gate("0.3abs", {"--github"}).out, "::notice"));
+  const Outcome undecided = gate("0.25abs", {"--github", "--json"});
+  CHECK(starts_with(undecided.err, "::warning"));  // beside the object there is no room
+  CHECK(json::accept(undecided.out));
+  const std::string text = read_file(summary);
+  CHECK(starts_with(text, "before\n### :x: vkhausdorff gate\n"));
+  CHECK(text.find(":white_check_mark:") != std::string::npos);
+  // What cannot be written costs neither the answer nor its words.
+  setenv("GITHUB_STEP_SUMMARY", (folder() / "no/such/file").c_str(), 1);
+  const Outcome lost = gate("0.3abs", {"--github"});
+  CHECK(lost.exit_code == 6);
+  CHECK(lost.out.find("PASS") != std::string::npos);
+  unsetenv("GITHUB_STEP_SUMMARY");
+}
+
+TEST_CASE("names that would break a line, a terminal or XML are escaped") {
+  const std::string odd = square("ev\x1b[31m<i>&\"l\n,:%.obj", 1, 0), junit = folder() / "odd.xml";
+  const Outcome outcome =
+      run({"gate", odd, square_b(), "--max", "0.2abs", "--github", "--junit=" + junit});
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find('\x1b') == std::string::npos);
+  CHECK(outcome.out.find("%2C%3A%25.obj,title=") != std::string::npos);
+  const std::string xml = read_file(junit);
+  CHECK(xml.find("&lt;i&gt;&amp;&quot;l\\x0a,:%.obj") != std::string::npos);
+  CHECK(xml.find('\x1b') == std::string::npos);
+  const Outcome missing = run({"gate", "no\x1b[31m.obj", odd, "--max", "0.2abs"});
+  CHECK(missing.exit_code == 4);
+  CHECK(missing.err.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("--junit: one test case, its failure, or why there is no verdict") {
+  const std::string junit = folder() / "gate.xml";
+  const auto written = [&](const std::string& max) {
+    gate(max, {"--junit", junit});
+    return read_file(junit);
+  };
+  CHECK(written("0.3abs").find("failures=\"0\" errors=\"0\"") != std::string::npos);
+  const std::string fail = written("0.2abs");
+  CHECK(fail.find("failures=\"1\" errors=\"0\"") != std::string::npos);
+  CHECK(fail.find("<failure type=\"beyond the limit\" message=\"FAIL") != std::string::npos);
+  CHECK(written("0.25abs").find("<error type=\"undecided\"") != std::string::npos);
+  run({"gate", "missing.obj", square_a(), "--max", "1abs", "--junit=" + junit});
+  CHECK(read_file(junit).find("<error type=\"no answer\" message=\"missing.obj: ") !=
+        std::string::npos);
+}
+
+using Clock = std::chrono::steady_clock;
+
+/// How long after `signal` a run ends, in seconds; its object is checked.
+double latency(const Words& words, int signal, int after_ms) {
+  const Running running = start(words);
+  std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+  const auto sent = Clock::now();
+  kill(running.process, signal);
+  const Outcome outcome = finish(running);
+  const double seconds = std::chrono::duration<double>(Clock::now() - sent).count();
+  CAPTURE(outcome.err);
+  CHECK(outcome.signal == 0);
+  CHECK(outcome.exit_code == 3);
+  REQUIRE(json::accept(outcome.out));
+  const json r = json::parse(outcome.out);
+  CHECK(r["status"] == "cancelled");
+  const json& interval = r["interval"];
+  CHECK(interval["lower"].get<double>() <= 0.0443814);
+  if (!interval["upper"].is_null()) CHECK(interval["upper"].get<double>() >= 0.0443803);
+  return seconds;
+}
+
+TEST_CASE("Ctrl-C and SIGTERM are heard at any time, and leave a true interval") {
+  const Words words = {"demo", "--tol", "1e-13", "--json", "--no-cache"};
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int after : {300, 600, 1200}) {
+      CAPTURE(after);
+      CHECK(latency(words, signal, after) < 5);  // 0.1 s on a machine that has nothing else to do
+    }
+  }
+}
+
+TEST_CASE("--time counts from the program's start") {
+  for (const char* time : {"1ms", "100ms", "400ms"}) {
+    CAPTURE(time);
+    const auto start = Clock::now();
+    const Outcome outcome = run({"demo", "--tol", "1e-13", "--json", "--no-cache", "--time", time});
+    CHECK(std::chrono::duration<double>(Clock::now() - start).count() < 5);
+    CHECK(outcome.exit_code == 3);
+    const json r = json::parse(outcome.out);
+    CHECK(r["status"] == "time");
+    CHECK(r["interval"]["lower"].get<double>() <= 0.0443814);
+  }
+  const json none = json::parse(run({"demo", "--json", "--time", "1ms"}).out);
+  CHECK(none["interval"]["lower"] == 0);
+}
+
+}  // namespace

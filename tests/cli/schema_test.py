@@ -1,0 +1,88 @@
+"""What --json prints is of docs/schema/answer.schema.json, and what --junit writes is JUnit's, by readers that are not ours.
+
+usage: schema_test.py PROGRAM SOURCE. Exit code 77: neither jsonschema nor junitparser is here.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+try:
+    import junitparser
+except ImportError:
+    junitparser = None
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SQUARE = "v 0 0 {z}\nv {x} 0 {z}\nv {x} 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
+
+
+def run(*words, folder):
+    return subprocess.run([PROGRAM, *words], cwd=folder, capture_output=True, timeout=120)
+
+
+class Outputs(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        for name, x, z in (("a", 1, 0), ("b", 1, 0.25), ("wide", 2, 0)):
+            (self.folder / f"{name}.obj").write_text(SQUARE.format(x=x, z=z))
+        (self.folder / "quad.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\n")
+        (self.folder / "bad.obj").write_text("v 0 0 zero\n")
+
+    @unittest.skipIf(jsonschema is None, "no jsonschema here")
+    def test_every_answer_is_of_the_schema(self):
+        schema = json.loads((SOURCE / "docs/schema/answer.schema.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        for words, code in ((["distance", "a.obj", "b.obj"], 0), (["distance", "a.obj", "wide.obj", "--symmetric", "--verify"], 0),
+                            (["distance", "quad.obj", "b.obj", "--unit", "mm", "--tol", "0.001mm"], 0),
+                            (["distance", "a.obj", "a.obj"], 0), (["distance", "a.obj", "b.obj", "--waves", "1", "--tol", "1e-9"], None),
+                            (["distance", "a.obj", "b.obj", "--time", "1ms"], 3), (["demo", "--tol", "1e-3", "--preset", "paper"], 0),
+                            (["gate", "a.obj", "b.obj", "--max", "0.3abs"], 0), (["gate", "a.obj", "b.obj", "--max", "10%"], 1),
+                            (["gate", "a.obj", "wide.obj", "--symmetric", "--max", "0.5in", "--unit", "in"], 1),
+                            (["gate", "a.obj", "b.obj", "--max", "0.25abs"], 3), (["gate", "a.obj", "b.obj", "--max", "1mm"], 2),
+                            (["distance", "missing.obj", "b.obj"], 4), (["distance", "a.obj", "bad.obj"], 4),
+                            (["distance", "a.obj", "b.obj", "--device", "none such"], 5)):
+            with self.subTest(words):
+                done = run(*words, "--json", folder=self.folder)
+                self.assertIn(done.returncode, (0, 3) if code is None else (code,), done.stderr)
+                answer = json.loads(done.stdout)
+                validator.validate(answer)
+                self.assertEqual("error" in answer, done.returncode in (2, 4, 5))
+        for spoilt in ({"lower": -1}, {"stranger": 1}, {"upper_hex": "1.5"}):
+            self.assertFalse(validator.is_valid(answer | spoilt), f"{spoilt} passes")
+
+    @unittest.skipIf(junitparser is None, "no junitparser here")
+    def test_every_suite_is_read_by_another(self):
+        file = self.folder / "out.xml"
+        odd = "it's <a> & \"b\"\x07.obj"
+        (self.folder / odd).write_text((self.folder / "a.obj").read_text())
+        for a, limit, counts, kind in (("a.obj", "0.3abs", (1, 0, 0), None), ("a.obj", "0.2abs", (1, 1, 0), junitparser.Failure),
+                                       ("a.obj", "0.25abs", (1, 0, 1), junitparser.Error), (odd, "0.2abs", (1, 1, 0), junitparser.Failure),
+                                       ("missing.obj", "1abs", (1, 0, 1), junitparser.Error)):
+            with self.subTest(a=a, limit=limit):
+                run("gate", a, "b.obj", "--max", limit, f"--junit={file}", folder=self.folder)
+                suites = junitparser.JUnitXml.fromfile(str(file))
+                suites.update_statistics()
+                self.assertEqual((suites.tests, suites.failures, suites.errors), counts)
+                case = next(iter(next(iter(suites))))
+                self.assertEqual([type(result) for result in case.result], [kind] if kind else [])
+                self.assertTrue(case.name.startswith(os.path.basename(a).replace("\x07", "\\x07")), case.name)
+                if kind:
+                    self.assertTrue(case.result[0].message.startswith(("FAIL", "UNDECIDED", "missing.obj")), case.result[0].message)
+
+
+if __name__ == "__main__":
+    if jsonschema is None and junitparser is None:
+        print("schema_test: skipped, neither jsonschema nor junitparser")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""gate() and assert_within() of the Python module. Run through ctest."""
+import types
+import unittest
+
+import numpy as np
+import vkhausdorff as vkh
+
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64)
+FACES = np.array([[0, 1, 2], [0, 2, 3]])
+A, B = (SQUARE + [0, 0, 0.25], FACES), (SQUARE, FACES)
+LONG = (SQUARE * [2, 1, 1], FACES)
+
+
+class Gates(unittest.TestCase):
+    def test_verdicts_are_proven(self):
+        within = vkh.gate(A, B, 0.3)
+        self.assertEqual(within.verdict, "pass")
+        self.assertLessEqual(within.upper, 0.3)
+        beyond = vkh.gate(A, B, 0.2)
+        self.assertEqual(beyond.verdict, "fail")
+        self.assertGreater(beyond.lower, 0.2)
+        self.assertAlmostEqual(beyond.witness_a[2], 0.25)
+        self.assertEqual(vkh.gate(A, B, 0.25).verdict, "undecided")
+        self.assertEqual(vkh.gate(A, B, max=0.3).stats["max"], 0.3)
+        self.assertIsNone(vkh.distance(*A, *B).verdict)
+
+    def test_both_directions(self):
+        self.assertEqual(vkh.gate(B, LONG, 0.5).verdict, "pass")
+        r = vkh.gate(B, LONG, 0.5, symmetric=True)
+        self.assertEqual(r.verdict, "fail")
+        self.assertEqual(r.stats["direction"], "b_to_a")
+        self.assertEqual(vkh.gate(B, LONG, 1.001, symmetric=True).verdict, "pass")
+
+    def test_meshes_are_pairs_or_objects(self):
+        as_faces = types.SimpleNamespace(vertices=A[0], faces=A[1])
+        as_triangles = types.SimpleNamespace(vertices=B[0], triangles=B[1])
+        self.assertEqual(vkh.gate(as_faces, as_triangles, 0.3).verdict, "pass")
+        self.assertEqual(vkh.gate(list(A), as_triangles, "20%").verdict, "pass")  # of sqrt(2)
+        self.assertEqual(vkh.gate(A, B, "0.2abs").verdict, "fail")
+        for wrong in (None, A[0], (A[0],), types.SimpleNamespace(vertices=A[0])):
+            with self.assertRaisesRegex(TypeError, "^b: expected .vertices, faces."):
+                vkh.gate(A, wrong, 0.3)
+
+    def test_assertions(self):
+        self.assertIsNone(vkh.assert_within(A, B, 0.3))
+        with self.assertRaisesRegex(AssertionError, r"^FAIL: .* on face [01] of A is at least 0\.2\d+ from B; max is 0\.2$"):
+            vkh.assert_within(A, B, 0.2)
+        with self.assertRaisesRegex(AssertionError, r"on face [01] of B is at least 0\.9\d+ from A"):
+            vkh.assert_within(B, LONG, 0.5, symmetric=True)
+        with self.assertRaisesRegex(AssertionError, r"^UNDECIDED \((closed|precision)\): max 0\.25 lies in \[0\.2"):
+            vkh.assert_within(A, B, 0.25)
+
+    def test_wrong_limits_are_refused(self):
+        for wrong in (0, -1, float("nan"), float("inf"), "0.1", "0.1mm", "x", "-1abs"):
+            with self.assertRaisesRegex(ValueError, "^max"):
+                vkh.gate(A, B, wrong)
+        for wrong in (None, [0.1], object()):
+            with self.assertRaisesRegex(TypeError, "^max"):
+                vkh.gate(A, B, wrong)
+        with self.assertRaises(TypeError):
+            vkh.gate(A, B)
+        with self.assertRaises(TypeError):
+            vkh.gate(A, B, 0.1, stranger=1)
+
+
+if __name__ == "__main__":
+    unittest.main()
