@@ -46,18 +46,19 @@ def read_bound(report, key):
 def read_report(text):
     """What is used of the JSON of `vkhausdorff distance --json`: the one place that knows it."""
     report = json.loads(text)
-    times, device = report["times"], report["device"]
+    way = report["directions"][0]
+    times, interval = way["times"], report["interval"]
     return Run(
         call_ms=times["wall_ms"],
         solve_ms=times["hierarchy_ms"] + times["solve_ms"],
         hierarchy_ms=times["hierarchy_ms"],
-        lower=read_bound(report, "lower"),
-        upper=read_bound(report, "upper"),
+        lower=read_bound(interval, "lower"),
+        upper=read_bound(interval, "upper"),
         status=report["status"],
-        diagonal_a=report["tolerance"]["diagonal_a"],
-        device=device["name"],
-        driver=device["driver"],
-        counts={name: report[name] for name in COUNTS},
+        diagonal_a=report["tolerance"]["diagonal"],
+        device=report["device"]["name"],
+        driver=report["driver"],
+        counts={name: way["counts"][name] for name in COUNTS},
     )
 
 

@@ -3,8 +3,10 @@
 // distance where that is known. One line of summary, one for each violation, with what repeats it:
 //
 //   vkh_sweep [--count N] [--first I] [--seed S] [--family NAME] [--device D] [--tol T] [--threads
-//   N]
+//   N] [--gates]
 //
+// With --gates each pair is also asked whether it is within a limit near its distance, and the
+// verdict is held against the same solver.
 // Exit code 1 for any violation. Pair i depends on the seed and i alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -35,11 +37,17 @@ struct Arguments {
   double spoil =
       0;  ///< lower bounds are raised by so much of themselves: shows that the sweep sees it
   uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
+  bool gates = false;
 };
 
 struct Job {
   size_t family = 0;
   uint64_t seed = 0;
+};
+
+struct Gate {
+  double limit = 0, tolerance = 0;
+  Verdict verdict = Verdict::kUndecided;
 };
 
 struct Outcome {
@@ -51,6 +59,7 @@ struct Outcome {
   bool repeated = false;
   WitnessCheck witness;
   std::optional<CoverageCheck> coverage;
+  std::optional<Gate> gate;
 };
 
 class Families {
@@ -139,6 +148,45 @@ void ask_solver(Solver& solver, const Job& job, double tolerance, Outcome& out) 
   out.again = {again.lower, again.upper};
 }
 
+/// A limit at the distance, or off it by a tenth of it, a hundredth and so on; above or below.
+double limit_near(const Job& job, const Outcome& out) {
+  Random random(job.seed ^ 0x6a7e);
+  const double upper = out.found.upper;
+  const uint32_t way = random.below(12);
+  if (way == 0 && out.found.lower > 0) return out.found.lower;
+  if (way == 1 && upper > 0) return upper;
+  const double off = std::pow(10.0, -9.0 * random.unit()) * (way % 2 == 0 ? 1 : -1);
+  const double size = upper > 0 ? upper : out.diagonal_a;
+  return std::max(upper > 0 ? upper + off * size : std::abs(off) * size, 1e-300);
+}
+
+void ask_gate(Solver& solver, const Job& job, Outcome& out) {
+  const HardPair hard = hard_pair(job.family, job.seed);
+  const double limit = limit_near(job, out);
+  SolveOptions options;
+  options.tolerance = 1e-7;
+  options.limit = {limit, limit};
+  const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
+  out.gate = Gate{limit, r.tolerance, verdict_of(r.lower, r.upper, r.limit)};
+}
+
+/// How far from the distance the limit surely is, in the files' units.
+double off_distance(const Outcome& out) {
+  const double limit = std::ldexp(out.gate->limit, out.exponent);
+  const double off = std::max({0.0, out.reference.lower - limit, limit - out.reference.upper});
+  return std::ldexp(off, -out.exponent);
+}
+
+/// What is untrue of a verdict; empty where nothing is.
+std::string fault_of_gate(const Outcome& out) {
+  const double limit = std::ldexp(out.gate->limit, out.exponent);
+  if (out.gate->verdict == Verdict::kWithin && out.reference.lower > limit)
+    return "is not within the limit " + hex_float(out.gate->limit);
+  if (out.gate->verdict == Verdict::kBeyond && out.reference.upper <= limit)
+    return "is not beyond the limit " + hex_float(out.gate->limit);
+  return {};
+}
+
 /// What is untrue of an outcome; empty where nothing is.
 std::string fault_of(const Job& job, const Outcome& out) {
   const Interval found = out.found;
@@ -151,6 +199,7 @@ std::string fault_of(const Job& job, const Outcome& out) {
   if (!unit.meets(out.reference)) return "misses the reference";
   const HardPair hard = hard_pair(job.family, job.seed);
   if (hard.exact && !found.contains(*hard.exact)) return "misses the exact distance";
+  if (out.gate && !fault_of_gate(out).empty()) return fault_of_gate(out);
   if (out.status == Status::kClosed && found.upper - found.lower > out.tolerance)
     return "says closed and is wider than the tolerance";
   if (out.repeated && (out.again.lower != found.lower || out.again.upper != found.upper))
@@ -170,11 +219,22 @@ struct Totals {
   uint64_t violations = 0, wide_around_zero = 0, closed = 0, wide_references = 0, repeated = 0,
            exact = 0;
   double solve_ms = 0;
+  uint64_t passed = 0, failed = 0, undecided = 0;
+  std::vector<double> bands;  ///< of the undecided, in tolerances; of what has one
   struct PerFamily {
     uint64_t count = 0, closed = 0, violations = 0;
   };
   std::map<std::string, PerFamily> families;
 };
+
+void count_gate(const Outcome& out, Totals& totals) {
+  const Verdict verdict = out.gate->verdict;
+  totals.passed += verdict == Verdict::kWithin ? 1 : 0;
+  totals.failed += verdict == Verdict::kBeyond ? 1 : 0;
+  if (verdict != Verdict::kUndecided) return;
+  ++totals.undecided;
+  if (out.gate->tolerance > 0) totals.bands.push_back(off_distance(out) / out.gate->tolerance);
+}
 
 void judge(const Families& families, uint64_t i, const Outcome& out, Totals& totals) {
   const Job job = families.job(i);
@@ -189,6 +249,7 @@ void judge(const Families& families, uint64_t i, const Outcome& out, Totals& tot
   // So wide that it would not see an error of the size of a float's ulp.
   totals.wide_references += out.reference.upper - out.reference.lower > 1e-8 ? 1 : 0;
   totals.exact += hard_pair(job.family, job.seed).exact ? 1 : 0;
+  if (out.gate) count_gate(out, totals);
   const bool wide = is_wide_around_zero(job, out);
   totals.wide_around_zero += wide ? 1 : 0;
   if (fault.empty() && !wide) return;
@@ -222,6 +283,18 @@ void print_summary(const Arguments& args, const Totals& t, const Device& device,
       static_cast<unsigned long long>(t.wide_around_zero), t.solve_ms / 1000, seconds);
 }
 
+void print_gates(Totals& t) {
+  std::sort(t.bands.begin(), t.bands.end());
+  const auto beyond = t.bands.end() - std::upper_bound(t.bands.begin(), t.bands.end(), 1.0);
+  std::printf(
+      "gates: %llu within, %llu beyond, %llu undecided, which lie off the distance by a median of "
+      "%.3g and at most %.3g tolerances of 1e-7 diag(A), %lld of them by more than one\n",
+      static_cast<unsigned long long>(t.passed), static_cast<unsigned long long>(t.failed),
+      static_cast<unsigned long long>(t.undecided),
+      t.bands.empty() ? 0 : t.bands[t.bands.size() / 2], t.bands.empty() ? 0 : t.bands.back(),
+      static_cast<long long>(beyond));
+}
+
 int sweep(const Arguments& args) {
   const Families families(args);
   Device device({.selector = args.device});
@@ -236,14 +309,18 @@ int sweep(const Arguments& args) {
         ask_reference(families.job(args.first + i), outcomes[i]);
     });
   }
-  for (uint64_t i = 0; i < args.count; ++i)
-    ask_solver(solver, families.job(args.first + i), args.tolerance, outcomes[i]);
+  for (uint64_t i = 0; i < args.count; ++i) {
+    const Job job = families.job(args.first + i);
+    ask_solver(solver, job, args.tolerance, outcomes[i]);
+    if (args.gates) ask_gate(solver, job, outcomes[i]);
+  }
   for (Outcome& out : outcomes)
     out.found.lower = std::min(out.found.lower * (1 + args.spoil), out.found.upper);
   for (std::thread& helper : helpers) helper.join();
   Totals totals;
   for (uint64_t i = 0; i < args.count; ++i) judge(families, args.first + i, outcomes[i], totals);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  if (args.gates) print_gates(totals);
   print_summary(args, totals, device, elapsed.count());
   return totals.violations > 0 || totals.closed < args.least_closed ? 1 : 0;
 }
@@ -262,6 +339,7 @@ int main(int argc, char** argv) {
   app.add_option("--least-closed", args.least_closed, "Fewer closed pairs are a failure");
   app.add_option("--spoil", args.spoil,
                  "Raise each lower bound by so much of itself: the sweep must see it");
+  app.add_flag("--gates", args.gates, "Also ask whether each is within a limit near its distance");
   app.add_option("--threads", args.threads, "For the reference");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -270,6 +270,7 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
                                               : std::numeric_limits<double>::infinity(),
                    .outputs = outputs_of(typed),
                    .device = {}};
+  line.job.hashes = line.outputs.json || line.outputs.json_file;
   return line;
 }
 

@@ -11,6 +11,7 @@
 #include "host/job/progress_line.h"
 #include "host/job/reading.h"
 #include "host/run/frame.h"
+#include "host/system/sha256.h"
 
 namespace vkh {
 namespace {
@@ -159,8 +160,28 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
   if (answer.b_to_a) answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
 }
 
-Done work(Progressing& at) {
+/// Of both files, beside all that is done with them; waited for where it is wanted.
+class Hashes {
+ public:
+  explicit Hashes(const std::shared_ptr<Progressing>& at) {
+    if (!at->job.hashes || at->job.file_a.empty()) return;
+    for (const std::string& file : {at->job.file_a, at->job.file_b}) {
+      digests_.push_back(begin_now(
+          [at, file] { return sha256_of(path_of(file), [at] { return !at->stop.is_asked(); }); }));
+    }
+  }
+  void fill(Answer& answer) {
+    for (size_t i = 0; i < digests_.size(); ++i) answer.inputs[i].sha256 = digests_[i].get();
+  }
+
+ private:
+  std::vector<std::future<std::string>> digests_;
+};
+
+Done work(const std::shared_ptr<Progressing>& shared) {
+  Progressing& at = *shared;
   const PairJob& job = at.job;
+  Hashes hashes(shared);
   auto opening = begin_now([selector = job.device, options = job.options,
                             cache = job.caches ? user_cache_folder() : std::filesystem::path()] {
     return open_session(selector, options, cache);
@@ -174,6 +195,7 @@ Done work(Progressing& at) {
   at.open(done.session.device->description(), done.session.setup_ms);
   done.answer = at.known();
   solve(at, done.pair, *done.session.solver, done.answer);
+  hashes.fill(done.answer);
   return done;
 }
 
@@ -207,7 +229,7 @@ Done run_job(const PairJob& job, const Stop& stop) {
   const auto at = std::make_shared<Progressing>(job, stop);
   auto result = begin_now([at] {
     const FloatEnvironment ours;
-    return work(*at);
+    return work(at);
   });
   Done done;
   try {

@@ -24,6 +24,7 @@ struct PairJob {
   Length tolerance;
   std::optional<Length> max;  ///< gate
   bool symmetric = false, verify = false;
+  bool hashes = false;   ///< Input::sha256 is wanted
   std::string device;    ///< DeviceRequest::selector
   bool caches = true;    ///< compiled pipelines, in the user's folder
   SolveOptions options;  ///< but for tolerance, limit, time and progress

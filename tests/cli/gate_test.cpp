@@ -110,6 +110,16 @@ TEST_CASE("the object says what was asked, the verdict and the words") {
   CHECK(json::parse(gate("0.25abs", {"--json"}).out)["verdict"] == "undecided");
 }
 
+TEST_CASE("inputs are named by their SHA-256, where the build has a library for it") {
+  const std::string known = write_file("known.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const json r = json::parse(run({"distance", known, square_a(), "--json"}).out);
+  const json& digest = r["inputs"][0]["sha256"];
+  if (digest.is_null()) return;
+  CHECK(digest == "697b00ab13410c52a542d2e9c63711fcc04e9cbf6c0d3439a9b43cc812e6e713");
+  CHECK(r["inputs"][1]["sha256"] != digest);
+  CHECK(json::parse(run({"demo", "--tol", "1e-3", "--json"}).out)["inputs"][0]["sha256"].is_null());
+}
+
 TEST_CASE("--github: an annotation, and the run's summary after what is there") {
   const std::string summary = write_file("summary.md", "before\n");
   setenv("GITHUB_STEP_SUMMARY", summary.c_str(), 1);

@@ -44,6 +44,15 @@ if cmake -S "$folder" -B "$folder/newer" -DCMAKE_PREFIX_PATH="$package" >"$folde
 fi
 grep -q 'version: 0.2' "$folder/log" || { cat "$folder/log"; fail "find_package failed, but not for the version"; }
 
+# A CTest that a mesh is within a limit, in a project that compiles nothing.
+mkdir "$folder/gated"
+cp "$folder/a.off" "$folder/b.off" "$folder/gated"
+cp "$source/tests/package/gate/CMakeLists.txt" "$folder/gated"
+cmake -S "$folder/gated" -B "$folder/gated/out" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" || { cat "$folder/log"; fail "the gated project"; }
+ctest --test-dir "$folder/gated/out" >"$folder/log" && fail "a gate that is beyond its limit passes"
+grep -qE 'within \.+ +Passed' "$folder/log" && grep -qE 'beyond \.+\*\*\*Failed' "$folder/log" || { cat "$folder/log"; fail "the gates"; }
+grep -q 'failures="0" errors="0"' "$folder/gated/out/within.xml" || fail "the gate's JUnit file"
+
 export PKG_CONFIG_PATH=$package/lib/pkgconfig
 pkg_config() { pkg-config "$@" || fail "pkg-config $*"; }
 mkdir "$folder/pc"

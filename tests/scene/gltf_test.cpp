@@ -375,9 +375,9 @@ TEST_CASE("the answer carries delta and unit") {
   const Outcome outcome = run({"distance", a, b, "--json"});
   REQUIRE(outcome.exit_code == 0);
   const Json r = Json::parse(outcome.out);
-  CHECK(r["mesh_a"]["delta"] == 0);
-  CHECK(r["mesh_a"]["unit"] == "m");
-  CHECK(r["mesh_b"]["delta"].get<double>() > 0);
-  CHECK(r["mesh_b"]["delta"].get<double>() < 1e-14);
+  CHECK(r["inputs"][0]["delta"] == 0);
+  CHECK(r["inputs"][0]["unit"] == "m");
+  CHECK(r["inputs"][1]["delta"].get<double>() > 0);
+  CHECK(r["inputs"][1]["delta"].get<double>() < 1e-14);
   CHECK(run({"distance", a, b}).out.find(" of its exact place") != std::string::npos);
 }

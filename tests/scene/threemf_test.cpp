@@ -72,7 +72,7 @@ TEST_CASE("units that differ are noted, and nothing is converted") {
                 same = run({"distance", a, a, "--json"});
   CHECK(differ.exit_code == 0);
   CHECK(differ.out.find("A is in mm and B in in: neither was converted") != std::string::npos);
-  CHECK(nlohmann::json::parse(differ.out)["upper"] == 0);
+  CHECK(nlohmann::json::parse(differ.out)["interval"]["upper"] == 0);
   CHECK(same.out.find("neither was converted") == std::string::npos);
 }
 

@@ -167,7 +167,9 @@ TEST_CASE("a wave a submission: the same run, and the host hears of every wave")
       return true;
     };
     const Report r = solve(pair, options);
-    for (size_t i = 0; i < heard.size(); ++i) CHECK(heard[i] == i + 1);
+    REQUIRE(!heard.empty());
+    CHECK(heard[0] <= 1);  // 0: a CPU device builds the hierarchy in a submission of its own
+    for (size_t i = 1; i < heard.size(); ++i) CHECK(heard[i] == heard[0] + i);
     CHECK(heard.size() >= r.waves - 1);
     check_same(solve(pair, with("default")), r);
   }

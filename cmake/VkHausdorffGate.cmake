@@ -1,0 +1,41 @@
+# vkhausdorff_add_gate(NAME <test> A <mesh> B <mesh> MAX <length> [UNIT <unit>] [SYMMETRIC] [TOL <length>] [TIME <time>]
+#                      [DEVICE <device>] [JUNIT <file>])
+# Adds a CTest that passes where it is proven that every point of A is within MAX of B, and fails where that is refuted, not
+# decided, or cannot be found out. Lengths as 'vkhausdorff gate --help' has them. A and B may be files that the build makes;
+# relative ones are of the current source folder.
+include_guard(GLOBAL)
+
+if(TARGET vkhausdorff)  # by add_subdirectory or FetchContent
+  set(VKHAUSDORFF_PROGRAM $<TARGET_FILE:vkhausdorff>)
+else()
+  find_program(VKHAUSDORFF_PROGRAM vkhausdorff HINTS ${VkHausdorff_PREFIX}/bin DOC "The program vkhausdorff, for vkhausdorff_add_gate")
+endif()
+
+function(vkhausdorff_add_gate)
+  cmake_parse_arguments(PARSE_ARGV 0 gate "SYMMETRIC" "NAME;A;B;MAX;UNIT;TOL;TIME;DEVICE;JUNIT" "")
+  foreach(required IN ITEMS NAME A B MAX)
+    if(NOT DEFINED gate_${required})
+      message(FATAL_ERROR "vkhausdorff_add_gate: ${required} is missing")
+    endif()
+  endforeach()
+  if(gate_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "vkhausdorff_add_gate: unknown: ${gate_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT VKHAUSDORFF_PROGRAM)
+    message(FATAL_ERROR "vkhausdorff_add_gate: the program vkhausdorff is not installed; set VKHAUSDORFF_PROGRAM to it")
+  endif()
+  cmake_path(ABSOLUTE_PATH gate_A BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  cmake_path(ABSOLUTE_PATH gate_B BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set(words gate ${gate_A} ${gate_B} --max ${gate_MAX})
+  foreach(option IN ITEMS UNIT TOL TIME DEVICE JUNIT)
+    if(DEFINED gate_${option})
+      string(TOLOWER ${option} name)
+      list(APPEND words --${name} ${gate_${option}})
+    endif()
+  endforeach()
+  if(gate_SYMMETRIC)
+    list(APPEND words --symmetric)
+  endif()
+  add_test(NAME ${gate_NAME} COMMAND ${VKHAUSDORFF_PROGRAM} ${words})
+  set_tests_properties(${gate_NAME} PROPERTIES LABELS vkhausdorff)
+endfunction()
