@@ -1,7 +1,7 @@
 // An answer's first line, and what its parts are called.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "engine/vkhausdorff.h"
 #include "host/answer/answer.h"
@@ -10,8 +10,6 @@
 
 namespace vkh {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string with_unit(std::string number, const Answer& answer) {
   if (!answer.unit.empty()) number.append(" ").append(answer.unit);

@@ -288,12 +288,11 @@ CommandLine understand(const Words& given) {
     words.erase(words.begin());
     words.emplace_back("--help");
   }
-  for (const char* option : {"--json=", "--junit="}) {
-    if (std::find(words.begin(), words.end(), option) != words.end()) {
-      const std::string name(option, std::string(option).size() - 1);
-      throw UsageError(name + "='': expected the name of a file, as in " + name + "=answer" +
-                       (name == "--json" ? ".json" : ".xml"));
-    }
+  for (const char* option : {"--json", "--junit"}) {
+    const std::string nothing = std::string(option) + "=";
+    if (std::find(words.begin(), words.end(), nothing) != words.end())
+      throw UsageError(nothing + "'': expected the name of a file, as in " + nothing +
+                       "answer.txt");
   }
   Program program;
   try {

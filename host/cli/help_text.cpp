@@ -47,7 +47,7 @@ std::string wrapped(const std::string& text, size_t columns) {
       const size_t space = line.rfind(' ', columns);
       if (space == std::string::npos || space <= indent.size()) break;
       out.append(line, 0, space).append("\n");
-      line = indent + line.substr(space + 1);
+      line.replace(0, space + 1, indent);
     }
     out += line + "\n";
   }

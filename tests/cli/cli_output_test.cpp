@@ -91,7 +91,7 @@ TEST_CASE("a file name never follows --json after a space") {
   check_refused({"distance", "--json", a, b, c}, "--json=FILE");
   check_refused({"distance", a, b, "--json", c}, "--json=FILE");
   check_refused({"demo", "--json", c}, "--json=FILE");
-  check_refused({"distance", a, b, "--json="}, "--json=answer.json");
+  check_refused({"distance", a, b, "--json="}, "--json=answer.txt");
   CHECK(read_file(a) == before);
   CHECK(read_file(c) == third);
   // B may stand behind it: the object is on stdout.
