@@ -25,10 +25,20 @@ struct Input {
   std::vector<std::string> notes = {};  ///< what people should know about it
 };
 
+/// Of a mesh whose faces have limits of their own.
+struct FaceLimits {
+  std::string path;                ///< the file that says which
+  uint64_t within = 0, faces = 0;  ///< faces that are proven to be within theirs; of how many
+  uint64_t runs = 0;
+  Limit limit;  ///< of the face of the witness, where it is beyond
+  Verdict verdict = Verdict::kUndecided;
+};
+
 /// What was asked about a limit (`gate`).
 struct Asked {
   Length length;
   Limit limit;  ///< that, in the files' unit
+  std::optional<FaceLimits> faces_a = {}, faces_b = {};
 };
 
 /// What a user waited for, in milliseconds; parts that ran side by side overlap.
@@ -55,7 +65,8 @@ struct Answer {
 
 /// The whole answer's interval.
 CertifiedInterval interval_of(const Answer& answer);
-/// Of an answer with `max`.
+/// Of an answer with `max`: of one direction, and of all.
+Verdict verdict_of(const Answer& answer, bool back);
 Verdict verdict_of(const Answer& answer);
 
 /// One sentence for each status.

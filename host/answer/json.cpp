@@ -136,6 +136,14 @@ Json diagonal_of(const Length& length) {
   return length.of == Length::Of::kDiagonal ? Json("a") : Json();
 }
 
+Json faces_json(const FaceLimits& faces) {
+  return {{"path", faces.path},
+          {"faces", faces.faces},
+          {"within", faces.within},
+          {"runs", faces.runs},
+          {"verdict", name_of(faces.verdict)}};
+}
+
 std::string max_json(const Answer& answer) {
   JsonObject json;
   json.add("requested", answer.max->length.requested);
@@ -143,6 +151,8 @@ std::string max_json(const Answer& answer) {
   json.add("beyond", answer.max->limit.beyond);
   json.add("unit", text_or_null(answer.unit));
   json.add("diagonal_of", diagonal_of(answer.max->length));
+  if (answer.max->faces_a) json.add("faces_a", faces_json(*answer.max->faces_a));
+  if (answer.max->faces_b) json.add("faces_b", faces_json(*answer.max->faces_b));
   return json.text();
 }
 

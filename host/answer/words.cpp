@@ -31,12 +31,6 @@ std::string share_of_diagonal(const Answer& answer, double upper) {
   return " (" + decimal(share, 3, Rounding::kUp) + " % of A's diagonal)";
 }
 
-/// The direction whose lower bound is the larger: its witness proves what is beyond.
-const Report& farther(const Answer& answer) {
-  const Report& r = answer.a_to_b;
-  return answer.b_to_a && answer.b_to_a->lower > r.lower ? *answer.b_to_a : r;
-}
-
 std::string distance_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const bool both = answer.b_to_a.has_value();
@@ -63,35 +57,55 @@ std::string hint(const Answer& answer, Status status) {
   return "; ask for a smaller --tol than " + answer.tolerance.requested;
 }
 
+std::string interval_text(const Answer& answer, const CertifiedInterval& interval) {
+  const double gap = interval.upper - interval.lower;
+  const auto printed = [&](double x, Rounding rounding) {
+    return decimal(x, digits_that_matter(x, gap), rounding);
+  };
+  return with_unit("[" + printed(interval.lower, Rounding::kDown) + ", " +
+                       printed(interval.upper, Rounding::kUp) + "]",
+                   answer);
+}
+
+std::string failure_in_words(const Answer& answer, bool back) {
+  const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+  const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
+  const Limit& limit = faces ? faces->limit : answer.max->limit;
+  // Never down to the limit itself.
+  const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
+  const std::string far =
+      with_unit(decimal(r.lower, digits_that_matter(r.lower, margin), Rounding::kDown), answer);
+  const std::string from = back ? "B" : "A", to = back ? "A" : "B";
+  const std::string where = r.has_witness ? point_text(r.witness_a) + " of " : "a point of ";
+  std::string text = "FAIL  " + where + from + " is at least " + far + " from " + to;
+  if (faces) text += ", and its face's limit is " + length_up(answer, limit.beyond, margin);
+  return text;
+}
+
+std::string faces_in_words(const FaceLimits& faces) {
+  return std::to_string(faces.within) + " of " + std::to_string(faces.faces) + " faces";
+}
+
 std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
-  const double gap = whole.upper - whole.lower;
-  const std::string asked = answer.max->length.requested;
-  const std::string interval =
-      "[" + decimal(whole.lower, digits_that_matter(whole.lower, gap), Rounding::kDown) + ", " +
-      with_unit(decimal(whole.upper, digits_that_matter(whole.upper, gap), Rounding::kUp) + "]",
-                answer);
-  const char* h = answer.b_to_a ? "max(h(A,B), h(B,A))" : "h(A,B)";
-  switch (verdict_of(answer)) {
-    case Verdict::kWithin:
-      return std::string("PASS  ") + h + " <= " + asked + ", proven: it is in " + interval;
-    case Verdict::kBeyond: {
-      const Report& r = farther(answer);
-      const bool is_there = &r == &answer.a_to_b;
-      // Never down to the limit itself.
-      const double margin = std::min(r.lower - answer.max->limit.beyond, gap);
-      const std::string far =
-          with_unit(decimal(r.lower, digits_that_matter(r.lower, margin), Rounding::kDown), answer);
-      if (!r.has_witness)
-        return "FAIL  a point of " + std::string(is_there ? "A" : "B") + " is at least " + far +
-               " from " + (is_there ? "B" : "A");
-      return "FAIL  " + point_text(r.witness_a) + (is_there ? " of A" : " of B") + " is at least " +
-             far + " from " + (is_there ? "B" : "A");
-    }
-    case Verdict::kUndecided:
-      break;
+  const Asked& max = *answer.max;
+  const std::string asked = max.length.requested;
+  const bool by_face = max.faces_a || max.faces_b;
+  const Verdict verdict = verdict_of(answer);
+  if (verdict == Verdict::kBeyond)
+    return failure_in_words(answer, verdict_of(answer, false) != Verdict::kBeyond);
+  if (by_face) {
+    const FaceLimits& faces = max.faces_a ? *max.faces_a : *max.faces_b;
+    const std::string proven = faces_in_words(faces) + " of " + (max.faces_a ? "A" : "B") +
+                               " are proven to be within their own limits";
+    return verdict == Verdict::kWithin ? "PASS  " + proven
+                                       : "UNDECIDED  " + proven + hint(answer, whole.status);
   }
-  return "UNDECIDED  " + asked + " lies in " + interval + hint(answer, whole.status);
+  const std::string interval = interval_text(answer, whole);
+  if (verdict == Verdict::kUndecided)
+    return "UNDECIDED  " + asked + " lies in " + interval + hint(answer, whole.status);
+  const char* h = answer.b_to_a ? "max(h(A,B), h(B,A))" : "h(A,B)";
+  return std::string("PASS  ") + h + " <= " + asked + ", proven: it is in " + interval;
 }
 
 }  // namespace
@@ -104,9 +118,18 @@ CertifiedInterval interval_of(const Answer& answer) {
   return symmetric_interval(r, *answer.b_to_a);
 }
 
+Verdict verdict_of(const Answer& answer, bool back) {
+  const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
+  if (faces) return faces->verdict;
+  const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+  return verdict_of(r.lower, r.upper, answer.max->limit);
+}
+
 Verdict verdict_of(const Answer& answer) {
-  const CertifiedInterval whole = interval_of(answer);
-  return verdict_of(whole.lower, whole.upper, answer.max->limit);
+  const Verdict there = verdict_of(answer, false);
+  if (!answer.b_to_a || there == Verdict::kBeyond) return there;
+  const Verdict back = verdict_of(answer, true);
+  return back == Verdict::kWithin ? there : back;
 }
 
 const char* stop_reason(Status status) {

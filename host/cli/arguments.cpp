@@ -18,7 +18,7 @@ constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone
 /// As typed.
 struct Typed {
   std::string file_a, file_b;
-  std::string tolerance, max, unit, device;
+  std::string tolerance, max, face_max_a, face_max_b, unit, device;
   std::optional<std::string> memory, time, waves, max_input;
   std::vector<std::string> enabled, disabled;
   std::string preset;
@@ -60,6 +60,12 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
   job.unit = typed.unit;
   job.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kFraction);
   if (!typed.max.empty()) job.max = parse_length("--max", typed.max, PlainNumber::kRefused);
+  job.face_max_a = typed.face_max_a;
+  job.face_max_b = typed.face_max_b;
+  if (!typed.face_max_b.empty() && !typed.symmetric)
+    throw UsageError("--face-max-b: limits of B's faces are asked about by --symmetric alone");
+  if (typed.verify && (!typed.face_max_a.empty() || !typed.face_max_b.empty()))
+    throw UsageError("--verify: is not to be had with --face-max");
   job.symmetric = typed.symmetric;
   job.verify = typed.verify;
   job.device = typed.device;
@@ -183,6 +189,14 @@ struct Program {
     command->add_option("--max", gate.max, std::string("The limit: ") + kLengths)
         ->type_name("LENGTH")
         ->required();
+    command
+        ->add_option(
+            "--face-max", gate.face_max_a,
+            "A CSV of face, max: limits of A's faces, counted from 0; a number alone is in "
+            "the files' unit. Others have --max")
+        ->type_name("FILE");
+    command->add_option("--face-max-b", gate.face_max_b, "The same for B's faces, the way back")
+        ->type_name("FILE");
     add_tolerance(*command, gate, "1e-7");
     add_symmetric(*command, gate);
     command->add_option("--junit", gate.junit, "Write a test suite of one test case: JUnit's XML")

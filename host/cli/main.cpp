@@ -63,7 +63,8 @@ ExitCode code_of(const Answer& answer) {
 }
 
 int run_pair(const CommandLine& line, const Stop& stop) {
-  Destinations destinations(line.outputs, {line.job.file_a, line.job.file_b});
+  Destinations destinations(
+      line.outputs, {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
   try {
     const Done done = run_job(line.job, stop);  // taken apart after the answer is out
     const std::string not_written = destinations.write(done.answer);

@@ -67,7 +67,7 @@ void Destinations::write(const Failure& failure) {
 
 Failure failure_of(const std::string& message, int code, const PairJob& job) {
   Failure failure{.code = code, .message = message, .file = {}, .place = {}};
-  for (const std::string& file : {job.file_a, job.file_b}) {
+  for (const std::string& file : {job.file_a, job.file_b, job.face_max_a, job.face_max_b}) {
     if (file.empty() || !message.starts_with(file + ": ")) continue;
     failure.file = file;
     const size_t begin = file.size() + 2, end = message.find(": ", begin);

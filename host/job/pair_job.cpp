@@ -8,9 +8,11 @@
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
 #include "host/check/verify.h"
+#include "host/job/face_limits.h"
 #include "host/job/progress_line.h"
 #include "host/job/reading.h"
 #include "host/run/frame.h"
+#include "host/solve/face_gate.h"
 #include "host/system/sha256.h"
 
 namespace vkh {
@@ -139,9 +141,47 @@ SolveOptions options_for(Progressing& at, const Answer& known) {
   return options;
 }
 
+/// Of one direction whose faces may have limits of their own.
+Report gate(const std::string& file, const Mesh& from, const Mesh& to, SolveOptions options,
+            Solver& solver, const Answer& answer, std::optional<FaceLimits>& faces) {
+  if (file.empty()) return solver.distance(from, to, options);
+  const double diagonal_a = answer.a_to_b.diagonal_a;
+  const std::vector<Limit> limits =
+      read_face_limits(file, from.faces.size(), answer.max->limit, answer.unit, diagonal_a);
+  FaceGate found = gate_faces(solver, from, to, limits, options);
+  faces = FaceLimits{.path = file,
+                     .within = found.within,
+                     .faces = from.faces.size(),
+                     .runs = found.runs,
+                     .limit = found.limit,
+                     .verdict = found.verdict};
+  return std::move(found.report);
+}
+
+/// Both directions on their own: limits of faces say nothing of the way back.
+void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveOptions options,
+                   Answer& answer) {
+  const PairJob& job = at.job;
+  options.tolerance = answer.a_to_b.tolerance;
+  options.tolerance_is_absolute = true;
+  answer.a_to_b =
+      gate(job.face_max_a, pair.a, pair.b, options, solver, answer, answer.max->faces_a);
+  if (!job.symmetric) return;
+  options.time_limit_s = std::max(at.stop.left_s(), 1e-3);
+  options.progress = [&at](Progress progress) {
+    progress.back = true;
+    at.advance(progress);
+    return !is_interrupted();
+  };
+  answer.b_to_a =
+      gate(job.face_max_b, pair.b, pair.a, options, solver, answer, answer.max->faces_b);
+}
+
 void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
   const SolveOptions options = options_for(at, answer);
-  if (at.job.symmetric) {
+  if (!at.job.face_max_a.empty() || !at.job.face_max_b.empty()) {
+    solve_by_face(at, pair, solver, options, answer);
+  } else if (at.job.symmetric) {
     SymmetricReport both = solver.symmetric(pair.a, pair.b, options);
     answer.a_to_b = std::move(both.a_to_b);
     answer.b_to_a = std::move(both.b_to_a);

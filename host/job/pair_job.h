@@ -22,7 +22,8 @@ struct PairJob {
   std::string file_a, file_b;      ///< both empty: the built-in pair
   std::string unit;                ///< of files that do not say; empty: unknown
   Length tolerance;
-  std::optional<Length> max;  ///< gate
+  std::optional<Length> max;           ///< gate
+  std::string face_max_a, face_max_b;  ///< files of limits of faces; empty: none
   bool symmetric = false, verify = false;
   bool hashes = false;   ///< Input::sha256 is wanted
   std::string device;    ///< DeviceRequest::selector

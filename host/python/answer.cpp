@@ -39,15 +39,30 @@ py::dict stats_of(const Report& r) {
       "wall_ms"_a = t.wall_ms);
 }
 
+std::optional<Verdict> verdict_within(double lower, double upper, const Limit& limit) {
+  if (!(limit.within > 0)) return std::nullopt;
+  return verdict_of(lower, upper, limit);
+}
+
 }  // namespace
 
 Answer answer_of(const Report& r) {
-  return {r.lower, r.upper, r.status, r.limit, r.witness_a, r.witness_b, stats_of(r)};
+  return {r.lower,     r.upper,     r.status,   verdict_within(r.lower, r.upper, r.limit),
+          r.witness_a, r.witness_b, stats_of(r)};
 }
 
-const char* Answer::verdict() const {
-  if (!(limit.within > 0)) return nullptr;
-  switch (verdict_of(lower, upper, limit)) {
+Answer answer_of(const FaceGate& gate) {
+  Answer answer = answer_of(gate.report);
+  answer.verdict = gate.verdict;
+  answer.stats["max"] = gate.limit.within;
+  answer.stats["faces_within"] = gate.within;
+  answer.stats["runs"] = gate.runs;
+  return answer;
+}
+
+const char* Answer::verdict_name() const {
+  if (!verdict) return nullptr;
+  switch (*verdict) {
     case Verdict::kWithin:
       return "pass";
     case Verdict::kBeyond:
@@ -62,7 +77,13 @@ Answer answer_of(const SymmetricReport& both) {
   const CertifiedInterval whole = both.interval();
   const bool there = both.a_to_b.lower >= both.b_to_a.lower;
   const Report& r = there ? both.a_to_b : both.b_to_a;
-  Answer answer{whole.lower, whole.upper, whole.status, r.limit, r.witness_a, r.witness_b, {}};
+  Answer answer{whole.lower,
+                whole.upper,
+                whole.status,
+                verdict_within(whole.lower, whole.upper, r.limit),
+                r.witness_a,
+                r.witness_b,
+                {}};
   if (!there) std::swap(answer.witness_a, answer.witness_b);
   answer.stats["status"] = status_name(whole.status);
   answer.stats["gap"] = whole.gap;

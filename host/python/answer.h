@@ -3,6 +3,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
+
+#include "host/solve/face_gate.h"
 #include "host/solve/report.h"
 
 namespace vkh::python {
@@ -12,16 +15,17 @@ namespace vkh::python {
 struct Answer {
   double lower = 0, upper = 0;
   Status status = Status::kClosed;
-  Limit limit;  ///< 0: none was given
+  std::optional<Verdict> verdict;  ///< where a limit was given
   SurfacePoint witness_a, witness_b;
   pybind11::dict stats;
 
   bool closed() const { return status == Status::kClosed; }
   /// "pass", "fail", "undecided"; null without a limit.
-  const char* verdict() const;
+  const char* verdict_name() const;
 };
 
 Answer answer_of(const Report& report);
 Answer answer_of(const SymmetricReport& both);
+Answer answer_of(const FaceGate& gate);
 
 }  // namespace vkh::python

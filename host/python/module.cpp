@@ -58,7 +58,7 @@ void define_result(py::module_& m) {
           "why the run ended: closed, precision, time, waves, memory, cancelled, or limit where\n"
           "the limit of gate() was decided")
       .def_property_readonly(
-          "verdict", of_result([](const Answer& r) { return r.verdict(); }),
+          "verdict", of_result([](const Answer& r) { return r.verdict_name(); }),
           "of gate(): 'pass', 'fail' or 'undecided', the first two proven; else None")
       .def_property_readonly(
           "witness_a", of_result([](const Answer& r) { return point_of(r.witness_a); }),

@@ -60,20 +60,38 @@ void read_tolerance(const Arguments& given, SolveOptions& options) {
   options.tolerance = *value;
 }
 
-/// In A's own coordinates: a number as it is, or a string such as '0.1%'.
-Limit read_max(const Arguments& given, const Mesh& a) {
+/// The limit of gate(): one for all, or of each face.
+struct Asked {
+  Limit limit;
+  std::vector<Limit> of_faces;
+};
+
+/// In A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for A's faces.
+Asked read_max(const Arguments& given, const Mesh& a) {
   constexpr const char* kExpected =
-      "a positive number, in the coordinates' unit, or a string such as '0.1%' or '0.01abs'";
+      "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or a "
+      "number for each face of A";
   const FloatEnvironment ours;
   const py::object& max = given.at("max");
   if (py::isinstance<py::str>(max)) {
-    return in_files(length_of(given, "max", kExpected, PlainNumber::kRefused), "max", "",
-                    diagonal(bounding_box(a)));
+    const Length length = length_of(given, "max", kExpected, PlainNumber::kRefused);
+    return {in_files(length, "max", "", diagonal(bounding_box(a))), {}};
+  }
+  const auto array = py::array::ensure(max);
+  if (array && array.ndim() == 1) {
+    const auto numbers =
+        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max);
+    if (!numbers) PyErr_Clear();
+    if (!numbers) refuse_type("max", kExpected, max);
+    Asked asked;
+    for (py::ssize_t i = 0; i < numbers.shape(0); ++i)
+      asked.of_faces.push_back({numbers.at(i), numbers.at(i)});
+    return asked;
   }
   const std::optional<double> value = given.number("max", kExpected);
   if (!value) refuse_type("max", kExpected, max);
   if (!(*value > 0) || std::isinf(*value)) refuse_value("max", kExpected, max);
-  return {*value, *value};
+  return {{*value, *value}, {}};
 }
 
 void read_memory(const Arguments& given, SolveOptions& options) {
@@ -140,27 +158,30 @@ Answer answered(const Found& found) {
   return answer_of(found);
 }
 
-}  // namespace
+/// What both functions are given.
+struct Given {
+  SolveOptions options;
+  bool is_symmetric;
+  std::string device;
+  Mesh a, b;
 
-namespace {
+  explicit Given(const Arguments& given)
+      : options(options_of(given)),
+        is_symmetric(given.flag("symmetric")),
+        device(given.text("device", kDevice)),
+        a(mesh_from("A", given.at("va"), given.at("fa"))),
+        b(mesh_from("B", given.at("vb"), given.at("fb"))) {}
+};
 
-/// Of either function: `options` is completed by what the meshes say.
-template <class Complete>
-Answer solve(const Arguments& given, const Complete& complete) {
-  SolveOptions options = options_of(given);
-  const bool is_symmetric = given.flag("symmetric");
-  const std::string device = given.text("device", kDevice);
-  const Mesh a = mesh_from("A", given.at("va"), given.at("fa"));
-  const Mesh b = mesh_from("B", given.at("vb"), given.at("fb"));
-  complete(a, options);
-  Session& session = session_for(device);
-  if (is_symmetric) {
+Answer solve(const Given& given) {
+  Session& session = session_for(given.device);
+  if (given.is_symmetric) {
     SymmetricReport both;
-    session.use([&](Solver& solver) { both = solver.symmetric(a, b, options); });
+    session.use([&](Solver& s) { both = s.symmetric(given.a, given.b, given.options); });
     return answered(both);
   }
   Report report;
-  session.use([&](Solver& solver) { report = solver.distance(a, b, options); });
+  session.use([&](Solver& s) { report = s.distance(given.a, given.b, given.options); });
   return answered(report);
 }
 
@@ -174,7 +195,7 @@ Answer distance(const py::args& positional, const py::kwargs& named) {
                     4,
                     6};
   const Call call;
-  return solve(Arguments(*signature, positional, named), [](const Mesh&, SolveOptions&) {});
+  return solve(Given(Arguments(*signature, positional, named)));
 }
 
 Answer gate(const py::args& positional, const py::kwargs& named) {
@@ -186,11 +207,19 @@ Answer gate(const py::args& positional, const py::kwargs& named) {
                     5};
   constexpr double kTolerance = 1e-7;
   const Call call;
-  const Arguments given(*signature, positional, named);
-  return solve(given, [&](const Mesh& a, SolveOptions& options) {
-    options.limit = read_max(given, a);
-    if (given.find("tol") == nullptr) options.tolerance = kTolerance;
+  const Arguments arguments(*signature, positional, named);
+  Given given(arguments);
+  const Asked asked = read_max(arguments, given.a);
+  if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
+  given.options.limit = asked.limit;
+  if (asked.of_faces.empty()) return solve(given);
+  if (given.is_symmetric)
+    throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
+  FaceGate found;
+  session_for(given.device).use([&](Solver& s) {
+    found = gate_faces(s, given.a, given.b, asked.of_faces, given.options);
   });
+  return answered(found);
 }
 
 void free_devices() { Session::free_all(); }

@@ -51,11 +51,26 @@ class Gates(unittest.TestCase):
         with self.assertRaisesRegex(AssertionError, r"^UNDECIDED \((closed|precision)\): max 0\.25 lies in \[0\.2"):
             vkh.assert_within(A, B, 0.25)
 
+    def test_faces_have_limits_of_their_own(self):
+        self.assertEqual(vkh.gate(A, B, [0.3, 0.26]).verdict, "pass")
+        r = vkh.gate(A, B, np.array([0.3, 0.2], dtype=np.float32))
+        self.assertEqual((r.verdict, r.face_a), ("fail", 1))
+        self.assertGreater(r.lower, 0.2)
+        self.assertEqual(vkh.gate(A, B, (0.3, 0.25)).stats["faces_within"], 1)
+        with self.assertRaisesRegex(ValueError, "a limit for each of 2 faces, not 3"):
+            vkh.gate(A, B, [0.3] * 3)
+        with self.assertRaisesRegex(ValueError, "the limit of face 1 must be positive"):
+            vkh.gate(A, B, [0.3, 0])
+        with self.assertRaisesRegex(ValueError, "each direction apart"):
+            vkh.gate(A, B, [0.3, 0.3], symmetric=True)
+        with self.assertRaisesRegex(AssertionError, "on face 1 of A"):
+            vkh.assert_within(A, B, [0.3, 0.2])
+
     def test_wrong_limits_are_refused(self):
         for wrong in (0, -1, float("nan"), float("inf"), "0.1", "0.1mm", "x", "-1abs"):
             with self.assertRaisesRegex(ValueError, "^max"):
                 vkh.gate(A, B, wrong)
-        for wrong in (None, [0.1], object()):
+        for wrong in (None, object(), ["a", "b"], {}):
             with self.assertRaisesRegex(TypeError, "^max"):
                 vkh.gate(A, B, wrong)
         with self.assertRaises(TypeError):

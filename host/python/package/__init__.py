@@ -23,10 +23,10 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
     """Whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, or objects with .vertices and .faces (or .triangles). max: a
-    positive number in the coordinates' own unit, or a string such as '0.1%' of A's diagonal. symmetric: B within max of A,
-    too. verdict: 'pass' (upper <= max), 'fail' (lower > max; the witness shows where) or 'undecided': h is within tol, a
-    fraction of A's diagonal, of max, or time, waves or memory ended. The run ends as soon as either is proven. The rest is
-    as in distance().
+    positive number in the coordinates' own unit, a string such as '0.1%' of A's diagonal, or a number for each face of A.
+    symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail' (lower > max; the witness shows where) or
+    'undecided': h is within tol, a fraction of A's diagonal, of max, or time, waves or memory ended. The run ends as soon
+    as either is proven. The rest is as in distance().
     """
     return _core.gate(*_arrays(a, "a"), *_arrays(b, "b"), max, tol=tol, symmetric=symmetric, device=device, time=time,
                       waves=waves, memory=memory, disable=disable, progress=progress, enable=enable, preset=preset)

@@ -102,7 +102,7 @@ def distance(
 def gate(
     a: _Mesh,
     b: _Mesh,
-    max: _Number | str,
+    max: _Number | str | npt.ArrayLike,
     *,
     tol: _Number | str = 1e-7,
     symmetric: bool = False,
@@ -115,4 +115,4 @@ def gate(
     enable: _Names = (),
     preset: _Preset = "",
 ) -> Result: ...
-def assert_within(a: _Mesh, b: _Mesh, max: _Number | str, **options: Any) -> None: ...
+def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
