@@ -141,6 +141,23 @@ SolveOptions options_for(Progressing& at, const Answer& known) {
   return options;
 }
 
+void add_memory_notes(uint64_t asked, Answer& answer) {
+  const auto most = [&](uint64_t Report::*bytes) {
+    return std::max(answer.a_to_b.*bytes, answer.b_to_a ? (*answer.b_to_a).*bytes : 0);
+  };
+  const uint64_t in_host = most(&Report::host_memory_bytes);
+  if (in_host > 0) {
+    answer.notes.push_back("the device has too little memory: it reads " +
+                           std::to_string((in_host + 0xfffff) >> 20) +
+                           " MiB from the host's, slowly");
+  }
+  const uint64_t taken = most(&Report::workspace_bytes);
+  if (asked > 0 && taken > asked) {
+    answer.notes.push_back("--memory is less than a search can do with: " +
+                           std::to_string((taken + 1023) >> 10) + " KiB were taken");
+  }
+}
+
 /// Of one direction whose faces may have limits of their own.
 Report gate(const std::string& file, const Mesh& from, const Mesh& to, SolveOptions options,
             Solver& solver, const Answer& answer, std::optional<FaceLimits>& faces) {
@@ -188,13 +205,7 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
   } else {
     answer.a_to_b = solver.distance(pair.a, pair.b, options);
   }
-  const uint64_t in_host = std::max(answer.a_to_b.host_memory_bytes,
-                                    answer.b_to_a ? answer.b_to_a->host_memory_bytes : 0);
-  if (in_host > 0) {
-    answer.notes.push_back("the device has too little memory: it reads " +
-                           std::to_string((in_host + 0xfffff) >> 20) +
-                           " MiB from the host's, slowly");
-  }
+  add_memory_notes(options.memory_bytes, answer);
   if (!at.job.verify) return;
   answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
   if (answer.b_to_a) answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);

@@ -146,6 +146,15 @@ TEST_CASE("--face-max: each face its own limit") {
   CHECK(gate("0.3abs", {"--face-max-b", "back.csv"}).exit_code == 2);
 }
 
+TEST_CASE("too little memory is said") {
+  const auto notes = [](const char* memory) {
+    return json::parse(gate("0.3abs", {"--json", "--memory", memory}).out)["notes"];
+  };
+  REQUIRE(notes("1").size() == 1);
+  CHECK(starts_with(notes("1")[0].get<std::string>(), "--memory is less than a search"));
+  CHECK(notes("16MiB").empty());
+}
+
 TEST_CASE("inputs are named by their SHA-256, where the build has a library for it") {
   const std::string known = write_file("known.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const json r = json::parse(run({"distance", known, square_a(), "--json"}).out);

@@ -1,0 +1,32 @@
+# Completion of vkhausdorff for bash.
+_vkhausdorff() {
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
+  local commands="distance gate demo doctor help"
+  local search="--device --time --memory --waves --preset --enable --disable --no-cache --help"
+  local outputs="--json --verbose --verify --tol --symmetric"
+  local options="--help --version"
+  COMPREPLY=()
+  if [ "$COMP_CWORD" = 1 ]; then
+    mapfile -t COMPREPLY < <(compgen -W "$commands $options" -- "$current")
+    return
+  fi
+  case $previous in
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu" -- "$current"); return ;;
+    --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
+    --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
+    --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable) return ;;
+  esac
+  case $command in
+    distance) options="$search $outputs --unit --max-input" ;;
+    gate) options="$search $outputs --unit --max-input --max --face-max --face-max-b --junit --github" ;;
+    demo) options="$search $outputs" ;;
+    doctor) options="--device --help" ;;
+    help) options="$commands" ;;
+  esac
+  if [[ $current == -* || $command == help ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -- "$current")
+  fi
+}
+complete -o filenames -F _vkhausdorff vkhausdorff
