@@ -336,8 +336,8 @@ typedef struct VkhProblem {
    * which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun. */
   VkBool32 pauseWhenFull;
   /* > 0, in the coordinates' units: whether h(a, b) is within it is all that is asked. Candidates
-   * within limit + cullTolerance are closed, and the first sample that is surely farther ends the
-   * run: waves after it are empty. The report's status is then VKH_STATUS_WITHIN or
+   * within it are closed, and the first sample that is surely farther ends the run: waves after it
+   * are empty. The report's status is then VKH_STATUS_WITHIN or
    * VKH_STATUS_BEYOND, both proven. Any other is undecided: the run goes on, or its budget or its
    * precision ended, or h is within about cullTolerance of the limit. 0: no such question. */
   float limit;

@@ -47,6 +47,8 @@ struct Job {
 
 struct Gate {
   double limit = 0, tolerance = 0;
+  double lower = 0, upper = 0;
+  Status status = Status::kClosed;
   Verdict verdict = Verdict::kUndecided;
 };
 
@@ -167,7 +169,12 @@ void ask_gate(Solver& solver, const Job& job, Outcome& out) {
   options.tolerance = 1e-7;
   options.limit = {limit, limit};
   const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
-  out.gate = Gate{limit, r.tolerance, verdict_of(r.lower, r.upper, r.limit)};
+  out.gate = Gate{.limit = limit,
+                  .tolerance = r.tolerance,
+                  .lower = r.lower,
+                  .upper = r.upper,
+                  .status = r.status,
+                  .verdict = verdict_of(r.lower, r.upper, r.limit)};
 }
 
 /// How far from the distance the limit surely is, in the files' units.
@@ -227,13 +234,19 @@ struct Totals {
   std::map<std::string, PerFamily> families;
 };
 
-void count_gate(const Outcome& out, Totals& totals) {
+void count_gate(const char* family, uint64_t i, const Outcome& out, Totals& totals) {
   const Verdict verdict = out.gate->verdict;
   totals.passed += verdict == Verdict::kWithin ? 1 : 0;
   totals.failed += verdict == Verdict::kBeyond ? 1 : 0;
   if (verdict != Verdict::kUndecided) return;
   ++totals.undecided;
-  if (out.gate->tolerance > 0) totals.bands.push_back(off_distance(out) / out.gate->tolerance);
+  if (!(out.gate->tolerance > 0)) return;
+  totals.bands.push_back(off_distance(out) / out.gate->tolerance);
+  if (totals.bands.back() <= 1) return;
+  std::printf("FAR pair %llu (%s) is undecided %.3g tolerances from the limit %s: [%s, %s] %s\n",
+              static_cast<unsigned long long>(i), family, totals.bands.back(),
+              hex_float(out.gate->limit).c_str(), hex_float(out.gate->lower).c_str(),
+              hex_float(out.gate->upper).c_str(), status_name(out.gate->status));
 }
 
 void judge(const Families& families, uint64_t i, const Outcome& out, Totals& totals) {
@@ -249,7 +262,7 @@ void judge(const Families& families, uint64_t i, const Outcome& out, Totals& tot
   // So wide that it would not see an error of the size of a float's ulp.
   totals.wide_references += out.reference.upper - out.reference.lower > 1e-8 ? 1 : 0;
   totals.exact += hard_pair(job.family, job.seed).exact ? 1 : 0;
-  if (out.gate) count_gate(out, totals);
+  if (out.gate) count_gate(families.name(job), i, out, totals);
   const bool wide = is_wide_around_zero(job, out);
   totals.wide_around_zero += wide ? 1 : 0;
   if (fault.empty() && !wide) return;

@@ -54,8 +54,9 @@ struct SolveOptions {
   /// In the files' units; 0: nothing. A distance that the answer need not resolve below: candidates
   /// within the tolerance of it are closed, and a run that this decides ends as Status::kPruned.
   double known_lower = 0;
-  /// Whether the distance is within it is all that is asked: candidates within the tolerance of it
-  /// are closed, and the run ends as soon as either is proven, as Status::kLimit (verdict_of).
+  /// Whether the distance is within it is all that is asked: candidates within it are closed, and
+  /// the run ends as soon as either is proven, as Status::kLimit (verdict_of). Neither is where the
+  /// distance is within the tolerance of it.
   Limit limit = {};
 };
 

@@ -22,6 +22,9 @@ bool needs_sharp(float distance) { return 3.0e-5 * distance > control.cull_toler
 // Whether plain floats are too coarse to compare samples in.
 bool is_tight(float base) { return control.two_float != 0u || needs_sharp(base); }
 
+// What is at most this above the base is within the limit.
+float limit_above_base() { return lowered(control.limit - control.base); }
+
 // Whether a sample, `above` the base, is farther than the limit by more than it may be wrong: in
 // plain floats by 14 ulp of its distance and about as many of the coordinates, which are of order 1
 // (base_of_run); else by far less than the tolerance, but for a position in plain floats. The

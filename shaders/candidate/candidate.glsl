@@ -43,11 +43,13 @@ float effective_tolerance(float lower) {
   return max(left, noise);
 }
 
-// Candidates with u <= this are closed: they can never widen the interval beyond the tolerance.
-// `tolerant` is the switch kUseToleranceCull; without it only what is under the lower bound is
-// closed.
+// Candidates with u <= this are closed: they can never widen the interval beyond the tolerance, or
+// are proven to be within the limit. Not within the limit and the tolerance besides: of thousands
+// of candidates some would stop there, undecided, though h is far below. `tolerant` is the switch
+// kUseToleranceCull; without it only what is under the lower bound is closed.
 float cull_threshold(float lower, bool tolerant) {
-  return tolerant ? reached(lower) + effective_tolerance(lower) : reached(lower);
+  float threshold = tolerant ? reached(lower) + effective_tolerance(lower) : reached(lower);
+  return control.limit > 0.0 ? max(threshold, limit_above_base()) : threshold;
 }
 
 // How a candidate's surfaces are measured.

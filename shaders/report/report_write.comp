@@ -30,6 +30,7 @@ layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/base/last_group.glsl"
 #include "shaders/base/root.glsl"
+#include "shaders/candidate/base.glsl"
 
 // A corner of B by the parts that the run works with.
 Two3 b_corner(uint v) {
@@ -62,7 +63,7 @@ float witness_slack(Witness w) { return local_corners(load_root(root_of(w)), who
 uint proven_status(float lower, float upper) {
   if (control.limit > 0.0 && control.certified != 0u) {
     if (lower > raised(control.limit_up - control.base)) return kStatusBeyond;
-    if (upper <= lowered(control.limit - control.base)) return kStatusWithin;
+    if (upper <= limit_above_base()) return kStatusWithin;
   }
   return control.status == kStatusBeyond ? kStatusPrecision : control.status;
 }

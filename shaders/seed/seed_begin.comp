@@ -35,7 +35,7 @@ void begin() {
   control.offer_key = kNone;
   control.offer_count = 0u;
   control.cull_tolerance = push.cull_tolerance;
-  control.known_lower = max(push.known_lower, push.limit);
+  control.known_lower = push.known_lower;
   control.limit = push.limit;
   control.limit_up = max(push.limit, push.limit_up);
   control.base = 0.0;

@@ -61,6 +61,18 @@ TEST_CASE("within and beyond are proven, and undecided is only what is at the li
   }
 }
 
+TEST_CASE("no candidate of many stops short of the limit") {
+  const Mesh a = noisy(icosphere(1, 4), 0.02, 1), b = icosphere(1, 4);
+  const Report whole = distance(a, b, limited(0, 0));
+  for (const double factor : {1.02, 1.05, 1.2, 1.5, 2.0}) {
+    CAPTURE(factor);
+    const double limit = factor * whole.upper;
+    SolveOptions options = limited(limit, limit);
+    options.tolerance = 1e-4;  // a band that candidates fall into
+    CHECK(verdict(distance(a, b, options)) == Verdict::kWithin);
+  }
+}
+
 TEST_CASE("a limit that is no double lies between two") {
   const MeshPairs pair = pairs()[0];
   const auto& [a, b] = pair;
