@@ -302,11 +302,11 @@ CommandLine understand(const Words& given) {
     words.erase(words.begin());
     words.emplace_back("--help");
   }
-  for (const char* option : {"--json", "--junit"}) {
-    const std::string nothing = std::string(option) + "=";
-    if (std::find(words.begin(), words.end(), nothing) != words.end())
-      throw UsageError(nothing + "'': expected the name of a file, as in " + nothing +
-                       "answer.txt");
+  for (const char* option : {"--json=", "--junit="}) {
+    if (std::find(words.begin(), words.end(), option) == words.end()) continue;
+    std::string message(option);
+    message.append("'': expected the name of a file, as in ").append(option).append("answer.txt");
+    throw UsageError(message);
   }
   Program program;
   try {

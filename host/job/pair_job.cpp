@@ -158,20 +158,25 @@ void add_memory_notes(uint64_t asked, Answer& answer) {
   }
 }
 
-/// Of one direction whose faces may have limits of their own.
-Report gate(const std::string& file, const Mesh& from, const Mesh& to, SolveOptions options,
-            Solver& solver, const Answer& answer, std::optional<FaceLimits>& faces) {
-  if (file.empty()) return solver.distance(from, to, options);
-  const double diagonal_a = answer.a_to_b.diagonal_a;
-  const std::vector<Limit> limits =
-      read_face_limits(file, from.faces.size(), answer.max->limit, answer.unit, diagonal_a);
-  FaceGate found = gate_faces(solver, from, to, limits, options);
-  faces = FaceLimits{.path = file,
-                     .within = found.within,
-                     .faces = from.faces.size(),
-                     .runs = found.runs,
-                     .limit = found.limit,
-                     .verdict = found.verdict};
+/// A direction whose faces may have limits of their own: in a file, unless that is empty.
+struct Side {
+  const std::string& file;
+  const Mesh& from;
+  const Mesh& to;
+  std::optional<FaceLimits>& limits;
+};
+
+Report gate(const Side& side, const SolveOptions& options, Solver& solver, const Answer& answer) {
+  if (side.file.empty()) return solver.distance(side.from, side.to, options);
+  const std::vector<Limit> limits = read_face_limits(
+      side.file, side.from.faces.size(), answer.max->limit, answer.unit, answer.a_to_b.diagonal_a);
+  FaceGate found = gate_faces(solver, side.from, side.to, limits, options);
+  side.limits = FaceLimits{.path = side.file,
+                           .within = found.within,
+                           .faces = side.from.faces.size(),
+                           .runs = found.runs,
+                           .limit = found.limit,
+                           .verdict = found.verdict};
   return std::move(found.report);
 }
 
@@ -182,7 +187,7 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
   options.tolerance = answer.a_to_b.tolerance;
   options.tolerance_is_absolute = true;
   answer.a_to_b =
-      gate(job.face_max_a, pair.a, pair.b, options, solver, answer, answer.max->faces_a);
+      gate({job.face_max_a, pair.a, pair.b, answer.max->faces_a}, options, solver, answer);
   if (!job.symmetric) return;
   options.time_limit_s = std::max(at.stop.left_s(), 1e-3);
   options.progress = [&at](Progress progress) {
@@ -191,7 +196,7 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
     return !is_interrupted();
   };
   answer.b_to_a =
-      gate(job.face_max_b, pair.b, pair.a, options, solver, answer, answer.max->faces_b);
+      gate({job.face_max_b, pair.b, pair.a, answer.max->faces_b}, options, solver, answer);
 }
 
 void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
