@@ -339,7 +339,9 @@ typedef struct VkhProblem {
    * within it are closed, and the first sample that is surely farther ends the run: waves after it
    * are empty. The report's status is then VKH_STATUS_WITHIN or
    * VKH_STATUS_BEYOND, both proven. Any other is undecided: the run goes on, or its budget or its
-   * precision ended, or h is within about cullTolerance of the limit. 0: no such question. */
+   * precision ended, or h is within about cullTolerance of the limit. That the run is to end rests
+   * on coordinates of order 1: where they are larger it may end at VKH_STATUS_PRECISION, undecided,
+   * a float's error beyond the limit. 0: no such question. */
   float limit;
   /* 0, which stands for limit, or more than that: what lower must exceed for VKH_STATUS_BEYOND. For
    * a limit that is no float: limit is then that rounded down, and this is it rounded up. */

@@ -30,7 +30,7 @@ struct FaceLimits {
   std::string path;                ///< the file that says which
   uint64_t within = 0, faces = 0;  ///< faces that are proven to be within theirs; of how many
   uint64_t runs = 0;
-  Limit limit;  ///< of the face of the witness, where it is beyond
+  Limit limit = {};  ///< of the face of the witness, where it is beyond
   Verdict verdict = Verdict::kUndecided;
 };
 
@@ -79,6 +79,10 @@ std::string in_words(const Answer& answer);
 /// matter.
 std::string length_down(const Answer& answer, double length, double gap);
 std::string length_up(const Answer& answer, double length, double gap);
+
+/// What an interval's ends are rounded to as they are printed: its width, or less, so that neither
+/// end is printed on the other side of the limit.
+double gap_as_printed(const Answer& answer, double lower, double upper);
 
 /// A file's name as a terminal may see it: control characters are written as \xNN.
 std::string printable(const std::string& text);

@@ -27,12 +27,14 @@ const Unit* find_unit(const std::string& name) {
 
 constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
 
-/// Encloses x, which comes of a number of 53 bits by a product and a quotient or two in 113 bits;
-/// the number was rounded to nearest, as a diagonal may have been besides.
+/// Encloses x, which comes of a number of 53 bits by a product and a quotient or two in 113 bits.
+/// The number was rounded to nearest, twice if it was a percentage. A diagonal is off by four ulps
+/// at most: its extents are rounded, and libstdc++'s hypot of three adds two roundings to a root.
 Limit around(Quad x) {
+  constexpr int kUlps = 16;
   const auto nearest = static_cast<double>(x);
   Limit limit{nearest, nearest};
-  for (int ulp = 0; ulp < 3; ++ulp) {
+  for (int ulp = 0; ulp < kUlps; ++ulp) {
     limit.within = std::nextafter(limit.within, 0.0);
     limit.beyond = std::nextafter(limit.beyond, std::numeric_limits<double>::infinity());
   }
@@ -50,13 +52,15 @@ std::string expected_of(PlainNumber plain) {
 }  // namespace
 
 Length parse_length(const char* option, const std::string& text, PlainNumber plain) {
+  constexpr double kLeast = 1e-290;  // a hundredth, or a part in another unit, has all its bits
   Length length{.requested = text};
   const char* end = text.data() + text.size();
   // from_chars, because a locale must not decide whether 0.5 is a number.
   const auto [rest, error] = std::from_chars(text.data(), end, length.number);
   std::string unit(rest, end);
   unit.erase(0, unit.find_first_not_of(' '));
-  const bool is_number = error == std::errc() && std::isfinite(length.number) && length.number > 0;
+  const bool is_number =
+      error == std::errc() && std::isfinite(length.number) && length.number >= kLeast;
   const bool is_fraction = unit == "diag" || (unit.empty() && plain == PlainNumber::kFraction);
   if (unit == "%") {
     length.number /= 100;

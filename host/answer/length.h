@@ -32,7 +32,8 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
 void check_unit(const char* option, const std::string& unit);
 
 /// The length in the files' unit: `file_unit`, or empty where nobody says which. Encloses it: in
-/// exact arithmetic it is from `within` to `beyond`, which are some ulps apart. Throws UsageError,
+/// exact arithmetic it is from `within` to `beyond`, which are 32 ulps apart. A share of a diagonal
+/// is of that of the coordinates as they are read, whatever their delta. Throws UsageError,
 /// naming `option`, where a length in millimetres meets files that are in nobody knows what.
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
                double diagonal_a);

@@ -49,6 +49,8 @@ std::string valid_utf8(const std::string& text) {
     if (is_whole && length == 3) {
       const unsigned second = byte(i + 1);  // overlong; surrogates
       is_whole = !(c == 0xe0 && second < 0xa0) && !(c == 0xed && second >= 0xa0);
+      // U+FFFE and U+FFFF, which XML has not.
+      is_whole = is_whole && !(c == 0xef && second == 0xbf && byte(i + 2) >= 0xbe);
     } else if (is_whole && length == 4) {
       const unsigned second = byte(i + 1);  // overlong; past U+10FFFF
       is_whole = !(c == 0xf0 && second < 0x90) && !(c == 0xf4 && second >= 0x90);
@@ -183,7 +185,7 @@ std::string github_summary(const Answer& answer) {
           code(answer.inputs[1].path) + " |\n";
   if (answer.max) text += "| max | " + code(answer.max->length.requested) + " |\n";
   const CertifiedInterval whole = interval_of(answer);
-  const double gap = whole.upper - whole.lower;
+  const double gap = gap_as_printed(answer, whole.lower, whole.upper);
   text += "| interval | " +
           code("[" + length_down(answer, whole.lower, gap) + ", " +
                length_up(answer, whole.upper, gap) + "]") +

@@ -30,8 +30,7 @@ std::string megabytes(uint64_t bytes) {
 
 // GCC 12 warns of an overlap in "literal" + temporary that is not there (its bug 105651), so
 // strings grow by append where it does.
-std::string bounds(double lower, double upper) {
-  const double gap = upper - lower;
+std::string bounds(double lower, double upper, double gap) {
   std::string text = "[";
   text += decimal(lower, digits_that_matter(lower, gap), Rounding::kDown);
   text += ", ";
@@ -99,8 +98,11 @@ std::string device_text(const DeviceDescription& d) {
 }
 
 std::string verified_text(const WitnessCheck& check) {
-  return "the witness is " + bounds(check.distance_lower, check.distance_upper) + " from " +
-         "the other mesh, by brute force: lower " + (check.holds ? "holds" : "DOES NOT HOLD");
+  return "the witness is " +
+         bounds(check.distance_lower, check.distance_upper,
+                check.distance_upper - check.distance_lower) +
+         " from " + "the other mesh, by brute force: lower " +
+         (check.holds ? "holds" : "DOES NOT HOLD");
 }
 
 std::string coverage_text(const CoverageCheck& c) {
@@ -184,7 +186,9 @@ void print_names(std::ostream& out, const char* label, const std::vector<std::st
 void print_summary(std::ostream& out, const Answer& answer) {
   const Report& r = answer.a_to_b;
   const CertifiedInterval whole = interval_of(answer);
-  row(out, "interval", bounds(whole.lower, whole.upper) + "  " + ending(whole.status));
+  row(out, "interval",
+      bounds(whole.lower, whole.upper, gap_as_printed(answer, whole.lower, whole.upper)) + "  " +
+          ending(whole.status));
   row(out, "width",
       decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " + unit_text(answer) +
           ", " + decimal(whole.gap, 3, Rounding::kUp) + " of diag(A)");
@@ -205,12 +209,17 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   out << in_words(answer) << '\n';
   print_summary(out, answer);
   if (verbose) print_names(out, "off", r.switched_off);
-  if (answer.b_to_a) row(out, "h(A,B)", bounds(r.lower, r.upper) + "  " + ending(r.status));
+  if (answer.b_to_a)
+    row(out, "h(A,B)",
+        bounds(r.lower, r.upper, gap_as_printed(answer, r.lower, r.upper)) + "  " +
+            ending(r.status));
   print_direction(out, r, "A", "B");
   if (verbose) print_details(out, r);
   if (answer.b_to_a) {
     const Report& back = *answer.b_to_a;
-    row(out, "h(B,A)", bounds(back.lower, back.upper) + "  " + ending(back.status));
+    row(out, "h(B,A)",
+        bounds(back.lower, back.upper, gap_as_printed(answer, back.lower, back.upper)) + "  " +
+            ending(back.status));
     print_direction(out, back, "B", "A");
     if (verbose) print_details(out, back);
   }

@@ -1,5 +1,6 @@
 // An answer's first line, and what its parts are called.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -58,7 +59,7 @@ std::string hint(const Answer& answer, Status status) {
 }
 
 std::string interval_text(const Answer& answer, const CertifiedInterval& interval) {
-  const double gap = interval.upper - interval.lower;
+  const double gap = gap_as_printed(answer, interval.lower, interval.upper);
   const auto printed = [&](double x, Rounding rounding) {
     return decimal(x, digits_that_matter(x, gap), rounding);
   };
@@ -78,8 +79,10 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const std::string from = back ? "B" : "A", to = back ? "A" : "B";
   const std::string where = r.has_witness ? point_text(r.witness_a) + " of " : "a point of ";
   std::string text = "FAIL  " + where + from + " is at least " + far + " from " + to;
-  if (faces) text += ", and its face's limit is " + length_up(answer, limit.beyond, margin);
-  return text;
+  if (!faces) return text;
+  std::array<char, 32> of_face{};
+  std::snprintf(of_face.data(), of_face.size(), "%.9g", limit.within);
+  return text + ", and its face's limit is " + with_unit(of_face.data(), answer);
 }
 
 std::string faces_in_words(const FaceLimits& faces) {
@@ -159,6 +162,16 @@ std::string length_down(const Answer& answer, double length, double gap) {
 }
 std::string length_up(const Answer& answer, double length, double gap) {
   return with_unit(decimal(length, digits_that_matter(length, gap), Rounding::kUp), answer);
+}
+
+double gap_as_printed(const Answer& answer, double lower, double upper) {
+  double gap = upper - lower;
+  if (!answer.max) return gap;
+  const Limit& limit = answer.max->limit;
+  for (const double off : {limit.within - upper, lower - limit.beyond}) {
+    if (off > 0) gap = std::min(gap, off);
+  }
+  return gap;
 }
 
 std::string printable(const std::string& text) {

@@ -62,18 +62,10 @@ ExitCode code_of(const Answer& answer) {
   return kExitNotClosed;
 }
 
-int run_pair(const CommandLine& line, const Stop& stop) {
-  Destinations destinations(
-      line.outputs, {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
+/// The answer, or, once outputs were told, what went wrong.
+Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
   try {
-    const Done done = run_job(line.job, stop);  // taken apart after the answer is out
-    const std::string not_written = destinations.write(done.answer);
-    check_printed();
-    check_verified(done.answer);
-    if (!not_written.empty()) return complain(not_written, kExitNotWritten);
-    return code_of(done.answer);
-  } catch (const OutputError&) {
-    throw;
+    return run_job(line.job, stop);
   } catch (const InputError& error) {
     destinations.write(failure_of(error.what(), kExitBadInput, line.job));
     throw;
@@ -84,6 +76,17 @@ int run_pair(const CommandLine& line, const Stop& stop) {
     destinations.write(failure_of(error.what(), kExitUsage, line.job));
     throw;
   }
+}
+
+int run_pair(const CommandLine& line, const Stop& stop) {
+  Destinations destinations(
+      line.outputs, {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
+  const Done done = answer_for(line, stop, destinations);  // taken apart after the answer is out
+  const std::string not_written = destinations.write(done.answer);
+  check_printed();
+  check_verified(done.answer);
+  if (!not_written.empty()) return complain(not_written, kExitNotWritten);
+  return code_of(done.answer);
 }
 
 int run_doctor(const std::string& device) {

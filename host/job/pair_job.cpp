@@ -59,6 +59,13 @@ std::vector<std::string> pair_notes(const PairJob& job, const MeshPair& pair) {
           (a_says ? a : b) + ", as " + (a_says ? "A" : "B") + " is"};
 }
 
+/// A verdict on lengths of which nobody knows what they are would be none.
+void check_units(const PairJob& job, const MeshPair& pair) {
+  const std::string &a = pair.a.unit, &b = pair.b.unit;
+  if (job.max && !a.empty() && !b.empty() && a != b)
+    throw UsageError("gate: A is in " + a + " and B in " + b + ": convert one of them");
+}
+
 /// A job in progress: what its threads share, and what is known of its answer at any time.
 class Progressing {
  public:
@@ -71,6 +78,9 @@ class Progressing {
     known_.inputs[1].path = job.file_b;
     known_.tolerance = job.tolerance;
     if (job.max) known_.max = Asked{*job.max, {}};
+    // Undecided until it is known better: an answer that is given before must not forget them.
+    if (!job.face_max_a.empty()) known_.max->faces_a = FaceLimits{.path = job.face_max_a};
+    if (!job.face_max_b.empty()) known_.max->faces_b = FaceLimits{.path = job.face_max_b};
     known_.a_to_b.upper = std::numeric_limits<double>::infinity();
     if (job.symmetric) known_.b_to_a = known_.a_to_b;
   }
@@ -78,12 +88,14 @@ class Progressing {
   const PairJob job;
   const Stop stop;
   ProgressLine line;
+  const Reading reading{line, stop};
 
   /// The meshes are there: so are units, and a first bound.
   void read(const MeshPair& pair, double ms) {
     const Box a = bounding_box(pair.a);
     const double farthest =
         farthest_in(join(a, bounding_box(pair.b)), add_up(pair.a.delta, pair.b.delta));
+    check_units(job, pair);
     const std::lock_guard lock(mutex_);
     known_.inputs = {input_of(pair.a), input_of(pair.b)};
     known_.unit = unit_of(job, pair);
@@ -95,6 +107,8 @@ class Progressing {
       r->tolerance = in_files(job.tolerance, "--tol", known_.unit, r->diagonal_a).within;
     }
     if (job.max) known_.max->limit = in_files(*job.max, "--max", known_.unit, diagonal(a));
+    if (!job.face_max_a.empty()) known_.max->faces_a->faces = pair.a.faces.size();
+    if (!job.face_max_b.empty()) known_.max->faces_b->faces = pair.b.faces.size();
     farthest_ = farthest;
   }
   void open(const DeviceDescription& device, double ms) {
@@ -105,6 +119,8 @@ class Progressing {
   void advance(const Progress& progress) {
     line.show(progress);
     const std::lock_guard lock(mutex_);
+    // Of a part of A's faces, which says nothing of the others.
+    if (known_.max && (known_.max->faces_a || known_.max->faces_b)) return;
     Report& r = progress.back && known_.b_to_a ? *known_.b_to_a : known_.a_to_b;
     r.lower = progress.lower;
     r.upper = std::min(progress.upper, farthest_);
@@ -168,6 +184,10 @@ struct Side {
 
 Report gate(const Side& side, const SolveOptions& options, Solver& solver, const Answer& answer) {
   if (side.file.empty()) return solver.distance(side.from, side.to, options);
+  if (side.from.counts.polygons > 0) {  // its rows would be those of other faces than the file's
+    throw UsageError("--face-max: " + side.from.name +
+                     " has polygons, which were fanned: limits are for files of triangles");
+  }
   const std::vector<Limit> limits = read_face_limits(
       side.file, side.from.faces.size(), answer.max->limit, answer.unit, answer.a_to_b.diagonal_a);
   FaceGate found = gate_faces(solver, side.from, side.to, limits, options);
@@ -212,8 +232,10 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
   }
   add_memory_notes(options.memory_bytes, answer);
   if (!at.job.verify) return;
-  answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
-  if (answer.b_to_a) answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
+  if (answer.a_to_b.has_witness)
+    answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
+  if (answer.b_to_a && answer.b_to_a->has_witness)
+    answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
 }
 
 /// Of both files, beside all that is done with them; waited for where it is wanted.
@@ -243,9 +265,10 @@ Done work(const std::shared_ptr<Progressing>& shared) {
     return open_session(selector, options, cache);
   });
   const auto start = Clock::now();
+  const std::shared_ptr<const Reading> reading(shared, &at.reading);  // keeps all of it
   Done done;
-  done.pair = job.file_a.empty() ? default_pair()
-                                 : read_pair(job.file_a, job.file_b, job.limits, at.line, at.stop);
+  done.pair =
+      job.file_a.empty() ? default_pair() : read_pair(job.file_a, job.file_b, job.limits, reading);
   at.read(done.pair, ms_since(start));
   done.session = opening.get();
   at.open(done.session.device->description(), done.session.setup_ms);

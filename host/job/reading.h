@@ -1,6 +1,7 @@
 // Both files of a pair, read at the same time.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "host/demo/default_pair.h"
@@ -10,10 +11,16 @@
 
 namespace vkh {
 
+/// How far reading is, and whether it is to go on. Threads that read keep it.
+struct Reading {
+  ProgressLine& line;
+  const Stop& stop;
+};
+
 /// Throws what read_mesh throws, of A before B. Shows how far it is, and ends with Interrupted when
-/// it is to stop. After a bad A nobody waits for B, whose threads still look at `line` and `stop`:
-/// the program must end by end_process.
+/// it is to stop. After a bad A nobody waits for B, whose threads go on and keep `reading`: the
+/// program must end by end_process.
 MeshPair read_pair(const std::string& file_a, const std::string& file_b, ReadLimits limits,
-                   ProgressLine& line, const Stop& stop);
+                   const std::shared_ptr<const Reading>& reading);
 
 }  // namespace vkh

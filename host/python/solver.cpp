@@ -63,7 +63,7 @@ void read_tolerance(const Arguments& given, SolveOptions& options) {
 /// The limit of gate(): one for all, or of each face.
 struct Asked {
   Limit limit;
-  std::vector<Limit> of_faces;
+  std::optional<std::vector<Limit>> of_faces;
 };
 
 /// In A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for A's faces.
@@ -75,7 +75,7 @@ Asked read_max(const Arguments& given, const Mesh& a) {
   const py::object& max = given.at("max");
   if (py::isinstance<py::str>(max)) {
     const Length length = length_of(given, "max", kExpected, PlainNumber::kRefused);
-    return {in_files(length, "max", "", diagonal(bounding_box(a))), {}};
+    return {in_files(length, "max", "", diagonal(bounding_box(a))), std::nullopt};
   }
   const auto array = py::array::ensure(max);
   if (array && array.ndim() == 1) {
@@ -83,15 +83,15 @@ Asked read_max(const Arguments& given, const Mesh& a) {
         py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max);
     if (!numbers) PyErr_Clear();
     if (!numbers) refuse_type("max", kExpected, max);
-    Asked asked;
+    std::vector<Limit> of_faces;
     for (py::ssize_t i = 0; i < numbers.shape(0); ++i)
-      asked.of_faces.push_back({numbers.at(i), numbers.at(i)});
-    return asked;
+      of_faces.push_back({numbers.at(i), numbers.at(i)});
+    return {{}, std::move(of_faces)};
   }
   const std::optional<double> value = given.number("max", kExpected);
   if (!value) refuse_type("max", kExpected, max);
   if (!(*value > 0) || std::isinf(*value)) refuse_value("max", kExpected, max);
-  return {{*value, *value}, {}};
+  return {{*value, *value}, std::nullopt};
 }
 
 void read_memory(const Arguments& given, SolveOptions& options) {
@@ -212,12 +212,12 @@ Answer gate(const py::args& positional, const py::kwargs& named) {
   const Asked asked = read_max(arguments, given.a);
   if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
   given.options.limit = asked.limit;
-  if (asked.of_faces.empty()) return solve(given);
+  if (!asked.of_faces) return solve(given);
   if (given.is_symmetric)
     throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
   FaceGate found;
   session_for(given.device).use([&](Solver& s) {
-    found = gate_faces(s, given.a, given.b, asked.of_faces, given.options);
+    found = gate_faces(s, given.a, given.b, *asked.of_faces, given.options);
   });
   return answered(found);
 }

@@ -56,7 +56,7 @@ struct SolveOptions {
   double known_lower = 0;
   /// Whether the distance is within it is all that is asked: candidates within it are closed, and
   /// the run ends as soon as either is proven, as Status::kLimit (verdict_of). Neither is where the
-  /// distance is within the tolerance of it.
+  /// distance is within the tolerance of it, which is used where a coarser one does not decide.
   Limit limit = {};
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "host/base/error.h"
@@ -114,6 +115,7 @@ class Search {
       r.upper = farthest_in(join(box, bounding_box(b_.mesh())), add_up(a_.delta, b_.mesh().delta));
       r.status = is_cancelled_ ? Status::kCancelled : Status::kTime;
     }
+    if (!is_decided && !is_open && open_status_) r.status = *open_status_;
     if (is_decided) r.status = Status::kLimit;
     r.diagonal_a = diagonal(box);
     r.mesh_a = a_.counts;
@@ -145,6 +147,7 @@ class Search {
     ++out_.runs;
     r.witness_a.face = group[std::min<uint64_t>(r.witness_a.face, group.size() - 1)];
     const double lower = r.lower, upper = r.upper;
+    const Status status = r.status;
     const bool is_beyond = r.has_witness && lower > limits_[r.witness_a.face].beyond;
     add(std::move(r), is_beyond);
     if (is_beyond) return;
@@ -157,14 +160,15 @@ class Search {
     if (is_split && least(group).within < most(group).within) {
       open_.push_back(std::move(group));
     } else {
-      halve(std::move(group), is_split);
+      halve(std::move(group), is_split, status);
     }
   }
 
   /// By limits. Faces of one limit that were asked about alone stay undecided.
-  void halve(Faces group, bool is_smaller) {
+  void halve(Faces group, bool is_smaller, Status status) {
     if (least(group).within == most(group).within) {
       if (is_smaller) open_.push_back(std::move(group));
+      if (!is_smaller) open_status_ = status;
       return;
     }
     const double middle = limits_[group[group.size() / 2]].within;
@@ -211,7 +215,8 @@ class Search {
   Clock::time_point start_;
   PreparedMesh b_;
   bool is_cancelled_ = false;
-  std::vector<Faces> open_;  ///< the next one last
+  std::optional<Status> open_status_;  ///< of faces that stay undecided
+  std::vector<Faces> open_;            ///< the next one last
   FaceGate out_;
 };
 

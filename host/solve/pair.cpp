@@ -84,4 +84,77 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switc
           .advanced = {}};
 }
 
+namespace {
+
+constexpr double kCoarse = 1e-6;  // of A's diagonal: what plain floats have
+
+SolveOptions coarser(const std::vector<Pair>& pairs, const SolveOptions& options) {
+  double unit = 1;
+  if (options.tolerance_is_absolute) {
+    unit = diagonal(pairs.front().box_a);
+    for (const Pair& pair : pairs) unit = std::min(unit, diagonal(pair.box_a));
+  }
+  SolveOptions coarse = options;
+  coarse.tolerance = std::max(options.tolerance, kCoarse * unit);
+  return coarse;
+}
+
+// Whether a finer run may decide what this one has not.
+bool asks_for_more(const Report& r) {
+  return !is_decided(r.lower, r.upper, r.limit) &&
+         (r.status == Status::kClosed || r.status == Status::kPrecision);
+}
+
+// Both intervals are true; the work is that of both.
+Report joined(const Report& coarse, Report r) {
+  if (coarse.lower > r.lower && coarse.has_witness) {
+    r.lower = coarse.lower;
+    r.witness_a = coarse.witness_a;
+    r.witness_b = coarse.witness_b;
+    r.has_witness = true;
+  }
+  r.upper = std::min(r.upper, coarse.upper);
+  r.waves += coarse.waves;
+  r.candidates += coarse.candidates;
+  r.queries += coarse.queries;
+  r.peak_frontier = std::max(r.peak_frontier, coarse.peak_frontier);
+  r.times.upload_ms += coarse.times.upload_ms;
+  r.times.hierarchy_ms += coarse.times.hierarchy_ms;
+  r.times.solve_ms += coarse.times.solve_ms;
+  return r;
+}
+
+}  // namespace
+
+std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOptions& options,
+                                  const Solve& solve) {
+  if (pairs.empty()) return {};
+  const SolveOptions coarse = coarser(pairs, options);
+  std::vector<Report> reports = solve(pairs, coarse);
+  if (!(coarse.tolerance > options.tolerance)) return reports;
+  std::vector<Pair> open;
+  std::vector<size_t> numbers;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    reports[i].tolerance = options.tolerance_is_absolute
+                               ? options.tolerance
+                               : multiply_down(options.tolerance, reports[i].diagonal_a);
+    Report& r = reports[i];
+    if (r.status == Status::kClosed && !is_within(r.lower, r.upper, r.tolerance))
+      r.status = is_decided(r.lower, r.upper, r.limit) ? Status::kLimit : Status::kPrecision;
+    if (!asks_for_more(r)) continue;
+    open.push_back(pairs[i]);
+    numbers.push_back(i);
+  }
+  if (open.empty()) return reports;
+  SolveOptions fine = options;
+  fine.progress = [&](Progress progress) {
+    progress.pair = numbers[progress.pair];
+    return !options.progress || options.progress(progress);
+  };
+  std::vector<Report> again = solve(open, fine);
+  for (size_t i = 0; i < open.size(); ++i)
+    reports[numbers[i]] = joined(reports[numbers[i]], std::move(again[i]));
+  return reports;
+}
+
 }  // namespace vkh

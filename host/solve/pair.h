@@ -1,9 +1,13 @@
 // A pair of meshes in its frame, and what the device is asked about it.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "host/run/frame.h"
 #include "host/run/seat.h"
 #include "host/run/solve_options.h"
+#include "host/solve/report.h"
 
 namespace vkh {
 
@@ -29,5 +33,13 @@ FileInterval to_files(const VkhReport& report, const Pair& pair);
 /// `tolerance`: in the files' units. Budgets by the clock and what listens are not in it.
 RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
                    double tolerance);
+
+using Solve = std::function<std::vector<Report>(const std::vector<Pair>&, const SolveOptions&)>;
+
+/// Asks about options.limit: of all pairs in plain floats first, where the tolerance is finer than
+/// these have, since they decide nearly every limit two to three times sooner; then of those that
+/// this left undecided.
+std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOptions& options,
+                                  const Solve& solve);
 
 }  // namespace vkh

@@ -50,6 +50,10 @@ Verdict verdict_of(double lower, double upper, const Limit& limit) {
   return lower > limit.beyond ? Verdict::kBeyond : Verdict::kUndecided;
 }
 
+bool is_decided(double lower, double upper, const Limit& limit) {
+  return limit.within > 0 && verdict_of(lower, upper, limit) != Verdict::kUndecided;
+}
+
 double gap_of(double lower, double upper, double diagonal_a) {
   const FloatEnvironment ours;
   const double width = width_up(lower, upper);

@@ -119,6 +119,8 @@ struct Report {
 
 /// By the interval alone, whatever ended the run.
 Verdict verdict_of(double lower, double upper, const Limit& limit);
+/// Whether a limit was asked about, and there is an answer.
+bool is_decided(double lower, double upper, const Limit& limit);
 
 /// (upper - lower) / diagonal_a, or the width itself where that is 0; rounded up.
 double gap_of(double lower, double upper, double diagonal_a);

@@ -38,11 +38,6 @@ bool is_surely_zero(const VkhReport& r, const Pair& pair) {
   }
 }
 
-// Whether a limit was asked about, and there is an answer.
-bool is_decided(double lower, double upper, const Limit& limit) {
-  return limit.within > 0 && verdict_of(lower, upper, limit) != Verdict::kUndecided;
-}
-
 Status status_of(const VkhReport& r, const Report& out, Status ended) {
   if (is_within(out.lower, out.upper, out.tolerance)) return Status::kClosed;
   if (out.known_lower > 0 && is_within(out.known_lower, out.upper, out.tolerance))
@@ -59,6 +54,8 @@ struct Solver::Impl {
   std::vector<Report> distances(std::span<const PairView> meshes, const SolveOptions& options);
   std::vector<Report> solve(const std::vector<Pair>& pairs, const SolveOptions& options,
                             Clock::time_point start);
+  std::vector<Report> solve_once(const std::vector<Pair>& pairs, const SolveOptions& options,
+                                 Clock::time_point start);
   Device& device;
   Runner runner;
 };
@@ -176,6 +173,14 @@ SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
 
 std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const SolveOptions& options,
                                         Clock::time_point start) {
+  const auto once = [&](const std::vector<Pair>& some, const SolveOptions& of_them) {
+    return solve_once(some, of_them, start);
+  };
+  return options.limit.within > 0 ? decide_limits(pairs, options, once) : once(pairs, options);
+}
+
+std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
+                                             const SolveOptions& options, Clock::time_point start) {
   const uint32_t switches = switches_of(options, device);
   std::vector<Watch> watches;
   std::vector<RunInput> inputs;

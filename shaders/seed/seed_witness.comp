@@ -64,6 +64,7 @@ void plan_first_wave() {
   control.root_cursor = roots;
   control.wave = begins ? 1u : 0u;
   write_child_sizes(roots, !ends);
+  if (ends) write_refine_sizes(0u, 0u, 0u);  // no plan follows that would: its waves are empty
 }
 
 void main() {

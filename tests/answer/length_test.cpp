@@ -20,7 +20,7 @@ Length parsed(const char* text, PlainNumber plain = PlainNumber::kFraction) {
 void check_near(const Limit& limit, double exact) {
   CHECK(limit.within <= exact);
   CHECK(exact <= limit.beyond);
-  CHECK(limit.beyond - limit.within <= 8 * 0x1p-52 * exact);
+  CHECK(limit.beyond - limit.within <= 40 * 0x1p-52 * exact);
 }
 
 TEST_CASE("each spelling is what it says") {

@@ -146,6 +146,35 @@ TEST_CASE("--face-max: each face its own limit") {
   CHECK(gate("0.3abs", {"--face-max-b", "back.csv"}).exit_code == 2);
 }
 
+TEST_CASE("an answer that is given early forgets no limit, and verifies no witness that is not") {
+  const Words narrow = {"--face-max", write_file("narrow.csv", "0,0.01\n1,0.01\n")};
+  for (const char* time : {"1ms", "40ms", "100ms", "200ms"}) {
+    CAPTURE(time);
+    const int code = gate("10abs", narrow + Words{"--time", time, "--no-cache"}).exit_code;
+    CHECK((code == 3 || code == 1));
+  }
+  const Outcome none =
+      run({"distance", square_a(), square_b(), "--waves", "0", "--verify", "--json"});
+  CHECK((none.exit_code == 0 || none.exit_code == 3));
+  CHECK(json::accept(none.out));
+}
+
+TEST_CASE("limits of faces are for files of triangles") {
+  const std::string quads =
+      write_file("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const Words more = {"--max", "1abs", "--face-max", write_file("q.csv", "0,1\n")};
+  const Outcome outcome = run(Words{"gate", quads, square_b()} + more);
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.err.find("has polygons") != std::string::npos);
+}
+
+TEST_CASE("no printed end of an interval is on the other side of the limit") {
+  const Outcome outcome = gate("0.2499999abs");
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find("[0.2499,") == std::string::npos);
+  CHECK(outcome.out.find(" is at least 0.2499999") != std::string::npos);
+}
+
 TEST_CASE("too little memory is said") {
   const auto notes = [](const char* memory) {
     return json::parse(gate("0.3abs", {"--json", "--memory", memory}).out)["notes"];

@@ -59,6 +59,8 @@ class Gates(unittest.TestCase):
         self.assertEqual(vkh.gate(A, B, (0.3, 0.25)).stats["faces_within"], 1)
         with self.assertRaisesRegex(ValueError, "a limit for each of 2 faces, not 3"):
             vkh.gate(A, B, [0.3] * 3)
+        with self.assertRaisesRegex(ValueError, "a limit for each of 2 faces, not 0"):
+            vkh.gate(A, B, [])
         with self.assertRaisesRegex(ValueError, "the limit of face 1 must be positive"):
             vkh.gate(A, B, [0.3, 0])
         with self.assertRaisesRegex(ValueError, "each direction apart"):
