@@ -120,18 +120,6 @@ void add_status(JsonObject& json, Status status) {
   json.add("stop_reason", stop_reason(status));
 }
 
-const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kWithin:
-      return "pass";
-    case Verdict::kBeyond:
-      return "fail";
-    case Verdict::kUndecided:
-      break;
-  }
-  return "undecided";
-}
-
 Json diagonal_of(const Length& length) {
   return length.of == Length::Of::kDiagonal ? Json("a") : Json();
 }
@@ -141,7 +129,7 @@ Json faces_json(const FaceLimits& faces) {
           {"faces", faces.faces},
           {"within", faces.within},
           {"runs", faces.runs},
-          {"verdict", name_of(faces.verdict)}};
+          {"verdict", verdict_name(faces.verdict)}};
 }
 
 std::string max_json(const Answer& answer) {
@@ -227,7 +215,7 @@ std::string to_json(const Answer& answer) {
   json.add("words", in_words(answer));
   add_status(json, whole.status);
   if (answer.max) {
-    json.add("verdict", name_of(verdict_of(answer)));
+    json.add("verdict", verdict_name(verdict_of(answer)));
     json.add_text("max", max_json(answer));
   }
   json.add_text("interval", interval_json(whole.lower, whole.upper, whole.gap, answer.unit));

@@ -74,8 +74,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const Limit& limit = faces ? faces->limit : answer.max->limit;
   // Never down to the limit itself.
   const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
-  const std::string far =
-      with_unit(decimal(r.lower, digits_that_matter(r.lower, margin), Rounding::kDown), answer);
+  const std::string far = length_down(answer, r.lower, margin);
   const std::string from = back ? "B" : "A", to = back ? "A" : "B";
   const std::string where = r.has_witness ? point_text(r.witness_a) + " of " : "a point of ";
   std::string text = "FAIL  " + where + from + " is at least " + far + " from " + to;

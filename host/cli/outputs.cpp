@@ -1,6 +1,5 @@
 #include "host/cli/outputs.h"
 
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>

@@ -1,7 +1,6 @@
 // Where an answer goes: standard output, and files that were asked for.
 #pragma once
 
-#include <exception>
 #include <optional>
 #include <string>
 #include <vector>

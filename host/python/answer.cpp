@@ -60,18 +60,7 @@ Answer answer_of(const FaceGate& gate) {
   return answer;
 }
 
-const char* Answer::verdict_name() const {
-  if (!verdict) return nullptr;
-  switch (*verdict) {
-    case Verdict::kWithin:
-      return "pass";
-    case Verdict::kBeyond:
-      return "fail";
-    case Verdict::kUndecided:
-      break;
-  }
-  return "undecided";
-}
+const char* Answer::verdict_name() const { return verdict ? vkh::verdict_name(*verdict) : nullptr; }
 
 Answer answer_of(const SymmetricReport& both) {
   const CertifiedInterval whole = both.interval();

@@ -37,8 +37,8 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switc
 using Solve = std::function<std::vector<Report>(const std::vector<Pair>&, const SolveOptions&)>;
 
 /// Asks about options.limit: of all pairs in plain floats first, where the tolerance is finer than
-/// these have, since they decide nearly every limit two to three times sooner; then of those that
-/// this left undecided.
+/// these have, since they decide nearly every limit, and sooner; then of those that this left
+/// undecided.
 std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOptions& options,
                                   const Solve& solve);
 

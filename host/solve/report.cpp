@@ -45,6 +45,18 @@ const char* status_name(Status status) {
   return "unknown";
 }
 
+const char* verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kWithin:
+      return "pass";
+    case Verdict::kBeyond:
+      return "fail";
+    case Verdict::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
 Verdict verdict_of(double lower, double upper, const Limit& limit) {
   if (upper <= limit.within) return Verdict::kWithin;
   return lower > limit.beyond ? Verdict::kBeyond : Verdict::kUndecided;

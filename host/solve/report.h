@@ -32,6 +32,7 @@ const char* status_name(Status status);  ///< "closed", "precision", "time", "wa
 
 /// Whether a distance is within a limit; each but the last is proven.
 enum class Verdict { kWithin, kBeyond, kUndecided };
+const char* verdict_name(Verdict verdict);  ///< "pass", "fail", "undecided"
 
 /// A point on a face, in the files' own coordinates.
 struct SurfacePoint {
