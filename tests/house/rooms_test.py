@@ -17,9 +17,9 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "doctor"],
-    "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "answer", "check",
-             "demo", "job", "cli"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "answer", "pairs",
+    "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "field",
+             "answer", "check", "demo", "draw", "page", "job", "cli"],
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "answer", "draw", "page", "pairs",
               "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)

@@ -1,0 +1,52 @@
+// What is known of d(x, B) over all of A: by faces, and in figures of the whole surface.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/solve/report.h"
+
+namespace vkh {
+
+/// A true statement: what it stands for lies in [lower, upper]. `upper` may be infinite.
+struct Enclosure {
+  double lower = 0, upper = 0;
+};
+
+/// Of each face of A, by its number in the mesh: the largest d(x, B) over the face lies in
+/// [lower, upper], in the files' units, rounded outward.
+struct Field {
+  std::vector<double> lower, upper;
+
+  size_t face_count() const { return lower.size(); }
+  Enclosure of(size_t face) const { return {lower[face], upper[face]}; }
+};
+
+/// Of one face: within the limit if upper is, beyond it if lower is; each is proven.
+inline Verdict verdict_of(const Field& field, size_t face, const Limit& limit) {
+  return verdict_of(field.lower[face], field.upper[face], limit);
+}
+
+/// The share of A's area, in [0, 1], that is within `distance` of B.
+struct AreaWithin {
+  double distance = 0;  ///< in the files' units
+  Enclosure share;
+};
+
+/// The least distance that `share` of A's area is within.
+struct Percentile {
+  double share = 0;  ///< in [0, 1]: 0.5 is the median
+  Enclosure distance;
+};
+
+/// Each is weighted by area, and certified. Lengths are in the files' units.
+struct Statistics {
+  double area = 0;      ///< of A, rounded to nearest
+  Enclosure mean, rms;  ///< of d(x, B) over A
+  std::vector<AreaWithin> bands;
+  std::vector<Percentile> percentiles;
+  /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.
+  std::vector<AreaWithin> curve;
+};
+
+}  // namespace vkh
