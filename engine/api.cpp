@@ -28,6 +28,12 @@ VKH_SWITCHES(VKH_SAME_SWITCH)
 VKH_STATUSES(VKH_SAME_STATUS)
 #undef VKH_SAME_STATUS
 static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
+static_assert(VKH_SWITCH_FIELD == gpu::kUseField);
+static_assert(sizeof(VkhCell) == sizeof(gpu::Cell));
+static_assert(offsetof(VkhCell, start) == offsetof(gpu::Cell, start));
+static_assert(sizeof(VkhCellBounds) == sizeof(gpu::CellBounds));
+static_assert(offsetof(VkhCellBounds, squareUpper) == offsetof(gpu::CellBounds, square_upper));
+static_assert(offsetof(VkhCellBounds, start) == offsetof(gpu::CellBounds, triangle));
 static_assert(VKH_SWITCH_UNCERTIFIED == gpu::kUseUncertified);
 static_assert(VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords && VKH_MAX_CULLS == gpu::kMostCulls);
 static_assert(gpu::kCullCount <= gpu::kMostCulls);
@@ -293,6 +299,18 @@ void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const 
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_report(rec, vkh::view_problem(*context, *problem), vkh::report_at(buffer, offset));
+}
+
+void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                      const VkhCells* cells, VkhProfile* profile) {
+  vkh::check_cells(*context, *problem, *cells);
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_cells(
+      rec, vkh::view_problem(*context, *problem),
+      {.cells = {cells->cellBuffer, cells->cellOffset, cells->count * sizeof(VkhCell)},
+       .bounds = {cells->boundsBuffer, cells->boundsOffset, cells->count * sizeof(VkhCellBounds)},
+       .first = cells->first,
+       .count = cells->count});
 }
 
 void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,

@@ -121,6 +121,18 @@ void check_report(VkBuffer buffer, VkDeviceSize offset) {
   VKH_RULE("vkhCmdWriteReport: an offset that is a multiple of 256 bytes", offset % 256 == 0);
 }
 
+void check_cells(const VkhContext_T& context, const VkhProblem& p, const VkhCells& cells) {
+  VKH_RULE("vkhCmdBoundCells: a context of VKH_SWITCH_FIELD",
+           gpu::bounds_cells(context.limits.switches, context.limits.wide));
+  VKH_RULE("VkhCells::count: at least 1", cells.count >= 1);
+  VKH_RULE("VkhCells::count: no more than A has faces",
+           cells.cellBuffer != VK_NULL_HANDLE ||
+               (cells.first < p.a.faceCount && cells.count <= p.a.faceCount - cells.first));
+  VKH_RULE("VkhCells::boundsBuffer: not null", cells.boundsBuffer != VK_NULL_HANDLE);
+  VKH_RULE("VkhCells::cellOffset, boundsOffset: multiples of 256 bytes",
+           cells.cellOffset % 256 == 0 && cells.boundsOffset % 256 == 0);
+}
+
 void check_profile(const VkhProfile* profile) {
   if (profile == nullptr) return;
   VKH_RULE("VkhProfile::names: not null", profile->names != nullptr);

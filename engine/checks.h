@@ -12,6 +12,7 @@ inline void check_begin(const VkhProblem&) {}
 inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
 inline void check_move(const VkhProblem&, const VkhMemory&) {}
 inline void check_report(VkBuffer, VkDeviceSize) {}
+inline void check_cells(const VkhContext_T&, const VkhProblem&, const VkhCells&) {}
 inline void check_profile(const VkhProfile*) {}
 #else
 // `scratch`: of a build; null of a refit, whose hierarchy has been built.
@@ -23,6 +24,7 @@ void check_problem(const VkhContext_T& context, const VkhProblem& problem);
 // Into `to`.
 void check_move(const VkhProblem& problem, const VkhMemory& to);
 void check_report(VkBuffer buffer, VkDeviceSize offset);
+void check_cells(const VkhContext_T& context, const VkhProblem& problem, const VkhCells& cells);
 void check_profile(const VkhProfile* profile);
 #endif
 

@@ -156,6 +156,7 @@ Lines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
 #undef VKH_SEE_ALONE
   see(kIndexOfWaveSort, gpu::sorts_frontier(switches, wide));
   see(kIndexOfReportOpen, gpu::covers_area(switches, wide));
+  see(kIndexOfCellBounds, gpu::bounds_cells(switches, wide));
   return lines;
 }
 

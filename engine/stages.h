@@ -86,6 +86,13 @@ void record_wave(Recorder& rec, const Problem& p);
 void record_order(Recorder& rec, const RunBuffers& run);
 // The run goes on in another workspace, or in its own; to.pauses holds from now on.
 void record_move(Recorder& rec, const Problem& from, const Problem& to);
+// Cells of A to be bounded: `count` of `cells`, or, without a buffer, faces from `first` on.
+struct AskedCells {
+  Slice<gpu::Cell> cells;
+  Slice<gpu::CellBounds> bounds;
+  uint32_t first = 0, count = 0;
+};
+void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

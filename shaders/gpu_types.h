@@ -94,6 +94,8 @@ VKH_SWITCHES(VKH_SWITCH)
 // which NOTHING IS CERTIFIED.
 VKH_CONST uint kUseCoverage = 1u << 7;
 VKH_CONST uint kUseUncertified = 1u << 10;
+// Cells can be bounded after the run (field/cell_bounds.comp).
+VKH_CONST uint kUseField = 1u << 17;
 
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
 VKH_CONST uint kUseBesides = kUseU4 | kUsePaperU3;       // either brings in paper_bound
@@ -191,6 +193,9 @@ VKH_CONST uint kMaxOffers =
     64u;  // samples of a wave that may become the witness (wave/witness.glsl)
 
 VKH_CONST uint kMaxWaveRecords = 64u;
+
+// cell_bounds: triangles of B that are looked at for one cell before boxes stand for the rest.
+VKH_CONST uint kCellTriangles = 128u;
 
 // What seed_faces says of a vertex of A: 0 where no face uses it.
 VKH_CONST uint kVertexUsed = 1u;
@@ -383,6 +388,27 @@ struct Report {
   WaveRecord waves[64];
 };
 
+// A sub-triangle of a face of A that is asked about, in words.
+struct Cell {
+  uvec4 corners;  // as Candidate::corners
+  uint face;      // of A
+  uint start;     // a triangle of B to start from, as CellBounds has it; kNone
+};
+
+// d(x, B) over a cell, each bound certified.
+struct CellBounds {
+  // Affine functions by their values at its corners: that of the former is not above d(x, B), that
+  // of the latter not below it. The former may be negative.
+  float lower_a, lower_b, lower_c;
+  float upper_a, upper_b, upper_c;
+  float highest;       // >= d(x, B) for every x of it
+  float reached;       // some x of it is at least so far
+  float mean_upper;    // >= the mean
+  float square_upper;  // >= the mean of the square
+  uint face;           // of B, as given: near the cell's middle
+  uint triangle;       // the same in the hierarchy's order
+};
+
 // A part of a face of A as a 64-bit integer: 2^40 is the whole.
 struct Area {
   uint lo, hi;
@@ -480,6 +506,15 @@ struct SortPush {
 
 // seed_faces
 struct FacesPush {
+  uint face_count;      // of A
+  uint triangle_count;  // of B
+};
+
+// cell_bounds
+struct CellPush {
+  uint count;           // of cells
+  uint given;           // 0: they are faces of A
+  uint first;           // the first of these
   uint face_count;      // of A
   uint triangle_count;  // of B
 };

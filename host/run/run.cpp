@@ -249,6 +249,16 @@ double Runner::submit(const Round& round, std::vector<RunOutput>& outputs) {
   return now_ms() - submitted;
 }
 
+void Runner::bound_cells(Seat& seat, const CellBatch& batch) {
+  if (batch.bounds.empty()) return;
+  const VkhCells cells = seat.take_cells(batch);
+  const VkCommandBuffer commands = begin();
+  vkhCmdBoundCells(context_, commands, &seat.problem(), &cells, nullptr);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+  submit_and_wait(commands);
+  seat.read_bounds(batch);
+}
+
 std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   std::vector<RunOutput> outputs(inputs.size());
   if (inputs.empty()) return outputs;
@@ -292,6 +302,10 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
     round.uploads = round.builds = round.begins = false;
     std::erase_if(round.running, is_over);
     for (const size_t i : round.running) seats_[i]->make_room(context_, outputs[i]);
+  }
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].survey)
+      inputs[i].survey([&](const CellBatch& batch) { bound_cells(*seats_[i], batch); });
   }
   return outputs;
 }

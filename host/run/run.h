@@ -40,6 +40,7 @@ class Runner {
   VkCommandBuffer record(const Round& round, const std::vector<RunOutput>& outputs);
   double submit(const Round& round, std::vector<RunOutput>& outputs);
   void submit_and_wait(VkCommandBuffer commands);
+  void bound_cells(Seat& seat, const CellBatch& batch);
   void read_stages(const Round& round, std::vector<RunOutput>& outputs);
 
   const Device& device_;

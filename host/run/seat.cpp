@@ -324,4 +324,25 @@ void Seat::read(RunOutput& out) const {
     std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
 }
 
+// The host writes the former and reads the latter, once: they need not be the device's own.
+VkhCells Seat::take_cells(const CellBatch& batch) {
+  const auto count = static_cast<uint32_t>(batch.bounds.size());
+  const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  grow(bounds_, device_, roomy(batch.bounds.size_bytes()), usage, Placement::kReadback);
+  if (!batch.cells.empty()) {
+    grow(cells_, device_, roomy(batch.cells.size_bytes()), usage, Placement::kUpload);
+    std::memcpy(cells_.mapped(), batch.cells.data(), batch.cells.size_bytes());
+  }
+  return {.cellBuffer = batch.cells.empty() ? VK_NULL_HANDLE : cells_.handle(),
+          .cellOffset = 0,
+          .first = batch.first,
+          .count = count,
+          .boundsBuffer = bounds_.handle(),
+          .boundsOffset = 0};
+}
+
+void Seat::read_bounds(const CellBatch& batch) const {
+  std::memcpy(batch.bounds.data(), bounds_.mapped(), batch.bounds.size_bytes());
+}
+
 }  // namespace vkh

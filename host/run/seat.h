@@ -8,6 +8,7 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/gpu/memory.h"
+#include "host/run/cells.h"
 #include "host/run/frame.h"
 
 namespace vkh {
@@ -62,6 +63,8 @@ struct RunInput {
   bool two_float = false;
   bool stage_times = true;  ///< false: "hierarchy" and "solve" in their place
   bool coverage = false;    ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
+  /// Called at the end, with what bounds cells; `switches` has VKH_SWITCH_FIELD too.
+  std::function<void(const BoundCells&)> survey;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
 };
@@ -107,6 +110,10 @@ class Seat {
   void record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile);
   /// Copies the report, and the areas if there are any, back; barriers around it are the caller's.
   void record_readback(VkCommandBuffer commands, const RunOutput& output) const;
+  /// Has room for a batch, and copies its cells there. What they are bounded with is read with
+  /// read_bounds() after the submission.
+  VkhCells take_cells(const CellBatch& batch);
+  void read_bounds(const CellBatch& batch) const;
   /// What the last submission left.
   void read(RunOutput& output) const;
 
@@ -127,6 +134,7 @@ class Seat {
   const Device& device_;
   HierarchyMemory hierarchy_;
   Buffer staging_, meshes_, workspace_, report_, readback_, areas_, areas_readback_;
+  Buffer cells_, bounds_;          // of a survey
   Buffer building_;                // scratch, where it is not the workspace
   Buffer larger_, left_;           // where a run that paused went on, and before that
   std::optional<VkhMemory> next_;  // where it goes on now

@@ -27,6 +27,13 @@ struct Limit {
   double within = 0, beyond = 0;
 };
 
+struct SurveyedPair;  // host/run/cells.h
+struct CellBatch;
+/// Bounds cells of A; blocks until it is done.
+using BoundCells = std::function<void(const CellBatch&)>;
+/// Called once, on the thread that runs, while the pair still lies on the device.
+using Survey = std::function<void(const SurveyedPair&, const BoundCells&)>;
+
 struct SolveOptions {
   double tolerance = 1e-6;  ///< fraction of diag(A), or in the files' units if absolute
   bool tolerance_is_absolute = false;
@@ -44,6 +51,7 @@ struct SolveOptions {
   /// false: hierarchy and solution alone are timed, as Times has them; each timestamp between
   /// stages waits for what is before it, which all together costs an H200 2 %.
   bool stage_times = true;
+  Survey survey;          ///< of A's cells, after a run without a limit
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   /// false: bounds in plain floats, a report that nothing vouches for; for vkh_bench alone, which
   /// measures what the certificate costs.

@@ -65,6 +65,7 @@ uint32_t switches_of(const SolveOptions& options, const Device& device) {
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
   if (options.coverage) on |= VKH_SWITCH_COVERAGE;
+  if (options.survey) on |= VKH_SWITCH_FIELD;
   return options.certified ? on : on | VKH_SWITCH_UNCERTIFIED;
 }
 

@@ -81,6 +81,7 @@ RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switc
           .two_float = two_float,
           .stage_times = options.stage_times,
           .coverage = options.coverage,
+          .survey = {},
           .advanced = {}};
 }
 
@@ -95,6 +96,7 @@ SolveOptions coarser(const std::vector<Pair>& pairs, const SolveOptions& options
     for (const Pair& pair : pairs) unit = std::min(unit, diagonal(pair.box_a));
   }
   SolveOptions coarse = options;
+  coarse.survey = {};
   coarse.tolerance = std::max(options.tolerance, kCoarse * unit);
   return coarse;
 }
@@ -147,6 +149,7 @@ std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOpt
   }
   if (open.empty()) return reports;
   SolveOptions fine = options;
+  fine.survey = {};
   fine.progress = [&](Progress progress) {
     progress.pair = numbers[progress.pair];
     return !options.progress || options.progress(progress);

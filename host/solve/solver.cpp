@@ -124,6 +124,14 @@ struct Watch {
   }
 };
 
+SurveyedPair surveyed(const Pair& pair, bool on_cpu) {
+  return {.a = pair.a,
+          .frame = pair.frame,
+          .displacement = pair.displacement,
+          .farthest = farthest_in(pair.joint, add_up(pair.a.delta, pair.b.delta)),
+          .on_cpu = on_cpu};
+}
+
 Report report_of(const RunOutput& run, const Watch& watch) {
   const Pair& pair = watch.pair;
   const SolveOptions& options = watch.options;
@@ -193,6 +201,12 @@ std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
                        .start = start});
     inputs.push_back(input_for(pair, options, switches, watches.back().tolerance()));
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
+    if (options.survey) {
+      inputs.back().survey = [&, on_cpu =
+                                     device.description().type == "cpu"](const BoundCells& bound) {
+        options.survey(surveyed(pair, on_cpu), bound);
+      };
+    }
   }
   Times times;
   times.upload_ms = ms_since(start);

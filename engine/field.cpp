@@ -1,0 +1,26 @@
+// The field: bounds of the distance over cells of A, beside a run and apart from it.
+#include "engine/stages.h"
+
+namespace vkh {
+
+void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
+  const auto scope = rec.scope("cells");
+  struct Given : RunBuffers {
+    Slice<gpu::Cell> cells;
+    Slice<gpu::CellBounds> bounds;
+    gpu::CellPush push;
+  };
+  const bool given = asked.cells.buffer != VK_NULL_HANDLE;
+  const Given all{RunBuffers(p),
+                  given ? asked.cells : as<gpu::Cell>(p.ws.unused),
+                  asked.bounds,
+                  {.count = asked.count,
+                   .given = given ? 1u : 0u,
+                   .first = asked.first,
+                   .face_count = p.face_count,
+                   .triangle_count = p.b.face_count}};
+  rec.run<k::CellBounds>(all, Items{asked.count});
+  rec.stage("cells");
+}
+
+}  // namespace vkh

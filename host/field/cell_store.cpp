@@ -1,0 +1,116 @@
+#include "host/field/cell_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "shaders/math/dyadic.h"
+
+namespace vkh {
+namespace {
+
+lib::Bary3 corners_of(const gpu::Cell& cell) {
+  const gpu::uvec4& w = cell.corners;
+  return lib::unpack_corners({w.x, w.y, w.z, w.w});
+}
+
+void set_corners(gpu::Cell& cell, const lib::Bary3& corners) {
+  const glm::uvec4 w = lib::pack_corners(corners);
+  cell.corners = {w.x, w.y, w.z, w.w};
+}
+
+gpu::CellBounds unknown(float farthest) {
+  return {.lower_a = 0,
+          .lower_b = 0,
+          .lower_c = 0,
+          .upper_a = farthest,
+          .upper_b = farthest,
+          .upper_c = farthest,
+          .highest = farthest,
+          .reached = 0,
+          .mean_upper = farthest,
+          .square_upper = std::numeric_limits<float>::max(),
+          .face = gpu::kNone,
+          .triangle = gpu::kNone};
+}
+
+// Which of a cell's corners is opposite its longest edge. It only steers.
+uint32_t opposite_longest(const Mesh& a, const gpu::Cell& cell) {
+  const glm::uvec3& f = a.faces[cell.face];
+  const glm::dvec3 ab = a.vertices[f.y] - a.vertices[f.x];
+  const glm::dvec3 ac = a.vertices[f.z] - a.vertices[f.x];
+  const lib::Bary3 t = corners_of(cell);
+  const auto length = [&](const glm::uvec2& p, const glm::uvec2& q) {
+    const glm::dvec2 d = glm::dvec2(q) - glm::dvec2(p);
+    return glm::length(d.x * ab + d.y * ac);
+  };
+  const double la = length(t.b, t.c), lb = length(t.c, t.a), lc = length(t.a, t.b);
+  if (la >= lb && la >= lc) return 0;
+  return lb >= lc ? 1 : 2;
+}
+
+}  // namespace
+
+float lowest(const gpu::CellBounds& b) {
+  return std::max(std::min({b.lower_a, b.lower_b, b.lower_c}), 0.0f);
+}
+
+CellStore::CellStore(const Mesh& a, float farthest) : a_(a), reached_(a.faces.size(), 0.0f) {
+  gpu::Cell whole{};
+  set_corners(whole, lib::whole_root());
+  whole.start = gpu::kNone;
+  cells_.assign(a.faces.size(), whole);
+  for (size_t i = 0; i < cells_.size(); ++i) cells_[i].face = static_cast<uint32_t>(i);
+  bounds_.assign(cells_.size(), unknown(farthest));
+  depth_.assign(cells_.size(), 0);
+  for (unsigned depth = 0; depth <= kMostDepth; ++depth)
+    shares_.push_back(std::ldexp(1.0, -static_cast<int>(depth)));
+}
+
+// `highest` alone is kept of the larger cell, for a face's bounds.
+void CellStore::narrow(size_t i, const gpu::CellBounds& found) {
+  gpu::CellBounds& b = bounds_[i];
+  const float highest = std::min(b.highest, found.highest);
+  b = found;
+  b.highest = highest;
+  cells_[i].start = found.triangle;
+  float& reached = reached_[cells_[i].face];
+  reached = std::max(reached, found.reached);
+}
+
+bool CellStore::can_split(size_t i) const {
+  return depth_[i] < kMostDepth &&
+         lib::has_middle_opposite(corners_of(cells_[i]), opposite_longest(a_, cells_[i]));
+}
+
+void CellStore::split(size_t i) {
+  const uint32_t opposite = opposite_longest(a_, cells_[i]);
+  const lib::Bary3 t = corners_of(cells_[i]);
+  const lib::Halves halves = lib::halves_of(t, opposite, lib::middle_opposite(t, opposite));
+  // An affine function has other values at a half's corners: of the larger cell its extremes hold.
+  gpu::CellBounds& b = bounds_[i];
+  b.lower_a = b.lower_b = b.lower_c = lowest(b);
+  b.upper_a = b.upper_b = b.upper_c = b.highest;
+  b.mean_upper = b.highest;
+  b.square_upper = std::numeric_limits<float>::max();
+  ++depth_[i];
+  set_corners(cells_[i], halves.first);
+  cells_.push_back(cells_[i]);
+  set_corners(cells_.back(), halves.second);
+  bounds_.push_back(bounds_[i]);
+  depth_.push_back(depth_[i]);
+}
+
+std::vector<float> CellStore::highest_of_faces() const {
+  std::vector<float> highest(reached_.size(), 0.0f);
+  for (size_t i = 0; i < cells_.size(); ++i) {
+    float& of_face = highest[cells_[i].face];
+    of_face = std::max(of_face, bounds_[i].highest);
+  }
+  return highest;
+}
+
+float CellStore::reached() const { return *std::max_element(reached_.begin(), reached_.end()); }
+
+}  // namespace vkh

@@ -1,0 +1,168 @@
+#include "host/field/goals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vkh {
+namespace {
+
+double width(const Enclosure& e) { return e.upper - e.lower; }
+
+// Each face's bounds to `tolerance`, in the frame: a cell is in the way that lifts its face's
+// highest too far above what the face reaches.
+Goal narrow_faces(double tolerance) {
+  return [tolerance](const CellStore& store) {
+    std::vector<Scored> scored;
+    for (size_t i = 0; i < store.count(); ++i) {
+      const auto highest = static_cast<double>(store.bounds(i).highest);
+      const double above = highest - static_cast<double>(store.reached(store.face(i)));
+      if (above > tolerance) scored.push_back({above, i});
+    }
+    return scored;
+  };
+}
+
+double area_of(const CellStore& store, const Areas& areas, size_t i) {
+  return store.share(i) * areas.of_face[store.face(i)];
+}
+
+// What of a cell's area is not known to be within a distance, or beyond it.
+void score_undecided(const CellStore& store, const Areas& areas, const Threshold& at,
+                     std::vector<double>& scores) {
+  for (size_t i = 0; i < store.count(); ++i) {
+    const gpu::CellBounds& b = store.bounds(i);
+    const double perhaps = share_within(b.lower_a, b.lower_b, b.lower_c, at.up);
+    const double surely = at.down >= static_cast<double>(b.highest)
+                              ? 1.0
+                              : share_within(b.upper_a, b.upper_b, b.upper_c, at.down);
+    if (perhaps > surely) scores[i] += (perhaps - surely) * area_of(store, areas, i);
+  }
+}
+
+std::vector<Scored> positive(const std::vector<double>& scores) {
+  std::vector<Scored> scored;
+  for (size_t i = 0; i < scores.size(); ++i) {
+    if (scores[i] > 0) scored.push_back({scores[i], i});
+  }
+  return scored;
+}
+
+struct Asked {
+  SurveyOptions options;
+  double displacement;
+  Frame frame;
+};
+
+// A distance of the files in the frame, from below and above what it is on the stored meshes.
+Threshold in_frame(const Asked& asked, double distance) {
+  const double d = asked.frame.to_frame(distance);
+  return {d * (1 - 1e-15) - asked.displacement, d * (1 + 1e-15) + asked.displacement};
+}
+
+std::vector<Threshold> bands_of(const Asked& asked) {
+  std::vector<Threshold> at;
+  for (const double band : asked.options.bands) at.push_back(in_frame(asked, band));
+  return at;
+}
+
+// A percentile's own width is not what its distribution's is: at both ends of it there may be area
+// that is undecided.
+std::vector<Scored> score_distribution(const CellStore& store, const Areas& areas,
+                                       const Asked& asked) {
+  const auto reached = static_cast<double>(store.reached());
+  const std::vector<Threshold> bands = bands_of(asked);
+  const std::vector<Enclosure> shares = shares_within(store, areas, bands);
+  std::vector<double> scores(store.count(), 0.0);
+  for (size_t i = 0; i < bands.size(); ++i) {
+    if (width(shares[i]) > asked.options.area_tolerance)
+      score_undecided(store, areas, bands[i], scores);
+  }
+  for (const Enclosure& p : percentiles(store, areas, asked.options.percentiles)) {
+    if (width(p) <= asked.options.mean_tolerance * reached) continue;
+    score_undecided(store, areas, {p.lower, p.lower}, scores);
+    score_undecided(store, areas, {p.upper, p.upper}, scores);
+  }
+  return positive(scores);
+}
+
+// The mean, and then its square's: a cell's part of the width.
+std::vector<Scored> score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
+  const Moments moments = moments_of(store, areas);
+  const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
+  const bool by_mean = width(moments.mean) > tolerance;
+  if (!by_mean && width(moments.rms) <= tolerance) return {};
+  std::vector<double> scores(store.count());
+  for (size_t i = 0; i < store.count(); ++i) {
+    const gpu::CellBounds& b = store.bounds(i);
+    const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
+    const double squares = static_cast<double>(b.square_upper) - down * down;
+    scores[i] = area_of(store, areas, i) * (by_mean ? up - down : squares);
+  }
+  return positive(scores);
+}
+
+}  // namespace
+
+std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
+                           const Areas& areas) {
+  std::vector<Goal> goals;
+  if (std::isfinite(options.field_tolerance))
+    goals.push_back(
+        narrow_faces(pair.frame.to_frame(options.field_tolerance) - 2 * pair.displacement));
+  if (!options.statistics || !(areas.whole > 2 * areas.error)) return goals;
+  const Asked asked{options, pair.displacement, pair.frame};
+  goals.emplace_back(
+      [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
+  goals.emplace_back(
+      [&areas, asked](const CellStore& store) { return score_distribution(store, areas, asked); });
+  return goals;
+}
+
+namespace {
+
+constexpr int kCurveSteps = 100;
+
+Enclosure in_files(const SurveyedPair& pair, const Enclosure& e) {
+  const FileInterval f = pair.frame.to_files(e.lower, e.upper, pair.displacement, pair.farthest);
+  return {f.lower, f.upper};
+}
+
+double largest_upper(const CellStore& store, const SurveyedPair& pair) {
+  const std::vector<float> highest = store.highest_of_faces();
+  const float most = *std::max_element(highest.begin(), highest.end());
+  return in_files(pair, {0, static_cast<double>(most)}).upper;
+}
+
+std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const Asked& asked,
+                               const std::vector<double>& distances) {
+  std::vector<Threshold> at;
+  for (const double d : distances) at.push_back(in_frame(asked, d));
+  const std::vector<Enclosure> shares = shares_within(store, areas, at);
+  std::vector<AreaWithin> all;
+  for (size_t i = 0; i < at.size(); ++i) all.push_back({distances[i], shares[i]});
+  return all;
+}
+
+}  // namespace
+
+std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
+                                        const SurveyedPair& pair, const SurveyOptions& options) {
+  if (!(areas.whole > 2 * areas.error)) return std::nullopt;
+  const Asked asked{options, pair.displacement, pair.frame};
+  const Moments moments = moments_of(store, areas);
+  Statistics s;
+  s.area = pair.frame.length_up(pair.frame.length_up(areas.whole));
+  s.mean = in_files(pair, moments.mean);
+  s.rms = in_files(pair, moments.rms);
+  s.bands = within(store, areas, asked, options.bands);
+  const std::vector<Enclosure> at = percentiles(store, areas, options.percentiles);
+  for (size_t i = 0; i < at.size(); ++i)
+    s.percentiles.push_back({options.percentiles[i], in_files(pair, at[i])});
+  const double last = largest_upper(store, pair);
+  std::vector<double> steps;
+  for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(last * k / kCurveSteps);
+  s.curve = within(store, areas, asked, steps);
+  return s;
+}
+
+}  // namespace vkh

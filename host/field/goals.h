@@ -1,0 +1,32 @@
+// What a survey is refined for: which cells are in the way of what was asked, and how much.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host/field/statistics.h"
+#include "host/field/survey.h"
+
+namespace vkh {
+
+/// Larger scores come first; of equal ones the first cell, so that a survey repeats.
+struct Scored {
+  double score;
+  size_t cell;
+  bool operator<(const Scored& other) const {
+    return score > other.score || (score == other.score && cell < other.cell);
+  }
+};
+/// The cells to split; none where the goal is met.
+using Goal = std::function<std::vector<Scored>(const CellStore&)>;
+
+/// One after the other: faces, bands and percentiles, the mean.
+std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
+                           const Areas& areas);
+
+/// Nothing where A has no area.
+std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
+                                        const SurveyedPair& pair, const SurveyOptions& options);
+
+}  // namespace vkh

@@ -1,0 +1,45 @@
+// From cells to certified figures of all of A.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/field/cell_store.h"
+#include "host/field/field.h"
+
+namespace vkh {
+
+/// The areas of A's faces, in the frame.
+struct Areas {
+  std::vector<double> of_face;
+  double whole = 0;
+  double error = 0;  ///< of `whole`, and of any sum of parts of the faces
+};
+Areas areas_of(const Mesh& a, const Frame& frame);
+
+/// The share of a triangle's area on which the affine function with these values at its corners is
+/// at most `t`.
+double share_within(float a, float b, float c, double t);
+
+/// A distance in the frame that is not known better than that.
+struct Threshold {
+  double down, up;
+};
+
+/// Of each threshold the share of A's area within it. `areas.whole` exceeds its error twice.
+std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
+                                     std::span<const Threshold> thresholds);
+
+/// Of each share, the least distance that so much of A's area is within, in the frame.
+std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
+                                   std::span<const double> shares);
+
+/// Of d(x, B) over the cell, from below.
+double mean_lower(const gpu::CellBounds& bounds);
+
+struct Moments {
+  Enclosure mean, rms;  ///< in the frame
+};
+Moments moments_of(const CellStore& cells, const Areas& areas);
+
+}  // namespace vkh

@@ -1,0 +1,153 @@
+#include "host/field/survey.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "host/field/goals.h"
+
+namespace vkh {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// A submission takes about so long, so that Ctrl-C is heard.
+constexpr double kSubmissionMs = 50;
+
+// Bounds cells in batches, until the budget ends.
+class Bounding {
+ public:
+  Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
+      : bound_(bound), options_(options), batch_(pair.on_cpu ? 1024 : 65536) {}
+
+  // Whole faces.
+  void faces(CellStore& store) {
+    all(store.count(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
+      bound_({.cells = {}, .first = static_cast<uint32_t>(first), .bounds = bounds});
+      for (size_t i = 0; i < bounds.size(); ++i) store.narrow(first + i, bounds[i]);
+    });
+  }
+
+  // Halves cells, and bounds both halves: none is left that is split and not bounded.
+  void halves(CellStore& store, std::span<const Scored> which) {
+    std::vector<gpu::Cell> asked;
+    std::vector<size_t> fresh;
+    all(2 * which.size(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
+      asked.clear();
+      fresh.clear();
+      for (size_t i = first / 2; i < (first + bounds.size()) / 2; ++i) {
+        fresh.push_back(which[i].cell);
+        fresh.push_back(store.count());
+        store.split(which[i].cell);
+      }
+      for (const size_t i : fresh) asked.push_back(store.cell(i));
+      bound_({.cells = asked, .first = 0, .bounds = bounds});
+      for (size_t i = 0; i < fresh.size(); ++i) store.narrow(fresh[i], bounds[i]);
+    });
+  }
+
+  bool goes_on() {
+    ended_ =
+        ended_ || ms() > 1000 * options_.time_limit_s || (options_.goes_on && !options_.goes_on());
+    return !ended_;
+  }
+  double ms() const { return ms_since(start_); }
+  size_t bounded() const { return bounded_; }
+
+ private:
+  template <class Bound>
+  void all(size_t count, const Bound& bound) {
+    for (size_t first = 0; first < count && (bounded_ == 0 || goes_on());) {
+      std::vector<gpu::CellBounds> bounds(std::min(batch_, count - first));
+      const Clock::time_point start = Clock::now();
+      bound(first, bounds);
+      first += bounds.size();
+      bounded_ += bounds.size();
+      const double per_cell = ms_since(start) / static_cast<double>(bounds.size());
+      const auto fits = static_cast<size_t>(kSubmissionMs / per_cell) / 2 * 2;
+      batch_ = std::clamp(fits, kLeastBatch, std::min(4 * batch_, kMostBatch));
+    }
+  }
+
+  static constexpr size_t kLeastBatch = 64,  // even, as all are: halves come in twos
+      kMostBatch = size_t{1} << 20;
+  const BoundCells& bound_;
+  const SurveyOptions& options_;
+  const Clock::time_point start_ = Clock::now();
+  size_t batch_;
+  size_t bounded_ = 0;
+  bool ended_ = false;
+};
+
+// Those that matter most.
+void choose_some(const CellStore& store, std::vector<Scored>& scored, size_t most) {
+  std::erase_if(scored, [&](const Scored& s) { return !store.can_split(s.cell); });
+  if (scored.size() <= most) return;
+  const auto last = scored.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(scored.begin(), last, scored.end());
+  scored.erase(last, scored.end());
+}
+
+constexpr size_t kFewestSplits = 4096;  // a round: the host looks at all cells between two
+
+// Whether the goal was met.
+bool refine(CellStore& store, Bounding& bounding, const SurveyOptions& options, const Goal& goal) {
+  for (;;) {
+    std::vector<Scored> scored = goal(store);
+    if (scored.empty()) return true;
+    const size_t room = options.cell_limit - std::min(options.cell_limit, store.count());
+    choose_some(store, scored, std::min(std::max(store.count() / 2, kFewestSplits), room));
+    if (scored.empty() || !bounding.goes_on()) return false;
+    bounding.halves(store, scored);
+  }
+}
+
+Enclosure in_files(const SurveyedPair& pair, const Enclosure& e) {
+  const FileInterval f = pair.frame.to_files(e.lower, e.upper, pair.displacement, pair.farthest);
+  return {f.lower, f.upper};
+}
+
+Field field_of(const CellStore& store, const SurveyedPair& pair) {
+  const std::vector<float> highest = store.highest_of_faces();
+  Field field;
+  for (size_t f = 0; f < highest.size(); ++f) {
+    const auto reached = static_cast<double>(store.reached(static_cast<uint32_t>(f)));
+    const Enclosure e = in_files(pair, {reached, static_cast<double>(highest[f])});
+    field.lower.push_back(std::min(e.lower, e.upper));
+    field.upper.push_back(e.upper);
+  }
+  return field;
+}
+
+}  // namespace
+
+Field unknown_field(size_t face_count, double farthest) {
+  return {std::vector<double>(face_count, 0.0), std::vector<double>(face_count, farthest)};
+}
+
+Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
+  return [&options, &result](const SurveyedPair& pair, const BoundCells& bound) {
+    const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
+    CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
+    Bounding bounding(pair, bound, options);
+    bounding.faces(store);
+    const Areas areas = areas_of(pair.a, pair.frame);
+    bool is_met = bounding.goes_on();
+    for (const Goal& goal : goals_of(options, pair, areas)) {
+      if (is_met) is_met = refine(store, bounding, options, goal);
+    }
+    result.field = field_of(store, pair);
+    if (options.statistics) result.statistics = statistics_of(store, areas, pair, options);
+    result.is_met = is_met;
+    result.cells = store.count();
+    result.bounded = bounding.bounded();
+    result.ms = bounding.ms();
+  };
+}
+
+}  // namespace vkh

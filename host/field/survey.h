@@ -1,0 +1,47 @@
+// A survey of A: cells are bounded, and those that matter most are split, until what is asked for
+// is met or the budget ends. What is known is true whenever it ends.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "host/field/field.h"
+#include "host/run/solve_options.h"
+
+namespace vkh {
+
+struct SurveyOptions {
+  /// Faces are refined until their bounds are so narrow, in the files' units; infinite: each is
+  /// bounded once.
+  double field_tolerance = std::numeric_limits<double>::infinity();
+  bool statistics = false;
+  /// How narrow the mean and the root mean square are to be, and percentiles: of what the largest
+  /// distance is at least.
+  double mean_tolerance = 0.01;
+  /// How much of A's area may be undecided in each of `bands`.
+  double area_tolerance = 0.001;
+  std::vector<double> bands;                                 ///< distances, in the files' units
+  std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
+  double time_limit_s = 10;                                  ///< of the survey alone
+  size_t cell_limit = size_t{1} << 23;
+  std::function<bool()> goes_on;  ///< asked between submissions; false ends the survey
+};
+
+struct SurveyResult {
+  Field field;
+  std::optional<Statistics> statistics;
+  bool is_met = false;  ///< what was asked for; else the budget ended, or the cells' bits
+  size_t cells = 0;
+  size_t bounded = 0;  ///< cells that the device bounded, those that were split later among them
+  double ms = 0;
+};
+
+/// Sets options.survey, which writes `result` when the run has ended. Both must outlive it.
+Survey survey_with(const SurveyOptions& options, SurveyResult& result);
+
+/// Before anything is known of A but that no distance is above `farthest`.
+Field unknown_field(size_t face_count, double farthest);
+
+}  // namespace vkh

@@ -1,0 +1,106 @@
+// What: bounds of d(x, B) over cells of A, one item a cell: sub-triangles of its faces, or faces
+// push.first and after where none are given. In: cells; A and B's hierarchy. Out: bounds[cell].
+// One walk finds the triangle nearest to the cell's middle; another looks at all that may be
+// closest somewhere on the cell (math/cell.h), kCellTriangles of them at most; boxes stand for what
+// is left. Each result is its cell's alone.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/base/invocation.glsl"
+
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
+layout(scalar, binding = 3) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 4) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 5) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 7) readonly buffer Cells { Cell cells[]; };
+layout(scalar, binding = 8) writeonly buffer Bounds { CellBounds bounds[]; };
+layout(scalar, push_constant) uniform PushBlock { CellPush push; };
+
+#include "shaders/base/root.glsl"
+#include "shaders/math/cell.h"
+#include "shaders/walk/walk.glsl"
+
+Cell cell_at(uint i) {
+  if (push.given != 0u) {
+    Cell c = cells[i];
+    c.face = min(c.face, push.face_count - 1u);
+    return c;
+  }
+  uint face = min(push.first + i, push.face_count - 1u);
+  return Cell(pack_corners(whole_root()), face, vertex_nearest[faces[face].x]);
+}
+
+// A box is off by the low parts of what is in it and of the point, an ulp of each, and its distance
+// by its own rounding.
+float box_doubt(CellFrame t, float distance) {
+  return 4.0 * kUlp * (t.reach + t.radius + distance);
+}
+
+// Boxes at this distance, squared, or farther hold nothing that is closest anywhere on T.
+float cell_reach(Gathered g, CellFrame t) {
+  float far = round_up(g.nearest + 2.0 * t.radius, 4.0);
+  far = round_up(far + box_doubt(t, far), 8.0);
+  return min(round_up(far * far, 8.0), 3.0e38);
+}
+
+// What is surely between the centre and a box at this distance, squared, or farther.
+float box_distance_down(CellFrame t, float distance2) {
+  float d = root(min(distance2, 1.0e37));
+  return max(round_down(d, 8.0) - box_doubt(t, d), 0.0);
+}
+
+// Over what may be closest somewhere on the cell.
+Gathered gather(CellFrame t, uint start) {
+  Query middle = Query(t.origin, 0.0, false);
+  if (start != kNone) start = min(start, push.triangle_count - 1u);
+  uint nearest = min(nearest_triangle(middle, start).triangle, push.triangle_count - 1u);
+  Gathered g = begin_gathering(t, load_surface(nearest, cell_view(t)), nearest);
+  float reach = cell_reach(g, t);
+  uint looked_at = 0u;
+  left_count = 0u;
+  walk_at = 0u;
+  while (walk_at != kNone && looked_at < kCellTriangles) {
+    while ((walk_at & kLeafFlag) == 0u) walk_at = step_down(walk_at, t.origin.hi, reach);
+    if (walk_at == kNone) break;
+    uint first = walk_at & (kMaxTriangles - 1u);
+    uint last = first + ((walk_at >> 28) & 7u);
+    for (uint i = first; i <= last; ++i) {
+      g = gathered(g, t, load_surface(i, cell_view(t)), i);
+    }
+    looked_at += last - first + 1u;
+    walk_at = pop(reach);
+  }
+  if (walk_at != kNone) ++left_count;  // what was taken from the top is left, too
+  for (uint k = 0u; k < left_count; ++k) {
+    if (left_distance2[k] < reach) g = without(g, t, box_distance_down(t, left_distance2[k]));
+  }
+  return g;
+}
+
+// With the triangles nearest to the corners, two at a time, where they are not the same.
+Gathered with_pairs(Gathered g, CellFrame t) {
+  if (g.of_corners.x == kNone || g.of_corners.y == kNone || g.of_corners.z == kNone) return g;
+  for (uint k = 0u; k < 3u; ++k) {
+    uint i = choose(k == 2u, g.of_corners.y, g.of_corners.x);
+    uint j = choose(k == 0u, g.of_corners.y, g.of_corners.z);
+    if (i == j || (k == 2u && i == g.of_corners.x)) continue;
+    Surface s = load_surface(i, cell_view(t));
+    Surface r = load_surface(j, cell_view(t));
+    g = cut_between(g, t, s, cell_distances(t, s), r, cell_distances(t, r));
+  }
+  return g;
+}
+
+void main() {
+  uint i = item_index();
+  if (i >= push.count) return;
+  Cell cell = cell_at(i);
+  CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
+  CellBounds b = cell_bounds(with_pairs(gather(t, cell.start), t), t);
+  if (b.triangle != kNone) b.face = triangles[kTriangleWords * b.triangle].w;
+  bounds[i] = b;
+}
