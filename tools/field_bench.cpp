@@ -1,7 +1,7 @@
 // What a survey of A's cells reaches, and at what cost: one CSV row a pair, beside the plain run.
 //
 //   vkh_field_bench MANIFEST.csv [--filter TEXT] [--max-faces N] [--device D] [--time SECONDS]
-//                   [--field-tol FRACTION] [--statistics] [--cells N] [--check]
+//                   [--field-tol FRACTION] [--statistics] [--cells N]
 //
 // field_width: the widest face's bounds, over h. mean_width, rms_width, p99_width: over h.
 // area_width: the widest of the shares of area within h/4, h/2, 3h/4.
@@ -43,18 +43,13 @@ double widest(const Field& field) {
 void print_row(const std::string& name, const Report& plain, const SurveyResult& r) {
   const double h = plain.upper;
   std::printf("%s,%zu,%.6g,%.3f,%.3f,%zu,%zu,%d,%.3g", name.c_str(), r.field.face_count(), h,
-              plain.times.wall_ms, r.ms, r.cells, r.bounded, r.is_met ? 1 : 0,
-              widest(r.field) / h);
+              plain.times.wall_ms, r.ms, r.cells, r.bounded, r.is_met ? 1 : 0, widest(r.field) / h);
   if (r.statistics) {
     const Statistics& s = *r.statistics;
     std::printf(",%.6g,%.6g,%.3g,%.3g,%.3g,%.3g", s.mean.lower, s.mean.upper, width(s.mean) / h,
                 width(s.rms) / h, widest(s.bands), width(s.percentiles.back().distance) / h);
   }
   std::printf("\n");
-  if (r.statistics && getenv("V")) {
-    for (auto& b : r.statistics->bands) std::printf("  band %g [%.5f, %.5f]\n", b.distance, b.share.lower, b.share.upper);
-    for (auto& b : r.statistics->percentiles) std::printf("  p %g [%.5g, %.5g]\n", b.share, b.distance.lower, b.distance.upper);
-  }
   std::fflush(stdout);
 }
 
@@ -64,8 +59,8 @@ void measure(Solver& solver, const Row& row, Arguments arguments) {
   options.time_limit_s = 60;
   solver.distance(a, b, options);
   const Report plain = solver.distance(a, b, options);
-  if (arguments.field_tolerance > 0)
-    arguments.survey.field_tolerance = arguments.field_tolerance * plain.upper;
+  arguments.survey.faces = arguments.field_tolerance > 0;
+  arguments.survey.field_tolerance = arguments.field_tolerance * plain.upper;
   for (const double part : {0.25, 0.5, 0.75}) arguments.survey.bands.push_back(part * plain.upper);
   SurveyResult result;
   options.survey = survey_with(arguments.survey, result);
@@ -87,8 +82,9 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   Device device({.selector = arguments.device});
   Solver solver(device);
-  std::printf("pair,faces,h,plain_ms,survey_ms,cells,bounded,met,field_width,mean_lower,mean_upper,"
-              "mean_width,rms_width,area_width,p99_width\n");
+  std::printf(
+      "pair,faces,h,plain_ms,survey_ms,cells,bounded,met,field_width,mean_lower,mean_upper,"
+      "mean_width,rms_width,area_width,p99_width\n");
   for (const Row& row : read_manifest(arguments.manifest, arguments.choice))
     measure(solver, row, arguments);
   return 0;

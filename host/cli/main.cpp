@@ -15,7 +15,7 @@
 #include "host/cli/exit_code.h"
 #include "host/cli/out_of_memory.h"
 #include "host/cli/outputs.h"
-#include "host/job/doctor.h"
+#include "host/check/doctor.h"
 #include "host/job/pair_job.h"
 #include "host/system/system.h"
 

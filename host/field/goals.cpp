@@ -8,18 +8,44 @@ namespace {
 
 double width(const Enclosure& e) { return e.upper - e.lower; }
 
-// Each face's bounds to `tolerance`, in the frame: a cell is in the way that lifts its face's
-// highest too far above what the face reaches.
-Goal narrow_faces(double tolerance) {
-  return [tolerance](const CellStore& store) {
-    std::vector<Scored> scored;
-    for (size_t i = 0; i < store.count(); ++i) {
-      const auto highest = static_cast<double>(store.bounds(i).highest);
-      const double above = highest - static_cast<double>(store.reached(store.face(i)));
-      if (above > tolerance) scored.push_back({above, i});
-    }
-    return scored;
-  };
+struct Asked {
+  SurveyOptions options;
+  double displacement;
+  Frame frame;
+};
+
+// A distance of the files in the frame, from below and above what it is on the stored meshes.
+Threshold in_frame(const Asked& asked, double distance) {
+  const double d = asked.frame.to_frame(distance);
+  return {d * (1 - 1e-15) - asked.displacement, d * (1 + 1e-15) + asked.displacement};
+}
+
+// A cell is in the way that lifts its face's highest too far above what the face reaches.
+std::vector<Scored> score_faces(const CellStore& store, const Asked& asked) {
+  const SurveyOptions& options = asked.options;
+  const double tolerance = options.field_tolerance > 0
+                               ? asked.frame.to_frame(options.field_tolerance)
+                               : options.mean_tolerance * static_cast<double>(store.reached());
+  std::vector<Scored> scored;
+  for (size_t i = 0; i < store.count(); ++i) {
+    const double above = static_cast<double>(store.bounds(i).highest) -
+                         static_cast<double>(store.reached(store.face(i)));
+    if (above > tolerance - 2 * asked.displacement) scored.push_back({above, i});
+  }
+  return scored;
+}
+
+// Or too far for the limit, on a face that is not known to be beyond it.
+std::vector<Scored> score_verdicts(const CellStore& store, const Asked& asked) {
+  const double within = in_frame(asked, asked.options.limit.within).down;
+  const double beyond = in_frame(asked, asked.options.limit.beyond).up;
+  std::vector<Scored> scored;
+  for (size_t i = 0; i < store.count(); ++i) {
+    const double above = static_cast<double>(store.bounds(i).highest) - within;
+    const bool is_beyond = static_cast<double>(store.reached(store.face(i))) > beyond;
+    if (above > 0 && !is_beyond) scored.push_back({above, i});
+  }
+  return scored;
 }
 
 double area_of(const CellStore& store, const Areas& areas, size_t i) {
@@ -47,22 +73,15 @@ std::vector<Scored> positive(const std::vector<double>& scores) {
   return scored;
 }
 
-struct Asked {
-  SurveyOptions options;
-  double displacement;
-  Frame frame;
-};
-
-// A distance of the files in the frame, from below and above what it is on the stored meshes.
-Threshold in_frame(const Asked& asked, double distance) {
-  const double d = asked.frame.to_frame(distance);
-  return {d * (1 - 1e-15) - asked.displacement, d * (1 + 1e-15) + asked.displacement};
-}
-
 std::vector<Threshold> bands_of(const Asked& asked) {
   std::vector<Threshold> at;
   for (const double band : asked.options.bands) at.push_back(in_frame(asked, band));
   return at;
+}
+
+bool is_enough(const Enclosure& share, const SurveyOptions& options) {
+  if (!options.enough) return width(share) <= options.area_tolerance;
+  return share.lower >= *options.enough || share.upper < *options.enough;
 }
 
 // A percentile's own width is not what its distribution's is: at both ends of it there may be area
@@ -74,8 +93,7 @@ std::vector<Scored> score_distribution(const CellStore& store, const Areas& area
   const std::vector<Enclosure> shares = shares_within(store, areas, bands);
   std::vector<double> scores(store.count(), 0.0);
   for (size_t i = 0; i < bands.size(); ++i) {
-    if (width(shares[i]) > asked.options.area_tolerance)
-      score_undecided(store, areas, bands[i], scores);
+    if (!is_enough(shares[i], asked.options)) score_undecided(store, areas, bands[i], scores);
   }
   for (const Enclosure& p : percentiles(store, areas, asked.options.percentiles)) {
     if (width(p) <= asked.options.mean_tolerance * reached) continue;
@@ -106,11 +124,12 @@ std::vector<Scored> score_moments(const CellStore& store, const Areas& areas, co
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas) {
   std::vector<Goal> goals;
-  if (std::isfinite(options.field_tolerance))
-    goals.push_back(
-        narrow_faces(pair.frame.to_frame(options.field_tolerance) - 2 * pair.displacement));
-  if (!options.statistics || !(areas.whole > 2 * areas.error)) return goals;
   const Asked asked{options, pair.displacement, pair.frame};
+  if (options.faces && options.limit.within > 0)
+    goals.emplace_back([asked](const CellStore& store) { return score_verdicts(store, asked); });
+  if (options.faces)
+    goals.emplace_back([asked](const CellStore& store) { return score_faces(store, asked); });
+  if (!options.statistics || !(areas.whole > 2 * areas.error)) return goals;
   goals.emplace_back(
       [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
   goals.emplace_back(

@@ -21,7 +21,7 @@ struct Scored {
 /// The cells to split; none where the goal is met.
 using Goal = std::function<std::vector<Scored>(const CellStore&)>;
 
-/// One after the other: faces, bands and percentiles, the mean.
+/// One after the other: faces, then the mean and the root mean square, then the distribution.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas);
 

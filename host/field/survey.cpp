@@ -126,10 +126,6 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
 
 }  // namespace
 
-Field unknown_field(size_t face_count, double farthest) {
-  return {std::vector<double>(face_count, 0.0), std::vector<double>(face_count, farthest)};
-}
-
 Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
   return [&options, &result](const SurveyedPair& pair, const BoundCells& bound) {
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;

@@ -13,16 +13,20 @@
 namespace vkh {
 
 struct SurveyOptions {
-  /// Faces are refined until their bounds are so narrow, in the files' units; infinite: each is
-  /// bounded once.
-  double field_tolerance = std::numeric_limits<double>::infinity();
+  bool faces = false;  ///< each face's bounds are to be narrow; else it is bounded once
+  /// How narrow, in the files' units; 0: `mean_tolerance` of the largest distance.
+  double field_tolerance = 0;
+  /// With one, faces are only to be proven within it or beyond.
+  Limit limit = {};
   bool statistics = false;
   /// How narrow the mean and the root mean square are to be, and percentiles: of what the largest
   /// distance is at least.
   double mean_tolerance = 0.01;
   /// How much of A's area may be undecided in each of `bands`.
   double area_tolerance = 0.001;
-  std::vector<double> bands;                                 ///< distances, in the files' units
+  std::vector<double> bands;  ///< distances, in the files' units
+  /// With one: a band is met as soon as it is known whether so much of A's area is within it.
+  std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
   double time_limit_s = 10;                                  ///< of the survey alone
   size_t cell_limit = size_t{1} << 23;
@@ -40,8 +44,5 @@ struct SurveyResult {
 
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it.
 Survey survey_with(const SurveyOptions& options, SurveyResult& result);
-
-/// Before anything is known of A but that no distance is above `farthest`.
-Field unknown_field(size_t face_count, double farthest);
 
 }  // namespace vkh

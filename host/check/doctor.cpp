@@ -1,4 +1,4 @@
-#include "host/job/doctor.h"
+#include "host/check/doctor.h"
 
 #include <chrono>
 #include <cstdint>
