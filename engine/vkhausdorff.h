@@ -423,10 +423,9 @@ typedef struct VkhReport {
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 
-/* A cell: a triangle within a face of A, by barycentric coordinates of its corners there, that of
- * the face's second and of its third corner, integers in units of 2^-20 whose sum is at most 2^20.
- * Six of 21 bits, from the lowest bit of corners[0] up: second and third of corner 0, of 1, of 2.
- */
+/* A cell: a triangle within a face of A. Its corners in barycentric coordinates of the face, that
+ * of the face's second corner and that of its third, in units of 2^-20, their sum at most 2^20: six
+ * integers of 21 bits from the lowest bit of corners[0] up, two a corner. */
 typedef struct VkhCell {
   uint32_t corners[4];
   uint32_t face;  /* of A */
@@ -434,36 +433,32 @@ typedef struct VkhCell {
 } VkhCell;
 
 /* d(x, B) for the points x of a cell, in the coordinates' units. Every bound is certified, as
- * VkhReport::lower and upper are; off by about 1e-6 of the distance and of the size of what is
- * near. What a cell lacks in width it gets by being split: each half as large is four times as
- * narrow where surfaces are smooth, and twice at their edges. */
+ * VkhReport::lower is; off by about 1e-6 of the distance and of the size of what is near. A cell
+ * that is split gets narrower with the square of its size where surfaces are smooth. lower and
+ * upper are affine functions of x, by their values at the corners: so the mean is at least that of
+ * lower, and the share of the cell that is within a distance lies between theirs. */
 typedef struct VkhCellBounds {
-  /* Affine functions of x, by their values at the cell's corners: lower(x) <= d(x, B) <= upper(x)
-   * for every x. So the mean is at least that of lower, and the share of the cell within a distance
-   * is between those of both. lower may be negative. */
-  float lower[3], upper[3];
-  float highest; /* d(x, B) <= highest for every x */
-  float reached; /* some x has d(x, B) >= reached: with highest, the greatest value */
-  float meanUpper;   /* of d(x, B) over the cell, the mean; at most that of upper */
-  float squareUpper; /* of its square, the mean */
-  uint32_t faceB;    /* of B: near the cell's middle; it steers, and nothing rests on it */
-  uint32_t start;    /* for cells near this one */
+  float lower[3], upper[3]; /* lower(x) <= d(x, B) <= upper(x); lower may be negative */
+  float highest;            /* d(x, B) <= highest */
+  float reached;            /* some x has d(x, B) >= reached: with highest, the greatest value */
+  float meanUpper;          /* >= the mean of d(x, B); at most that of upper */
+  float squareUpper;        /* >= the mean of its square */
+  uint32_t faceB;           /* of B: near the cell's middle; it steers, and nothing rests on it */
+  uint32_t start;           /* for cells near this one */
 } VkhCellBounds;
 
 typedef struct VkhCells {
   VkBuffer cellBuffer; /* VkhCell[count]; null: faces of A, `first` and those after it */
   VkDeviceSize cellOffset;
-  uint32_t first;
-  uint32_t count;        /* at least 1; both ranges are at most maxStorageBufferRange */
+  uint32_t first, count; /* count: at least 1; a range is at most maxStorageBufferRange */
   VkBuffer boundsBuffer; /* VkhCellBounds[count] */
   VkDeviceSize boundsOffset;
 } VkhCells;
 
-/* Bounds of d(x, B) over cells of A: the field, for a picture, for statistics, to choose what to
- * refine. With a context of VKH_SWITCH_FIELD, after vkhCmdBegin of the problem, at any time while
- * the workspace holds the run, whose vertices and hierarchy it reads; it changes nothing of it. One
- * invocation a cell, whose result does not depend on the others. Buffers: usage STORAGE_BUFFER,
- * offsets multiples of 256 bytes; the cells are read, and the bounds written, in COMPUTE_SHADER. */
+/* Bounds of d(x, B) over cells of A: for a picture, for statistics, for choosing what to refine.
+ * With a context of VKH_SWITCH_FIELD; from vkhCmdBegin on, as long as the workspace holds the run.
+ * It changes nothing of the run. A cell's result does not depend on the others. Buffers: usage
+ * STORAGE_BUFFER, offsets multiples of 256 bytes; read and written in COMPUTE_SHADER. */
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhCells* cells, VkhProfile* profile);
 

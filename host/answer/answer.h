@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/answer/length.h"
+#include "host/field/survey.h"
 #include "host/solve/report.h"
 
 namespace vkh {
@@ -39,6 +40,8 @@ struct Asked {
   Length length;
   Limit limit;  ///< that, in the files' unit
   std::optional<FaceLimits> faces_a = {}, faces_b = {};
+  /// The share of its area that is to be within, in [0, 1]; none: all of it, every point.
+  std::optional<double> area = {};
 };
 
 /// What a user waited for, in milliseconds; parts that ran side by side overlap.
@@ -59,7 +62,8 @@ struct Answer {
   Length tolerance;                ///< a fraction is of A's diagonal in both directions
   std::optional<Asked> max;
   Report a_to_b;
-  std::optional<Report> b_to_a;  ///< there for a symmetric run
+  std::optional<Report> b_to_a;                    ///< there for a symmetric run
+  std::optional<SurveyResult> survey_a, survey_b;  ///< of A, and of B on the way back
   Waits waits;
 };
 
@@ -68,6 +72,9 @@ CertifiedInterval interval_of(const Answer& answer);
 /// Of an answer with `max`: of one direction, and of all.
 Verdict verdict_of(const Answer& answer, bool back);
 Verdict verdict_of(const Answer& answer);
+
+/// With `area`: what share of a mesh's area is within the limit.
+Enclosure share_within(const Answer& answer, bool back);
 
 /// One sentence for each status.
 const char* stop_reason(Status status);
@@ -101,6 +108,12 @@ std::string to_json(const Failure& failure);
 /// The words, and ten to fifteen lines; `verbose` adds switches, stages, waves and the cull
 /// histogram.
 void print_table(std::ostream& out, const Answer& answer, bool verbose);
+
+/// What a survey says, as rows of that table.
+struct TableRow {
+  std::string label, text;
+};
+std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey);
 
 /// A test suite of one test case: JUnit's XML, as build servers read it.
 std::string to_junit(const Answer& answer);

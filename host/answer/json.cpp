@@ -2,39 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "host/answer/answer.h"
+#include "host/answer/json_object.h"
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
 
 namespace vkh {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Members in order. nlohmann cannot write a number as it is told to, and the bounds must be
-/// written as they were rounded, so the outermost object is put together as text.
-class JsonObject {
- public:
-  void add_text(const char* key, const std::string& json) {
-    members_ += (members_.empty() ? "\"" : ",\"") + std::string(key) + "\":" + json;
-  }
-  // Bytes of a file name that are no UTF-8 are replaced, for they must not cost the answer.
-  void add(const char* key, const Json& value) {
-    add_text(key, value.dump(-1, ' ', false, Json::error_handler_t::replace));
-  }
-  void add_bound(const std::string& key, double value, Rounding rounding) {
-    add_text(key.c_str(),
-             std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : std::string("null"));
-    add((key + "_hex").c_str(), hex_float(value));
-  }
-  std::string text() const { return "{" + members_ + "}"; }
-
- private:
-  std::string members_;
-};
 
 Json vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
@@ -46,8 +22,6 @@ Json witness_json(const Report& r) {
             {"point", vector_json(r.witness_a.point)}}},
           {"to", {{"face", r.witness_b.face}, {"point", vector_json(r.witness_b.point)}}}};
 }
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 // Before a mesh is read, its counts are null. The delta is written so that it is read back as the
 // same double.
@@ -139,6 +113,7 @@ std::string max_json(const Answer& answer) {
   json.add("beyond", answer.max->limit.beyond);
   json.add("unit", text_or_null(answer.unit));
   json.add("diagonal_of", diagonal_of(answer.max->length));
+  if (answer.max->area) json.add("area", *answer.max->area);
   if (answer.max->faces_a) json.add("faces_a", faces_json(*answer.max->faces_a));
   if (answer.max->faces_b) json.add("faces_b", faces_json(*answer.max->faces_b));
   return json.text();
@@ -191,6 +166,8 @@ std::string direction_json(const Answer& answer, const Report& r, bool back) {
   json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
   if (r.witness_check) json.add_text("verified", verified_json(r));
+  const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
+  if (survey) add_survey(json, *survey, answer);
   json.add("times", times_json(r.times));
   json.add("counts", {{"waves", r.waves},
                       {"candidates", r.candidates},

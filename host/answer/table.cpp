@@ -127,6 +127,12 @@ void print_direction(std::ostream& out, const Report& r, const char* a, const ch
           megabytes(r.workspace_bytes));
 }
 
+void print_survey(std::ostream& out, const Answer& answer,
+                  const std::optional<SurveyResult>& survey) {
+  if (!survey) return;
+  for (const TableRow& one : survey_rows(answer, *survey)) row(out, one.label.c_str(), one.text);
+}
+
 std::string seconds(double ms) { return printed("%.3g s", ms / 1000); }
 
 std::string times_text(const Answer& answer) {
@@ -214,6 +220,7 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
         bounds(r.lower, r.upper, gap_as_printed(answer, r.lower, r.upper)) + "  " +
             ending(r.status));
   print_direction(out, r, "A", "B");
+  print_survey(out, answer, answer.survey_a);
   if (verbose) print_details(out, r);
   if (answer.b_to_a) {
     const Report& back = *answer.b_to_a;
@@ -221,6 +228,7 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
         bounds(back.lower, back.upper, gap_as_printed(answer, back.lower, back.upper)) + "  " +
             ending(back.status));
     print_direction(out, back, "B", "A");
+    print_survey(out, answer, answer.survey_b);
     if (verbose) print_details(out, back);
   }
   row(out, "times", times_text(answer));

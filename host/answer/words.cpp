@@ -88,9 +88,32 @@ std::string faces_in_words(const FaceLimits& faces) {
   return std::to_string(faces.within) + " of " + std::to_string(faces.faces) + " faces";
 }
 
+// "99.53 %", rounded so that the sentence stays true.
+std::string percent(double share, Rounding rounding) {
+  return decimal(100 * share, share > 0.99 ? 6 : 4, rounding) + " %";
+}
+
+// Of the mesh that decides: the one that is not within, else the one with less.
+std::string area_in_words(const Answer& answer) {
+  const double area = *answer.max->area;
+  const bool back =
+      answer.b_to_a && share_within(answer, true).lower < share_within(answer, false).lower;
+  const Enclosure share = share_within(answer, back);
+  const std::string of = std::string(" of ") + (back ? "B" : "A") + "'s area is within " +
+                         answer.max->length.requested + " of " + (back ? "A" : "B");
+  const std::string asked = " (" + percent(area, Rounding::kDown) + " asked)";
+  if (share.lower >= area)
+    return "PASS  at least " + percent(share.lower, Rounding::kDown) + of + ", proven" + asked;
+  if (share.upper < area)
+    return "FAIL  at most " + percent(share.upper, Rounding::kUp) + of + ", proven" + asked;
+  return "UNDECIDED  from " + percent(share.lower, Rounding::kDown) + " to " +
+         percent(share.upper, Rounding::kUp) + of + asked + "; ask for more --time";
+}
+
 std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const Asked& max = *answer.max;
+  if (max.area) return area_in_words(answer);
   const std::string asked = max.length.requested;
   const bool by_face = max.faces_a || max.faces_b;
   const Verdict verdict = verdict_of(answer);
@@ -120,7 +143,20 @@ CertifiedInterval interval_of(const Answer& answer) {
   return symmetric_interval(r, *answer.b_to_a);
 }
 
+// From below of the limit rounded down, from above of it rounded up.
+Enclosure share_within(const Answer& answer, bool back) {
+  const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
+  if (!survey || !survey->statistics || survey->statistics->bands.size() < 2) return {0, 1};
+  const std::vector<AreaWithin>& bands = survey->statistics->bands;
+  return {bands[0].share.lower, bands[1].share.upper};
+}
+
 Verdict verdict_of(const Answer& answer, bool back) {
+  if (answer.max->area) {
+    const Enclosure share = share_within(answer, back);
+    if (share.lower >= *answer.max->area) return Verdict::kWithin;
+    return share.upper < *answer.max->area ? Verdict::kBeyond : Verdict::kUndecided;
+  }
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
   if (faces) return faces->verdict;
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;

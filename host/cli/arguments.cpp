@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 #include <sstream>
 
@@ -22,8 +23,10 @@ struct Typed {
   std::optional<std::string> memory, time, waves, max_input;
   std::vector<std::string> enabled, disabled;
   std::string preset;
-  std::string json, junit;
-  bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false;
+  std::string json, junit, area, field_tolerance;
+  std::vector<std::string> bands;
+  bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
+       statistics = false;
 };
 
 void check_names(const char* option, const std::vector<std::string>& names,
@@ -50,6 +53,32 @@ SolveOptions options_of(const Typed& typed) {
   return options;
 }
 
+// "99.5%", or a number from 0 to 1.
+double share_of(const char* option, const std::string& text) {
+  const bool is_percent = text.ends_with('%');
+  const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));
+  double share = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), share);
+  if (is_percent) share /= 100;
+  if (error != std::errc() || end != number.data() + number.size() || !(share > 0 && share <= 1))
+    throw UsageError(std::string(option) + " '" + text +
+                     "': expected a share of the area, such as 99.5% or 0.995");
+  return share;
+}
+
+SurveyWish survey_of(const Typed& typed) {
+  SurveyWish wish;
+  wish.faces = !typed.field_tolerance.empty();
+  if (wish.faces)
+    wish.face_tolerance =
+        parse_length("--field-tol", typed.field_tolerance, PlainNumber::kFraction);
+  for (const std::string& band : typed.bands)
+    wish.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
+  wish.statistics = typed.statistics || !typed.bands.empty();
+  if (!typed.area.empty()) wish.area = share_of("--area", typed.area);
+  return wish;
+}
+
 PairJob job_of(const Typed& typed, const Words& words, const char* command) {
   PairJob job;
   job.command = command;
@@ -66,7 +95,10 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
     throw UsageError("--face-max-b: limits of B's faces are asked about by --symmetric alone");
   if (typed.verify && (!typed.face_max_a.empty() || !typed.face_max_b.empty()))
     throw UsageError("--verify: is not to be had with --face-max");
+  if (!typed.area.empty() && (!typed.face_max_a.empty() || !typed.face_max_b.empty()))
+    throw UsageError("--area: faces with limits of their own are asked about whole");
   job.symmetric = typed.symmetric;
+  job.survey = survey_of(typed);
   job.verify = typed.verify;
   job.device = typed.device;
   job.caches = !typed.no_cache;
@@ -131,6 +163,21 @@ constexpr const char* kLengths =
     "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of A's bounding-box "
     "diagonal, 1e-6diag";
 
+void add_survey_options(CLI::App& command, Typed& typed) {
+  command.add_flag("--stats", typed.statistics,
+                   "Also enclose the mean over A's area, the root mean square and percentiles");
+  command
+      .add_option("--bands", typed.bands,
+                  "And the shares of A's area within these distances: 0.1mm,0.5mm")
+      ->delimiter(',')
+      ->type_name("LENGTH,..")
+      ->allow_extra_args(false);
+  command
+      .add_option("--field-tol", typed.field_tolerance,
+                  "Bound the largest distance on each face of A, to so much [1 % of the largest]")
+      ->type_name("LENGTH");
+}
+
 void add_pair(CLI::App& command, Typed& typed) {
   command.add_option("A", typed.file_a, "Mesh to start from (OBJ, STL, PLY, OFF, glTF, 3MF)")
       ->required();
@@ -181,6 +228,7 @@ struct Program {
     add_pair(*command, distance);
     add_tolerance(*command, distance, "1e-6");
     add_symmetric(*command, distance);
+    add_survey_options(*command, distance);
     add_output_options(*command, distance);
     add_search_options(*command, distance);
 
@@ -199,6 +247,12 @@ struct Program {
         ->type_name("FILE");
     add_tolerance(*command, gate, "1e-7");
     add_symmetric(*command, gate);
+    command
+        ->add_option("--area", gate.area,
+                     "Ask that so much of A's area is within the limit, such as 99.5%, in place of "
+                     "every point")
+        ->type_name("SHARE");
+    add_survey_options(*command, gate);
     command->add_option("--junit", gate.junit, "Write a test suite of one test case: JUnit's XML")
         ->type_name("FILE");
     command->add_flag("--github", gate.github,
@@ -210,6 +264,7 @@ struct Program {
     command = app.add_subcommand("demo", "Distance of a built-in pair");
     add_tolerance(*command, demo, "1e-8");
     add_symmetric(*command, demo);
+    add_survey_options(*command, demo);
     add_output_options(*command, demo);
     add_search_options(*command, demo);
 

@@ -11,11 +11,11 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/check/doctor.h"
 #include "host/cli/arguments.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/out_of_memory.h"
 #include "host/cli/outputs.h"
-#include "host/check/doctor.h"
 #include "host/job/pair_job.h"
 #include "host/system/system.h"
 

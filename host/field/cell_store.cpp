@@ -74,6 +74,7 @@ void CellStore::narrow(size_t i, const gpu::CellBounds& found) {
   const float highest = std::min(b.highest, found.highest);
   b = found;
   b.highest = highest;
+  b.mean_upper = std::min(b.mean_upper, highest);
   cells_[i].start = found.triangle;
   float& reached = reached_[cells_[i].face];
   reached = std::max(reached, found.reached);

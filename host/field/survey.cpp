@@ -84,16 +84,27 @@ class Bounding {
   bool ended_ = false;
 };
 
-// Those that matter most.
+constexpr size_t kFewestSplits = 2048;  // a round: the host looks at all cells between two
+// So many cells that what they are in the way of is nearly all that there is: a few that are wide
+// often matter more than all others together.
+constexpr double kNearlyAll = 0.9;
+
+// Those that matter most, at most so many.
 void choose_some(const CellStore& store, std::vector<Scored>& scored, size_t most) {
   std::erase_if(scored, [&](const Scored& s) { return !store.can_split(s.cell); });
-  if (scored.size() <= most) return;
-  const auto last = scored.begin() + static_cast<std::ptrdiff_t>(most);
-  std::nth_element(scored.begin(), last, scored.end());
-  scored.erase(last, scored.end());
+  double whole = 0, chosen = 0;
+  for (const Scored& s : scored) whole += s.score;
+  size_t count = 0;
+  for (size_t next = kFewestSplits; count < std::min(most, scored.size()); next *= 2) {
+    const size_t end = std::min({next, most, scored.size()});
+    const auto at = [&](size_t i) { return scored.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(count), at(end - 1), scored.end());
+    for (size_t i = count; i < end; ++i) chosen += scored[i].score;
+    count = end;
+    if (chosen >= kNearlyAll * whole) break;
+  }
+  scored.resize(count);
 }
-
-constexpr size_t kFewestSplits = 4096;  // a round: the host looks at all cells between two
 
 // Whether the goal was met.
 bool refine(CellStore& store, Bounding& bounding, const SurveyOptions& options, const Goal& goal) {
@@ -138,6 +149,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
       if (is_met) is_met = refine(store, bounding, options, goal);
     }
     result.field = field_of(store, pair);
+    result.faces = options.faces;
     if (options.statistics) result.statistics = statistics_of(store, areas, pair, options);
     result.is_met = is_met;
     result.cells = store.count();

@@ -35,6 +35,7 @@ struct SurveyOptions {
 
 struct SurveyResult {
   Field field;
+  bool faces = false;  ///< SurveyOptions::faces
   std::optional<Statistics> statistics;
   bool is_met = false;  ///< what was asked for; else the budget ended, or the cells' bits
   size_t cells = 0;

@@ -11,7 +11,7 @@
 #include "host/job/face_limits.h"
 #include "host/job/progress_line.h"
 #include "host/job/reading.h"
-#include "host/run/frame.h"
+#include "host/run/cells.h"
 #include "host/solve/face_gate.h"
 #include "host/system/sha256.h"
 
@@ -77,7 +77,7 @@ class Progressing {
     known_.inputs[0].path = job.file_a;
     known_.inputs[1].path = job.file_b;
     known_.tolerance = job.tolerance;
-    if (job.max) known_.max = Asked{*job.max, {}};
+    if (job.max) known_.max = Asked{.length = *job.max, .limit = {}, .area = job.survey.area};
     // Undecided until it is known better: an answer that is given before must not forget them.
     if (!job.face_max_a.empty()) known_.max->faces_a = FaceLimits{.path = job.face_max_a};
     if (!job.face_max_b.empty()) known_.max->faces_b = FaceLimits{.path = job.face_max_b};
@@ -147,7 +147,8 @@ SolveOptions options_for(Progressing& at, const Answer& known) {
   SolveOptions options = job.options;
   options.tolerance_is_absolute = job.tolerance.of != Length::Of::kDiagonal;
   options.tolerance = options.tolerance_is_absolute ? known.a_to_b.tolerance : job.tolerance.number;
-  if (known.max) options.limit = known.max->limit;
+  // What is asked of its area is decided by the survey.
+  if (known.max && !known.max->area) options.limit = known.max->limit;
   options.time_limit_s = std::max(at.stop.left_s(), 1e-3);
   options.coverage = job.verify;
   options.progress = [&at](const Progress& progress) {
@@ -219,9 +220,40 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
       gate({job.face_max_b, pair.b, pair.a, answer.max->faces_b}, options, solver, answer);
 }
 
+/// Of A, and of B on the way back: after a run that looks for the distance, in that run; beside
+/// one that only decides a limit, in one of its own.
+struct Surveys {
+  Surveys(const MeshPair& meshes, const SurveyOptions& asked) : pair(meshes), options(asked) {}
+
+  Survey hook() {
+    return [this](const SurveyedPair& surveyed, const BoundCells& bound) {
+      survey_with(options, &surveyed.a == &pair.a ? a : b)(surveyed, bound);
+    };
+  }
+  void alone(Solver& solver, SolveOptions solve, bool back) {
+    solve.limit = {};
+    solve.coverage = false;
+    solve.wave_limit = 1;
+    solve.survey = hook();
+    if (back) {
+      solver.distance(pair.b, pair.a, solve);
+    } else {
+      solver.distance(pair.a, pair.b, solve);
+    }
+  }
+
+  const MeshPair& pair;
+  const SurveyOptions options;
+  SurveyResult a, b;
+};
+
 void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
-  const SolveOptions options = options_for(at, answer);
-  if (!at.job.face_max_a.empty() || !at.job.face_max_b.empty()) {
+  SolveOptions options = options_for(at, answer);
+  Surveys surveys(pair, survey_options(at.job.survey, answer, at.stop));
+  const bool by_face = !at.job.face_max_a.empty() || !at.job.face_max_b.empty();
+  const bool apart = by_face || options.limit.within > 0;
+  if (at.job.survey.is_any() && !apart) options.survey = surveys.hook();
+  if (by_face) {
     solve_by_face(at, pair, solver, options, answer);
   } else if (at.job.symmetric) {
     SymmetricReport both = solver.symmetric(pair.a, pair.b, options);
@@ -229,6 +261,12 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
     answer.b_to_a = std::move(both.b_to_a);
   } else {
     answer.a_to_b = solver.distance(pair.a, pair.b, options);
+  }
+  if (at.job.survey.is_any()) {
+    if (apart) surveys.alone(solver, options, false);
+    if (apart && answer.b_to_a) surveys.alone(solver, options, true);
+    answer.survey_a = std::move(surveys.a);
+    if (answer.b_to_a) answer.survey_b = std::move(surveys.b);
   }
   add_memory_notes(options.memory_bytes, answer);
   if (!at.job.verify) return;
@@ -260,7 +298,11 @@ Done work(const std::shared_ptr<Progressing>& shared) {
   Progressing& at = *shared;
   const PairJob& job = at.job;
   Hashes hashes(shared);
-  auto opening = begin_now([selector = job.device, options = job.options,
+  SolveOptions options = job.options;
+  const bool apart =
+      job.max && !job.survey.area;  // else pipelines for cells are made with the rest
+  if (job.survey.is_any() && !apart) options.survey = [](const SurveyedPair&, const BoundCells&) {};
+  auto opening = begin_now([selector = job.device, options,
                             cache = job.caches ? user_cache_folder() : std::filesystem::path()] {
     return open_session(selector, options, cache);
   });

@@ -11,6 +11,7 @@
 #include "host/demo/default_pair.h"
 #include "host/job/session.h"
 #include "host/job/stop.h"
+#include "host/job/survey_wish.h"
 #include "host/source/read_limits.h"
 
 namespace vkh {
@@ -25,9 +26,10 @@ struct PairJob {
   std::optional<Length> max;           ///< gate
   std::string face_max_a, face_max_b;  ///< files of limits of faces; empty: none
   bool symmetric = false, verify = false;
-  bool hashes = false;   ///< Input::sha256 is wanted
-  std::string device;    ///< DeviceRequest::selector
-  bool caches = true;    ///< compiled pipelines, in the user's folder
+  bool hashes = false;  ///< Input::sha256 is wanted
+  std::string device;   ///< DeviceRequest::selector
+  bool caches = true;   ///< compiled pipelines, in the user's folder
+  SurveyWish survey;
   SolveOptions options;  ///< but for tolerance, limit, time and progress
   ReadLimits limits;     ///< but for what listens
 };

@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 
+#include "host/base/turns.h"
 #include "host/gpu/pipeline_cache.h"
 #include "host/run/seat.h"
-#include "host/run/turns.h"
 
 namespace vkh {
 

@@ -1,8 +1,8 @@
 // What: bounds of d(x, B) over cells of A, one item a cell: sub-triangles of its faces, or faces
 // push.first and after where none are given. In: cells; A and B's hierarchy. Out: bounds[cell].
 // One walk finds the triangle nearest to the cell's middle; another looks at all that may be
-// closest somewhere on the cell (math/cell.h), kCellTriangles of them at most; boxes stand for what
-// is left. Each result is its cell's alone.
+// closest somewhere on the cell (field/cell.h), kCellTriangles of them at most; boxes stand for
+// what is left. Each result is its cell's alone.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +21,7 @@ layout(scalar, binding = 8) writeonly buffer Bounds { CellBounds bounds[]; };
 layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 
 #include "shaders/base/root.glsl"
-#include "shaders/math/cell.h"
+#include "shaders/field/cell.h"
 #include "shaders/walk/walk.glsl"
 
 Cell cell_at(uint i) {

@@ -44,9 +44,9 @@ TEST_CASE("a lifted plane: one distance everywhere") {
   REQUIRE(r.statistics);
   const Statistics& s = *r.statistics;
   CHECK(r.is_met);
-  check_encloses(s.mean, 0.25, 1e-5);
-  check_encloses(s.rms, 0.25, 1e-5);
-  for (const Percentile& p : s.percentiles) check_encloses(p.distance, 0.25, 1e-5);
+  check_encloses(s.mean, 0.25, 1e-3);
+  check_encloses(s.rms, 0.25, 1e-3);
+  for (const Percentile& p : s.percentiles) check_encloses(p.distance, 0.25, 1e-3);
   CHECK(s.bands[1].share.lower == 0);
   CHECK(s.bands[1].share.upper == 0);
   CHECK(s.bands[2].share.lower == 1);

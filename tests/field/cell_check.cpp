@@ -1,4 +1,4 @@
-#include "tests/oracle/cell_check.h"
+#include "tests/field/cell_check.h"
 
 #include <algorithm>
 #include <array>

@@ -14,8 +14,8 @@
 //
 // T is computed in plain floats around c, S too (Surface::coarse); Cell::slack and Surface::slack
 // are what that leaves out. docs/certificate.md adds it up.
-#ifndef VKH_SHADERS_MATH_CELL_H
-#define VKH_SHADERS_MATH_CELL_H
+#ifndef VKH_SHADERS_FIELD_CELL_H
+#define VKH_SHADERS_FIELD_CELL_H
 
 #include "shaders/math/bary.h"
 #include "shaders/math/bounds.h"
@@ -188,8 +188,8 @@ VKH_FN float centre_distance(CellFrame t, Surface s, Closest c) {
   return round_up(length_up(c.distance2) + s.slack + t.slack, 3.0f);
 }
 
-// Nothing but how far S, one that is near, is from the centre: it says which others are to be
-// looked at.
+// With S, one that is near: what it says from above, and which others are to be looked at. It says
+// nothing from below until it is looked at as they are.
 VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   Gathered g = nothing_gathered();
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
@@ -197,7 +197,9 @@ VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   g.triangle = triangle;
   g.along = shortened(c.offset);
   g.below = minorant(t, s, g.along, minorant_off(t, s)).at_corners;
-  return g;
+  vec3 d = cell_distances(t, s);
+  g = with_corners(g, d, triangle);
+  return with_upper(g, d, mean_up(d), mean_square_up(d));
 }
 
 // With S looked at, too. Its own direction is from its closest point to the centre.

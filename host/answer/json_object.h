@@ -1,0 +1,42 @@
+// JSON whose bounds are written as they were rounded.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/answer/answer.h"
+#include "host/base/decimal.h"
+
+namespace vkh {
+
+using Json = nlohmann::ordered_json;
+
+/// Members in order. nlohmann cannot write a number as it is told to, and the bounds must be
+/// written as they were rounded, so the outermost object is put together as text.
+class JsonObject {
+ public:
+  void add_text(const char* key, const std::string& json) {
+    members_ += (members_.empty() ? "\"" : ",\"") + std::string(key) + "\":" + json;
+  }
+  // Bytes of a file name that are no UTF-8 are replaced, for they must not cost the answer.
+  void add(const char* key, const Json& value) {
+    add_text(key, value.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+  void add_bound(const std::string& key, double value, Rounding rounding) {
+    add_text(key.c_str(),
+             std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : std::string("null"));
+    add((key + "_hex").c_str(), hex_float(value));
+  }
+  std::string text() const { return "{" + members_ + "}"; }
+
+ private:
+  std::string members_;
+};
+
+inline Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+/// What was surveyed of a direction's mesh, as its members.
+void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer);
+
+}  // namespace vkh

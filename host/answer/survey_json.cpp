@@ -1,0 +1,84 @@
+// A survey as JSON.
+#include <algorithm>
+
+#include "host/answer/json_object.h"
+
+namespace vkh {
+namespace {
+
+std::string enclosure_json(const Enclosure& e, const Json& unit) {
+  JsonObject json;
+  json.add_bound("lower", e.lower, Rounding::kDown);
+  json.add_bound("upper", e.upper, Rounding::kUp);
+  json.add("unit", unit);
+  return json.text();
+}
+
+template <class Items, class Text>
+std::string array_json(const Items& items, const Text& text) {
+  std::string rows;
+  for (const auto& item : items) rows += (rows.empty() ? "" : ",") + text(item);
+  return "[" + rows + "]";
+}
+
+std::string within_json(const AreaWithin& within, const Json& unit) {
+  JsonObject json;
+  json.add("distance", within.distance);
+  json.add("unit", unit);
+  json.add_text("share", enclosure_json(within.share, nullptr));
+  return json.text();
+}
+
+std::string percentile_json(const Percentile& percentile, const Json& unit) {
+  JsonObject json;
+  json.add("share", percentile.share);
+  json.add_text("distance", enclosure_json(percentile.distance, unit));
+  return json.text();
+}
+
+std::string statistics_json(const Statistics& s, const Json& unit) {
+  JsonObject json;
+  json.add("area", s.area);
+  json.add_text("mean", enclosure_json(s.mean, unit));
+  json.add_text("rms", enclosure_json(s.rms, unit));
+  const auto within = [&](const AreaWithin& one) { return within_json(one, unit); };
+  json.add_text("bands", array_json(s.bands, within));
+  json.add_text("percentiles", array_json(s.percentiles, [&](const Percentile& one) {
+                  return percentile_json(one, unit);
+                }));
+  json.add_text("curve", array_json(s.curve, within));
+  return json.text();
+}
+
+Json faces_json(const Field& field, const Answer& answer) {
+  double widest = 0;
+  size_t within = 0, beyond = 0;
+  for (size_t f = 0; f < field.face_count(); ++f) {
+    const Enclosure e = field.of(f);
+    widest = std::max(widest, e.upper - e.lower);
+    if (!answer.max) continue;
+    const Verdict verdict = verdict_of(field, f, answer.max->limit);
+    within += verdict == Verdict::kWithin;
+    beyond += verdict == Verdict::kBeyond;
+  }
+  Json json = {{"faces", field.face_count()}, {"width", widest}};
+  if (!answer.max) return json;
+  json["within"] = within;
+  json["beyond"] = beyond;
+  json["undecided"] = field.face_count() - within - beyond;
+  return json;
+}
+
+}  // namespace
+
+void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer) {
+  json.add("survey", {{"met", survey.is_met},
+                      {"cells", survey.cells},
+                      {"bounded", survey.bounded},
+                      {"wall_ms", survey.ms}});
+  if (survey.faces) json.add("field", faces_json(survey.field, answer));
+  if (survey.statistics)
+    json.add_text("statistics", statistics_json(*survey.statistics, text_or_null(answer.unit)));
+}
+
+}  // namespace vkh

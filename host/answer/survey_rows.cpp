@@ -1,0 +1,77 @@
+// A survey as rows of the table.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "host/answer/answer.h"
+#include "host/base/decimal.h"
+
+namespace vkh {
+namespace {
+
+std::string number(double x, double gap, Rounding rounding) {
+  return decimal(x, digits_that_matter(x, gap), rounding);
+}
+
+std::string enclosure(const Enclosure& e) {
+  const double gap = e.upper - e.lower;
+  return "[" + number(e.lower, gap, Rounding::kDown) + ", " + number(e.upper, gap, Rounding::kUp) +
+         "]";
+}
+
+std::string share(const Enclosure& e) { return enclosure({100 * e.lower, 100 * e.upper}) + " %"; }
+
+std::string plain(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string field_text(const Field& field, const Answer& answer) {
+  double widest = 0;
+  for (size_t f = 0; f < field.face_count(); ++f)
+    widest = std::max(widest, field.upper[f] - field.lower[f]);
+  const std::string faces = std::to_string(field.face_count()) + " faces";
+  const std::string width = " bounded to " + length_up(answer, widest, widest) + " or closer";
+  if (!answer.max) return faces + width;
+  size_t within = 0, beyond = 0;
+  for (size_t f = 0; f < field.face_count(); ++f) {
+    const Verdict verdict = verdict_of(field, f, answer.max->limit);
+    within += verdict == Verdict::kWithin;
+    beyond += verdict == Verdict::kBeyond;
+  }
+  return faces + ": " + std::to_string(within) + " within the limit, " + std::to_string(beyond) +
+         " beyond, " + std::to_string(field.face_count() - within - beyond) + " undecided";
+}
+
+std::string percentiles_text(const std::vector<Percentile>& percentiles,
+                             const std::string& unit) {
+  std::string text;
+  for (const Percentile& p : percentiles)
+    text += (text.empty() ? "p" : ", p") + plain(100 * p.share) + " " + enclosure(p.distance, unit);
+  return text;
+}
+
+}  // namespace
+
+std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey) {
+  std::vector<TableRow> rows;
+  const std::string& unit = answer.unit;
+  if (survey.faces) rows.push_back({"faces", field_text(survey.field, answer)});
+  if (survey.statistics) {
+    const Statistics& s = *survey.statistics;
+    rows.push_back({"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
+    for (const AreaWithin& band : s.bands)
+      rows.push_back({"area", enclosure({100 * band.share.lower, 100 * band.share.upper}, "%") +
+                                  " within " + plain(band.distance) +
+                                  (unit.empty() ? "" : " " + unit)});
+    if (!s.percentiles.empty()) rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
+  }
+  std::string work = std::to_string(survey.bounded) + " cells bounded in " +
+                     decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
+  if (!survey.is_met) work += ": its time ended first, and all is true as it is";
+  rows.push_back({"survey", work});
+  return rows;
+}
+
+}  // namespace vkh
