@@ -218,17 +218,22 @@ std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
   });
 }
 
-// One with timestamps, where there is one: stages are timed then.
+bool draws(const VkQueueFamilyProperties& family) {
+  return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
+}
+
+// One with timestamps, where there is one: stages are timed then. Of those one that draws, too.
 uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
-  const auto computes = [](const VkQueueFamilyProperties& f) {
-    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+  const auto worth = [](const VkQueueFamilyProperties& f) {
+    if ((f.queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) return 0;
+    return 1 + (draws(f) ? 1 : 0) + (f.timestampValidBits > 0 ? 2 : 0);
   };
-  const auto timed = std::find_if(families.begin(), families.end(), [&](const auto& f) {
-    return computes(f) && f.timestampValidBits > 0;
-  });
-  const auto any = std::find_if(families.begin(), families.end(), computes);
-  if (any == families.end()) throw DeviceError("the device has no compute queue");
-  return static_cast<uint32_t>((timed != families.end() ? timed : any) - families.begin());
+  const auto best = std::max_element(
+      families.begin(), families.end(),
+      [&](const auto& f, const auto& g) { return worth(f) < worth(g); });  // the first of equals
+  if (best == families.end() || worth(*best) == 0)
+    throw DeviceError("the device has no compute queue");
+  return static_cast<uint32_t>(best - families.begin());
 }
 
 // What is used where it is there.
@@ -312,6 +317,7 @@ void Device::create_device(bool robust) {
   const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, physical_);
   queue_family_ = compute_family(families);
   has_timestamps_ = families[queue_family_].timestampValidBits > 0;
+  has_graphics_ = draws(families[queue_family_]);
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -366,6 +372,7 @@ void Device::adopt(const AdoptedDevice& adopted) {
       (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
     refuse("its queue family " + std::to_string(adopted.queue_family) + " has no compute");
   has_timestamps_ = families[adopted.queue_family].timestampValidBits > 0;
+  has_graphics_ = draws(families[adopted.queue_family]);
   instance_ = adopted.instance;
   physical_ = adopted.physical;
   device_ = adopted.device;
