@@ -70,8 +70,8 @@ endforeach()
 add_custom_command(
   OUTPUT ${VKH_DRAW_OUT}/font.h
   COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
-          ${PROJECT_SOURCE_DIR}/host/draw/font/NotoSans-subset.ttf ${VKH_DRAW_OUT}/font.h
-  DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/font/NotoSans-subset.ttf ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
+          ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${VKH_DRAW_OUT}/font.h
+  DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
   COMMENT "Embedding the font"
   VERBATIM)
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.

@@ -7,6 +7,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "host/draw/draw.h"
 
@@ -44,7 +47,8 @@ struct Camera {
   Axes axes;
   glm::dvec3 centre{};  ///< it is in the middle of the area
   double scale = 1;     ///< pixels a unit
-  double reach = 1;     ///< what is drawn is no farther from `centre`, towards the viewer and away
+  double reach = 1;     ///< how far behind `centre` something is drawn
+  double before = 1;    ///< how far before it, towards the viewer
   Area area;
 
   glm::dvec3 turned(glm::dvec3 v) const {
@@ -93,6 +97,7 @@ inline Camera fitted(const Mesh& mesh, const Axes& axes, const Area& area) {
   camera.scale = most > 0 ? 1 / most : 1;
   const double deep = size.z / 2;
   camera.reach = 1.01 * (deep > 0 ? deep : std::max(std::max(size.x, size.y), 1e-300));
+  camera.before = camera.reach;
   return camera;
 }
 
@@ -120,5 +125,51 @@ inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
                  camera.pixel(mesh.vertices[f.z]), p, slack);
   });
 }
+
+/// The worst place: the witness, or else the middle of the face of the largest upper.
+struct Spot {
+  glm::dvec3 point{};
+  std::optional<glm::dvec3> closest;  ///< on B
+  size_t face = 0;
+};
+Spot spot_of(const Picture& picture);
+
+/// A part of the picture with a view of the mesh in it.
+struct Panel {
+  Camera camera;
+  std::string label = {};
+  bool shows_spot = false;
+};
+
+/// Chooses views of a mesh.
+class Views {
+ public:
+  /// `unit`: pixels of what is one in a picture of 1600 x 1000.
+  Views(const Picture& picture, const PictureOptions& options, double unit)
+      : picture_(picture),
+        options_(options),
+        unit_(unit),
+        spot_(spot_of(picture)),
+        diagonal_(diagonal_of(picture.mesh)) {}
+
+  const Spot& spot() const { return spot_; }
+  std::vector<Panel> panels_in(const Area& area) const;
+  /// The one that shows the spot best.
+  size_t best_of(const std::vector<Panel>& panels) const;
+  /// The spot, magnified; none where the mesh is not much larger.
+  std::optional<Panel> inset_in(const Area& area, const Panel& best) const;
+
+ private:
+  Panel corner_view(const Area& area) const;
+  std::vector<Panel> six_views(const Area& area) const;
+  Panel view_from(glm::dvec3 direction, const Area& area) const;
+  glm::dvec3 normal_at_spot() const;
+
+  const Picture& picture_;
+  const PictureOptions& options_;
+  double unit_;
+  Spot spot_;
+  double diagonal_;
+};
 
 }  // namespace vkh::drawing

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "host/base/parallel.h"
+
 namespace vkh::drawing {
 namespace {
 
@@ -97,7 +99,85 @@ double largest_finite(const std::vector<double>& values) {
   return largest;
 }
 
+/// One where a face looks at the viewer, so that its colour is the map's own. Light comes from the
+/// upper left, and falls on both sides of a face. `normal`: as the viewer sees it, of any length.
+double light_on(glm::dvec3 normal) {
+  constexpr double kAmbient = 0.55;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.42, 0.55, 0.78));
+  const double length = glm::length(normal);
+  if (!(length > 0)) return 1;
+  const double lit = glm::dot(normal, light) * (normal.z < 0 ? -1 : 1) / length;
+  return kAmbient + (1 - kAmbient) * std::clamp(lit / light.z, 0.0, 1.0);
+}
+
+/// How dark edges are: not at all where a face is so thin that its edges would be most of it.
+uint8_t edge_strength(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  constexpr double kNone = 5, kFull = 16, kDarkest = 0.38;  // altitudes in pixels; share
+  const glm::dvec2 u(b - a), v(c - a), w(c - b);
+  const double longest = std::sqrt(std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}));
+  if (!(longest > 0)) return 0;
+  const double altitude = std::abs(u.x * v.y - u.y * v.x) / longest;
+  const double share = std::clamp((altitude - kNone) / (kFull - kNone), 0.0, 1.0);
+  return static_cast<uint8_t>(std::lround(255 * kDarkest * share));
+}
+
+class FaceWriter {
+ public:
+  FaceWriter(const Picture& picture, const Scale& scale, const Camera& camera)
+      : picture_(picture), scale_(scale), camera_(camera) {}
+
+  void operator()(size_t face, Corner* corners) const {
+    std::array<glm::dvec3, 3> at;
+    for (size_t i = 0; i < at.size(); ++i) {
+      const auto corner = static_cast<glm::length_t>(i);
+      at[i] = camera_.pixel(picture_.mesh.vertices[picture_.mesh.faces[face][corner]]);
+    }
+    const FaceLook look = look_of(picture_, scale_, face);
+    const double light = light_on(normal_of(at));
+    const auto lit = [&](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
+    const uint8_t edges = edge_strength(at[0], at[1], at[2]);
+    for (size_t i = 0; i < at.size(); ++i) {
+      const glm::dvec3 clip = clipped(at[i]);
+      corners[i] = {static_cast<float>(clip.x),
+                    static_cast<float>(clip.y),
+                    static_cast<float>(clip.z),
+                    {lit(look.colour.red), lit(look.colour.green), lit(look.colour.blue), edges},
+                    static_cast<uint8_t>(look.hatched ? 1 : 0),
+                    {}};
+    }
+  }
+
+ private:
+  // Of what is seen, so a pixel's y turns around, and its depth is in pixels, too.
+  glm::dvec3 normal_of(const std::array<glm::dvec3, 3>& at) const {
+    const auto seen = [&](size_t i) {
+      return glm::dvec3(at[i].x, -at[i].y, at[i].z * camera_.scale);
+    };
+    return glm::cross(seen(1) - seen(0), seen(2) - seen(0));
+  }
+  glm::dvec3 clipped(const glm::dvec3& pixel) const {
+    const Area& area = camera_.area;
+    return {2 * (pixel.x - area.x) / area.width - 1, 2 * (pixel.y - area.y) / area.height - 1,
+            (camera_.before - pixel.z) / (camera_.before + camera_.reach)};
+  }
+
+  const Picture& picture_;
+  const Scale& scale_;
+  const Camera& camera_;
+};
+
 }  // namespace
+
+FillFaces faces_for(const Picture& picture, const Scale& scale, const Camera& camera) {
+  return
+      [writer = FaceWriter(picture, scale, camera)](size_t first, size_t count, Corner* corners) {
+        constexpr size_t kPiece = 4096;
+        for_each_index((count + kPiece - 1) / kPiece, [&](size_t piece) {
+          const size_t end = std::min(count, (piece + 1) * kPiece);
+          for (size_t i = piece * kPiece; i < end; ++i) writer(first + i, corners + 3 * i);
+        });
+      };
+}
 
 Rgb map_colour(ColourMap map, double share) {
   const double step = std::ceil(std::clamp(share, 0.0, 1.0) * (kSteps - 1));

@@ -1,10 +1,10 @@
-// Which colour a face has.
+// Which colour a face has, and how light falls on it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "host/draw/draw.h"
+#include "host/draw/raster.h"
 
 namespace vkh::drawing {
 
@@ -44,6 +44,9 @@ struct FaceLook {
   bool hatched = false;
 };
 FaceLook look_of(const Picture& picture, const Scale& scale, size_t face);
+
+/// What a raster asks for: the picture's faces, as the camera sees them.
+FillFaces faces_for(const Picture& picture, const Scale& scale, const Camera& camera);
 
 /// By verdict where there is a limit; else what the scale does not show.
 struct FaceCounts {

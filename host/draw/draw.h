@@ -64,7 +64,8 @@ struct PictureOptions {
   uint32_t bands = 0;  ///< so many steps of colour; 0: as smooth as the map
 };
 
-inline constexpr uint32_t kLeastPictureSide = 320, kMostPictureSide = 8192;
+inline constexpr uint32_t kLeastPictureWidth = 480, kLeastPictureHeight = 320,
+                          kMostPictureSide = 8192;
 
 /// "iso", "six" or "x,y,z"; "viridis", "batlow" or "cividis"; "1600x1000". Each throws UsageError
 /// that names `option`.
