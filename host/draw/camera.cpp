@@ -162,7 +162,7 @@ void parse_picture_size(const char* option, const std::string& text, PictureOpti
   const bool fits = sides.size() == 2 && sides[0] >= kLeastPictureWidth &&
                     sides[1] >= kLeastPictureHeight &&
                     std::max(sides[0], sides[1]) <= kMostPictureSide;
-  if (!fits) refuse(option, text, "a size from 480x320 to 8192x8192, such as 1600x1000");
+  if (!fits) refuse(option, text, "a size from 640x400 to 8192x8192, such as 1600x1000");
   options.width = sides[0];
   options.height = sides[1];
 }

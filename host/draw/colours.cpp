@@ -102,17 +102,19 @@ double largest_finite(const std::vector<double>& values) {
 /// One where a face looks at the viewer, so that its colour is the map's own. Light comes from the
 /// upper left, and falls on both sides of a face. `normal`: as the viewer sees it, of any length.
 double light_on(glm::dvec3 normal) {
-  constexpr double kAmbient = 0.55;
-  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.42, 0.55, 0.78));
+  constexpr double kDarkest = 0.6;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.32, 0.42, 0.85));
   const double length = glm::length(normal);
   if (!(length > 0)) return 1;
+  // Wrapped around the edges of what is lit, so that faces turned away keep their shape.
   const double lit = glm::dot(normal, light) * (normal.z < 0 ? -1 : 1) / length;
-  return kAmbient + (1 - kAmbient) * std::clamp(lit / light.z, 0.0, 1.0);
+  const double share = std::min((1 + lit) / (1 + light.z), 1.0);
+  return kDarkest + (1 - kDarkest) * share * share;
 }
 
 /// How dark edges are: not at all where a face is so thin that its edges would be most of it.
 uint8_t edge_strength(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  constexpr double kNone = 5, kFull = 16, kDarkest = 0.38;  // altitudes in pixels; share
+  constexpr double kNone = 8, kFull = 22, kDarkest = 0.38;  // altitudes in pixels; share
   const glm::dvec2 u(b - a), v(c - a), w(c - b);
   const double longest = std::sqrt(std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}));
   if (!(longest > 0)) return 0;
@@ -188,7 +190,10 @@ Rgb map_colour(ColourMap map, double share) {
 
 Scale::Scale(const Picture& picture, const PictureOptions& options)
     : map_(options.map), bands_(options.bands) {
-  range_ = options.range.value_or(Enclosure{0, largest_finite(picture.field.upper)});
+  const double upper = picture.interval.upper;
+  const double shown = std::isfinite(upper) ? upper : 0;  // the bar has room for it, too
+  range_ =
+      options.range.value_or(Enclosure{0, std::max(shown, largest_finite(picture.field.upper))});
 }
 
 double Scale::share_of(double length) const {

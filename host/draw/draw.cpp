@@ -18,6 +18,14 @@ struct Places {
   double footer;  ///< base line of the first line below
 };
 
+/// Pixels of what is one in a picture of 1600 x 1000; letters of 15 units stay legible.
+double unit_of(const PictureOptions& options) {
+  constexpr double kLeast = 0.6;
+  const double width = options.width, height = options.height;
+  const double of_area = std::sqrt(width * height / (1600.0 * 1000.0));
+  return std::max(std::min({of_area, width / 1000, height / 620}), kLeast);
+}
+
 class Drawing {
  public:
   Drawing(const Device& device, const Picture& picture, const PictureOptions& options)
@@ -28,7 +36,7 @@ class Drawing {
                std::vector<uint8_t>(size_t{4} * options.width * options.height, 255)},
         canvas_(image_),
         scale_(picture, options),
-        unit_(std::max(std::min(options.width / 1600.0, options.height / 1000.0), 0.5)),
+        unit_(unit_of(options)),
         sheet_{canvas_, picture, scale_, unit_},
         views_(picture, options, unit_) {}
 
@@ -58,12 +66,14 @@ class Drawing {
   void draw_lines(const std::vector<std::string>& lines, double y);
   void draw_views(Raster& raster, const std::vector<Panel>& panels,
                   const std::optional<Panel>& inset);
-  void draw_pin(const Panel& panel, const Layer& layer);
-  Area place_for_label(const Area& views, const Layer& layer, glm::dvec2 tip,
-                       glm::dvec2 size) const;
+  void draw_pin(const Panel& panel, const Layer& layer, double clear);
+  Area place_for_label(const Panel& panel, const Layer& layer, double clear, glm::dvec2 size) const;
+  /// Of what points at the witness: none of the faces' colours.
+  Rgb pin_colour() const { return picture_.limit ? kInk : kSignal; }
   void draw_ring(glm::dvec2 at, double radius);
+  void draw_frame(const Area& area);
   void draw_inset(Raster& raster, const Panel& inset, const Panel& best);
-  void draw_closest(const Camera& camera);
+  bool draw_closest(const Camera& camera);
   void draw_legend(const Area& side);
 
   const Device& device_;
@@ -99,7 +109,7 @@ Places Drawing::places_for(size_t footer_lines) const {
   Places places;
   places.views = {margin, top, std::floor(width), bottom - top};
   places.side = {options_.width - margin - side, top, side, bottom - top};
-  const double square = std::floor(std::min(side, 0.46 * places.side.height));
+  const double square = std::floor(std::min(side, 0.43 * places.side.height));
   places.inset = {places.side.right() - square, bottom - square, square, square};
   places.side.height -= square + 56 * unit_;
   places.footer = bottom + 14 * unit_ + 18 * unit_;
@@ -143,7 +153,8 @@ void Drawing::draw_header() {
   const double half = (width - gap) / 2;
   const double for_second = std::clamp(wanted, std::min(least, half), half);
   const double end = draw_name(x, first, picture_.name, width - gap - for_second);
-  draw_name(end + gap, second, picture_.against, x + width - end - gap);
+  if (!picture_.against.empty())
+    draw_name(end + gap, second, picture_.against, x + width - end - gap);
   const PrintedInterval h = printed(picture_);
   double at = x;
   if (picture_.limit) {
@@ -173,7 +184,13 @@ void Drawing::draw_lines(const std::vector<std::string>& lines, double y) {
 
 void Drawing::draw_ring(glm::dvec2 at, double radius) {
   canvas_.ring(at, radius, 5.5 * unit_, kPaper);
-  canvas_.ring(at, radius, 2.5 * unit_, kSignal);
+  canvas_.ring(at, radius, 2.5 * unit_, pin_colour());
+}
+
+/// Around what is magnified.
+void Drawing::draw_frame(const Area& area) {
+  canvas_.frame(area, 3.5 * unit_, kPaper);
+  canvas_.frame(area, 1.5 * unit_, kInk);
 }
 
 void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
@@ -185,17 +202,17 @@ void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
     const Panel& panel = panels[i];
     const Area& area = panel.camera.area;
     if (!panel.label.empty()) {
-      write(canvas_, {area.x, area.y - 4 * unit_}, panel.label, {15 * unit_, kGrey, Align::kLeft});
+      canvas_.frame(area.inner(-std::round(20 * unit_)), 1, kPale);
+      write(canvas_, {area.x - 8 * unit_, area.y + 4 * unit_}, panel.label,
+            {15 * unit_, kGrey, Align::kLeft});
     }
     const glm::dvec2 spot(panel.camera.pixel(views_.spot().point));
-    if (&panel == &best && inset && panel.shows_spot) {
-      const double side = inset->camera.area.width * panel.camera.scale / inset->camera.scale;
-      const Area frame{spot.x - side / 2, spot.y - side / 2, side, side};
-      canvas_.frame(frame, 3.5 * unit_, kPaper);
-      canvas_.frame(frame, 1.5 * unit_, kInk);
-    }
     if (&panel == &best) {
-      draw_pin(panel, layers[i]);
+      const double magnified = inset && panel.shows_spot ? inset->camera.scale : 0;
+      const double half =
+          magnified > 0 ? inset->camera.area.width * panel.camera.scale / magnified / 2 : 0;
+      if (half > 0) draw_frame({spot.x - half, spot.y - half, 2 * half, 2 * half});
+      draw_pin(panel, layers[i], half + 24 * unit_);
     } else if (picture_.witness && panel.shows_spot) {
       draw_ring(spot, 7 * unit_);
     }
@@ -207,45 +224,49 @@ void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
   draw_ruler(sheet_, best.camera, {left + (panels.size() == 1 ? 120 : 4) * unit_, bottom});
 }
 
-Area Drawing::place_for_label(const Area& views, const Layer& layer, glm::dvec2 tip,
+/// How much of the box lies over the mesh, from 0 to 1; and as much again if any of it does.
+double covered(const Layer& layer, const Area& views, const Area& box) {
+  double sum = 0;
+  size_t count = 0;
+  for (double y = box.y; y < box.bottom(); y += 4) {
+    for (double x = box.x; x < box.right(); x += 4, ++count) {
+      if (!views.has({x, y})) continue;
+      const auto column = static_cast<size_t>(x - views.x), row = static_cast<size_t>(y - views.y);
+      if (column < layer.width && row < layer.height)
+        sum += layer.rgba[4 * (row * layer.width + column) + 3] / 255.0;
+    }
+  }
+  return sum / static_cast<double>(std::max<size_t>(count, 1)) + (sum > 0 ? 1 : 0);
+}
+
+/// Near the spot, but no nearer than `clear`, and beside the mesh where there is room.
+Area Drawing::place_for_label(const Panel& panel, const Layer& layer, double clear,
                               glm::dvec2 size) const {
   constexpr int kDirections = 24;
-  const auto covered = [&](const Area& box) {
-    double sum = 0;
-    for (double y = box.y; y < box.bottom(); y += 4) {
-      for (double x = box.x; x < box.right(); x += 4) {
-        if (!views.has({x, y})) continue;
-        const auto column = static_cast<size_t>(x - views.x),
-                   row = static_cast<size_t>(y - views.y);
-        if (column < layer.width && row < layer.height)
-          sum += layer.rgba[4 * (row * layer.width + column) + 3] / 255.0;
-      }
-    }
-    return sum * 16 / (size.x * size.y);
-  };
+  constexpr double kTurn = 2 * 3.14159265358979 / kDirections;
+  const Area& views = panel.camera.area;
+  const glm::dvec2 tip(panel.camera.pixel(views_.spot().point));
   Area best{};
   double least = std::numeric_limits<double>::infinity();
-  for (const double far : {90.0, 140.0, 200.0, 280.0, 380.0, 520.0}) {
+  for (const double far : {90.0, 140.0, 200.0, 280.0, 380.0, 520.0, 680.0}) {
     for (int i = 0; i < kDirections; ++i) {
-      const double angle = 2 * 3.14159265358979 * i / kDirections;
-      const glm::dvec2 middle =
-          tip + glm::dvec2(1.25 * std::cos(angle), -std::sin(angle)) * (far * unit_);
+      const glm::dvec2 way(1.25 * std::cos(i * kTurn), -std::sin(i * kTurn));
+      const glm::dvec2 middle = tip + way * (far * unit_);
       Area box{middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y};
       box.x = std::clamp(box.x, views.x, std::max(views.x, views.right() - size.x));
       box.y = std::clamp(box.y, views.y, std::max(views.y, views.bottom() - size.y));
-      const double cost =
-          2.5 * covered(box) + far / 400 + (box.inner(-24 * unit_).has(tip) ? 9 : 0);
-      if (cost < least) {
-        least = cost;
-        best = box;
-      }
+      const bool meets = box.inner(-clear).has(tip);
+      const double cost = covered(layer, views, box) + far / 500 + (meets ? 9 : 0);
+      if (cost >= least) continue;
+      least = cost;
+      best = box;
     }
   }
   return best;
 }
 
 /// An arrow to the worst place, with the number that it proves; a ring where it is hidden.
-void Drawing::draw_pin(const Panel& panel, const Layer& layer) {
+void Drawing::draw_pin(const Panel& panel, const Layer& layer, double clear) {
   if (!picture_.witness) return;
   const double u = unit_;
   const glm::dvec2 tip(panel.camera.pixel(views_.spot().point));
@@ -253,15 +274,15 @@ void Drawing::draw_pin(const Panel& panel, const Layer& layer) {
   const std::string what = panel.shows_spot ? "at the witness" : "at the witness, hidden here";
   const double width = std::max(text_width(number, 19 * u), text_width(what, 14 * u));
   const glm::dvec2 size(std::min(width + 26 * u, panel.camera.area.width), 54 * u);
-  const Area box = place_for_label(panel.camera.area, layer, tip, size);
+  const Area box = place_for_label(panel, layer, clear, size);
   const glm::dvec2 from =
       glm::clamp(tip, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
   const double off = (panel.shows_spot ? 2 : 13) * u;
   const glm::dvec2 end = tip + (from - tip) * std::min(1.0, off / glm::distance(from, tip));
   canvas_.arrow(from, end, 3.2 * u, kPaper, 2 * u);
-  canvas_.arrow(from, end, 3.2 * u, kSignal);
+  canvas_.arrow(from, end, 3.2 * u, pin_colour());
   if (!panel.shows_spot) draw_ring(tip, 7 * u);
-  canvas_.fill(box.inner(-1.5 * u), kSignal, 1, 7 * u);
+  canvas_.fill(box.inner(-1.5 * u), pin_colour(), 1, 7 * u);
   canvas_.fill(box, kPaper, 1, 6 * u);
   write(canvas_, {box.centre().x, box.y + 23 * u}, shortened(number, 19 * u, size.x - 12 * u),
         {19 * u, kInk, Align::kCentre});
@@ -269,23 +290,24 @@ void Drawing::draw_pin(const Panel& panel, const Layer& layer) {
         {14 * u, kGrey, Align::kCentre});
 }
 
-/// From the witness to its closest point on B, as far as the inset shows it.
-void Drawing::draw_closest(const Camera& camera) {
-  if (!views_.spot().closest) return;
+/// From the witness to its closest point on B, as far as the inset shows it; whether it ends there.
+bool Drawing::draw_closest(const Camera& camera) {
+  if (!views_.spot().closest) return false;
   const double u = unit_;
   const Area inner = camera.area.inner(4 * u);
   const glm::dvec2 from(camera.pixel(views_.spot().point));
   const glm::dvec2 to(camera.pixel(*views_.spot().closest));
   const double length = glm::distance(from, to);
-  if (length < 12 * u) return;
+  if (length < 12 * u) return false;
   double shown = 1;
   while (shown > 0 && !inner.has(from + (to - from) * shown)) shown -= 1.0 / 64;
   const glm::dvec2 end = from + (to - from) * shown;
   canvas_.line(from, end, 5.5 * u, kPaper);
-  canvas_.line(from, end, 2.5 * u, kSignal);
-  if (shown < 1) return;
+  canvas_.line(from, end, 2.5 * u, pin_colour());
+  if (shown < 1) return false;
   canvas_.disc(to, 6.5 * u, kPaper);
   canvas_.disc(to, 4.5 * u, kInk);
+  return true;
 }
 
 void Drawing::draw_inset(Raster& raster, const Panel& inset, const Panel& best) {
@@ -293,13 +315,15 @@ void Drawing::draw_inset(Raster& raster, const Panel& inset, const Panel& best) 
   const Area& area = inset.camera.area;
   paint(raster, inset.camera);
   canvas_.frame(area, std::max(1.0, 1.5 * u), kInk);
-  draw_closest(inset.camera);
+  const bool has_dot = draw_closest(inset.camera);
   draw_ring(area.centre(), 8 * u);
   const auto times = static_cast<size_t>(inset.camera.scale / best.camera.scale + 0.5);
   std::string text = picture_.witness ? "the witness" : "the largest upper bound";
   text += ", \u00d7" + grouped(times);
   if (!best.shows_spot) text += ", from its own side";
-  write(canvas_, {area.x, area.y - 9 * u}, text, {size, kGrey, Align::kLeft});
+  if (has_dot) text += std::string("; dot: closest on ") + (picture_.back ? "A" : "B");
+  write(canvas_, {area.x, area.y - 9 * u}, shortened(text, size, area.width),
+        {size, kGrey, Align::kLeft});
 }
 
 void Drawing::draw_legend(const Area& side) {
@@ -315,8 +339,10 @@ void check(const Picture& picture, const PictureOptions& options) {
   if (picture.field.lower.size() != picture.mesh.faces.size() ||
       picture.field.upper.size() != picture.mesh.faces.size())
     throw std::invalid_argument("a picture needs bounds for each face of its mesh");
+  const double diagonal = drawing::diagonal_of(picture.mesh);  // squares of lengths are finite
+  if (!(diagonal > 1e-100 && diagonal < 1e100)) refuse("shows meshes of 1e-100 to 1e100 units");
   if (options.width < kLeastPictureWidth || options.height < kLeastPictureHeight)
-    refuse("has at least 480x320 pixels");
+    refuse("has at least 640x400 pixels");
   if (std::max(options.width, options.height) > kMostPictureSide)
     refuse("has at most 8192x8192 pixels");
   if (options.range && !(options.range->lower <= options.range->upper &&

@@ -59,12 +59,12 @@ struct PictureOptions {
   Up up = Up::kZ;
   ColourMap map = ColourMap::kViridis;
   /// Lengths at the ends of the colour bar, the same for all pictures of a batch; else from 0 to
-  /// the largest upper.
+  /// the largest upper that is finite.
   std::optional<Enclosure> range = {};
   uint32_t bands = 0;  ///< so many steps of colour; 0: as smooth as the map
 };
 
-inline constexpr uint32_t kLeastPictureWidth = 480, kLeastPictureHeight = 320,
+inline constexpr uint32_t kLeastPictureWidth = 640, kLeastPictureHeight = 400,
                           kMostPictureSide = 8192;
 
 /// "iso", "six" or "x,y,z"; "viridis", "batlow" or "cividis"; "1600x1000". Each throws UsageError

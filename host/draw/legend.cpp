@@ -59,23 +59,32 @@ Ticks ticks_of_bands(const Scale& scale) {
   return ticks;
 }
 
-/// The bar itself, from the top.
+/// The bar itself; a tip stands on it where there are lengths above it.
 struct Bar {
   Area area;
   const Scale& scale;
+  double tip = 0;
   double height_of(double length) const {
+    if (length > scale.range().upper) return area.y - tip / 2;
     return area.bottom() - scale.share_of(length) * area.height;
   }
 };
 
 void draw_colours(const Sheet& sheet, const Bar& bar) {
   const auto rows = static_cast<int>(bar.area.height);
+  const bool has_width = sheet.scale.range().upper > sheet.scale.range().lower;
   for (int row = 0; row < rows; ++row) {
-    const double share = (rows - row - 0.5) / rows;
+    const double share = has_width ? (rows - row - 0.5) / rows : 0;
     sheet.canvas.fill({bar.area.x, bar.area.y + row, bar.area.width, 1},
                       sheet.scale.at_share(share));
   }
   sheet.canvas.frame(bar.area, 1, kGrey);
+  if (bar.tip <= 0) return;
+  const glm::dvec2 top(bar.area.centre().x, bar.area.y - bar.tip);
+  const glm::dvec2 left(bar.area.x, bar.area.y), right(bar.area.right(), bar.area.y);
+  sheet.canvas.polygon({top, right, left}, sheet.scale.at_share(1));
+  sheet.canvas.line(left, top, 1, kGrey);
+  sheet.canvas.line(top, right, 1, kGrey);
 }
 
 void draw_ticks(const Sheet& sheet, const Bar& bar, const Ticks& ticks) {
@@ -142,7 +151,8 @@ Ticks ticks_of(const Enclosure& range, size_t most) {
   const double width = range.upper - range.lower;
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   Ticks ticks;
-  if (!(width > 1e-12 * largest) || !std::isfinite(width)) {
+  // Below, powers of ten have few bits left, or none.
+  if (!(width > 1e-12 * largest) || !std::isfinite(width) || largest < 1e-290) {
     ticks.at = {range.upper};
     ticks.text = {decimal(range.upper, 4, Rounding::kUp)};
     return ticks;
@@ -197,10 +207,14 @@ std::string grouped(size_t count) {
 void draw_bar(const Sheet& sheet, const Area& area) {
   const double u = sheet.unit, size = 16 * u;
   const double notes = draw_notes(sheet, area);
-  const double top = area.y + 58 * u;
+  const FaceCounts counts = count_faces(sheet.picture, sheet.scale);
+  const bool has_tip = counts.above > 0 || sheet.picture.interval.upper > sheet.scale.range().upper;
+  const double tip = has_tip ? std::round(20 * u) : 0;
+  const double top = area.y + 58 * u + tip;
   const Bar bar{{std::round(area.x + 205 * u), std::round(top), std::round(30 * u),
                  std::round(area.bottom() - notes - 14 * u - top)},
-                sheet.scale};
+                sheet.scale,
+                tip};
   const size_t most = std::clamp<size_t>(static_cast<size_t>(bar.area.height / (46 * u)), 2, 8);
   const bool steps = sheet.scale.bands() > 0 && sheet.scale.bands() <= 2 * most;
   const Ticks ticks = steps ? ticks_of_bands(sheet.scale) : ticks_of(sheet.scale.range(), most);
