@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/gpu/queue_family.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -209,31 +210,6 @@ std::string nothing_usable(const std::vector<Choice>& choices, const std::string
     text += c.description.usable ? "usable, not asked for" : c.description.reason;
   }
   return text;
-}
-
-std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
-                                                    VkPhysicalDevice physical) {
-  return list_of<VkQueueFamilyProperties>([&](uint32_t* count, VkQueueFamilyProperties* all) {
-    vk.GetPhysicalDeviceQueueFamilyProperties(physical, count, all);
-  });
-}
-
-bool draws(const VkQueueFamilyProperties& family) {
-  return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
-}
-
-// One with timestamps, where there is one: stages are timed then. Of those one that draws, too.
-uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
-  const auto worth = [](const VkQueueFamilyProperties& f) {
-    if ((f.queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) return 0;
-    return 1 + (draws(f) ? 1 : 0) + (f.timestampValidBits > 0 ? 2 : 0);
-  };
-  const auto best = std::max_element(
-      families.begin(), families.end(),
-      [&](const auto& f, const auto& g) { return worth(f) < worth(g); });  // the first of equals
-  if (best == families.end() || worth(*best) == 0)
-    throw DeviceError("the device has no compute queue");
-  return static_cast<uint32_t>(best - families.begin());
 }
 
 // What is used where it is there.
