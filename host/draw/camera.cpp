@@ -33,7 +33,7 @@ Panel Views::corner_view(const Area& area) const {
     for (const auto& [x, y] : kCorners) {
       const glm::dvec3 z_up(0.72 * x, y, height);
       const bool is_z = options_.up == Up::kZ;
-      const Panel panel = view_from(is_z ? z_up : glm::dvec3(z_up.x, z_up.z, -z_up.y), area);
+      Panel panel = view_from(is_z ? z_up : glm::dvec3(z_up.x, z_up.z, -z_up.y), area);
       if (panel.shows_spot) return panel;
       if (!first) first = panel;
     }
@@ -48,7 +48,8 @@ std::vector<Panel> Views::six_views(const Area& area) const {
   for (uint32_t i = 0; i < 6; ++i) {
     glm::dvec3 direction(0);
     direction[static_cast<glm::length_t>(i / 2)] = i % 2 == 0 ? 1 : -1;
-    const Area cell{area.x + (i % columns) * width, area.y + i / columns * height, width, height};
+    const uint32_t column = i % columns, row = i / columns;
+    const Area cell{area.x + column * width, area.y + row * height, width, height};
     panels.push_back(view_from(direction, cell.inner(std::round(26 * unit_))));
     panels.back().label = std::string("from ") + (i % 2 == 0 ? "+" : "\u2212") + "xyz"[i / 2];
   }
@@ -89,6 +90,7 @@ size_t Views::best_of(const std::vector<Panel>& panels) const {
 }
 
 std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const {
+  if (area.width < 1) return std::nullopt;
   constexpr double kLeast = 0.015, kMost = 0.16, kWorthIt = 1.7;
   const glm::uvec3& f = picture_.mesh.faces[spot_.face];
   double radius = 0;

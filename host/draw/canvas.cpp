@@ -229,7 +229,8 @@ void write_glyph(Canvas& canvas, glm::dvec2 at, int glyph, const Ink& ink) {
                                 shift_y, glyph);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const unsigned char share = shares[static_cast<size_t>(y * width + x)];
+      const unsigned char share =
+          shares[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
       canvas.blend(static_cast<int64_t>(whole.x) + left + x,
                    static_cast<int64_t>(whole.y) + top + y, ink.colour, share / 255.0);
     }
@@ -326,7 +327,9 @@ std::vector<std::string> wrapped(const std::string& text, double size, double wi
   while (at < text.size()) {
     const size_t end = std::min(text.find(' ', at), text.size());
     const std::string word = text.substr(at, end - at);
-    const std::string longer = line.empty() ? word : line + " " + word;
+    std::string longer = line;
+    if (!longer.empty()) longer += ' ';
+    longer += word;
     const bool fits = line.empty() || text_width(longer, size) <= width;
     if (!fits && lines.size() + 1 < most) {
       lines.push_back(shortened(line, size, width));

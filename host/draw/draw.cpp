@@ -97,6 +97,8 @@ std::vector<std::string> Drawing::footer_lines() const {
     for (std::string& line : wrapped(text, 15 * unit_, options_.width - 72 * unit_, 2))
       lines.push_back(std::move(line));
   }
+  const double most = 0.2 * options_.height / (24 * unit_);  // the rest is for the mesh
+  lines.resize(std::min(lines.size(), static_cast<size_t>(most)));
   return lines;
 }
 
@@ -112,6 +114,10 @@ Places Drawing::places_for(size_t footer_lines) const {
   const double square = std::floor(std::min(side, 0.43 * places.side.height));
   places.inset = {places.side.right() - square, bottom - square, square, square};
   places.side.height -= square + 56 * unit_;
+  if (places.side.height < 170 * unit_) {  // no room for both
+    places.side.height = bottom - top;
+    places.inset.width = 0;
+  }
   places.footer = bottom + 14 * unit_ + 18 * unit_;
   return places;
 }
@@ -196,6 +202,7 @@ void Drawing::draw_frame(const Area& area) {
 void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
                          const std::optional<Panel>& inset) {
   std::vector<Layer> layers;
+  layers.reserve(panels.size());
   for (const Panel& panel : panels) layers.push_back(paint(raster, panel.camera));
   const Panel& best = panels[views_.best_of(panels)];
   for (size_t i = 0; i < panels.size(); ++i) {
@@ -317,10 +324,10 @@ void Drawing::draw_inset(Raster& raster, const Panel& inset, const Panel& best) 
   canvas_.frame(area, std::max(1.0, 1.5 * u), kInk);
   const bool has_dot = draw_closest(inset.camera);
   draw_ring(area.centre(), 8 * u);
-  const auto times = static_cast<size_t>(inset.camera.scale / best.camera.scale + 0.5);
-  std::string text = picture_.witness ? "the witness" : "the largest upper bound";
+  const auto times = static_cast<size_t>(std::lround(inset.camera.scale / best.camera.scale));
+  std::string text = picture_.witness ? "witness" : "largest upper bound";
   text += ", \u00d7" + grouped(times);
-  if (!best.shows_spot) text += ", from its own side";
+  if (!best.shows_spot) text += ", from its side";
   if (has_dot) text += std::string("; dot: closest on ") + (picture_.back ? "A" : "B");
   write(canvas_, {area.x, area.y - 9 * u}, shortened(text, size, area.width),
         {size, kGrey, Align::kLeft});

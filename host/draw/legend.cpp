@@ -212,7 +212,7 @@ void draw_bar(const Sheet& sheet, const Area& area) {
   const double tip = has_tip ? std::round(20 * u) : 0;
   const double top = area.y + 58 * u + tip;
   const Bar bar{{std::round(area.x + 205 * u), std::round(top), std::round(30 * u),
-                 std::round(area.bottom() - notes - 14 * u - top)},
+                 std::round(std::max(area.bottom() - notes - 14 * u - top, 30 * u))},
                 sheet.scale,
                 tip};
   const size_t most = std::clamp<size_t>(static_cast<size_t>(bar.area.height / (46 * u)), 2, 8);

@@ -233,6 +233,19 @@ TEST_CASE("steps of colour are as many as was asked for") {
   CHECK(find(image, map_colour(ColourMap::kViridis, 1.0 / 3)).count > 16000);
 }
 
+TEST_CASE("a picture of any size has room for all of it") {
+  const Mesh mesh = two_faces();
+  const Field field{{0, 0}, {1, std::numeric_limits<double>::infinity()}};
+  Picture picture{.mesh = mesh, .field = field, .interval = {0, 1}};
+  picture.caption.assign(40, std::string(300, 'x') + " " + std::string(300, 'y'));
+  for (const char* size : {"640x400", "640x2000", "2000x400"}) {
+    PictureOptions options = from_above();
+    options.range = Enclosure{0, 0.5};
+    parse_picture_size("--size", size, options);
+    CHECK(find(draw(device(), picture, options), kStripe).count > 300);
+  }
+}
+
 TEST_CASE("another program reads the PNG") {
   const Mesh mesh = two_faces();
   const Field field{{0, 0}, {0.25, 1}};
