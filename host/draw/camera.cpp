@@ -90,20 +90,22 @@ size_t Views::best_of(const std::vector<Panel>& panels) const {
 }
 
 std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const {
+  constexpr double kLeast = 0.015, kMost = 0.06, kMostToB = 0.2;  // of the diagonal
+  constexpr double kLeastTimes = 3;
   if (area.width < 1) return std::nullopt;
-  constexpr double kLeast = 0.015, kMost = 0.16, kWorthIt = 1.7;
   const glm::uvec3& f = picture_.mesh.faces[spot_.face];
-  double radius = 0;
+  double radius = kLeast * diagonal_;
   for (glm::length_t i = 0; i < 3; ++i)
     radius = std::max(radius, 1.6 * glm::distance(picture_.mesh.vertices[f[i]], spot_.point));
-  if (spot_.closest) radius = std::max(radius, 1.4 * glm::distance(*spot_.closest, spot_.point));
-  radius = std::clamp(radius, kLeast * diagonal_, kMost * diagonal_);
+  radius = std::min(radius, kMost * diagonal_);
+  const double to_b = spot_.closest ? 1.4 * glm::distance(*spot_.closest, spot_.point) : 0;
+  if (to_b <= kMostToB * diagonal_) radius = std::max(radius, to_b);
+  radius = std::min(radius, area.width / (2 * kLeastTimes * best.camera.scale));
   Panel inset = best;
   inset.camera.area = area;
   inset.camera.centre = spot_.point;
   inset.camera.scale = area.width / (2 * radius);
   inset.camera.reach = inset.camera.before = 1.01 * diagonal_;
-  if (inset.camera.scale < kWorthIt * best.camera.scale) return std::nullopt;
   if (!best.shows_spot) {  // along its normal, from within what hides it
     inset.camera.axes = axes_of(normal_at_spot(), options_.up);
     inset.camera.before = radius;

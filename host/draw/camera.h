@@ -156,7 +156,7 @@ class Views {
   std::vector<Panel> panels_in(const Area& area) const;
   /// The one that shows the spot best.
   size_t best_of(const std::vector<Panel>& panels) const;
-  /// The spot, magnified; none where the mesh is not much larger.
+  /// The spot, magnified; none where there is no room.
   std::optional<Panel> inset_in(const Area& area, const Panel& best) const;
 
  private:
