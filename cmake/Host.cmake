@@ -37,6 +37,13 @@ elseif(VKH_CRYPTO_HEADER AND VKH_CRYPTO_LIBRARY)
 else()
   message(STATUS "Not here: the SHA-256 of files, which needs libssl-dev")
 endif()
+# Pictures: letters and PNG. Of headers alone, so that a cross-build has them, too (cmake/toolchains/headers.cmake).
+find_file(VKH_STB_HEADER stb/stb_truetype.h)
+if(VKH_STB_HEADER)
+  set(VKH_HAS_STB ON)
+else()
+  message(STATUS "Not here: pictures, which need libstb-dev")
+endif()
 file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
 list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli|python)/.*$")
 if(NOT VKH_HAS_3MF)
@@ -48,8 +55,28 @@ else()
   list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_windows\\.cpp$")
 endif()
 vkh_add_kernel(self_test ${PROJECT_SOURCE_DIR}/shaders/doctor/self_test.comp ${PROJECT_BINARY_DIR}/generated/kernels)
+# What pictures are drawn with: generated/draw/NAME.h with an array each, k_mesh_vert and k_mesh_frag, and kFont.
+set(VKH_DRAW_OUT ${PROJECT_BINARY_DIR}/generated/draw)
+file(MAKE_DIRECTORY ${VKH_DRAW_OUT})
+foreach(stage IN ITEMS vert frag)
+  add_custom_command(
+    OUTPUT ${VKH_DRAW_OUT}/mesh_${stage}.h
+    COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 --vn k_mesh_${stage} -o ${VKH_DRAW_OUT}/mesh_${stage}.h
+            ${PROJECT_SOURCE_DIR}/host/draw/mesh.${stage}
+    DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/mesh.${stage}
+    COMMENT "Compiling mesh.${stage}"
+    VERBATIM)
+endforeach()
+add_custom_command(
+  OUTPUT ${VKH_DRAW_OUT}/font.h
+  COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
+          ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${VKH_DRAW_OUT}/font.h
+  DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
+  COMMENT "Embedding the font"
+  VERBATIM)
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
-add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp)
+add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
+            ${VKH_DRAW_OUT}/mesh_vert.h ${VKH_DRAW_OUT}/mesh_frag.h ${VKH_DRAW_OUT}/font.h)
 if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
 endif()
@@ -57,7 +84,8 @@ target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTE
                       $<BUILD_INTERFACE:vkh_shaders> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
 target_link_libraries(vkh_host PRIVATE ${VKH_FORMAT_LIBRARIES})
 target_compile_definitions(vkh_host PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
-                           $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>)
+                           $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>
+                           $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB>)
 target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)

@@ -32,5 +32,6 @@ vkh_header_package(VulkanHeaders Vulkan::Headers vulkan vk_video)
 vkh_header_package(glm glm::glm glm)
 vkh_header_package(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
 vkh_header_package(CLI11 CLI11::CLI11 CLI)
+vkh_header_package(stb stb::stb stb)
 vkh_header_package(doctest doctest::doctest doctest boost)  # and what the tests calculate with
 file(TOUCH ${VKH_HEADERS}/complete)

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/gpu/queue_family.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -211,26 +212,6 @@ std::string nothing_usable(const std::vector<Choice>& choices, const std::string
   return text;
 }
 
-std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
-                                                    VkPhysicalDevice physical) {
-  return list_of<VkQueueFamilyProperties>([&](uint32_t* count, VkQueueFamilyProperties* all) {
-    vk.GetPhysicalDeviceQueueFamilyProperties(physical, count, all);
-  });
-}
-
-// One with timestamps, where there is one: stages are timed then.
-uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
-  const auto computes = [](const VkQueueFamilyProperties& f) {
-    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
-  };
-  const auto timed = std::find_if(families.begin(), families.end(), [&](const auto& f) {
-    return computes(f) && f.timestampValidBits > 0;
-  });
-  const auto any = std::find_if(families.begin(), families.end(), computes);
-  if (any == families.end()) throw DeviceError("the device has no compute queue");
-  return static_cast<uint32_t>((timed != families.end() ? timed : any) - families.begin());
-}
-
 // What is used where it is there.
 struct Wishes {
   VkPhysicalDeviceFeatures2 features{};
@@ -312,6 +293,7 @@ void Device::create_device(bool robust) {
   const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, physical_);
   queue_family_ = compute_family(families);
   has_timestamps_ = families[queue_family_].timestampValidBits > 0;
+  has_graphics_ = draws(families[queue_family_]);
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -366,6 +348,7 @@ void Device::adopt(const AdoptedDevice& adopted) {
       (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
     refuse("its queue family " + std::to_string(adopted.queue_family) + " has no compute");
   has_timestamps_ = families[adopted.queue_family].timestampValidBits > 0;
+  has_graphics_ = draws(families[adopted.queue_family]);
   instance_ = adopted.instance;
   physical_ = adopted.physical;
   device_ = adopted.device;

@@ -62,6 +62,8 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   VkPhysicalDevice physical() const { return physical_; }
+  /// Its family draws, too; pictures need that (host/draw).
+  bool has_graphics() const { return has_graphics_; }
   std::mutex& queue_mutex() const { return *queue_mutex_; }
   /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.
   bool has_timestamps() const { return has_timestamps_; }
@@ -94,6 +96,7 @@ class Device {
   mutable std::mutex own_mutex_;
   std::mutex* queue_mutex_ = &own_mutex_;
   bool owned_ = true;
+  bool has_graphics_ = false;
   bool has_timestamps_ = true;
   bool has_addresses_ = false;
   bool maps_memory_ = true;

@@ -54,6 +54,10 @@ uint32_t memory_type(const VkPhysicalDeviceMemoryProperties& memory, uint32_t al
 
 }  // namespace
 
+uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement) {
+  return memory_type(memory_of(device), allowed, placement);
+}
+
 // Delegating, here and below: what was created is destroyed if a later step throws.
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                Placement placement)

@@ -12,6 +12,9 @@ namespace vkh {
 /// kMapped: the device's own, and the host writes into it.
 enum class Placement { kDevice, kMapped, kUpload, kReadback };
 
+/// What memory of this kind is, of the types that a buffer or an image allows. Throws DeviceError.
+uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement);
+
 /// A buffer bound to its own allocation; move-only. Host-visible ones stay mapped.
 class Buffer {
  public:

@@ -67,7 +67,26 @@ namespace vkh {
   X(WaitForFences)               \
   X(CreateQueryPool)             \
   X(DestroyQueryPool)            \
-  X(GetQueryPoolResults)
+  X(GetQueryPoolResults)         \
+  X(CreateImage)                 \
+  X(DestroyImage)                \
+  X(GetImageMemoryRequirements)  \
+  X(BindImageMemory)             \
+  X(CreateImageView)             \
+  X(DestroyImageView)            \
+  X(CreateRenderPass)            \
+  X(DestroyRenderPass)           \
+  X(CreateFramebuffer)           \
+  X(DestroyFramebuffer)          \
+  X(CreateGraphicsPipelines)     \
+  X(CmdBeginRenderPass)          \
+  X(CmdEndRenderPass)            \
+  X(CmdBindVertexBuffers)        \
+  X(CmdPushConstants)            \
+  X(CmdSetViewport)              \
+  X(CmdSetScissor)               \
+  X(CmdDraw)                     \
+  X(CmdCopyImageToBuffer)
 
 struct VulkanApi {
   PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;

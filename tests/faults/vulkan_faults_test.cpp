@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/check/self_test.h"
+#include "host/draw/draw.h"
 #include "host/gpu/device.h"
 #include "host/solve/solver.h"
 #include "tests/faults/trial.h"
@@ -98,6 +99,22 @@ TEST_CASE("the self-test of the doctor") {
   try_all("doctor", work, Places::kFirst);
   CHECK(device.validation_messages() == 0);
 }
+
+#ifdef VKH_HAS_STB
+TEST_CASE("a picture") {
+  Device device(request(is_validated()));
+  const Mesh mesh = icosphere(1, 0);
+  const std::vector<double> bounds(mesh.faces.size(), 1);
+  const Field field{bounds, bounds};
+  const auto work = [&] {
+    const PictureOptions options{.width = kLeastPictureWidth, .height = kLeastPictureHeight};
+    const Picture picture{.mesh = mesh, .field = field, .interval = {1, 1}};
+    return std::to_string(draw(device, picture, options).rgba.size()) + " bytes";
+  };
+  try_all("picture", work);
+  CHECK(device.validation_messages() == 0);
+}
+#endif
 
 /// A solver that is kept, whose buffers go between two trials.
 struct Kept {

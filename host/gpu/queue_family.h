@@ -1,0 +1,39 @@
+// Which of a device's queues the host submits to.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/gpu/vulkan_api.h"
+
+namespace vkh {
+
+inline std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
+                                                           VkPhysicalDevice physical) {
+  uint32_t count = 0;
+  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  return families;
+}
+
+inline bool draws(const VkQueueFamilyProperties& family) {
+  return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
+}
+
+/// The first of the best: with timestamps, for stages are timed then; and of those one that draws.
+inline uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
+  const auto worth = [](const VkQueueFamilyProperties& f) {
+    const int more = (f.timestampValidBits > 0 ? 2 : 0) + (draws(f) ? 1 : 0);
+    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 ? 1 + more : 0;
+  };
+  const auto best =
+      std::max_element(families.begin(), families.end(),
+                       [&](const auto& f, const auto& g) { return worth(f) < worth(g); });
+  if (best == families.end() || worth(*best) == 0)
+    throw DeviceError("the device has no compute queue");
+  return static_cast<uint32_t>(best - families.begin());
+}
+
+}  // namespace vkh
