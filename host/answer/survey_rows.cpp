@@ -13,13 +13,15 @@ std::string number(double x, double gap, Rounding rounding) {
   return decimal(x, digits_that_matter(x, gap), rounding);
 }
 
-std::string enclosure(const Enclosure& e) {
+std::string enclosure(const Enclosure& e, const std::string& unit) {
   const double gap = e.upper - e.lower;
-  return "[" + number(e.lower, gap, Rounding::kDown) + ", " + number(e.upper, gap, Rounding::kUp) +
-         "]";
+  std::string text = "[";
+  text += number(e.lower, gap, Rounding::kDown);
+  text += ", ";
+  text += number(e.upper, gap, Rounding::kUp);
+  text += unit.empty() ? "]" : "] " + unit;
+  return text;
 }
-
-std::string share(const Enclosure& e) { return enclosure({100 * e.lower, 100 * e.upper}) + " %"; }
 
 std::string plain(double x) {
   char text[32];
@@ -44,8 +46,7 @@ std::string field_text(const Field& field, const Answer& answer) {
          " beyond, " + std::to_string(field.face_count() - within - beyond) + " undecided";
 }
 
-std::string percentiles_text(const std::vector<Percentile>& percentiles,
-                             const std::string& unit) {
+std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit) {
   std::string text;
   for (const Percentile& p : percentiles)
     text += (text.empty() ? "p" : ", p") + plain(100 * p.share) + " " + enclosure(p.distance, unit);
@@ -60,12 +61,14 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
   if (survey.faces) rows.push_back({"faces", field_text(survey.field, answer)});
   if (survey.statistics) {
     const Statistics& s = *survey.statistics;
-    rows.push_back({"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
+    rows.push_back(
+        {"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
     for (const AreaWithin& band : s.bands)
       rows.push_back({"area", enclosure({100 * band.share.lower, 100 * band.share.upper}, "%") +
                                   " within " + plain(band.distance) +
                                   (unit.empty() ? "" : " " + unit)});
-    if (!s.percentiles.empty()) rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
+    if (!s.percentiles.empty())
+      rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
   }
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";

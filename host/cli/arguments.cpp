@@ -10,6 +10,7 @@
 #include "host/answer/options.h"
 #include "host/base/error.h"
 #include "host/cli/help_text.h"
+#include "host/cli/pictures.h"
 
 namespace vkh {
 namespace {
@@ -24,6 +25,7 @@ struct Typed {
   std::vector<std::string> enabled, disabled;
   std::string preset;
   std::string json, junit, area, field_tolerance;
+  TypedPictures pictures;
   std::vector<std::string> bands;
   bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
        statistics = false;
@@ -114,6 +116,7 @@ Outputs outputs_of(const Typed& typed) {
   if (!typed.junit.empty()) outputs.junit_file = typed.junit;
   outputs.github = typed.github;
   outputs.verbose = typed.verbose;
+  outputs.pictures = asked_of(typed.pictures);
   return outputs;
 }
 
@@ -229,6 +232,7 @@ struct Program {
     add_tolerance(*command, distance, "1e-6");
     add_symmetric(*command, distance);
     add_survey_options(*command, distance);
+    add_picture_options(*command, distance.pictures);
     add_output_options(*command, distance);
     add_search_options(*command, distance);
 
@@ -253,6 +257,7 @@ struct Program {
                      "every point")
         ->type_name("SHARE");
     add_survey_options(*command, gate);
+    add_picture_options(*command, gate.pictures);
     command->add_option("--junit", gate.junit, "Write a test suite of one test case: JUnit's XML")
         ->type_name("FILE");
     command->add_flag("--github", gate.github,
@@ -265,6 +270,7 @@ struct Program {
     add_tolerance(*command, demo, "1e-8");
     add_symmetric(*command, demo);
     add_survey_options(*command, demo);
+    add_picture_options(*command, demo.pictures);
     add_output_options(*command, demo);
     add_search_options(*command, demo);
 
@@ -339,7 +345,10 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
                                               : std::numeric_limits<double>::infinity(),
                    .outputs = outputs_of(typed),
                    .device = {}};
-  line.job.hashes = line.outputs.json || line.outputs.json_file;
+  line.job.hashes = line.outputs.json || line.outputs.json_file || line.outputs.pictures.report;
+  line.job.survey.faces = line.job.survey.faces || line.outputs.pictures.any();
+  line.job.survey.statistics =
+      line.job.survey.statistics || line.outputs.pictures.report.has_value();
   return line;
 }
 

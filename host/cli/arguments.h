@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/pictures.h"
 #include "host/job/pair_job.h"
 
 namespace vkh {
@@ -19,6 +20,7 @@ struct Outputs {
   std::optional<std::string> json_file, junit_file;
   bool github = false;
   bool verbose = false;
+  PicturesAsked pictures;
 };
 
 struct CommandLine {

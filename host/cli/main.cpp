@@ -16,6 +16,7 @@
 #include "host/cli/exit_code.h"
 #include "host/cli/out_of_memory.h"
 #include "host/cli/outputs.h"
+#include "host/cli/pictures.h"
 #include "host/job/pair_job.h"
 #include "host/system/system.h"
 
@@ -81,8 +82,12 @@ Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destina
 int run_pair(const CommandLine& line, const Stop& stop) {
   Destinations destinations(
       line.outputs, {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
+  const Pictures pictures(line.outputs.pictures, line.job.symmetric,
+                          {line.job.file_a, line.job.file_b});
   const Done done = answer_for(line, stop, destinations);  // taken apart after the answer is out
-  const std::string not_written = destinations.write(done.answer);
+  std::string not_written = destinations.write(done.answer);
+  const std::string not_drawn = pictures.write(done);
+  if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
   check_printed();
   check_verified(done.answer);
   if (!not_written.empty()) return complain(not_written, kExitNotWritten);

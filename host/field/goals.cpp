@@ -25,7 +25,7 @@ std::vector<Scored> score_faces(const CellStore& store, const Asked& asked) {
   const SurveyOptions& options = asked.options;
   const double tolerance = options.field_tolerance > 0
                                ? asked.frame.to_frame(options.field_tolerance)
-                               : options.mean_tolerance * static_cast<double>(store.reached());
+                               : options.face_tolerance * static_cast<double>(store.reached());
   std::vector<Scored> scored;
   for (size_t i = 0; i < store.count(); ++i) {
     const double above = static_cast<double>(store.bounds(i).highest) -

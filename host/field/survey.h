@@ -14,8 +14,9 @@ namespace vkh {
 
 struct SurveyOptions {
   bool faces = false;  ///< each face's bounds are to be narrow; else it is bounded once
-  /// How narrow, in the files' units; 0: `mean_tolerance` of the largest distance.
+  /// How narrow, in the files' units; 0: `face_tolerance` of what the largest distance is at least.
   double field_tolerance = 0;
+  double face_tolerance = 0.01;
   /// With one, faces are only to be proven within it or beyond.
   Limit limit = {};
   bool statistics = false;

@@ -22,7 +22,7 @@ struct SurveyedPair {
   const Mesh& a;
   Frame frame;
   double displacement;  ///< of both meshes, in the frame
-  double farthest;      ///< no distance is larger, in the files' units
+  double farthest;      ///< the run's upper bound: no distance is larger, in the files' units
   bool on_cpu;          ///< batches are to be small
 };
 

@@ -305,7 +305,8 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   }
   for (size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].survey)
-      inputs[i].survey([&](const CellBatch& batch) { bound_cells(*seats_[i], batch); });
+      inputs[i].survey(outputs[i].report,
+                       [&](const CellBatch& batch) { bound_cells(*seats_[i], batch); });
   }
   return outputs;
 }

@@ -63,8 +63,8 @@ struct RunInput {
   bool two_float = false;
   bool stage_times = true;  ///< false: "hierarchy" and "solve" in their place
   bool coverage = false;    ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
-  /// Called at the end, with what bounds cells; `switches` has VKH_SWITCH_FIELD too.
-  std::function<void(const BoundCells&)> survey;
+  /// Called at the end, with the report and what bounds cells; `switches` has VKH_SWITCH_FIELD too.
+  std::function<void(const VkhReport&, const BoundCells&)> survey;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
 };

@@ -124,11 +124,11 @@ struct Watch {
   }
 };
 
-SurveyedPair surveyed(const Pair& pair, bool on_cpu) {
+SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu) {
   return {.a = pair.a,
           .frame = pair.frame,
           .displacement = pair.displacement,
-          .farthest = farthest_in(pair.joint, add_up(pair.a.delta, pair.b.delta)),
+          .farthest = to_files(report, pair).upper,
           .on_cpu = on_cpu};
 }
 
@@ -202,9 +202,9 @@ std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
     inputs.push_back(input_for(pair, options, switches, watches.back().tolerance()));
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
     if (options.survey) {
-      inputs.back().survey = [&, on_cpu =
-                                     device.description().type == "cpu"](const BoundCells& bound) {
-        options.survey(surveyed(pair, on_cpu), bound);
+      const bool on_cpu = device.description().type == "cpu";
+      inputs.back().survey = [&, on_cpu](const VkhReport& report, const BoundCells& bound) {
+        options.survey(surveyed(pair, report, on_cpu), bound);
       };
     }
   }

@@ -26,7 +26,7 @@ SurveyResult surveyed(const Mesh& a, const Mesh& b, const SurveyOptions& survey)
 SurveyOptions all_of_it(std::vector<double> bands = {}) {
   SurveyOptions options;
   options.faces = options.statistics = true;
-  options.mean_tolerance = 0.002;
+  options.mean_tolerance = options.face_tolerance = 0.002;
   options.bands = std::move(bands);
   options.time_limit_s = 20;
   return options;
@@ -227,7 +227,7 @@ TEST_CASE("faces are only told apart by a limit, where there is one") {
   SurveyOptions options;
   options.faces = true;
   options.limit = {0.2, 0.2};
-  options.mean_tolerance = 1;  // no more than the verdicts
+  options.face_tolerance = 1;  // no more than the verdicts
   const SurveyResult r = surveyed(a, b, options);
   CHECK(r.is_met);
   size_t within = 0, beyond = 0;

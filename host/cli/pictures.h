@@ -1,0 +1,61 @@
+// What is written of all of A: its field, a picture, the report.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/draw/draw.h"
+#include "host/job/pair_job.h"
+#include "host/system/output_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace vkh {
+
+/// As typed.
+struct TypedPictures {
+  std::string field, image, report, view = "iso", size, map = "viridis", up = "z";
+  std::vector<std::string> range;
+  uint32_t steps = 0;
+};
+void add_picture_options(CLI::App& command, TypedPictures& typed);
+
+/// What was asked for.
+struct PicturesAsked {
+  std::optional<std::string> field, image, report;  ///< files
+  PictureOptions options;
+  std::optional<std::array<Length, 2>> range;  ///< of colours
+
+  bool any() const { return field || image || report; }
+};
+/// Throws UsageError.
+PicturesAsked asked_of(const TypedPictures& typed);
+
+/// Looked at before the run, written after it: of a symmetric run two files each of field and
+/// picture, the way back's with -b before its ending.
+class Pictures {
+ public:
+  /// Throws UsageError where one cannot be written, is one of `inputs`, or has an ending that
+  /// says nothing.
+  Pictures(const PicturesAsked& asked, bool symmetric, const std::vector<std::string>& inputs);
+
+  /// Returns what could not be written, and why; empty if nothing.
+  std::string write(const Done& done) const;
+
+ private:
+  struct Files {
+    std::optional<OutputFile> there, back;
+  };
+  static void open(Files& files, const char* option, const std::optional<std::string>& path,
+                   bool symmetric, const std::vector<std::string>& inputs);
+
+  PicturesAsked asked_;
+  Files field_, image_;
+  std::optional<OutputFile> report_;
+};
+
+}  // namespace vkh
