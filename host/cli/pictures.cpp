@@ -56,15 +56,7 @@ std::string label_of(const Answer& answer, bool back) {
   return name_of(answer.inputs[back ? 1 : 0].path);
 }
 
-// The run's interval, or what the field says where that is narrower: after a limit it is.
-Enclosure interval_of(const Side& side) {
-  double lower = side.report.lower, upper = 0;
-  for (size_t f = 0; f < side.survey.field.face_count(); ++f) {
-    lower = std::max(lower, side.survey.field.lower[f]);
-    upper = std::max(upper, side.survey.field.upper[f]);
-  }
-  return {lower, std::min(side.report.upper, upper)};
-}
+Enclosure interval_of(const Side& side) { return {side.report.lower, side.report.upper}; }
 
 std::string field_text(const Side& side, const Answer& answer, const PicturesAsked& asked) {
   const FieldFile file{.mesh = side.mesh,

@@ -1,5 +1,6 @@
 #include "host/job/pair_job.h"
 
+#include <algorithm>
 #include <ctime>
 #include <limits>
 #include <mutex>
@@ -220,6 +221,13 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
       gate({job.face_max_b, pair.b, pair.a, answer.max->faces_b}, options, solver, answer);
 }
 
+/// A run that only decides a limit leaves a wide interval; no distance is above any face's.
+void narrow(Report& report, const SurveyResult& survey) {
+  const std::vector<double>& upper = survey.field.upper;
+  if (!upper.empty())
+    report.upper = std::min(report.upper, *std::max_element(upper.begin(), upper.end()));
+}
+
 /// Of A, and of B on the way back: after a run that looks for the distance, in that run; beside
 /// one that only decides a limit, in one of its own.
 struct Surveys {
@@ -242,6 +250,16 @@ struct Surveys {
     }
   }
 
+  void finish(Solver& solver, const SolveOptions& solve, bool apart, Answer& answer) {
+    if (apart) alone(solver, solve, false);
+    if (apart && answer.b_to_a) alone(solver, solve, true);
+    answer.survey_a = std::move(a);
+    narrow(answer.a_to_b, *answer.survey_a);
+    if (!answer.b_to_a) return;
+    answer.survey_b = std::move(b);
+    narrow(*answer.b_to_a, *answer.survey_b);
+  }
+
   const MeshPair& pair;
   const SurveyOptions options;
   SurveyResult a, b;
@@ -262,12 +280,7 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
   } else {
     answer.a_to_b = solver.distance(pair.a, pair.b, options);
   }
-  if (at.job.survey.is_any()) {
-    if (apart) surveys.alone(solver, options, false);
-    if (apart && answer.b_to_a) surveys.alone(solver, options, true);
-    answer.survey_a = std::move(surveys.a);
-    if (answer.b_to_a) answer.survey_b = std::move(surveys.b);
-  }
+  if (at.job.survey.is_any()) surveys.finish(solver, options, apart, answer);
   add_memory_notes(options.memory_bytes, answer);
   if (!at.job.verify) return;
   if (answer.a_to_b.has_witness)

@@ -5,7 +5,7 @@
 namespace vkh {
 namespace {
 
-constexpr double kSeconds = 10;  // where --time leaves so many
+constexpr double kSeconds = 10;       // where --time leaves so many
 constexpr double kPartOfTime = 0.85;  // adding up, and the outputs, need the rest
 
 double resolved(const Length& length, const char* option, const Answer& answer) {
