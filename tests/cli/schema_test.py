@@ -49,7 +49,12 @@ class Outputs(unittest.TestCase):
                             (["distance", "a.obj", "b.obj", "--time", "1ms"], 3), (["demo", "--tol", "1e-3", "--preset", "paper"], 0),
                             (["gate", "a.obj", "b.obj", "--max", "0.3abs"], 0), (["gate", "a.obj", "b.obj", "--max", "10%"], 1),
                             (["gate", "a.obj", "wide.obj", "--symmetric", "--max", "0.5in", "--unit", "in"], 1),
-                            (["gate", "a.obj", "b.obj", "--max", "0.25abs"], 3), (["gate", "a.obj", "b.obj", "--max", "1mm"], 2),
+                            (["gate", "a.obj", "b.obj", "--max", "0.25abs"], 3),
+                            (["distance", "a.obj", "wide.obj", "--symmetric", "--stats", "--bands", "0.1abs,20%", "--field-tol", "1%"], 0),
+                            (["distance", "a.obj", "b.obj", "--time", "1ms", "--stats"], 3),
+                            (["gate", "a.obj", "b.obj", "--max", "0.3abs", "--area", "99%"], 0),
+                            (["gate", "wide.obj", "a.obj", "--max", "0.5abs", "--area", "0.7"], 0),
+                            (["gate", "wide.obj", "a.obj", "--max", "0.5abs", "--area", "80%", "--field-tol", "0.1abs"], 1), (["gate", "a.obj", "b.obj", "--max", "1mm"], 2),
                             (["distance", "missing.obj", "b.obj"], 4), (["distance", "a.obj", "bad.obj"], 4),
                             (["distance", "a.obj", "b.obj", "--device", "none such"], 5)):
             with self.subTest(words):

@@ -15,6 +15,14 @@ struct CellTally {
   uint64_t means = 0;    ///< a mean, or mean square, outside of its bounds
   uint64_t reached = 0;  ///< no point of the cell is so far
 
+  void add(const CellTally& other) {
+    cells += other.cells;
+    samples += other.samples;
+    below += other.below;
+    above += other.above;
+    means += other.means;
+    reached += other.reached;
+  }
   uint64_t wrong() const { return below + above + means + reached; }
 };
 

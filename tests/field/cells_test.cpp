@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/shapes/hard_pairs.h"
 #include "tests/field/cell_check.h"
+#include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
 
 namespace {

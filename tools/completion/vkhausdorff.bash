@@ -3,7 +3,8 @@ _vkhausdorff() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
   local commands="distance gate demo doctor help"
   local search="--device --time --memory --waves --preset --enable --disable --no-cache --help"
-  local outputs="--json --verbose --verify --tol --symmetric"
+  local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol"
+  outputs+=" --field --image --report --view --up --size --map --range --steps"
   local options="--help --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
@@ -13,12 +14,16 @@ _vkhausdorff() {
   case $previous in
     --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
+    --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
+    --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
+    --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
-    --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable) return ;;
+    --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
+    --area | --bands | --field-tol | --size | --range | --steps) return ;;
   esac
   case $command in
     distance) options="$search $outputs --unit --max-input" ;;
-    gate) options="$search $outputs --unit --max-input --max --face-max --face-max-b --junit --github" ;;
+    gate) options="$search $outputs --unit --max-input --max --area --face-max --face-max-b --junit --github" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help" ;;
     help) options="$commands" ;;
