@@ -20,6 +20,8 @@ constexpr const char* kCross = "M6 6l12 12M18 6L6 18";
 constexpr const char* kOpen = "M9 9a3 3 0 1 1 4.2 2.7c-.8.4-1.2 1-1.2 2.3M12 17.6v.4";
 constexpr const char* kRuler = "M3 12h18M3 8v8M21 8v8";
 
+constexpr size_t kPrintedRows = 12;  // of statistics, as style.css has it
+
 struct Badge {
   const char* style;
   const char* word;
@@ -41,8 +43,9 @@ std::string fact(const char* name, const std::string& text, const std::string& m
 
 std::string interval_words(const Answer& answer, double lower, double upper) {
   const double gap = gap_as_printed(answer, lower, upper);
-  const std::string high = std::isfinite(upper) ? length_up(answer, upper, gap) : "no bound yet";
-  return length_down(answer, lower, gap) + " to " + high;
+  if (!std::isfinite(upper)) return "at least " + length_down(answer, lower, lower);
+  return decimal(lower, digits_that_matter(lower, gap), Rounding::kDown) + " to " +
+         length_up(answer, upper, gap);
 }
 
 // Outward: 100 times a share is rounded, unless it is 0 or 1.
@@ -71,7 +74,7 @@ std::string part_of_side(const char* tag, const char* style, bool back) {
 
 std::string short_number(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
+  std::snprintf(text.data(), text.size(), "%.9g", value);
   return text.data();
 }
 
@@ -144,7 +147,8 @@ std::string facts_html(const PageText& page) {
     const Asked& max = *answer.max;
     const std::string length = short_number(max.limit.within / 2 + max.limit.beyond / 2) +
                                (answer.unit.empty() ? "" : " " + answer.unit);
-    out += fact("Limit", max.length.requested, length == max.length.requested ? "" : length);
+    const bool says_more = max.length.of == Length::Of::kDiagonal || max.length.unit != answer.unit;
+    out += fact("Limit", says_more ? max.length.requested : length, says_more ? length : "");
   }
   if (answer.b_to_a) {
     const auto direction = [&](const char* name, const Report& r) {
@@ -152,11 +156,6 @@ std::string facts_html(const PageText& page) {
     };
     direction("h(A,B)", answer.a_to_b);
     direction("h(B,A)", *answer.b_to_a);
-  }
-  const double gap = std::isfinite(whole.gap) ? whole.gap : 0;
-  if (gap > 0) {
-    out += fact("Width of the interval", decimal(gap, 2, Rounding::kUp) + " of A's diagonal",
-                "asked for: " + page.json["tolerance"]["requested"].get<std::string>());
   }
   return out + "</dl>";
 }
@@ -196,14 +195,17 @@ std::string statistics_html(const PageText& page, bool back, const Statistics& s
   out += row("RMS", range_text(answer, statistics.rms));
   for (const Percentile& p : statistics.percentiles) {
     const std::string name =
-        p.share == 0.5 ? "median" : short_number(100 * p.share) + " % of the area";
+        p.share == 0.5 ? "median" : short_number(100 * p.share) + "th percentile";
     out += row(name, range_text(answer, p.distance));
   }
   for (const AreaWithin& band : statistics.bands) {
     const std::string unit = answer.unit.empty() ? "" : " " + answer.unit;
     out += row("within " + short_number(band.distance) + unit, share_text(band.share));
   }
-  return out + "</tbody></table><p class=\"quiet\">Each is certified.</p></div>";
+  out += "</tbody></table><p class=\"quiet\">Each is certified.</p>";
+  const size_t rows = 2 + statistics.percentiles.size() + statistics.bands.size();
+  if (rows > kPrintedRows) out += "<p class=\"print-only quiet\">More rows are in the file.</p>";
+  return out + "</div>";
 }
 
 }  // namespace vkh

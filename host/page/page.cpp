@@ -237,7 +237,7 @@ class PageWriter {
   }
 
   static std::string caption(bool is_decimated, size_t faces) {
-    if (!is_decimated) return "Every face is shown. Drag to turn, scroll to come nearer.";
+    if (!is_decimated) return "Every face is shown.";
     return "A decimated view of " + std::to_string(faces) +
            " faces; every shown face carries the largest upper and the least lower of what it "
            "stands for. "

@@ -12,10 +12,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr size_t kPrintedNotes = 3;  // as style.css has it
+
 std::string head(const std::string& name) {
   return "<tr><th scope=\"row\">" + html_text(name) + "</th>";
 }
-std::string cell(const std::string& text) { return "<td>" + html_text(text) + "</td>"; }
+std::string cell(const std::string& text) {
+  return "<td><span class=\"clip\">" + html_text(text) + "</span></td>";
+}
 std::string code_cell(const std::string& text) {
   return "<td><code class=\"clip\">" + html_text(text) + "</code></td>";
 }
@@ -77,7 +81,7 @@ std::string command_text(const Json& json) {
 std::string seconds(double ms) {
   std::array<char, 32> text{};
   const bool is_short = ms < 1000;
-  std::snprintf(text.data(), text.size(), is_short ? "%.3g ms" : "%.3g s",
+  std::snprintf(text.data(), text.size(), is_short ? "%.3g\u00a0ms" : "%.3g\u00a0s",
                 is_short ? ms : ms / 1e3);
   return text.data();
 }
@@ -99,6 +103,13 @@ std::string every_digit(const PageText& page) {
          decimal(whole.upper, kJsonDigits, Rounding::kUp) + "]";
 }
 
+std::string tolerance_text(const PageText& page) {
+  const double gap = interval_of(page.answer).gap;
+  const std::string asked = text_or(page.json["tolerance"]["requested"], "none");
+  if (!std::isfinite(gap)) return asked;
+  return asked + "; the interval is " + decimal(gap, 2, Rounding::kUp) + " of A's diagonal wide";
+}
+
 std::string device_text(const Json& json) {
   const Json& device = json["device"];
   if (!device.is_object()) return "none was opened";
@@ -110,8 +121,8 @@ std::string device_text(const Json& json) {
 
 std::string inputs_html(const PageText& page) {
   const auto path = [](const Json& input) { return code_cell(text_or(input["path"], "no file")); };
-  const auto hash = [](const Json& input) {
-    return code_cell(text_or(input["sha256"], "not known"));
+  const auto hash = [](const Json& input) {  // printed whole
+    return "<td><code>" + html_text(text_or(input["sha256"], "not known")) + "</code></td>";
   };
   const Json& inputs = page.json["inputs"];
   std::string out =
@@ -139,6 +150,7 @@ std::string run_html(const PageText& page) {
   std::string out = "<div class=\"run\"><h2>Run</h2><table><tbody>";
   out += head("command") + code_cell(command_text(json)) + "</tr>";
   out += head("interval") + "<td><code id=\"digits\">" + every_digit(page) + "</code></td></tr>";
+  out += head("tolerance") + cell(tolerance_text(page)) + "</tr>";
   out += head("device") + cell(device_text(json)) + "</tr>";
   out += head("driver") + cell(text_or(json["driver"], "not known")) + "</tr>";
   out += head("program") +
@@ -154,6 +166,8 @@ std::string run_html(const PageText& page) {
 }
 
 std::string notes_html(const PageText& page) {
+  size_t count = page.json["notes"].size();
+  for (const Json& input : page.json["inputs"]) count += input["notes"].size();
   std::string items;
   for (const Json& note : page.json["notes"]) {
     items += "<li>" + html_text(note.get<std::string>()) + "</li>";
@@ -165,7 +179,9 @@ std::string notes_html(const PageText& page) {
         "dragged here is one for all of them.</li>";
   }
   if (items.empty()) return "";
-  return "<div class=\"notes\"><h2>Notes</h2><ul>" + items + "</ul></div>";
+  std::string out = "<div class=\"notes\"><h2>Notes</h2><ul>" + items + "</ul>";
+  if (count > kPrintedNotes) out += "<p class=\"print-only quiet\">More notes are in the file.</p>";
+  return out + "</div>";
 }
 
 }  // namespace vkh

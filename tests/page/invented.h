@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,8 @@ inline Statistics invented_statistics(const Mesh& mesh, const Field& field) {
     out.mean.upper += areas.back() * field.upper[f];
     out.rms.upper += areas.back() * field.upper[f] * field.upper[f];
   }
-  out.mean = {0.4 * out.mean.upper / out.area, out.mean.upper / out.area};
-  out.rms = {0.5 * std::sqrt(out.rms.upper / out.area), std::sqrt(out.rms.upper / out.area)};
+  out.mean = {0.9 * out.mean.upper / out.area, out.mean.upper / out.area};
+  out.rms = {0.9 * std::sqrt(out.rms.upper / out.area), std::sqrt(out.rms.upper / out.area)};
   const double top = field.upper[worst_face(field)];
   const auto within = [&](double distance) {
     double share = 0;
@@ -57,9 +58,22 @@ inline Statistics invented_statistics(const Mesh& mesh, const Field& field) {
     return Enclosure{std::min(share, 1.0), std::min(1.0, share + 0.05)};
   };
   for (int i = 0; i <= 64; ++i) out.curve.push_back({top * i / 64, within(top * i / 64)});
-  for (const double share : {0.25, 0.5}) out.bands.push_back({top * share, within(top * share)});
-  for (const double share : {0.5, 0.9, 0.95, 0.99})
-    out.percentiles.push_back({share, {top * share * 0.7, top * share * 0.8}});
+  for (const double share : {0.25, 0.5}) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", top * share);
+    const double distance = std::strtod(text.data(), nullptr);
+    out.bands.push_back({distance, within(distance)});
+  }
+  std::vector<size_t> order(areas.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](size_t f, size_t g) { return field.upper[f] < field.upper[g]; });
+  for (const double share : {0.5, 0.9, 0.95, 0.99}) {
+    double area = 0;
+    size_t i = 0;
+    while (i + 1 < order.size() && (area += areas[order[i]]) < share * out.area) ++i;
+    out.percentiles.push_back({share, {0.9 * field.upper[order[i]], field.upper[order[i]]}});
+  }
   return out;
 }
 
@@ -87,6 +101,7 @@ struct Invented {
     answer.inputs[1].notes = {"3 polygons were fanned into triangles"};
     answer.a_to_b = report(a, field_a);
     answer.b_to_a = report(b, field_b);
+    answer.b_to_a->tolerance = answer.a_to_b.tolerance;
     answer.waits = {120, 312, 1834};
   }
 
@@ -102,6 +117,7 @@ struct Invented {
     r.upper = field.upper[worst];
     r.lower = r.upper * (1 - 1e-5);
     r.diagonal_a = length(mesh.vertices.front() - mesh.vertices.back()) + 1;
+    r.tolerance = r.upper * 1.1e-5;
     r.has_witness = true;
     r.witness_a = {worst, {1, 0, 0}, mesh.vertices[mesh.faces[worst].x]};
     r.witness_b = r.witness_a;

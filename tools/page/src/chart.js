@@ -42,7 +42,7 @@ function drawBars(svg, list, x) {
     element(group, 'rect', { x: x(from) + 0.5, width: Math.max(x(to) - x(from) - 1, 1), y: HEIGHT - height, height });
   }
   element(svg, 'line', { class: 'rule', x1: 0, x2: x.width, y1: TOP, y2: TOP });
-  element(svg, 'text', { x: 0, y: TOP - 6 }, `${percent(most)} of the area a bar`);
+  element(svg, 'text', { x: 0, y: TOP - 6 }, percent(most));
 }
 
 // Between two distances the share is at least that of the smaller, at most that of the larger.
@@ -60,7 +60,7 @@ function drawBand(svg, curve, x) {
   high.push([x(last[0]), y(last[2])]);
   const points = [...low, ...high.reverse()].map((p) => p.map((v) => v.toFixed(1)).join()).join(' ');
   element(svg, 'polygon', { class: 'band', points });
-  element(svg, 'text', { x: x.width, y: TOP - 6, 'text-anchor': 'end' }, 'band: 100 % of the area');
+  element(svg, 'text', { x: x.width, y: TOP - 6, 'text-anchor': 'end' }, '100 %');
 }
 
 export class Chart {
@@ -71,20 +71,19 @@ export class Chart {
     this.gradient = document.getElementById('gradient');
   }
 
-  draw(side, scale) {
-    const width = this.histogram.clientWidth;
+  /// `width`: of a page that is printed, which nothing can be asked of before.
+  draw(side, scale, width = this.histogram.clientWidth) {
     if (!width) return;
     const x = (value) => Math.min(Math.max(scale.at(value), 0), 1) * width;
     x.width = width;
     this.x = x;
     for (const svg of [this.histogram, this.axis]) {
       svg.replaceChildren();
-      svg.setAttribute('viewBox', `0 0 ${width} ${svg === this.axis ? 36 : HEIGHT}`);
-      svg.setAttribute('preserveAspectRatio', 'none');
+      svg.setAttribute('viewBox', `0 0 ${width} ${svg === this.axis ? 38 : HEIGHT}`);
     }
     drawBars(this.histogram, bars(this.data, side, scale), x);
     if (side.curve) drawBand(this.histogram, side.curve, x);
-    this.line = element(this.histogram, 'line', { class: 'tolerance', y1: 0, y2: HEIGHT });
+    this.line = element(this.histogram, 'line', { class: 'tolerance', y1: TOP, y2: HEIGHT });
     this.drawAxis(scale, x);
     this.drawGradient(scale);
   }
@@ -98,11 +97,11 @@ export class Chart {
     }
     const { lower, upper } = this.data.interval;
     if (upper === null) return;
-    const [from, to] = [x(lower), Math.max(x(upper), x(lower) + 2)];
-    element(this.axis, 'path', { class: 'ends', fill: 'none', d: `M${from} 20V27H${to}V20` });
-    const anchor = to > x.width - 60 ? 'end' : from < 60 ? 'start' : 'middle';
-    const at = anchor === 'end' ? from - 6 : anchor === 'start' ? to + 6 : (from + to) / 2;
-    element(this.axis, 'text', { class: 'label', x: at, y: anchor === 'middle' ? 39 : 31, 'text-anchor': anchor }, this.data.interval.name);
+    const from = x(lower), to = x(upper);
+    element(this.axis, 'path', { class: 'ends', d: `M${from - 5} 29L${from} 21H${to}L${to + 5} 29Z` });
+    const isLeft = (from + to) / 2 < x.width / 2;
+    const label = { class: 'label', x: isLeft ? to + 10 : from - 10, y: 31, 'text-anchor': isLeft ? 'start' : 'end' };
+    element(this.axis, 'text', label, this.data.interval.name);
   }
 
   drawGradient(scale) {

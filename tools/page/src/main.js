@@ -9,6 +9,8 @@ const find = (id) => document.getElementById(id);
 const data = JSON.parse(find('data').textContent);
 const count = (n) => n.toLocaleString('en-US');
 
+const PRINTED_CHART_PX = 435;  // 115 mm: the view's column of an A4 page (style.css)
+
 // Never 0 % or 100 % of what is not none or all.
 function percent(share, faces, all) {
   if (faces === 0) return '0 %';
@@ -35,7 +37,7 @@ class Page {
   }
 
   openView() {
-    find('stage').hidden = false;
+    find('stage').hidden = find('hint').hidden = false;
     document.querySelectorAll('.stage figure').forEach((figure) => figure.classList.add('behind'));
     this.view = new View(find('canvas'), () => this.placeMark());
   }
@@ -55,7 +57,7 @@ class Page {
     find('colours').addEventListener('click', () => this.setDistanceOnly());
     new ResizeObserver(() => this.drawChart()).observe(find('chart'));
     window.addEventListener('beforeprint', () => this.beforePrint());
-    window.addEventListener('afterprint', () => document.querySelectorAll('.snapshot').forEach((canvas) => canvas.remove()));
+    window.addEventListener('afterprint', () => this.afterPrint());
   }
 
   setScale(isLog) {
@@ -73,8 +75,8 @@ class Page {
     this.view.set('distanceOnly', isOn);
   }
 
-  drawChart() {
-    this.chart.draw(data.sides[this.side], this.scale);
+  drawChart(width) {
+    this.chart.draw(data.sides[this.side], this.scale, width);
     if (this.slider.step !== undefined) this.chart.setTolerance(data.steps.value[this.slider.step]);
   }
 
@@ -108,8 +110,8 @@ class Page {
       return [swatch, text];
     };
     const unit = data.unit ? `, ${data.unit}` : '';
-    const bars = part('', `area of the faces of ${side.from}, by the certified upper bound of each${unit}`);
-    return side.curve ? [...bars, ...part('band', 'share of the area within a distance, certified')] : bars;
+    const bars = part('', `area of the faces of ${side.from} by certified upper bound${unit}`);
+    return side.curve ? [...bars, ...part('band', 'share of the area within, certified')] : bars;
   }
 
   showStep(step) {
@@ -156,6 +158,7 @@ class Page {
 
   // Where no picture came with the report, the view as it stands is printed.
   beforePrint() {
+    this.drawChart(PRINTED_CHART_PX);
     const figure = document.querySelectorAll('.stage figure')[this.side];
     if (!this.view || figure.querySelector('img')) return;
     this.view.drawNow();
@@ -165,6 +168,11 @@ class Page {
     copy.height = this.view.canvas.height;
     copy.getContext('2d').drawImage(this.view.canvas, 0, 0);
     figure.append(copy);
+  }
+
+  afterPrint() {
+    document.querySelectorAll('.snapshot').forEach((canvas) => canvas.remove());
+    this.drawChart();
   }
 }
 

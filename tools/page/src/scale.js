@@ -2,12 +2,12 @@
 
 const log10 = Math.log10;
 
-/// Less than a hundredth of each surface is within this distance, and most of the axis is for the rest.
+/// Little of each surface is within this distance; the first bar is for that.
 function leastOf(data) {
   const { value, log } = data.steps;
-  const isEmpty = (i) => data.sides.every((side) => side.withinArea[i] < 0.01);
+  const isEmpty = (i) => data.sides.every((side) => side.withinArea[i] < 0.02);
   const most = data.top / 10;
-  return value.reduce((least, v, i) => (log[i] && v <= most && isEmpty(i) ? Math.max(least, v) : least), data.top / 1e6);
+  return value.reduce((least, v, i) => (log[i] && v <= most && isEmpty(i) ? Math.max(least, v) : least), data.top / 1e4);
 }
 
 /// {at: value -> 0..1, value: 0..1 -> value, ticks, steps: those that the slider stops at}.
@@ -47,4 +47,7 @@ function logTicks(lo, hi) {
   return ticks;
 }
 
-export const short = (v) => String(Number(v.toPrecision(6)));
+export function short(value) {
+  const v = Number(value.toPrecision(6));
+  return v !== 0 && (v < 1e-3 || v >= 1e6) ? v.toExponential() : String(v);
+}

@@ -108,7 +108,7 @@ export class View {
   fitDistance() {
     const half = (this.camera.fov * Math.PI) / 360;
     const narrow = Math.min(1, this.camera.aspect);
-    return (1.04 * this.ball.radius) / Math.sin(Math.atan(Math.tan(half) * narrow));
+    return (0.95 * this.ball.radius) / Math.sin(Math.atan(Math.tan(half) * narrow));
   }
 
   reset(isAtOnce) {
