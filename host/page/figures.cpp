@@ -20,6 +20,12 @@ constexpr int kDecades = 6;           // below the largest distance; less is as 
 constexpr double kLinearSteps = 250;  // at least so many: finer than a hand drags
 constexpr double kNiceFactors[] = {5, 2, 1};
 
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return text.data();
+}
+
 // The double nearest to a decimal of few digits. The decimal itself lies between its neighbours.
 Step step_of(double digits, int exponent) {
   std::array<char, 64> text{};
@@ -65,16 +71,13 @@ void add_log(std::vector<Step>& steps, double top) {
   }
 }
 
+// Steps that it overlaps give way, so that both ends of all limits ascend.
 void add_asked(std::vector<Step>& steps, const Limit& asked) {
+  std::erase_if(steps, [&](const Step& step) {
+    return step.limit.beyond >= asked.within && step.limit.within <= asked.beyond;
+  });
   const double value = asked.within / 2 + asked.beyond / 2;
-  const auto is_same = [&](const Step& s) { return std::abs(s.value - value) <= 1e-12 * value; };
-  for (Step& step : steps) {
-    if (is_same(step)) step.limit = asked;
-  }
-  if (std::any_of(steps.begin(), steps.end(), is_same)) return;
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  steps.push_back({value, asked, text.data()});
+  steps.push_back({value, asked, short_number(value)});
 }
 
 void merge_equals(std::vector<Step>& steps) {
@@ -97,6 +100,28 @@ double area_of(const Mesh& mesh, const glm::uvec3& face) {
   return length(cross(mesh.vertices[face.y] - a, mesh.vertices[face.z] - a)) / 2;
 }
 
+// Faces that are within from step k on were counted at k, those within none at the end.
+template <class T>
+std::vector<T> sums_up_to(std::vector<T> at) {
+  std::partial_sum(at.begin(), at.end(), at.begin());
+  at.pop_back();
+  return at;
+}
+
+// Faces that are beyond steps 0 to k - 1 were counted at k.
+template <class T>
+std::vector<T> sums_after(std::vector<T> at) {
+  at.erase(at.begin());
+  std::partial_sum(at.rbegin(), at.rend(), at.rbegin());
+  return at;
+}
+
+std::vector<double> shares(std::vector<double> areas, double whole) {
+  for (double& area : areas)
+    area = whole > 0 && std::isfinite(whole) ? std::min(area / whole, 1.0) : 0;
+  return areas;
+}
+
 WorstPlace place_of_face(const Mesh& mesh, const Field& field, uint32_t face) {
   const glm::uvec3 f = mesh.faces[face];
   const glm::dvec3 a = mesh.vertices[f.x], b = mesh.vertices[f.y], c = mesh.vertices[f.z];
@@ -116,6 +141,11 @@ std::vector<Step> tolerance_steps(double top, const std::optional<Limit>& asked)
   }
   if (asked && asked->within > 0) add_asked(steps, *asked);
   merge_equals(steps);
+  if (std::isfinite(top) &&
+      steps.back().limit.within < top) {  // the limit took the last one's place
+    const double last = std::max(top, steps.back().limit.beyond);
+    steps.push_back({last, {last, std::nextafter(last, last * 2)}, short_number(last)});
+  }
   return steps;
 }
 
@@ -129,40 +159,23 @@ FaceSteps steps_of(const Enclosure& face, const std::vector<Step>& steps) {
 }
 
 Tally tally(const Mesh& mesh, const Field& field, const std::vector<Step>& steps) {
+  std::vector<uint64_t> within(steps.size() + 1), beyond(steps.size() + 1);
+  std::vector<double> within_area(steps.size() + 1), beyond_area(steps.size() + 1);
   Tally sums;
   sums.faces = mesh.faces.size();
-  sums.within.resize(steps.size() + 1);
-  sums.beyond.resize(steps.size() + 1);
-  sums.within_area.resize(steps.size() + 1);
-  sums.beyond_area.resize(steps.size() + 1);
   for (size_t i = 0; i < mesh.faces.size(); ++i) {
     const FaceSteps at = steps_of(field.of(i), steps);
     const double area = area_of(mesh, mesh.faces[i]);
     sums.area += area;
-    ++sums.within[at.within];
-    ++sums.beyond[at.beyond];
-    sums.within_area[at.within] += area;
-    sums.beyond_area[at.beyond] += area;
+    ++within[at.within];
+    ++beyond[at.beyond];
+    within_area[at.within] += area;
+    beyond_area[at.beyond] += area;
   }
-  for (size_t k = 1; k < steps.size(); ++k) {
-    sums.within[k] += sums.within[k - 1];
-    sums.within_area[k] += sums.within_area[k - 1];
-  }
-  // A face that is beyond steps 0 to n - 1 was counted at n.
-  for (size_t k = steps.size(); k-- > 0;) {
-    sums.beyond[k] += sums.beyond[k + 1];
-    sums.beyond_area[k] += sums.beyond_area[k + 1];
-  }
-  for (size_t k = 0; k < steps.size(); ++k) {
-    sums.beyond[k] = sums.beyond[k + 1];
-    sums.beyond_area[k] = sums.beyond_area[k + 1];
-  }
-  for (auto* areas : {&sums.within_area, &sums.beyond_area}) {
-    areas->resize(steps.size());
-    for (double& area : *areas) area = sums.area > 0 ? std::min(area / sums.area, 1.0) : 0;
-  }
-  sums.within.resize(steps.size());
-  sums.beyond.resize(steps.size());
+  sums.within = sums_up_to(std::move(within));
+  sums.beyond = sums_after(std::move(beyond));
+  sums.within_area = shares(sums_up_to(std::move(within_area)), sums.area);
+  sums.beyond_area = shares(sums_after(std::move(beyond_area)), sums.area);
   return sums;
 }
 

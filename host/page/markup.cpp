@@ -41,13 +41,6 @@ std::string fact(const char* name, const std::string& text, const std::string& m
   return out + "</dd></div>";
 }
 
-std::string interval_words(const Answer& answer, double lower, double upper) {
-  const double gap = gap_as_printed(answer, lower, upper);
-  if (!std::isfinite(upper)) return "at least " + length_down(answer, lower, lower);
-  return decimal(lower, digits_that_matter(lower, gap), Rounding::kDown) + " to " +
-         length_up(answer, upper, gap);
-}
-
 // Outward: 100 times a share is rounded, unless it is 0 or 1.
 std::string percent(double share, double gap, Rounding rounding) {
   double percent = 100 * share;
@@ -61,6 +54,24 @@ std::string share_text(const Enclosure& share) {
   const double gap = share.upper - share.lower;
   return percent(share.lower, gap, Rounding::kDown) + " to " +
          percent(share.upper, gap, Rounding::kUp) + " %";
+}
+
+std::string interval_words(const Answer& answer, double lower, double upper) {
+  const double gap = gap_as_printed(answer, lower, upper);
+  if (!std::isfinite(upper)) return "at least " + length_down(answer, lower, lower);
+  return decimal(lower, digits_that_matter(lower, gap), Rounding::kDown) + " to " +
+         length_up(answer, upper, gap);
+}
+
+// "0.0441 to 0.0443", rounded outward.
+std::string range_number(const Enclosure& length) {
+  const auto [lower, upper] = length;
+  if (!std::isfinite(upper)) return "at least " + decimal(lower, 6, Rounding::kDown);
+  const auto number = [gap = upper - lower](double x, Rounding rounding) {
+    return decimal(x, digits_that_matter(x, gap), rounding);
+  };
+  if (!(lower > 0)) return "at most " + number(upper, Rounding::kUp);
+  return number(lower, Rounding::kDown) + " to " + number(upper, Rounding::kUp);
 }
 
 std::string row(const std::string& name, const std::string& text) {
@@ -104,14 +115,7 @@ std::string witness_html(const PageText& page, const Report& r) {
 }  // namespace
 
 std::string range_text(const Answer& answer, const Enclosure& length) {
-  const double gap = length.upper - length.lower;
-  if (!std::isfinite(length.upper)) {
-    return "at least " + length_down(answer, length.lower, length.lower);
-  }
-  const std::string high = length_up(answer, length.upper, gap);
-  if (!(length.lower > 0)) return "at most " + high;
-  return decimal(length.lower, digits_that_matter(length.lower, gap), Rounding::kDown) + " to " +
-         high;
+  return range_number(length) + (answer.unit.empty() ? "" : " " + answer.unit);
 }
 
 std::string title_text(const PageText& page) {
@@ -188,19 +192,18 @@ std::string places_html(const PageText& page, bool back, const std::vector<Worst
 }
 
 std::string statistics_html(const PageText& page, bool back, const Statistics& statistics) {
-  const Answer& answer = page.answer;
+  const std::string unit = page.answer.unit.empty() ? "" : ", in " + page.answer.unit;
   std::string out = part_of_side("div", "numbers", back) + "<h2>Statistics of " +
-                    (back ? "B" : "A") + ", by area</h2><table><tbody>";
-  out += row("mean", range_text(answer, statistics.mean));
-  out += row("RMS", range_text(answer, statistics.rms));
+                    (back ? "B" : "A") + ", by area" + html_text(unit) + "</h2><table><tbody>";
+  out += row("mean", range_number(statistics.mean));
+  out += row("RMS", range_number(statistics.rms));
   for (const Percentile& p : statistics.percentiles) {
     const std::string name =
         p.share == 0.5 ? "median" : short_number(100 * p.share) + "th percentile";
-    out += row(name, range_text(answer, p.distance));
+    out += row(name, range_number(p.distance));
   }
   for (const AreaWithin& band : statistics.bands) {
-    const std::string unit = answer.unit.empty() ? "" : " " + answer.unit;
-    out += row("within " + short_number(band.distance) + unit, share_text(band.share));
+    out += row("within " + short_number(band.distance), share_text(band.share));
   }
   out += "</tbody></table><p class=\"quiet\">Each is certified.</p>";
   const size_t rows = 2 + statistics.percentiles.size() + statistics.bands.size();

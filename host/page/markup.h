@@ -20,6 +20,9 @@ struct PageText {
 /// "0.0441 to 0.0443 mm", rounded outward; "at most" where nothing is known from below.
 std::string range_text(const Answer& answer, const Enclosure& length);
 
+/// 1234567 as "1,234,567".
+std::string grouped(uint64_t count);
+
 std::string title_text(const PageText& page);
 std::string verdict_html(const PageText& page);
 std::string facts_html(const PageText& page);

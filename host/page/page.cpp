@@ -166,7 +166,7 @@ class PageWriter {
             "<p class=\"no-view\" hidden>This browser has no WebGL; there is no view to turn.</p>";
       }
       if (sides_[i]->picture.empty()) {
-        out += "<p>No picture was drawn with this report.</p>";
+        out += "<p>No picture was drawn for this page.</p>";
       } else if (!keeps_pictures_) {
         out += "<p>The picture was too large for this file.</p>";
       } else {
@@ -215,9 +215,12 @@ class PageWriter {
 
   Json side_json(size_t i, const Meshes& meshes) const {
     const Tally& sums = tallies_[i];
-    Json side = {{"from", i == 0 ? "A" : "B"},    {"faces", sums.faces},
-                 {"hasArea", sums.area > 0},      {"within", sums.within},
-                 {"beyond", sums.beyond},         {"withinArea", sums.within_area},
+    Json side = {{"from", i == 0 ? "A" : "B"},
+                 {"faces", sums.faces},
+                 {"hasArea", sums.area > 0 && std::isfinite(sums.area)},
+                 {"within", sums.within},
+                 {"beyond", sums.beyond},
+                 {"withinArea", sums.within_area},
                  {"beyondArea", sums.beyond_area}};
     if (const Statistics* statistics = sides_[i]->statistics;
         statistics && statistics->curve.size() > 1) {
@@ -238,7 +241,7 @@ class PageWriter {
 
   static std::string caption(bool is_decimated, size_t faces) {
     if (!is_decimated) return "Every face is shown.";
-    return "A decimated view of " + std::to_string(faces) +
+    return "A decimated view of " + grouped(faces) +
            " faces; every shown face carries the largest upper and the least lower of what it "
            "stands for. "
            "Counts, shares and the histogram are of every face.";

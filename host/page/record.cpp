@@ -24,12 +24,9 @@ std::string code_cell(const std::string& text) {
   return "<td><code class=\"clip\">" + html_text(text) + "</code></td>";
 }
 
-// 1234567 as "1,234,567".
-std::string grouped(const Json& number) {
+std::string count_text(const Json& number) {
   if (!number.is_number()) return "not known";
-  std::string digits = std::to_string(number.get<uint64_t>());
-  for (size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
-  return digits;
+  return grouped(number.get<uint64_t>());
 }
 
 std::string text_or(const Json& text, const char* otherwise) {
@@ -49,7 +46,7 @@ std::string count_row(const PageText& page, const char* name, const char* key, b
   return input_row(page, name, [&](const Json& input) {
     const Json& number = input[key];
     if (!even_if_none && (!number.is_number() || number == 0)) return std::string();
-    return grouped(number);
+    return count_text(number);
   });
 }
 
@@ -118,6 +115,12 @@ std::string device_text(const Json& json) {
 }
 
 }  // namespace
+
+std::string grouped(uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+  return digits;
+}
 
 std::string inputs_html(const PageText& page) {
   const auto path = [](const Json& input) { return code_cell(text_or(input["path"], "no file")); };

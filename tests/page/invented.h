@@ -31,6 +31,12 @@ inline Field invented_field(const Mesh& mesh, double largest) {
   return field;
 }
 
+inline double box_diagonal(const Mesh& mesh) {
+  glm::dvec3 lo = mesh.vertices[0], hi = lo;
+  for (const glm::dvec3& v : mesh.vertices) lo = min(lo, v), hi = max(hi, v);
+  return length(hi - lo);
+}
+
 inline size_t worst_face(const Field& field) {
   return static_cast<size_t>(std::max_element(field.upper.begin(), field.upper.end()) -
                              field.upper.begin());
@@ -79,7 +85,7 @@ inline Statistics invented_statistics(const Mesh& mesh, const Field& field) {
 
 struct Invented {
   Invented(const Mesh& mesh_a, const Mesh& mesh_b) : a(mesh_a), b(mesh_b) {
-    const double size = length(a.vertices.front() - a.vertices.back()) + 1;
+    const double size = box_diagonal(a);
     field_a = invented_field(a, 0.004 * size);
     field_b = invented_field(b, 0.003 * size);
     statistics_a = invented_statistics(a, field_a);
@@ -116,7 +122,7 @@ struct Invented {
     const size_t worst = worst_face(field);
     r.upper = field.upper[worst];
     r.lower = r.upper * (1 - 1e-5);
-    r.diagonal_a = length(mesh.vertices.front() - mesh.vertices.back()) + 1;
+    r.diagonal_a = box_diagonal(mesh);
     r.tolerance = r.upper * 1.1e-5;
     r.has_witness = true;
     r.witness_a = {worst, {1, 0, 0}, mesh.vertices[mesh.faces[worst].x]};
