@@ -56,22 +56,30 @@ std::string share_text(const Enclosure& share) {
          percent(share.upper, gap, Rounding::kUp) + " %";
 }
 
-std::string interval_words(const Answer& answer, double lower, double upper) {
-  const double gap = gap_as_printed(answer, lower, upper);
-  if (!std::isfinite(upper)) return "at least " + length_down(answer, lower, lower);
-  return decimal(lower, digits_that_matter(lower, gap), Rounding::kDown) + " to " +
-         length_up(answer, upper, gap);
+constexpr const char* kNoBound = "no bound yet";
+
+// "0.0441 to 0.0443", each rounded outward to what matters beside `gap`.
+std::string range_number(const Enclosure& length, double gap) {
+  if (!std::isfinite(length.upper)) {
+    return length.lower > 0 ? "at least " + decimal(length.lower, 6, Rounding::kDown) : kNoBound;
+  }
+  const int high_digits = digits_that_matter(length.upper, gap);
+  const std::string high = decimal(length.upper, high_digits, Rounding::kUp);
+  if (!(length.lower > 0)) return length.upper > 0 ? "at most " + high : high;
+  const int low_digits = digits_that_matter(length.lower, gap);
+  const std::string low = decimal(length.lower, low_digits, Rounding::kDown);
+  return low == high ? high : low + " to " + high;
+}
+std::string range_number(const Enclosure& length) {
+  return range_number(length, length.upper - length.lower);
 }
 
-// "0.0441 to 0.0443", rounded outward.
-std::string range_number(const Enclosure& length) {
-  const auto [lower, upper] = length;
-  if (!std::isfinite(upper)) return "at least " + decimal(lower, 6, Rounding::kDown);
-  const auto number = [gap = upper - lower](double x, Rounding rounding) {
-    return decimal(x, digits_that_matter(x, gap), rounding);
-  };
-  if (!(lower > 0)) return "at most " + number(upper, Rounding::kUp);
-  return number(lower, Rounding::kDown) + " to " + number(upper, Rounding::kUp);
+std::string with_unit(const Answer& answer, const std::string& number) {
+  return answer.unit.empty() || number == kNoBound ? number : number + " " + answer.unit;
+}
+
+std::string interval_words(const Answer& answer, double lower, double upper) {
+  return with_unit(answer, range_number({lower, upper}, gap_as_printed(answer, lower, upper)));
 }
 
 std::string row(const std::string& name, const std::string& text) {
@@ -115,7 +123,7 @@ std::string witness_html(const PageText& page, const Report& r) {
 }  // namespace
 
 std::string range_text(const Answer& answer, const Enclosure& length) {
-  return range_number(length) + (answer.unit.empty() ? "" : " " + answer.unit);
+  return with_unit(answer, range_number(length));
 }
 
 std::string title_text(const PageText& page) {
@@ -182,8 +190,10 @@ std::string places_html(const PageText& page, bool back, const std::vector<Worst
   for (size_t i = 0; i < places.size(); ++i) {
     const std::string length = range_text(page.answer, places[i].distance);
     const std::string key = std::to_string(i + 1);
-    out += place_html({key, "face " + std::to_string(places[i].face), length, key + ": " + length,
-                       places[i].centre, places[i].normal});
+    const std::string name = "face " + std::to_string(places[i].face);
+    std::string label = key;
+    label.append(": ").append(length);
+    out += place_html({key, name, length, label, places[i].centre, places[i].normal});
   }
   return out +
          "</ol><p class=\"quiet\">Faces of the largest certified upper bound, each at least a "

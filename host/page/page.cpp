@@ -163,7 +163,8 @@ class PageWriter {
         out += "<p>The mesh did not fit into this file; there is no view to turn.</p>";
       } else {
         out +=
-            "<p class=\"no-view\" hidden>This browser has no WebGL; there is no view to turn.</p>";
+            "<p class=\"no-view\" hidden>This browser cannot draw the mesh; there is no view to "
+            "turn.</p>";
       }
       if (sides_[i]->picture.empty()) {
         out += "<p>No picture was drawn for this page.</p>";

@@ -102,7 +102,7 @@ std::string every_digit(const PageText& page) {
 
 std::string tolerance_text(const PageText& page) {
   const double gap = interval_of(page.answer).gap;
-  const std::string asked = text_or(page.json["tolerance"]["requested"], "none");
+  std::string asked = text_or(page.json["tolerance"]["requested"], "none");
   if (!std::isfinite(gap)) return asked;
   return asked + "; the interval is " + decimal(gap, 2, Rounding::kUp) + " of A's diagonal wide";
 }

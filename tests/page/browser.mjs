@@ -1,12 +1,12 @@
 // The page in a browser: browser.mjs CHROMIUM FOLDER NAME MODE, one JSON object of what was seen.
-// MODE: view, or picture (no WebGL). The network is cut off, and whatever asks for it is counted.
+// MODE: view, still (no slider is moved), or picture (no WebGL). The network is cut off, and whatever asks for it is counted.
 import puppeteer from 'puppeteer-core';
 import { createHash } from 'node:crypto';
 import { pathToFileURL } from 'node:url';
 
 const [chromium, folder, name, mode] = process.argv.slice(2);
 const args = ['--no-sandbox', '--disable-dev-shm-usage'];
-args.push(...(mode === 'view' ? ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-3d-apis']));
+args.push(...(mode !== 'picture' ? ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-3d-apis']));
 const browser = await puppeteer.launch({ executablePath: chromium, args, headless: true });
 const seen = { console: [], errors: [], requests: [] };
 
@@ -22,7 +22,7 @@ async function state(page) {
   const cell = (id) => page.$$eval(`#${id} td`, (cells) => cells.map((c) => c.textContent));
   return { tolerance: await text(page, '#tolerance'), within: await cell('within'), undecided: await cell('undecided'),
     beyond: await cell('beyond'), value: await page.$eval('#slider', (s) => s.getAttribute('aria-valuenow')),
-    canvas: mode === 'view' ? await canvas(page) : null };
+    canvas: mode !== 'picture' ? await canvas(page) : null };
 }
 
 async function lookAtSlider(page) {
@@ -71,7 +71,7 @@ try {
   await page.setOfflineMode(true);
   await page.goto(pathToFileURL(`${folder}/${name}.html`).href);
   await page.waitForSelector('body[data-ready]', { timeout: 60000 });
-  if (mode === 'view') await page.waitForSelector('body[data-shown]', { timeout: 60000 });
+  if (mode !== 'picture') await page.waitForSelector('body[data-shown]', { timeout: 60000 });
   await settle(page);
   seen.ready = await page.$eval('body', (body) => body.dataset.ready);
   seen.title = await page.title();
@@ -83,7 +83,8 @@ try {
   seen.shown = await page.$$eval('.stage figure img, .stage figure p', (all) =>
     all.filter((e) => e.offsetParent !== null).map((e) => e.textContent || `${e.naturalWidth}x${e.naturalHeight}`));
   seen.wide = await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
-  await lookAtSlider(page);
+  if (mode === 'still') seen.start = await state(page);
+  else await lookAtSlider(page);
   if (mode === 'view') await lookAtView(page);
   await page.pdf({ path: `${folder}/${name}-${mode}.pdf`, preferCSSPageSize: true, printBackground: true });
   await page.setViewport({ width: 390, height: 844 });

@@ -126,6 +126,16 @@ class Browser(unittest.TestCase):
                     self.assertNotEqual(seen["back"]["canvas"], seen["log"])
                     self.assertGreater(number(seen["start"]["beyond"][0]), 0)
 
+    # All on B, and no bound for any face: there is nothing to scale a chart by.
+    def test_nothing_to_scale_by(self):
+        for name in ("zero", "unbounded"):
+            with self.subTest(name):
+                seen = look(name, "still")
+                self.assertEqual((seen["console"], seen["errors"], seen["ready"]), ([], [], "view"))
+                side = seen["data"]["sides"][0]
+                self.assertEqual(number(seen["start"]["within"][0]), side["faces"] if name == "zero" else 0)
+                self.check_print(SCRATCH / f"{name}-still.pdf")
+
     def test_odd_names_are_text(self):
         seen = look("odd", "view")
         self.check_common(seen, "odd", "view")
@@ -136,10 +146,10 @@ class Browser(unittest.TestCase):
         seen = look("odd", "picture")
         self.check_common(seen, "odd", "picture")
         self.assertEqual(seen["ready"], "picture")
-        self.assertEqual(seen["shown"], ["This browser has no WebGL; there is no view to turn.", "64x48"])
+        self.assertEqual(seen["shown"], ["This browser cannot draw the mesh; there is no view to turn.", "64x48"])
         seen = look("fail", "picture")
         self.check_common(seen, "fail", "picture")
-        self.assertEqual(seen["shown"], ["This browser has no WebGL; there is no view to turn.", "No picture was drawn for this page."])
+        self.assertEqual(seen["shown"], ["This browser cannot draw the mesh; there is no view to turn.", "No picture was drawn for this page."])
 
 
 if __name__ == "__main__":

@@ -157,12 +157,28 @@ struct Invented {
     answer.inputs[0].path = answer.inputs[0].notes.emplace_back(odd);
     answer.words[1] = odd;
     answer.notes = {odd, "<!-- <script>"};
+    // And more than a sheet of paper holds.
+    answer.inputs[1].path = std::string(400, 'x') + ".stl";
+    for (int i = 0; i < 20; ++i) answer.notes.emplace_back(600, 'n');
+    for (int i = 0; i < 40; ++i) statistics_a.bands.push_back({0.01 * i, {0.1, 0.9}});
     answer.host = odd;
     answer.a_to_b.device.name = odd;
   }
 
+  /// Every upper of A as given, of one direction.
+  void set_upper(double upper) {
+    answer.b_to_a.reset();
+    answer.max.reset();
+    field_a.upper.assign(field_a.upper.size(), upper);
+    field_a.lower.assign(field_a.lower.size(), 0);
+    answer.a_to_b.upper = upper;
+    answer.a_to_b.lower = 0;
+    answer.a_to_b.has_witness = false;
+    has_statistics = false;
+  }
+
   PageContents contents() const {
-    PageContents out{&answer, {&a, &field_a, &statistics_a, picture}};
+    PageContents out{&answer, {&a, &field_a, has_statistics ? &statistics_a : nullptr, picture}};
     if (answer.b_to_a) out.b_to_a = PageDirection{&b, &field_b, nullptr, picture};
     return out;
   }
@@ -172,6 +188,7 @@ struct Invented {
   Statistics statistics_a;
   Answer answer;
   std::string picture;
+  bool has_statistics = true;
 };
 
 }  // namespace vkh::test

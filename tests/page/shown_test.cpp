@@ -64,15 +64,15 @@ void check_encloses(const Mesh& mesh, size_t most) {
 
 TEST_CASE("every face is enclosed by the one shown face that stands for it") {
   const Mesh torus = vkh::test::torus(20, 6, 120, 60);
-  for (const size_t most : {1, 2, 10, 500, 5000, 14400}) check_encloses(torus, most);
-  for (const size_t most : {1, 100, 3000}) check_encloses(scattered(4000), most);
+  for (const size_t most : {1u, 2u, 10u, 500u, 5000u, 14400u}) check_encloses(torus, most);
+  for (const size_t most : {1u, 100u, 3000u}) check_encloses(scattered(4000), most);
   check_encloses(one_point(50), 7);
   check_encloses(vkh::test::square_patch(80, 1), 900);
 }
 
 TEST_CASE("a decimated mesh uses most of the faces that it may have") {
   const Mesh torus = vkh::test::torus(20, 6, 400, 200);
-  for (const size_t most : {2000, 20000}) {
+  for (const size_t most : {2000u, 20000u}) {
     const size_t faces = vkh::shown_of(torus, most).faces.size();
     CHECK(faces > most / 2);
   }

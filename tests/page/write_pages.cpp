@@ -1,13 +1,10 @@
 // Writes pages for people and browsers to look at: write_pages FOLDER [MESH MESH_B], of a torus and
 // a sphere where no mesh is named. Their fields are invented, and answers say what fits them.
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <glm/geometric.hpp>
 #include <iterator>
-#include <numbers>
+#include <limits>
 #include <string>
 
 #include "host/page/page.h"
@@ -64,5 +61,10 @@ int main(int count, char** words) {
   pair.name_oddly();
   pair.picture = bytes_of(folder + "picture.png");
   write_page(folder + "odd.html", pair);
+  pair = Invented(a, b);
+  pair.set_upper(0);
+  write_page(folder + "zero.html", pair);
+  pair.set_upper(std::numeric_limits<double>::infinity());
+  write_page(folder + "unbounded.html", pair);
   return 0;
 }

@@ -33,7 +33,8 @@ export function bars(data, side, scale) {
 }
 
 function drawBars(svg, list, x) {
-  const most = Math.max(...list.map((bar) => bar[2]), 1e-12);
+  const most = Math.max(...list.map((bar) => bar[2]), 0);
+  if (most === 0) return;
   const y = (share) => HEIGHT - (share / most) * (HEIGHT - TOP);
   const group = element(svg, 'g', { class: 'bars' });
   for (const [from, to, share] of list) {

@@ -10,6 +10,7 @@ const data = JSON.parse(find('data').textContent);
 const count = (n) => n.toLocaleString('en-US');
 
 const PRINTED_CHART_PX = 435;  // 115 mm: the view's column of an A4 page (style.css)
+const PRINTED_VIEW = [1200, 1000];  // about its shape there
 
 // Never 0 % or 100 % of what is not none or all.
 function percent(share, faces, all) {
@@ -26,10 +27,12 @@ class Page {
     this.meshes = [];
     this.chart = new Chart(data);
     this.slider = new Slider(data, (step) => this.showStep(step));
-    for (const id of ['chart', 'tally']) find(id).hidden = false;
-    if (data.sides.every((side) => side.mesh) && hasWebGL()) this.openView();
+    find('tally').hidden = false;
+    find('chart').hidden = !(data.top > 0) && data.asked < 0;  // there is nothing to scale it by
+    if (data.sides.every((side) => side.mesh) && hasWebGL() && 'DecompressionStream' in window) this.openView();
     else this.sayNoView();
     this.listen();
+    find('scale').hidden = !(data.top > 0);
     this.setScale(false);
     this.showSide(0);
     this.slider.setStep(data.start);
@@ -37,9 +40,15 @@ class Page {
   }
 
   openView() {
+    try {
+      this.view = new View(find('canvas'), () => this.placeMark());
+    } catch {  // a browser that promised more than it has
+      this.sayNoView();
+      return;
+    }
     find('stage').hidden = find('hint').hidden = false;
     document.querySelectorAll('.stage figure').forEach((figure) => figure.classList.add('behind'));
-    this.view = new View(find('canvas'), () => this.placeMark());
+    this.view.resize();
   }
 
   sayNoView() {
@@ -161,12 +170,8 @@ class Page {
     this.drawChart(PRINTED_CHART_PX);
     const figure = document.querySelectorAll('.stage figure')[this.side];
     if (!this.view || figure.querySelector('img')) return;
-    this.view.drawNow();
-    const copy = document.createElement('canvas');
+    const copy = this.view.copy(...PRINTED_VIEW);
     copy.className = 'snapshot';
-    copy.width = this.view.canvas.width;
-    copy.height = this.view.canvas.height;
-    copy.getContext('2d').drawImage(this.view.canvas, 0, 0);
     figure.append(copy);
   }
 

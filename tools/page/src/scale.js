@@ -14,7 +14,7 @@ function leastOf(data) {
 export function makeScale(data, isLog) {
   const { value, linear, log } = data.steps;
   const asked = data.asked >= 0 ? value[data.asked] : 0;
-  const reached = value.findLast((v, i) => linear[i] && value[Math.max(i - 1, 0)] < data.top) || data.top || 1;
+  const reached = value.findLast((v, i) => linear[i] && value[Math.max(i - 1, 0)] < data.top) || data.top || asked || 1;
   const hi = asked > reached && asked <= 4 * reached ? asked * 1.03 : reached;
   const chosen = isLog ? log : linear;
   const stops = value.map((_, i) => i).filter((i) => chosen[i] || i === data.asked || value[i] === 0);

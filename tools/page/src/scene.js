@@ -180,6 +180,19 @@ export class View {
     this.draw();
   }
 
+  /// A canvas of the view as it stands, in a size of its own.
+  copy(width, height) {
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.drawNow();
+    const copy = document.createElement('canvas');
+    copy.width = this.canvas.width;
+    copy.height = this.canvas.height;
+    copy.getContext('2d').drawImage(this.canvas, 0, 0);
+    this.resize();
+    return copy;
+  }
+
   draw() {
     if (this.isWaiting) return;
     this.isWaiting = true;
