@@ -204,7 +204,12 @@ std::string places_html(const PageText& page, bool back, const std::vector<Worst
 std::string statistics_html(const PageText& page, bool back, const Statistics& statistics) {
   const std::string unit = page.answer.unit.empty() ? "" : ", in " + page.answer.unit;
   std::string out = part_of_side("div", "numbers", back) + "<h2>Statistics of " +
-                    (back ? "B" : "A") + ", by area" + html_text(unit) + "</h2><table><tbody>";
+                    (back ? "B" : "A") + ", by area" + html_text(unit) + "</h2>";
+  const size_t rows = 2 + statistics.percentiles.size() + statistics.bands.size();
+  if (rows > kPrintedRows) {
+    out += "<p class=\"print-only quiet\">The first rows; all are in the file.</p>";
+  }
+  out += "<table><tbody>";
   out += row("mean", range_number(statistics.mean));
   out += row("RMS", range_number(statistics.rms));
   for (const Percentile& p : statistics.percentiles) {
@@ -215,10 +220,7 @@ std::string statistics_html(const PageText& page, bool back, const Statistics& s
   for (const AreaWithin& band : statistics.bands) {
     out += row("within " + short_number(band.distance), share_text(band.share));
   }
-  out += "</tbody></table><p class=\"quiet\">Each is certified.</p>";
-  const size_t rows = 2 + statistics.percentiles.size() + statistics.bands.size();
-  if (rows > kPrintedRows) out += "<p class=\"print-only quiet\">More rows are in the file.</p>";
-  return out + "</div>";
+  return out + "</tbody></table><p class=\"quiet\">Each is certified.</p></div>";
 }
 
 }  // namespace vkh

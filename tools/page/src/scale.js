@@ -49,5 +49,5 @@ function logTicks(lo, hi) {
 
 export function short(value) {
   const v = Number(value.toPrecision(6));
-  return v !== 0 && (v < 1e-3 || v >= 1e6) ? v.toExponential() : String(v);
+  return v !== 0 && (v < 1e-4 || v >= 1e6) ? v.toExponential() : String(v);
 }
