@@ -44,6 +44,15 @@ if(VKH_STB_HEADER)
 else()
   message(STATUS "Not here: pictures, which need libstb-dev")
 endif()
+# Pages are smaller with it; libzip brings it along.
+find_file(VKH_ZLIB_HEADER zlib.h)
+find_library(VKH_ZLIB_LIBRARY z)
+if(VKH_ZLIB_HEADER AND VKH_ZLIB_LIBRARY)
+  set(VKH_HAS_ZLIB ON)
+  list(APPEND VKH_FORMAT_LIBRARIES z)
+else()
+  message(STATUS "Not here: deflated meshes in reports, which need zlib1g-dev")
+endif()
 file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
 list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli|python)/.*$")
 if(NOT VKH_HAS_3MF)
@@ -75,7 +84,8 @@ add_custom_command(
   COMMENT "Embedding the font"
   VERBATIM)
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
-add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
+include(Page)
+add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${VKH_PAGE_ASSETS} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
             ${VKH_DRAW_OUT}/mesh_vert.h ${VKH_DRAW_OUT}/mesh_frag.h ${VKH_DRAW_OUT}/font.h)
 if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
@@ -85,7 +95,7 @@ target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTE
 target_link_libraries(vkh_host PRIVATE ${VKH_FORMAT_LIBRARIES})
 target_compile_definitions(vkh_host PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
                            $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>
-                           $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB>)
+                           $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB> $<$<BOOL:${VKH_HAS_ZLIB}>:VKH_HAS_ZLIB>)
 target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)

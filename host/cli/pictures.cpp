@@ -5,6 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/export/field_file.h"
+#include "host/page/page.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -107,6 +108,32 @@ std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
   return range;
 }
 
+// A report without pictures is one all the same: they only stand in where there is no WebGL.
+std::string picture_or_none(const Side& side, const Done& done, const PicturesAsked& asked) {
+  try {
+    return picture_of(side, done, asked);
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+std::string report_of(const std::vector<Side>& sides, const Done& done,
+                      const PicturesAsked& asked) {
+  std::vector<std::string> pictures;
+  std::vector<PageDirection> directions;
+  for (const Side& side : sides) pictures.push_back(picture_or_none(side, done, asked));
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const std::optional<Statistics>& statistics = sides[i].survey.statistics;
+    directions.push_back({.mesh = &sides[i].mesh,
+                          .field = &sides[i].survey.field,
+                          .statistics = statistics ? &*statistics : nullptr,
+                          .picture = pictures[i]});
+  }
+  PageContents contents{.answer = &done.answer, .a_to_b = directions[0]};
+  if (directions.size() > 1) contents.b_to_a = directions[1];
+  return to_page(contents);
+}
+
 }  // namespace
 
 void add_picture_options(CLI::App& command, TypedPictures& typed) {
@@ -173,12 +200,14 @@ Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
 std::string Pictures::write(const Done& done) const {
   if (!asked_.any()) return "";
   try {
-    for (const Side& side : sides_of(done)) {
+    const std::vector<Side> sides = sides_of(done);
+    for (const Side& side : sides) {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;
       const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
       if (field) field->write(field_text(side, done.answer, asked_));
       if (image) image->write(picture_of(side, done, asked_));
     }
+    if (report_) report_->write(report_of(sides, done, asked_));
   } catch (const OutputError& error) {
     return error.what();
   } catch (const DeviceError& error) {

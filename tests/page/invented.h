@@ -1,0 +1,194 @@
+// An answer about two meshes, and fields of them, as if a run had made them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "host/page/page.h"
+
+namespace vkh::test {
+
+/// Bounds that follow a wave over the mesh, each a few percent apart.
+inline Field invented_field(const Mesh& mesh, double largest) {
+  glm::dvec3 lo = mesh.vertices[0], hi = lo;
+  for (const glm::dvec3& v : mesh.vertices) lo = min(lo, v), hi = max(hi, v);
+  Field field;
+  for (const glm::uvec3& f : mesh.faces) {
+    const glm::dvec3 t =
+        (mesh.vertices[f.x] - lo) / std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z, 1e-300});
+    const double wave =
+        std::pow(0.5 + 0.25 * std::sin(9 * t.x + 4 * t.z) + 0.25 * std::sin(7 * t.y), 3);
+    field.upper.push_back(largest * wave);
+    field.lower.push_back(largest * wave * (0.9 + 0.06 * std::sin(40 * t.z)));
+  }
+  return field;
+}
+
+inline double box_diagonal(const Mesh& mesh) {
+  glm::dvec3 lo = mesh.vertices[0], hi = lo;
+  for (const glm::dvec3& v : mesh.vertices) lo = min(lo, v), hi = max(hi, v);
+  return length(hi - lo);
+}
+
+inline size_t worst_face(const Field& field) {
+  return static_cast<size_t>(std::max_element(field.upper.begin(), field.upper.end()) -
+                             field.upper.begin());
+}
+
+/// Distributions of the field's own bounds, by area: true of every field.
+inline Statistics invented_statistics(const Mesh& mesh, const Field& field) {
+  Statistics out;
+  std::vector<double> areas;
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    const glm::dvec3 a = mesh.vertices[mesh.faces[f].x];
+    areas.push_back(
+        length(cross(mesh.vertices[mesh.faces[f].y] - a, mesh.vertices[mesh.faces[f].z] - a)) / 2);
+    out.area += areas.back();
+    out.mean.upper += areas.back() * field.upper[f];
+    out.rms.upper += areas.back() * field.upper[f] * field.upper[f];
+  }
+  out.mean = {0.9 * out.mean.upper / out.area, out.mean.upper / out.area};
+  out.rms = {0.9 * std::sqrt(out.rms.upper / out.area), std::sqrt(out.rms.upper / out.area)};
+  const double top = field.upper[worst_face(field)];
+  const auto within = [&](double distance) {
+    double share = 0;
+    for (size_t f = 0; f < areas.size(); ++f)
+      share += field.upper[f] <= distance ? areas[f] / out.area : 0;
+    return Enclosure{std::min(share, 1.0), std::min(1.0, share + 0.05)};
+  };
+  for (int i = 0; i <= 64; ++i) out.curve.push_back({top * i / 64, within(top * i / 64)});
+  for (const double share : {0.25, 0.5}) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", top * share);
+    const double distance = std::strtod(text.data(), nullptr);
+    out.bands.push_back({distance, within(distance)});
+  }
+  std::vector<size_t> order(areas.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](size_t f, size_t g) { return field.upper[f] < field.upper[g]; });
+  for (const double share : {0.5, 0.9, 0.95, 0.99}) {
+    double area = 0;
+    size_t i = 0;
+    while (i + 1 < order.size() && (area += areas[order[i]]) < share * out.area) ++i;
+    out.percentiles.push_back({share, {0.9 * field.upper[order[i]], field.upper[order[i]]}});
+  }
+  return out;
+}
+
+struct Invented {
+  Invented(const Mesh& mesh_a, const Mesh& mesh_b) : a(mesh_a), b(mesh_b) {
+    const double size = box_diagonal(a);
+    field_a = invented_field(a, 0.004 * size);
+    field_b = invented_field(b, 0.003 * size);
+    statistics_a = invented_statistics(a, field_a);
+    answer.command = "distance";
+    answer.words = {"distance",
+                    "parts/bracket as scanned.ply",
+                    "parts/bracket.stl",
+                    "--symmetric",
+                    "--unit",
+                    "mm",
+                    "--report",
+                    "bracket.html"};
+    answer.started = "2026-11-23T09:46:25Z";
+    answer.host = "measure-3";
+    answer.unit = "mm";
+    answer.tolerance = {"1e-6diag", 1e-6};
+    answer.inputs = {input("parts/bracket as scanned.ply", a, '3'),
+                     input("parts/bracket.stl", b, 'b')};
+    answer.inputs[1].notes = {"3 polygons were fanned into triangles"};
+    answer.a_to_b = report(a, field_a);
+    answer.b_to_a = report(b, field_b);
+    answer.b_to_a->tolerance = answer.a_to_b.tolerance;
+    answer.waits = {120, 312, 1834};
+  }
+
+  static Input input(const std::string& path, const Mesh& mesh, char digit) {
+    Input out{path, true, mesh.counts, {}};
+    out.sha256 = std::string(60, digit) + "0a1f";
+    return out;
+  }
+
+  static Report report(const Mesh& mesh, const Field& field) {
+    Report r;
+    const size_t worst = worst_face(field);
+    r.upper = field.upper[worst];
+    r.lower = r.upper * (1 - 1e-5);
+    r.diagonal_a = box_diagonal(mesh);
+    r.tolerance = r.upper * 1.1e-5;
+    r.has_witness = true;
+    r.witness_a = {worst, {1, 0, 0}, mesh.vertices[mesh.faces[worst].x]};
+    r.witness_b = r.witness_a;
+    r.device = {
+        0, "llvmpipe (LLVM 15.0.6, 256 bits)", "Mesa 22.3.6", "cpu", "1.3.230", 1u << 30, true, ""};
+    r.times.wall_ms = 1350;
+    return r;
+  }
+
+  /// Of a limit, as a share of upper; 0: none.
+  void ask(double share) {
+    answer.max.reset();
+    if (share == 0) return;
+    const double typed = interval_of(answer).upper * share;
+    std::array<char, 32> text{};
+    // Of a limit within the interval every digit matters.
+    std::snprintf(text.data(), text.size(), share == middle() ? "%.8g" : "%.3g", typed);
+    const double limit = std::strtod(text.data(), nullptr);
+    answer.max = Asked{{std::string(text.data()) + "mm", limit, Length::Of::kUnit, "mm"},
+                       {std::nextafter(limit, 0.0), std::nextafter(limit, limit * 2)}};
+    answer.command = "gate";
+  }
+  /// A share that lies between lower and upper.
+  static double middle() { return 1 - 0.5e-5; }
+
+  /// Every character that somebody might end a page's text with.
+  void name_oddly() {
+    const std::string odd =
+        "</script><script>document.title='taken'</script>\" onload='x' \u2028\u202eexe.lp &amp; "
+        "<b>\x01\x7f\xff.ply";
+    answer.inputs[0].path = answer.inputs[0].notes.emplace_back(odd);
+    answer.words[1] = odd;
+    answer.notes = {odd, "<!-- <script>"};
+    // And more than a sheet of paper holds.
+    answer.inputs[1].path = std::string(400, 'x') + ".stl";
+    for (int i = 0; i < 20; ++i) answer.notes.emplace_back(600, 'n');
+    for (int i = 0; i < 40; ++i) statistics_a.bands.push_back({0.01 * i, {0.1, 0.9}});
+    answer.host = odd;
+    answer.a_to_b.device.name = odd;
+  }
+
+  /// Every upper of A as given, of one direction.
+  void set_upper(double upper) {
+    answer.b_to_a.reset();
+    answer.max.reset();
+    field_a.upper.assign(field_a.upper.size(), upper);
+    field_a.lower.assign(field_a.lower.size(), 0);
+    answer.a_to_b.upper = upper;
+    answer.a_to_b.lower = 0;
+    answer.a_to_b.has_witness = false;
+    has_statistics = false;
+  }
+
+  PageContents contents() const {
+    PageContents out{&answer, {&a, &field_a, has_statistics ? &statistics_a : nullptr, picture}};
+    if (answer.b_to_a) out.b_to_a = PageDirection{&b, &field_b, nullptr, picture};
+    return out;
+  }
+
+  Mesh a, b;
+  Field field_a, field_b;
+  Statistics statistics_a;
+  Answer answer;
+  std::string picture;
+  bool has_statistics = true;
+};
+
+}  // namespace vkh::test

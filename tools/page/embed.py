@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""The page's template, style and viewer as one C++ source: embed.py FOLDER OUT.cpp.
+
+FOLDER is tools/page. Style and viewer stand in elements of their own, so nothing in them may end one.
+"""
+
+import base64
+import hashlib
+import sys
+from pathlib import Path
+
+PIECE = 96  # characters of a line; compilers take long literals in pieces
+
+HEAD = """// Made by tools/page/embed.py.
+#include "host/page/assets.h"
+
+namespace vkh {
+"""
+
+
+def literal(text):
+    """A C++ string literal of UTF-8, in lines. Octal escapes end after three digits; hexadecimal ones do not."""
+    out = []
+    data = text.encode()
+    for at in range(0, len(data), PIECE):
+        line = "".join(
+            f"\\{byte:03o}" if byte < 0x20 or byte > 0x7E or chr(byte) in "\"\\?" else chr(byte)
+            for byte in data[at : at + PIECE])
+        out.append(f'    "{line}"')
+    return "\n".join(out) if out else '    ""'
+
+
+def checked(name, text, forbidden):
+    for part in forbidden:
+        if part in text.lower():
+            sys.exit(f"embed.py: {name} has {part!r}, which would end its element")
+    return text
+
+
+def constant(name, text):
+    return f"const std::string_view {name} =\n{literal(text)};\n"
+
+
+def sha256(text):
+    return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def source(folder):
+    style = checked("style.css", (folder / "src/style.css").read_text(), ["</style"])
+    viewer = checked("viewer.js", (folder / "viewer.js").read_text(), ["</script", "<!--", "\r"])
+    return (HEAD + constant("kPageTemplate", (folder / "src/page.html").read_text())
+            + constant("kPageStyle", style) + constant("kPageViewer", viewer)
+            + constant("kPageStyleHash", sha256(style)) + constant("kPageViewerHash", sha256(viewer))
+            + "}  // namespace vkh\n")
+
+
+def main(words):
+    if len(words) != 2:
+        sys.exit(__doc__)
+    Path(words[1]).write_text(source(Path(words[0])))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
