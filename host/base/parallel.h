@@ -36,6 +36,15 @@ void for_each_index(size_t count, const F& work, size_t threads = thread_count()
   for (std::future<void>& share : shares) share.get();
 }
 
+constexpr size_t kBlock = size_t{1} << 15;
+inline size_t block_count(size_t count) { return (count + kBlock - 1) / kBlock; }
+/// Calls work(block, begin, end) for all blocks of kBlock of `count` items, as for_each_index.
+template <class F>
+void for_each_block(size_t count, const F& work) {
+  for_each_index(block_count(count),
+                 [&](size_t i) { work(i, i * kBlock, std::min((i + 1) * kBlock, count)); });
+}
+
 /// memcpy on several threads, where it is worth them.
 inline void copy_together(void* to, const void* from, size_t bytes) {
   constexpr size_t kPiece = size_t{1} << 22;  // 0.4 ms

@@ -3,8 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/parallel.h"
+
 namespace vkh {
 namespace {
+
+template <class F>
+void each_cell(const CellStore& store, const F& work) {
+  for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) work(i);
+  });
+}
 
 double width(const Enclosure& e) { return e.upper - e.lower; }
 
@@ -55,14 +64,14 @@ double area_of(const CellStore& store, const Areas& areas, size_t i) {
 // What of a cell's area is not known to be within a distance, or beyond it.
 void score_undecided(const CellStore& store, const Areas& areas, const Threshold& at,
                      std::vector<double>& scores) {
-  for (size_t i = 0; i < store.count(); ++i) {
+  each_cell(store, [&](size_t i) {
     const gpu::CellBounds& b = store.bounds(i);
     const double perhaps = share_within(b.lower_a, b.lower_b, b.lower_c, at.up);
     const double surely = at.down >= static_cast<double>(b.highest)
                               ? 1.0
                               : share_within(b.upper_a, b.upper_b, b.upper_c, at.down);
     if (perhaps > surely) scores[i] += (perhaps - surely) * area_of(store, areas, i);
-  }
+  });
 }
 
 std::vector<Scored> positive(const std::vector<double>& scores) {
@@ -110,12 +119,12 @@ std::vector<Scored> score_moments(const CellStore& store, const Areas& areas, co
   const bool by_mean = width(moments.mean) > tolerance;
   if (!by_mean && width(moments.rms) <= tolerance) return {};
   std::vector<double> scores(store.count());
-  for (size_t i = 0; i < store.count(); ++i) {
+  each_cell(store, [&](size_t i) {
     const gpu::CellBounds& b = store.bounds(i);
     const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
     const double squares = static_cast<double>(b.square_upper) - down * down;
     scores[i] = area_of(store, areas, i) * (by_mean ? up - down : squares);
-  }
+  });
   return positive(scores);
 }
 

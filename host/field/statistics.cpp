@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "host/base/parallel.h"
 #include "host/base/rounding.h"
 
 namespace vkh {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kUnit = 0x1p-53;  // a rounding, relative
 
 // A sum of numbers that are not negative, off by less than 4 kUnit of itself: what each addition
-// loses is added up, too (Neumaier 1974).
+// loses is added up, too (Neumaier 1974). Sums are of blocks, and of these: 8.
 class Sum {
  public:
   void add(double x) {
@@ -28,7 +29,7 @@ class Sum {
  private:
   double sum_ = 0, lost_ = 0;
 };
-constexpr double kSumError = 8 * kUnit;  // with a product's rounding in each part
+constexpr double kSumError = 12 * kUnit;  // with a product's rounding in each part
 
 struct FaceArea {
   double area, error;
@@ -80,6 +81,11 @@ double share_within(float a, float b, float c, double t) {
 
 namespace {
 
+// Both ascend, and are as many.
+struct Thresholds {
+  std::span<const double> surely, perhaps;
+};
+
 // Areas of what is surely within each of some distances that ascend, and of what may be.
 struct Within {
   explicit Within(size_t count) : surely(count), perhaps(count) {}
@@ -122,12 +128,11 @@ double part_of(const CellStore& cells, const Areas& areas, size_t i) {
   return cells.share(i) * areas.of_face[cells.face(i)];
 }
 
-// `surely` and `perhaps` ascend, and are as many.
-Within areas_within(const CellStore& cells, const Areas& areas, std::span<const double> surely,
-                    std::span<const double> perhaps) {
-  Within within(surely.size());
-  Adder from_below(surely, within.surely), from_above(perhaps, within.perhaps);
-  for (size_t i = 0; i < cells.count(); ++i) {
+Within block_within(const CellStore& cells, const Areas& areas, const Thresholds& at, size_t begin,
+                    size_t end) {
+  Within within(at.surely.size());
+  Adder from_below(at.surely, within.surely), from_above(at.perhaps, within.perhaps);
+  for (size_t i = begin; i < end; ++i) {
     const gpu::CellBounds& b = cells.bounds(i);
     const double area = part_of(cells, areas, i);
     const float most = std::max({b.lower_a, b.lower_b, b.lower_c});
@@ -137,6 +142,21 @@ Within areas_within(const CellStore& cells, const Areas& areas, std::span<const 
   from_below.finish();
   from_above.finish();
   return within;
+}
+
+Within areas_within(const CellStore& cells, const Areas& areas, const Thresholds& at) {
+  std::vector<Within> blocks(block_count(cells.count()), Within(0));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    blocks[block] = block_within(cells, areas, at, begin, end);
+  });
+  Within all(at.surely.size());
+  for (const Within& block : blocks) {
+    for (size_t k = 0; k < at.surely.size(); ++k) {
+      all.surely[k].add(block.surely[k].value());
+      all.perhaps[k].add(block.perhaps[k].value());
+    }
+  }
+  return all;
 }
 
 struct Extremes {
@@ -171,7 +191,7 @@ std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
     up.push_back(thresholds[i].up);
   }
   std::sort(up.begin(), up.end());  // in the same order: they are apart by as much
-  const Within within = areas_within(cells, areas, down, up);
+  const Within within = areas_within(cells, areas, {down, up});
   const Extremes extremes = extremes_of(cells);
   std::vector<Enclosure> shares(thresholds.size());
   for (size_t k = 0; k < order.size(); ++k) {
@@ -239,7 +259,7 @@ std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
   const double slack = 2 * areas.error;
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::vector<double> below = cuts_of(lower), above = cuts_of(upper);
-    const Within within = areas_within(cells, areas, above, below);
+    const Within within = areas_within(cells, areas, {above, below});
     narrow(lower, within.perhaps, below,
            [&](size_t b, double area) { return area >= shares[b] * areas.whole - slack; });
     narrow(upper, within.surely, above,
@@ -273,12 +293,13 @@ double mean_lower(const gpu::CellBounds& b) {
   return std::max(sum / 3 - 4 * kUnit * size, 0.0);
 }
 
-Moments moments_of(const CellStore& cells, const Areas& areas) {
+namespace {
+
+struct Sums {
   Sum lower, upper, square_lower, square_upper;
   double largest = 0;
-  for (size_t i = 0; i < cells.count(); ++i) {
-    const gpu::CellBounds& b = cells.bounds(i);
-    const double area = part_of(cells, areas, i);
+
+  void add(const gpu::CellBounds& b, double area) {
     const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
     const auto highest = static_cast<double>(b.highest);
     lower.add(area * down);
@@ -287,10 +308,35 @@ Moments moments_of(const CellStore& cells, const Areas& areas) {
     square_upper.add(area * std::min(static_cast<double>(b.square_upper), highest * up));
     largest = std::max(largest, highest);
   }
-  const double square = largest * largest;
-  const double rms_down = std::sqrt(mean_down(square_lower, square, areas)) * (1 - 2 * kUnit);
-  const double rms_up = std::sqrt(mean_up(square_upper, square, areas)) * (1 + 2 * kUnit);
-  return {{mean_down(lower, largest, areas), mean_up(upper, largest, areas)}, {rms_down, rms_up}};
+  void add(const Sums& other) {
+    lower.add(other.lower.value());
+    upper.add(other.upper.value());
+    square_lower.add(other.square_lower.value());
+    square_upper.add(other.square_upper.value());
+    largest = std::max(largest, other.largest);
+  }
+};
+
+Sums sums_of(const CellStore& cells, const Areas& areas) {
+  std::vector<Sums> blocks(block_count(cells.count()));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      blocks[block].add(cells.bounds(i), part_of(cells, areas, i));
+  });
+  Sums all;
+  for (const Sums& block : blocks) all.add(block);
+  return all;
+}
+
+}  // namespace
+
+Moments moments_of(const CellStore& cells, const Areas& areas) {
+  const Sums sums = sums_of(cells, areas);
+  const double square = sums.largest * sums.largest;
+  const double rms_down = std::sqrt(mean_down(sums.square_lower, square, areas)) * (1 - 2 * kUnit);
+  const double rms_up = std::sqrt(mean_up(sums.square_upper, square, areas)) * (1 + 2 * kUnit);
+  return {{mean_down(sums.lower, sums.largest, areas), mean_up(sums.upper, sums.largest, areas)},
+          {rms_down, rms_up}};
 }
 
 }  // namespace vkh
