@@ -108,6 +108,12 @@ TEST_CASE("a rule that is broken is named") {
     CHECK(end.signal == SIGABRT);
     CHECK(end.said.find(misuse.rule) != std::string::npos);
   }
+  const Ended cells = ended([&] {
+    const VkhCells asked{VK_NULL_HANDLE, 0, 0, 1, pair.report_buffer(), 0};
+    vkhCmdBoundCells(pair.context(), VK_NULL_HANDLE, &pair.problem(), &asked, nullptr);
+  });
+  CHECK(cells.signal == SIGABRT);
+  CHECK(cells.said.find("vkhCmdBoundCells: a context of VKH_SWITCH_FIELD") != std::string::npos);
   const Ended report = ended([&] {
     vkhCmdWriteReport(pair.context(), VK_NULL_HANDLE, &pair.problem(), pair.report_buffer(), 4,
                       nullptr);
