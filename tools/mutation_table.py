@@ -10,6 +10,8 @@ TRIANGLE = "shaders/math/triangle.h"
 BOUNDS = "shaders/math/bounds.h"
 PAPER = "shaders/paper/bounds_paper.h"
 BARY = "shaders/math/bary.h"
+DYADIC = "shaders/math/dyadic.h"
+CELL = "shaders/field/cell.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/run/frame.cpp"
 
@@ -19,6 +21,7 @@ ON_ABOVE = ["lib_attack_test", "lib_triangle_test", "lib_lower_test", "lib_bound
 ON_TRIANGLE = ["lib_attack_test", "lib_triangle_test", "lib_model_test"]
 ON_BOUNDS = ["lib_attack_test", "lib_bounds_test", "lib_model_test"]
 ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
+ON_CELL = ["lib_cell_model_test", "lib_cell_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 
@@ -149,6 +152,24 @@ ROWS = [
     row("bound_third's centroid", PAPER, "max(middles, surface_distance_up(centre, s))",
         ["max(middles, min(middles, surface_distance_up(centre, s)))"], ON_BOUNDS),
 
+    # cell.h
+    counts("CellFrame::slack", CELL, "round_up({7.0f} * kUlp * cell.radius", ON_CELL),
+    row("CellFrame::slack's reach", CELL, " + 16.0f * kUlp2 * cell.reach", [" + 4.0f * kUlp2 * cell.reach", ""], ON_CELL),
+    row("CellFrame::radius", CELL, "cell.radius = radius_up(cell.at)", ["cell.radius = 0.5f * radius_up(cell.at)"], ON_CELL),
+    counts("shortened", CELL, "1.0f - {8.0f} * kUlp", ON_CELL, steps=[4.0, 0.0, -32.0]),
+    counts("minorant_off's products", CELL, "round_up({5.0f} * kUlp * (t.radius", ON_CELL),
+    row("minorant_off's slacks", CELL, "rounding + s.slack + t.slack", ["rounding + s.slack", "rounding"], ON_CELL),
+    row("a cell's distance's slacks", CELL, "float more = s.slack + t.slack;", ["float more = t.slack;", "float more = 0.0f;"], ON_CELL),
+    row("a cut's slacks", CELL, "s.at)) + (s.slack + t.slack), 3.0f", ["s.at)), 3.0f"], ON_CELL),
+    row("kThirdUp", CELL, "kThirdUp = 0.33333334f", ["kThirdUp = 0.3333333f"], ON_CELL),
+    row("kThirdDown", CELL, "kThirdDown = 0.33333331f", ["kThirdDown = 0.33333334f"], ON_CELL),
+    row("kSixthUp", CELL, "kSixthUp = 0.16666667f", ["kSixthUp = 0.1666666f"], ON_CELL),
+    row("mean_down's sum", CELL, "float off = 2.0f * kUlp", ["float off = 0.0f * kUlp"], ON_CELL),
+    row("plane_above's cuts", CELL, "max(max(p - on_p, q - on_q), 0.0f)", ["max(p - on_p, 0.0f)", "0.0f"], ON_CELL),
+    row("a cut's third piece", CELL, "1.0f - to_p, to_p * (1.0f - to_q)", ["1.0f - to_p, 0.0f"], ON_CELL),
+    row("a cut's other side", CELL, "max(ps, pr), to_q, max(qs, qr)", ["min(ps, pr), to_q, min(qs, qr)"], ON_CELL),
+    row("the least of all lower bounds", CELL, "g.at_corners = min(g.at_corners, m.at_corners)", ["g.at_corners = m.at_corners"], ON_CELL),
+
     # bary.h
     counts("LocalCorners::slack", BARY, "{24.0f} * kUlp2", ON_BARY, steps=[23.0, 12.0, 6.0, 1.5, 0.5]),
     counts("LocalCorners::slack, its rounding", BARY, "kUlp2 * p.reach, {3.0f})", ON_BARY),
@@ -159,11 +180,11 @@ ROWS = [
         ["min(norm_up(p.b.lo), norm_up(p.c.lo))", "0.0f"], ON_BARY),
     row("kBaryUnit", BARY, "9.5367431640625e-7f", ["9.5367426e-7f"], ON_BARY),
     row("place's second edge", BARY, "float(point.y) * kBaryUnit", ["0.0f * float(point.y)"], ON_BARY),
-    row("middle", BARY, "(p.x + q.x) >> 1", ["(p.x + q.x + 1u) >> 1", "((p.x + q.x) >> 2) * 2u"], ON_BARY),
-    row("has_middle", BARY, "((p.x + q.x) | (p.y + q.y)) & 1u", ["(p.x + q.x) & 1u"], ON_BARY),
-    row("the first child", BARY, "choose(child == 0u, 0u, 6u - child)", ["choose(child == 0u, 0u, 5u - child)"], ON_BARY),
-    row("the third child", BARY, "choose(child == 2u, 2u, 4u - child)", ["choose(child == 1u, 2u, 4u - child)"], ON_BARY),
-    row("the fourth child", BARY, "return uvec3(3u, 4u, 5u);", ["return uvec3(0u, 5u, 4u);"], ON_BARY),
+    row("middle", DYADIC, "(p.x + q.x) >> 1", ["(p.x + q.x + 1u) >> 1", "((p.x + q.x) >> 2) * 2u"], ON_BARY),
+    row("has_middle", DYADIC, "((p.x + q.x) | (p.y + q.y)) & 1u", ["(p.x + q.x) & 1u"], ON_BARY),
+    row("the first child", DYADIC, "choose(child == 0u, 0u, 6u - child)", ["choose(child == 0u, 0u, 5u - child)"], ON_BARY),
+    row("the third child", DYADIC, "choose(child == 2u, 2u, 4u - child)", ["choose(child == 1u, 2u, 4u - child)"], ON_BARY),
+    row("the fourth child", DYADIC, "return uvec3(3u, 4u, 5u);", ["return uvec3(0u, 5u, 4u);"], ON_BARY),
 
     # lower.h
     counts("coarse_distance_down's corners", LOWER, "{4.25f} * kUlp", ON_LOWER, steps=[4.0, 3.0, 2.0, 1.0, 0.5, 0.0]),

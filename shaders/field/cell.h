@@ -280,27 +280,15 @@ VKH_FN Gathered without(Gathered g, CellFrame t, float distance) {
   return g;
 }
 
-// What is known of the cell in the end. What is below d(., B) is the affine function with the
-// values at the corners, or one number.
-VKH_FN CellBounds cell_bounds(Gathered g, CellFrame t) {
+// In the end: an affine function that is not above d(., B), that of the values at the corners or
+// one number; and what some point of T reaches.
+VKH_FN vec3 lower_of(Gathered g, CellFrame t) {
   float around = lowered(g.centre - t.radius);
   vec3 lower = g.at_corners;
   if (least3(lower) < around) lower = vec3(around, around, around);
-  CellBounds b;
-  b.lower_a = lower.x;
-  b.lower_b = lower.y;
-  b.lower_c = lower.z;
-  b.upper_a = g.upper.x;
-  b.upper_b = g.upper.y;
-  b.upper_c = g.upper.z;
-  b.highest = g.highest;
-  b.reached = max(max(g.centre, max3(g.at_corners)), 0.0f);
-  b.mean_upper = min(g.mean, g.highest);
-  b.square_upper = g.square;
-  b.triangle = g.triangle;
-  b.face = kNone;
-  return b;
+  return lower;
 }
+VKH_FN float reached_of(Gathered g) { return max(max(g.centre, max3(g.at_corners)), 0.0f); }
 
 VKH_LIB_END
 #endif

@@ -95,12 +95,28 @@ Gathered with_pairs(Gathered g, CellFrame t) {
   return g;
 }
 
+CellBounds bounds_of(Gathered g, CellFrame t) {
+  vec3 lower = lower_of(g, t);
+  CellBounds b;
+  b.lower_a = lower.x;
+  b.lower_b = lower.y;
+  b.lower_c = lower.z;
+  b.upper_a = g.upper.x;
+  b.upper_b = g.upper.y;
+  b.upper_c = g.upper.z;
+  b.highest = g.highest;
+  b.reached = reached_of(g);
+  b.mean_upper = min(g.mean, g.highest);
+  b.square_upper = g.square;
+  b.face = triangles[kTriangleWords * g.triangle].w;
+  b.triangle = g.triangle;
+  return b;
+}
+
 void main() {
   uint i = item_index();
   if (i >= push.count) return;
   Cell cell = cell_at(i);
   CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
-  CellBounds b = cell_bounds(with_pairs(gather(t, cell.start), t), t);
-  if (b.triangle != kNone) b.face = triangles[kTriangleWords * b.triangle].w;
-  bounds[i] = b;
+  bounds[i] = bounds_of(with_pairs(gather(t, cell.start), t), t);
 }

@@ -265,5 +265,8 @@ struct vec3 {
   friend vec3 operator*(Real s, vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
   friend vec3 operator*(vec3 a, Real s) { return s * a; }
 };
+inline vec3 min(const vec3& a, const vec3& b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
 
 }  // namespace vkh::model

@@ -1,0 +1,186 @@
+"""--field, --image, --report, --stats, --bands and --area, by the program: files are read again by code that is not ours.
+
+usage: see_test.py PROGRAM. Uses assimp's program where it is there.
+"""
+
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM = sys.argv[1]
+SQUARE = "v 0 0 {z}\nv {x} 0 {z}\nv {x} 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
+# B is the plane, and A lies over it: one face at 0.25, the other from 0.25 up to 0.5.
+ROOF = "v 0 0 0.25\nv 1 0 0.25\nv 1 1 0.25\nv 0 1 0.5\nf 1 2 3\nf 1 3 4\n"
+
+
+def ply(path):
+    """Vertices and faces as tuples: only what to_ply writes."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + 11
+    head = data[:end].decode()
+    vertex_count, face_count = (int(head.split(f"element {name} ")[1].split()[0]) for name in ("vertex", "face"))
+    vertex, face = struct.Struct("<dddfBBB"), struct.Struct("<BiiifffBBB")
+    assert len(data) == end + vertex_count * vertex.size + face_count * face.size, "a size that the header does not say"
+    split = end + vertex_count * vertex.size
+    return head, list(vertex.iter_unpack(data[end:split])), list(face.iter_unpack(data[split:]))
+
+
+def glb(path):
+    """The JSON, and the accessors by name as lists of tuples."""
+    data = path.read_bytes()
+    magic, version, size = struct.unpack("<4sII", data[:12])
+    assert (magic, version, size) == (b"glTF", 2, len(data))
+    length, kind = struct.unpack("<I4s", data[12:20])
+    assert kind == b"JSON"
+    tree = json.loads(data[20:20 + length])
+    length, kind = struct.unpack("<I4s", data[20 + length:28 + length])
+    binary = data[len(data) - length:]
+    forms = {("SCALAR", 5126): "<f", ("VEC3", 5126): "<fff", ("VEC4", 5121): "<BBBB"}
+    named = {}
+    for name, index in tree["meshes"][0]["primitives"][0]["attributes"].items():
+        accessor = tree["accessors"][index]
+        view = tree["bufferViews"][accessor["bufferView"]]
+        form = struct.Struct(forms[accessor["type"], accessor["componentType"]])
+        named[name] = list(form.iter_unpack(binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]))
+        assert len(named[name]) == accessor["count"]
+    return tree, named
+
+
+def png(path):
+    """Width, height and the rows' bytes, filters not undone."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body)
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", body[:8])
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + length
+    return width, height, zlib.decompress(packed)
+
+
+class See(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        (self.folder / "roof.obj").write_text(ROOF)
+        (self.folder / "plane.obj").write_text(SQUARE.format(x=1, z=0))
+        (self.folder / "wide.obj").write_text(SQUARE.format(x=2, z=0))
+
+    def run_program(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def test_a_ply_and_a_glb_say_the_same_of_each_face(self):
+        for ending in ("ply", "glb"):
+            self.run_program("distance", "roof.obj", "plane.obj", "--unit", "mm", "--field", f"out.{ending}")
+        head, vertices, faces = ply(self.folder / "out.ply")
+        self.assertIn("certified, in mm", head)
+        self.assertEqual([v[:3] for v in vertices], [(0, 0, 0.25), (1, 0, 0.25), (1, 1, 0.25), (0, 1, 0.5)])
+        self.assertEqual([f[:4] for f in faces], [(3, 0, 1, 2), (3, 0, 2, 3)])
+        for face, most in zip(faces, (0.25, 0.5)):
+            lower, upper, quality = face[4:7]
+            self.assertLessEqual(lower, most)
+            self.assertGreaterEqual(upper, most)
+            self.assertLess(upper - lower, 0.006)
+            self.assertEqual(quality, upper)
+        self.assertEqual(vertices[1][3], faces[0][5])
+        self.assertEqual(vertices[0][3], faces[1][5])
+        tree, named = glb(self.folder / "out.glb")
+        self.assertEqual([u for (u,) in named["_UPPER"]], [f[5] for f in faces for _ in range(3)])
+        self.assertEqual([u for (u,) in named["_LOWER"]], [f[4] for f in faces for _ in range(3)])
+        self.assertEqual([c[:3] for c in named["COLOR_0"]], [f[7:10] for f in faces for _ in range(3)])
+        shift = tree["nodes"][0]["translation"]
+        placed = [tuple(x + s for x, s in zip(p, shift)) for p in named["POSITION"]]
+        self.assertEqual(placed, [vertices[v][:3] for f in faces for v in f[1:4]])
+        self.assertEqual(tree["meshes"][0]["extras"]["unit"], "mm")
+        self.assertNotEqual(faces[0][7:10], faces[1][7:10])
+
+    @unittest.skipUnless(shutil.which("assimp"), "no assimp here")
+    def test_assimp_reads_both(self):
+        for ending in ("ply", "glb"):
+            self.run_program("distance", "roof.obj", "plane.obj", "--field", f"out.{ending}")
+            said = subprocess.run(["assimp", "info", f"out.{ending}"], cwd=self.folder, capture_output=True, text=True, timeout=60).stdout
+            self.assertIn("Faces:              2", said)
+            self.assertRegex(said, r"Minimum point +\(0\.000000 0\.000000 0\.250000\)")
+            self.assertRegex(said, r"Maximum point +\(1\.000000 1\.000000 0\.500000\)")
+
+    def test_symmetric_writes_both_meshes(self):
+        self.run_program("distance", "roof.obj", "wide.obj", "--symmetric", "--field", "out.ply", "--image", "out.png", "--size", "640x480")
+        self.assertEqual(len(ply(self.folder / "out.ply")[2]), 2)
+        back = ply(self.folder / "out-b.ply")[2]
+        self.assertGreater(max(f[5] for f in back), 1)
+        for name in ("out.png", "out-b.png"):
+            width, height, rows = png(self.folder / name)
+            self.assertEqual((width, height), (640, 480))
+            self.assertEqual(len(rows) % height, 0)
+            self.assertGreater(len(set(rows)), 20)
+
+    def test_a_report_holds_the_answer(self):
+        done = self.run_program("gate", "roof.obj", "plane.obj", "--max", "0.3mm", "--unit", "mm", "--report", "out.html", "--json", code=1)
+        answer = json.loads(done.stdout)
+        page = (self.folder / "out.html").read_text()
+        self.assertIn('id="answer"', page)
+        held = page.split('id="answer">', 1)[1].split("</script>", 1)[0]
+        held = json.loads(held)
+        for key in ("verdict", "words", "interval", "max"):
+            self.assertEqual(held[key], answer[key])
+        self.assertEqual(held["directions"][0]["field"], {"faces": 2, "width": answer["directions"][0]["field"]["width"], "within": 1, "beyond": 1, "undecided": 0})
+        self.assertEqual(len(held["inputs"][0]["sha256"]), 64)
+        self.assertNotIn("http://", page.split("<script", 1)[0].replace("http://www.w3.org", ""))
+
+    def test_statistics_hold_closed_forms(self):
+        answer = json.loads(self.run_program("distance", "roof.obj", "plane.obj", "--stats", "--bands", "0.25abs,0.375abs,1abs", "--json").stdout)
+        statistics = answer["directions"][0]["statistics"]
+        # Over the second face, from 0.25 at two corners up to 0.5 at one, areas as it is.
+        area0, area1 = 0.5, 0.5 * (1 + 2 * 0.25**2) ** 0.5
+        mean = (area0 * 0.25 + area1 * (0.25 + 0.25 / 3)) / (area0 + area1)
+        self.assertLessEqual(statistics["mean"]["lower"], mean)
+        self.assertGreaterEqual(statistics["mean"]["upper"], mean)
+        self.assertAlmostEqual(statistics["area"], area0 + area1, places=9)
+        share = (area0 + 0.75 * area1) / (area0 + area1)
+        band = statistics["bands"][1]["share"]
+        self.assertLessEqual(band["lower"], share)
+        self.assertGreaterEqual(band["upper"], share)
+        self.assertEqual((statistics["bands"][2]["share"]["lower"], statistics["bands"][2]["share"]["upper"]), (1, 1))
+
+    def test_a_share_of_area_is_a_verdict(self):
+        for share, code, words in (("80%", 0, "PASS  at least"), ("0.95", 1, "FAIL  at most")):
+            said = self.run_program("gate", "roof.obj", "plane.obj", "--max", "0.375abs", "--area", share, code=code).stdout
+            self.assertTrue(said.startswith(words), said)
+
+    def test_what_makes_no_sense_is_refused_before_the_run(self):
+        for words, named in ((["--field", "out.stl"], "--field"), (["--image", "out.jpg"], "--image"), (["--report", "out.pdf"], "--report"),
+                             (["--image", "o.png", "--view", "behind"], "--view"), (["--image", "o.png", "--map", "jet"], "--map"),
+                             (["--image", "o.png", "--size", "9"], "--size"), (["--image", "o.png", "--range", "1mm"], "--range"),
+                             (["--image", "o.png", "--up", "x"], "--up"), (["--bands", "0.1"], "--bands"),
+                             (["--field", "missing/out.ply"], "--field")):
+            with self.subTest(words):
+                said = self.run_program("distance", "roof.obj", "plane.obj", *words, code=2).stderr
+                self.assertIn(named, said)
+        said = self.run_program("gate", "roof.obj", "plane.obj", "--max", "1abs", "--area", "120%", code=2).stderr
+        self.assertIn("--area", said)
+        (self.folder / "in.ply").write_bytes(b"x")
+        said = self.run_program("distance", "in.ply", "plane.obj", "--field", "in.ply", code=2).stderr
+        self.assertIn("--field", said)
+        self.assertEqual((self.folder / "in.ply").read_bytes(), b"x")
+
+    def test_a_run_that_ends_before_there_is_a_field_says_so(self):
+        done = self.run_program("distance", "roof.obj", "plane.obj", "--field", "out.ply", "--time", "1ms", code=6)
+        self.assertIn("before there were bounds", done.stderr)
+        self.assertFalse((self.folder / "out.ply").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
