@@ -121,6 +121,7 @@ std::string report_of(const std::vector<Side>& sides, const Done& done,
                       const PicturesAsked& asked) {
   std::vector<std::string> pictures;
   std::vector<PageDirection> directions;
+  pictures.reserve(sides.size());
   for (const Side& side : sides) pictures.push_back(picture_or_none(side, done, asked));
   for (size_t i = 0; i < sides.size(); ++i) {
     const std::optional<Statistics>& statistics = sides[i].survey.statistics;

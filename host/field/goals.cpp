@@ -164,6 +164,7 @@ double largest_upper(const CellStore& store, const SurveyedPair& pair) {
 std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const Asked& asked,
                                const std::vector<double>& distances) {
   std::vector<Threshold> at;
+  at.reserve(distances.size());
   for (const double d : distances) at.push_back(in_frame(asked, d));
   const std::vector<Enclosure> shares = shares_within(store, areas, at);
   std::vector<AreaWithin> all;

@@ -52,8 +52,8 @@ class Bounding {
   }
 
   bool goes_on() {
-    ended_ =
-        ended_ || ms() > 1000 * options_.time_limit_s || (options_.goes_on && !options_.goes_on());
+    ended_ = ended_ || ms() > 1000 * options_.time_limit_s ||
+             (options_.goes_on && !options_.goes_on(bounded_));
     return !ended_;
   }
   double ms() const { return ms_since(start_); }

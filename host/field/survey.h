@@ -31,7 +31,8 @@ struct SurveyOptions {
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
   double time_limit_s = 10;                                  ///< of the survey alone
   size_t cell_limit = size_t{1} << 23;
-  std::function<bool()> goes_on;  ///< asked between submissions; false ends the survey
+  /// Asked between submissions, with how many cells have been bounded; false ends the survey.
+  std::function<bool(size_t)> goes_on;
 };
 
 struct SurveyResult {

@@ -267,7 +267,12 @@ struct Surveys {
 
 void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
   SolveOptions options = options_for(at, answer);
-  Surveys surveys(pair, survey_options(at.job.survey, answer, at.stop));
+  SurveyOptions survey = survey_options(at.job.survey, answer, at.stop);
+  survey.goes_on = [&at](size_t cells) {
+    at.line.show_survey(cells);
+    return !at.stop.is_asked();
+  };
+  Surveys surveys(pair, survey);
   const bool by_face = !at.job.face_max_a.empty() || !at.job.face_max_b.empty();
   const bool apart = by_face || options.limit.within > 0;
   if (at.job.survey.is_any() && !apart) options.survey = surveys.hook();

@@ -45,6 +45,16 @@ class ProgressLine {
     show_line(line.data());
   }
 
+  /// After a run: what is bounded of all of a mesh.
+  void show_survey(size_t cells) {
+    const std::lock_guard lock(mutex_);
+    if (!is_time()) return;
+    std::array<char, 80> line{};
+    std::snprintf(line.data(), line.size(), "survey  %llu cells bounded",
+                  static_cast<unsigned long long>(cells));
+    show_line(line.data());
+  }
+
   /// Takes the line away. Whoever still shows something shows it to nobody.
   void end() {
     const std::lock_guard lock(mutex_);

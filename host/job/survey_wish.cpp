@@ -30,7 +30,6 @@ SurveyOptions survey_options(const SurveyWish& wish, const Answer& answer, const
   if (!wish.statistics) options.percentiles.clear();
   if (!wish.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
   options.time_limit_s = std::clamp(kPartOfTime * stop.left_s(), 1e-3, kSeconds);
-  options.goes_on = [stop] { return !stop.is_asked(); };
   return options;
 }
 
