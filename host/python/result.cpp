@@ -49,22 +49,29 @@ Enum named(const std::string& name, const char* (*name_of)(Enum), Enum last) {
   throw py::value_error("'" + name + "' is not known here");
 }
 
+Answer read_state(const py::tuple& state) {
+  Answer r;
+  r.lower = py::cast<double>(state[0]);
+  r.upper = py::cast<double>(state[1]);
+  r.status = named(py::cast<std::string>(state[2]), status_name, Status::kLimit);
+  if (!state[3].is_none())
+    r.verdict = named(py::cast<std::string>(state[3]), verdict_name, Verdict::kUndecided);
+  r.witness_a = point_from(state[4]);
+  r.witness_b = point_from(state[5]);
+  r.survey = state[6];
+  r.survey_back = state[7];
+  r.stats = py::cast<py::dict>(state[8]);
+  return r;
+}
+
 Answer from_state(const py::tuple& state) {
+  constexpr const char* kStranger = "this pickle is not of a vkhausdorff.Result";
   try {
-    Answer r;
-    r.lower = py::cast<double>(state[0]);
-    r.upper = py::cast<double>(state[1]);
-    r.status = named(py::cast<std::string>(state[2]), status_name, Status::kLimit);
-    if (!state[3].is_none())
-      r.verdict = named(py::cast<std::string>(state[3]), verdict_name, Verdict::kUndecided);
-    r.witness_a = point_from(state[4]);
-    r.witness_b = point_from(state[5]);
-    r.survey = state[6];
-    r.survey_back = state[7];
-    r.stats = py::cast<py::dict>(state[8]);
-    return r;
-  } catch (const py::cast_error&) {
-    throw py::value_error("this pickle is not of a vkhausdorff.Result");
+    return read_state(state);
+  } catch (const py::cast_error&) {  // values of other types
+    throw py::value_error(kStranger);
+  } catch (const py::error_already_set&) {  // fewer values
+    throw py::value_error(kStranger);
   }
 }
 

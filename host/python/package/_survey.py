@@ -18,7 +18,7 @@ class Interval(NamedTuple):
         return self.lower <= value <= self.upper
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, init=False, eq=False, repr=False)
 class Field:
     """Of each face, by its row: the largest distance of a point of it lies between lower and upper.
 
@@ -28,9 +28,9 @@ class Field:
     lower: Any
     upper: Any
 
-    def __post_init__(self):
-        for name in ("lower", "upper"):
-            own = np.array(getattr(self, name), dtype=np.float64)
+    def __init__(self, lower, upper):
+        for name, values in (("lower", lower), ("upper", upper)):
+            own = np.array(values, dtype=np.float64)
             own.setflags(write=False)
             object.__setattr__(self, name, own)
 
