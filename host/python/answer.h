@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <optional>
+#include <string>
 
 #include "host/solve/face_gate.h"
 #include "host/solve/report.h"
@@ -18,14 +19,32 @@ struct Answer {
   std::optional<Verdict> verdict;  ///< where a limit was given
   SurfacePoint witness_a, witness_b;
   pybind11::dict stats;
+  pybind11::object survey = pybind11::none(), survey_back = pybind11::none();  ///< of A, of B
 
   bool closed() const { return status == Status::kClosed; }
   /// "pass", "fail", "undecided"; null without a limit.
   const char* verdict_name() const;
 };
 
+/// The class Result.
+void define_result(pybind11::module_& m);
+
 Answer answer_of(const Report& report);
 Answer answer_of(const SymmetricReport& both);
 Answer answer_of(const FaceGate& gate);
+
+// Python can make objects that no constructor has seen: Solver.__new__, or a subclass that uses
+// itself before super().__init__().
+template <class T>
+T& made(const pybind11::object& object, const char* name) {
+  if (!pybind11::isinstance<T>(object))
+    throw pybind11::type_error("expected a vkhausdorff." + std::string(name) +
+                               ", not a value of type " + Py_TYPE(object.ptr())->tp_name);
+  auto* instance = reinterpret_cast<pybind11::detail::instance*>(object.ptr());
+  if (!instance->get_value_and_holder().holder_constructed())
+    throw pybind11::type_error("this " + std::string(name) + " was never made: " + name +
+                               ".__init__ was not called");
+  return pybind11::cast<T&>(object);
+}
 
 }  // namespace vkh::python

@@ -31,12 +31,6 @@ std::string listed(const std::vector<const char*>& names, size_t from, size_t to
   return text;
 }
 
-bool is_bool(py::handle given) {
-  const char* type = Py_TYPE(given.ptr())->tp_name;
-  return PyBool_Check(given.ptr()) || std::strcmp(type, "numpy.bool_") == 0 ||
-         std::strcmp(type, "numpy.bool") == 0;
-}
-
 std::string function_of(const Signature& signature) {
   return std::string(signature.function) + "()";
 }
@@ -58,6 +52,37 @@ void refuse_type(const char* name, const char* expected, py::handle given) {
 
 void refuse_value(const char* name, const char* expected, py::handle given) {
   throw py::value_error(std::string(name) + ": expected " + expected + ", not " + shown(given));
+}
+
+bool is_bool(py::handle given) {
+  const char* type = Py_TYPE(given.ptr())->tp_name;
+  return PyBool_Check(given.ptr()) || std::strcmp(type, "numpy.bool_") == 0 ||
+         std::strcmp(type, "numpy.bool") == 0;
+}
+
+std::string text_from(const char* name, const char* expected, py::handle given) {
+  if (!py::isinstance<py::str>(given)) refuse_type(name, expected, given);
+  Py_ssize_t size = 0;
+  const char* text = PyUnicode_AsUTF8AndSize(given.ptr(), &size);
+  if (text != nullptr) return {text, static_cast<size_t>(size)};
+  PyErr_Clear();  // half of a surrogate pair
+  refuse_value(name, expected, given);
+}
+
+double number_from(const char* name, const char* expected, py::handle given) {
+  const PyNumberMethods* methods = Py_TYPE(given.ptr())->tp_as_number;
+  const bool is_number = methods != nullptr &&
+                         (methods->nb_float != nullptr || methods->nb_index != nullptr) &&
+                         !is_bool(given) && !py::isinstance<py::array>(given);
+  if (!is_number) refuse_type(name, expected, given);
+  const double value = PyFloat_AsDouble(given.ptr());
+  if (PyErr_Occurred() == nullptr) {
+    if (std::isnan(value)) refuse_value(name, expected, given);
+    return value;
+  }
+  const bool is_large = PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
+  PyErr_Clear();
+  is_large ? refuse_value(name, expected, given) : refuse_type(name, expected, given);
 }
 
 Arguments::Arguments(const Signature& signature, const py::args& positional,
@@ -105,13 +130,7 @@ bool Arguments::flag(const char* name) const {
 
 std::string Arguments::text(const char* name, const char* expected) const {
   const py::object* given = find(name);
-  if (given == nullptr) return {};
-  if (!py::isinstance<py::str>(*given)) refuse_type(name, expected, *given);
-  Py_ssize_t size = 0;
-  const char* text = PyUnicode_AsUTF8AndSize(given->ptr(), &size);
-  if (text != nullptr) return {text, static_cast<size_t>(size)};
-  PyErr_Clear();  // half of a surrogate pair
-  refuse_value(name, expected, *given);
+  return given == nullptr ? std::string() : text_from(name, expected, *given);
 }
 
 std::vector<std::string> Arguments::texts(const char* name) const {
@@ -132,19 +151,7 @@ std::vector<std::string> Arguments::texts(const char* name) const {
 std::optional<double> Arguments::number(const char* name, const char* expected) const {
   const py::object* given = find(name);
   if (given == nullptr || given->is_none()) return std::nullopt;
-  const PyNumberMethods* methods = Py_TYPE(given->ptr())->tp_as_number;
-  const bool is_number = methods != nullptr &&
-                         (methods->nb_float != nullptr || methods->nb_index != nullptr) &&
-                         !is_bool(*given) && !py::isinstance<py::array>(*given);
-  if (!is_number) refuse_type(name, expected, *given);
-  const double value = PyFloat_AsDouble(given->ptr());
-  if (PyErr_Occurred() == nullptr) {
-    if (std::isnan(value)) refuse_value(name, expected, *given);
-    return value;
-  }
-  const bool is_large = PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
-  PyErr_Clear();
-  is_large ? refuse_value(name, expected, *given) : refuse_type(name, expected, *given);
+  return number_from(name, expected, *given);
 }
 
 std::optional<uint64_t> Arguments::whole(const char* name, const char* expected) const {

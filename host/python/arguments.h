@@ -41,6 +41,11 @@ class Arguments {
   std::vector<pybind11::object> values_;
 };
 
+// One value, which is there. `expected` is for messages; the argument's name is, too.
+bool is_bool(pybind11::handle given);
+std::string text_from(const char* name, const char* expected, pybind11::handle given);
+double number_from(const char* name, const char* expected, pybind11::handle given);
+
 /// "tol: expected ..., not 'x'".
 [[noreturn]] void refuse_type(const char* name, const char* expected, pybind11::handle given);
 [[noreturn]] void refuse_value(const char* name, const char* expected, pybind11::handle given);

@@ -3,9 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include "engine/vkhausdorff.h"
-#include "host/base/decimal.h"
 #include "host/base/error.h"
-#include "host/base/float_environment.h"
 #include "host/python/interpreter.h"
 #include "host/python/solver.h"
 
@@ -14,73 +12,12 @@ namespace {
 
 namespace py = pybind11;
 
-std::string text_of(const Answer& r) {
-  const FloatEnvironment ours;
-  std::string text = "<vkhausdorff.Result [";
-  text += decimal(r.lower, 9, Rounding::kDown) + ", ";
-  text += decimal(r.upper, 9, Rounding::kUp) + "] ";
-  return text + status_name(r.status) + ">";
-}
-
-py::tuple point_of(const SurfacePoint& p) {
-  return py::make_tuple(p.point.x, p.point.y, p.point.z);
-}
-
-// Python can make objects that no constructor has seen: Solver.__new__, or a subclass that uses
-// itself before super().__init__().
-template <class T>
-T& made(const py::object& object, const char* name) {
-  if (!py::isinstance<T>(object))
-    throw py::type_error("expected a vkhausdorff." + std::string(name) + ", not a value of type " +
-                         Py_TYPE(object.ptr())->tp_name);
-  auto* instance = reinterpret_cast<py::detail::instance*>(object.ptr());
-  if (!instance->get_value_and_holder().holder_constructed())
-    throw py::type_error("this " + std::string(name) + " was never made: " + name +
-                         ".__init__ was not called");
-  return py::cast<T&>(object);
-}
-
-template <class Get>
-auto of_result(Get get) {
-  return [get](const py::object& self) { return get(made<Answer>(self, "Result")); };
-}
-
-void define_result(py::module_& m) {
-  py::class_<Answer>(m, "Result", "A certified interval and what proves its lower end.")
-      .def_property_readonly("lower", of_result([](const Answer& r) { return r.lower; }),
-                             "lower <= distance, in exact arithmetic")
-      .def_property_readonly("upper", of_result([](const Answer& r) { return r.upper; }),
-                             "distance <= upper, in exact arithmetic")
-      .def_property_readonly("closed", of_result([](const Answer& r) { return r.closed(); }),
-                             "whether upper - lower met the tolerance")
-      .def_property_readonly(
-          "status", of_result([](const Answer& r) { return status_name(r.status); }),
-          "why the run ended: closed, precision, time, waves, memory, cancelled, or limit where\n"
-          "the limit of gate() was decided")
-      .def_property_readonly(
-          "verdict", of_result([](const Answer& r) { return r.verdict_name(); }),
-          "of gate(): 'pass', 'fail' or 'undecided', the first two proven; else None")
-      .def_property_readonly(
-          "witness_a", of_result([](const Answer& r) { return point_of(r.witness_a); }),
-          "the point of A (x, y, z) that is farthest from B as far as found, proving lower; in a "
-          "symmetric run the one that is closest to it if B has the farthest point")
-      .def_property_readonly("witness_b",
-                             of_result([](const Answer& r) { return point_of(r.witness_b); }),
-                             "the closest point of B to it (x, y, z); in a symmetric run likewise")
-      .def_property_readonly("face_a", of_result([](const Answer& r) { return r.witness_a.face; }),
-                             "row of fa with the witness")
-      .def_property_readonly("face_b", of_result([](const Answer& r) { return r.witness_b.face; }),
-                             "row of fb with its partner")
-      .def_property_readonly("stats", of_result([](const Answer& r) { return r.stats; }),
-                             "what the run was asked, did and cost")
-      .def("__repr__", of_result(text_of));
-}
-
 void define_distance(py::module_& m) {
   m.def(
       "distance", distance,
       "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
-      "         memory=None, disable=(), progress=None, enable=(), preset='')\n--\n\n"
+      "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
+      "         statistics=False, bands=(), survey_time=10.0)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval.\n\n"
       "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: a\n"
@@ -89,13 +26,22 @@ void define_distance(py::module_& m) {
       "part of a name; progress(wave, lower, upper): return False to cancel. preset: 'default',\n"
       "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval is\n"
       "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError for\n"
-      "the device. Ctrl-C ends a run.");
+      "the device. Ctrl-C ends a run.\n\n"
+      "field: also enclose the largest distance on each face of A (and of B if symmetric), to 1 %\n"
+      "of the largest, or to so much: a width as tol is. statistics: also enclose the mean over\n"
+      "A's area, the root mean square, percentiles and the whole distribution. bands: distances "
+      "in\n"
+      "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
+      "each.\n"
+      "survey_time: the seconds that these may take of each mesh, besides time; None for no "
+      "limit.");
 }
 
 void define_gate(py::module_& m) {
   m.def("gate", gate,
         "gate(va, fa, vb, fb, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
-        "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='')\n--\n\n"
+        "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
+        "     field=False, statistics=False, bands=(), area=None, survey_time=10.0)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
@@ -111,7 +57,8 @@ void define_solver(py::module_& m) {
             return made<PythonSolver>(self, "Solver").distance(positional, named);
           },
           "distance(self, va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
-          "         progress=None, enable=(), preset='')\n--\n\n"
+          "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
+          "         bands=(), survey_time=10.0)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "close", [](const py::object& self) { made<PythonSolver>(self, "Solver").close(); },

@@ -100,10 +100,12 @@ void Session::use(const std::function<void(Solver&)>& work) {
   }
 }
 
-Report Session::distance(const Mesh& a, const SolveOptions& options) {
-  Report report;
-  use([&](Solver& solver) { report = solver.distance(a, *parts_->b, options); });
-  return report;
+void Session::distance(const std::function<void(const ToPrepared&)>& work) {
+  use([&](Solver& solver) {
+    work([&](const Mesh& a, const SolveOptions& options) {
+      return solver.distance(a, *parts_->b, options);
+    });
+  });
 }
 
 void Session::close() {
@@ -122,6 +124,11 @@ void listen_to(const py::object& progress, SolveOptions& options) {
     Asked asked{progress.ptr(), &p};
     return ask(ask_python, &asked);
   };
+}
+
+void hear_signals() {
+  Asked asked{Py_None, nullptr};
+  ask(ask_python, &asked);
 }
 
 }  // namespace vkh::python

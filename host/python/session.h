@@ -28,7 +28,9 @@ class Session {
   /// `listen_to` put into its options hears of signals. A RuntimeError, not a deadlock, if called
   /// from within itself, by a progress callback. A ValueError once closed.
   void use(const std::function<void(Solver&)>& work);
-  Report distance(const Mesh& a, const SolveOptions& options);  ///< from a to what was prepared
+  /// From a mesh to what was prepared.
+  using ToPrepared = std::function<Report(const Mesh&, const SolveOptions&)>;
+  void distance(const std::function<void(const ToPrepared&)>& work);  ///< likewise
 
   /// Waits for the run of another thread. In a callback of its own run it waits for nothing: that
   /// run goes on, and is the last.
@@ -48,5 +50,8 @@ class Session {
 /// Makes a run end with KeyboardInterrupt (or what else a signal's handler raises), and calls
 /// `progress(wave, lower, upper)`, unless that is None; false from it cancels.
 void listen_to(const pybind11::object& progress, SolveOptions& options);
+
+/// From within a run, between its submissions: throws where a signal's handler raised.
+void hear_signals();
 
 }  // namespace vkh::python

@@ -4,12 +4,12 @@
 #include <limits>
 #include <map>
 
-#include "host/answer/length.h"
 #include "host/answer/options.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/python/arrays.h"
 #include "host/python/interpreter.h"
+#include "host/python/survey.h"
 #include "host/run/frame.h"
 
 namespace vkh::python {
@@ -30,26 +30,13 @@ auto parsed(Parse parse, const std::string& text) {
   }
 }
 
-/// A string such as '0.1%' or '0.01abs'. Arrays are in nobody knows what: '0.1mm' is refused.
-Length length_of(const Arguments& given, const char* name, const char* expected,
-                 PlainNumber plain) {
-  Length length;
-  try {
-    length = parse_length(name, given.text(name, expected), plain);
-  } catch (const UsageError&) {
-    refuse_value(name, expected, given.at(name));
-  }
-  if (length.of == Length::Of::kUnit) refuse_value(name, expected, given.at(name));
-  return length;
-}
-
 void read_tolerance(const Arguments& given, SolveOptions& options) {
   constexpr const char* kExpected =
       "a positive number, a fraction of A's diagonal, or a string such as '0.1%' or '0.01abs'";
   const py::object* tol = given.find("tol");
   if (tol == nullptr) return;
   if (py::isinstance<py::str>(*tol)) {
-    const Length length = length_of(given, "tol", kExpected, PlainNumber::kFraction);
+    const Length length = length_from("tol", kExpected, *tol, PlainNumber::kFraction);
     options.tolerance = length.number;
     options.tolerance_is_absolute = length.of == Length::Of::kFiles;
     return;
@@ -74,7 +61,7 @@ Asked read_max(const Arguments& given, const Mesh& a) {
   const FloatEnvironment ours;
   const py::object& max = given.at("max");
   if (py::isinstance<py::str>(max)) {
-    const Length length = length_of(given, "max", kExpected, PlainNumber::kRefused);
+    const Length length = length_from("max", kExpected, max, PlainNumber::kRefused);
     return {in_files(length, "max", "", diagonal(bounding_box(a))), std::nullopt};
   }
   const auto array = py::array::ensure(max);
@@ -164,62 +151,90 @@ struct Given {
   bool is_symmetric;
   std::string device;
   Mesh a, b;
+  SurveyAsked survey;
 
   explicit Given(const Arguments& given)
       : options(options_of(given)),
         is_symmetric(given.flag("symmetric")),
         device(given.text("device", kDevice)),
         a(mesh_from("A", given.at("va"), given.at("fa"))),
-        b(mesh_from("B", given.at("vb"), given.at("fb"))) {}
+        b(mesh_from("B", given.at("vb"), given.at("fb"))),
+        survey(read_survey(given, a)) {}
 };
 
 Answer solve(const Given& given) {
-  Session& session = session_for(given.device);
-  if (given.is_symmetric) {
-    SymmetricReport both;
-    session.use([&](Solver& s) { both = s.symmetric(given.a, given.b, given.options); });
-    return answered(both);
-  }
-  Report report;
-  session.use([&](Solver& s) { report = s.distance(given.a, given.b, given.options); });
-  return answered(report);
+  SymmetricReport both;  // its way there, where that is all that is asked
+  Surveys surveys;
+  session_for(given.device).use([&](Solver& s) {
+    SurveyRun run(given.survey, given.options, given.a, surveys);
+    if (given.is_symmetric) {
+      both = s.symmetric(given.a, given.b, run.options());
+    } else {
+      both.a_to_b = s.distance(given.a, given.b, run.options());
+    }
+    run.beside([&](const SolveOptions& options) { s.distance(given.a, given.b, options); });
+    if (given.is_symmetric)
+      run.beside([&](const SolveOptions& options) { s.distance(given.b, given.a, options); });
+  });
+  if (given.survey.is_any) narrow(given.survey, both.a_to_b, surveys.a);
+  if (given.survey.is_any && given.is_symmetric) narrow(given.survey, both.b_to_a, surveys.b);
+  Answer answer = given.is_symmetric ? answered(both) : answered(both.a_to_b);
+  add_surveys(given.survey, surveys.a, given.is_symmetric ? &surveys.b : nullptr, answer);
+  return answer;
+}
+
+/// Where each face of A has a limit of its own.
+Answer solve_by_face(const Given& given, const std::vector<Limit>& limits) {
+  if (given.is_symmetric)
+    throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
+  if (given.survey.area)
+    throw UsageError("area: faces with limits of their own are asked about whole");
+  FaceGate found;
+  Surveys surveys;
+  session_for(given.device).use([&](Solver& s) {
+    SurveyRun run(given.survey, given.options, given.a, surveys, true);
+    found = gate_faces(s, given.a, given.b, limits, run.options());
+    run.beside([&](const SolveOptions& options) { s.distance(given.a, given.b, options); });
+  });
+  if (given.survey.is_any) narrow(given.survey, found.report, surveys.a);
+  Answer answer = answered(found);
+  add_surveys(given.survey, surveys.a, nullptr, answer);
+  return answer;
 }
 
 }  // namespace
 
 Answer distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distance",
-                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
-                     "memory", "disable", "progress", "enable", "preset"},
-                    4,
-                    6};
+  static const auto* signature = new Signature{
+      "distance",
+      {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves", "memory", "disable",
+       "progress", "enable", "preset", "field", "statistics", "bands", "survey_time"},
+      4,
+      6};
   const Call call;
-  return solve(Given(Arguments(*signature, positional, named)));
+  const Arguments arguments(*signature, positional, named);
+  return solve(Given(arguments));
 }
 
 Answer gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"gate",
-                    {"va", "fa", "vb", "fb", "max", "tol", "symmetric", "device", "time", "waves",
-                     "memory", "disable", "progress", "enable", "preset"},
-                    5,
-                    5};
+  static const auto* signature = new Signature{
+      "gate",
+      {"va",     "fa",    "vb",         "fb",     "max",     "tol",        "symmetric",
+       "device", "time",  "waves",      "memory", "disable", "progress",   "enable",
+       "preset", "field", "statistics", "bands",  "area",    "survey_time"},
+      5,
+      5};
   constexpr double kTolerance = 1e-7;
   const Call call;
   const Arguments arguments(*signature, positional, named);
   Given given(arguments);
   const Asked asked = read_max(arguments, given.a);
   if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
-  given.options.limit = asked.limit;
-  if (!asked.of_faces) return solve(given);
-  if (given.is_symmetric)
-    throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
-  FaceGate found;
-  session_for(given.device).use([&](Solver& s) {
-    found = gate_faces(s, given.a, given.b, *asked.of_faces, given.options);
-  });
-  return answered(found);
+  read_area(arguments, asked.limit, given.survey);
+  if (asked.of_faces) return solve_by_face(given, *asked.of_faces);
+  // What is asked of its area is decided by the survey.
+  if (!given.survey.area) given.options.limit = asked.limit;
+  return solve(given);
 }
 
 void free_devices() { Session::free_all(); }
@@ -235,18 +250,29 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
 }
 
 Answer PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "Solver.distance",
-      {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable", "preset"},
-      2,
-      3};
+  static const auto* signature =
+      new Signature{"Solver.distance",
+                    {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable",
+                     "preset", "field", "statistics", "bands", "survey_time"},
+                    2,
+                    3};
   const Call call;
   const std::shared_ptr<Session> session = session_;
   if (session == nullptr) throw py::value_error("this Solver is closed");
   const Arguments given(*signature, positional, named);
   const SolveOptions options = options_of(given);
   const Mesh a = mesh_from("A", given.at("va"), given.at("fa"));
-  return answered(session->distance(a, options));  // it may have been closed meanwhile
+  const SurveyAsked asked = read_survey(given, a);
+  Report report;
+  Surveys surveys;
+  session->distance([&](const Session::ToPrepared& to_b) {  // it may have been closed meanwhile
+    const SurveyRun run(asked, options, a, surveys);
+    report = to_b(a, run.options());
+  });
+  if (asked.is_any) narrow(asked, report, surveys.a);
+  Answer answer = answered(report);
+  add_surveys(asked, surveys.a, nullptr, answer);
+  return answer;
 }
 
 void PythonSolver::close() {

@@ -33,6 +33,12 @@ with vkh.Solver(v, f, "cpu") as solver:
     face: int = solver.distance(v, f, 1e-3, progress=lambda wave, lower, upper: True).face_a
 within: bool = vkh.gate((v, f), (v, f), 0.1, symmetric=True).verdict == "pass"
 vkh.assert_within((v, f), (v, f), "0.1%")
+found = vkh.distance(v, f, v, f, field=0.01, statistics=True, bands=(0.1, "1%"))
+if found.mean is not None and found.field is not None:
+    least, most = found.mean
+    share: float = found.area_within("1%").lower + float(found.field.upper.max())
+area: bool = vkh.gate((v, f), (v, f), 0.1, area="99%", survey_time=None).survey_met is True
+vkh.distance(v, f, v, f, field=[1])  # wrong
 vkh.gate(v, 1, 0.1)  # wrong
 vkh.distance(v, f, v)  # wrong
 vkh.distance(v, f, v, f, tolerance=1)  # wrong
@@ -62,7 +68,7 @@ def is_property(node: ast.AST) -> bool:
 
 
 # What every class of pybind11 has.
-COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__"}
+COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__", "__contains__", "__len__"}
 
 
 class Types(unittest.TestCase):
@@ -71,7 +77,8 @@ class Types(unittest.TestCase):
         core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
         said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
         self.assertEqual(said, public)
-        self.assertEqual(core | {"assert_within"}, public, "the package does not pass on what the module has")
+        in_python = {"Field", "Interval", "Survey", "assert_within"}
+        self.assertEqual(core | in_python, public, "the package does not pass on what the module has")
         self.assertEqual(set(vkh.__all__), public | {"__version__"})
 
     def test_functions_have_its_signatures(self):
@@ -85,8 +92,10 @@ class Types(unittest.TestCase):
                 continue
             cls = getattr(vkh, name)
             members = stub_of(node.body)
-            there = {key for key in vars(cls) if not key.startswith("__") or key in ("__enter__", "__exit__")}
-            self.assertEqual(set(members) - COMMON, there, name)
+            values = [member.target.id for member in node.body if isinstance(member, ast.AnnAssign)]
+            self.assertEqual(values, list(getattr(cls, "__match_args__", ())), name)  # of a dataclass or a named tuple
+            there = {key for key in vars(cls) if not key.startswith("_") or key in ("__enter__", "__exit__")}
+            self.assertEqual(set(members) - COMMON, there - set(values), name)
             for key, member in members.items():
                 with self.subTest(f"{name}.{key}"):
                     if is_property(member):
@@ -104,16 +113,21 @@ class Types(unittest.TestCase):
                 self.assertEqual(sorted(taken), sorted(inspect.signature(said).parameters), function)
 
     def test_properties_have_the_types_that_they_say(self):
-        result = vkh.distance(*SQUARE, *SQUARE)
+        result = vkh.distance(*SQUARE, *SQUARE, field=True, statistics=True, symmetric=True)
+        bare = vkh.distance(*SQUARE, *SQUARE)
         for key, member in stub_of(stub_of(STUB.body)["Result"].body).items():
+            if not is_property(member):
+                continue
             said, value = ast.unparse(member.returns), getattr(result, key)
             with self.subTest(key):
+                if said.endswith(" | None"):
+                    self.assertIsNone(getattr(bare, key))
                 if said.startswith("_"):
                     name, _, none = said.partition(" | ")
                     literal = next(n for n in STUB.body if isinstance(n, ast.Assign) and n.targets[0].id == name)
                     self.assertIn(value, ast.literal_eval(literal.value.slice) + ((None,) if none else ()))
                 else:
-                    self.assertIs(type(value), eval(said.split("[")[0], {}))
+                    self.assertIs(type(value), eval(re.split(r"\[| \| None", said)[0], dict(vars(vkh))))
 
     def test_it_is_marked_as_typed(self):
         self.assertTrue((PACKAGE / "py.typed").exists())

@@ -199,6 +199,21 @@ class Exits(Lives):
                         print("done")
                     """)
 
+    def test_while_a_daemon_surveys(self):
+        for call in ("vkh.distance(*dense, vb, fb, field=1e-12, survey_time=60)",
+                     "vkh.distance(va, fa, vb, fb, statistics=True, survey_time=0.01).area_within(0.1)"):
+            for wait in ("0.05", "1.0"):
+                with self.subTest(call=call, wait=wait):
+                    self.lives(f"""
+                        vkh.distance(va, fa, vb, fb, field=True)
+                        def work():
+                            while True:
+                                {call}
+                        threading.Thread(target=work, daemon=True).start()
+                        time.sleep({wait})
+                        print("done")
+                    """)
+
     def test_while_daemons_wait_for_each_other(self):
         self.lives("""
             s = vkh.Solver(vb, fb)

@@ -2,8 +2,10 @@
 
 from vkhausdorff import _core
 from vkhausdorff._core import DeviceError, Result, Solver, __version__, distance
+from vkhausdorff._survey import Field, Interval, Survey
 
-__all__ = ["DeviceError", "Result", "Solver", "__version__", "assert_within", "distance", "gate"]
+__all__ = ["DeviceError", "Field", "Interval", "Result", "Solver", "Survey", "__version__", "assert_within", "distance",
+           "gate"]
 
 
 def _arrays(mesh, name):
@@ -19,23 +21,41 @@ def _arrays(mesh, name):
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
-         progress=None, enable=(), preset=""):
+         progress=None, enable=(), preset="", field=False, statistics=False, bands=(), area=None, survey_time=10.0):
     """Whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, or objects with .vertices and .faces (or .triangles). max: a
     positive number in the coordinates' own unit, a string such as '0.1%' of A's diagonal, or a number for each face of A.
     symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail' (lower > max; the witness shows where) or
     'undecided': h is within tol, a fraction of A's diagonal, of max, or time, waves or memory ended. The run ends as soon
-    as either is proven. The rest is as in distance().
+    as either is proven. area: the share of A's area that is to be within max, such as 0.995 or '99.5%', instead of all of
+    it; in a symmetric run of B's, too. With field, each face is to be proven within max or beyond, too. The rest is as in
+    distance().
     """
     return _core.gate(*_arrays(a, "a"), *_arrays(b, "b"), max, tol=tol, symmetric=symmetric, device=device, time=time,
-                      waves=waves, memory=memory, disable=disable, progress=progress, enable=enable, preset=preset)
+                      waves=waves, memory=memory, disable=disable, progress=progress, enable=enable, preset=preset, field=field,
+                      statistics=statistics, bands=bands, area=area, survey_time=survey_time)
+
+
+def _say_area(r, max):
+    """Why the share of the area that was asked is not proven."""
+    sides = [("A", "B", r.survey), *([("B", "A", r.survey_back)] if r.survey_back is not None else [])]
+    worst = min(sides, key=lambda side: side[2].area_within(max).lower if side[2].bands is not None else 0)
+    a, b, survey = worst
+    if survey.bands is None:
+        return f"UNDECIDED: nothing is known of {a}'s area"
+    share, asked = survey.area_within(max), r.stats["area"]
+    if r.verdict == "fail":
+        return f"FAIL: at most {share.upper!r} of {a}'s area is within {max!r} of {b}; {asked!r} was asked"
+    return f"UNDECIDED: from {share.lower!r} to {share.upper!r} of {a}'s area is within {max!r} of {b}; {asked!r} was asked"
 
 
 def assert_within(a, b, max, **options):
     """AssertionError unless it is proven that every point of A is within max of B. Takes what gate() takes."""
     __tracebackhide__ = True  # for pytest
     r = gate(a, b, max, **options)
+    if options.get("area") is not None and r.verdict != "pass":
+        raise AssertionError(_say_area(r, max))
     if r.verdict == "fail":
         back = options.get("symmetric") and r.stats["direction"] == "b_to_a"
         mesh, face, point = ("B", r.face_b, r.witness_b) if back else ("A", r.face_a, r.witness_a)

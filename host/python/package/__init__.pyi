@@ -2,15 +2,19 @@
 
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any, Literal, Protocol, SupportsFloat, SupportsIndex, Union
+from typing import Any, Literal, NamedTuple, Protocol, SupportsFloat, SupportsIndex, Union
 
+import numpy as np
 import numpy.typing as npt
 
-__all__ = ["DeviceError", "Result", "Solver", "__version__", "assert_within", "distance", "gate"]
+__all__ = [
+    "DeviceError", "Field", "Interval", "Result", "Solver", "Survey", "__version__", "assert_within", "distance", "gate",
+]
 __version__: str
 
 _Names = Union[list[str], tuple[str, ...], set[str], frozenset[str]]
 _Number = Union[SupportsFloat, SupportsIndex]
+_Bands = Union[list[Any], tuple[_Number | str, ...], npt.NDArray[Any]]
 _Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled", "limit", "pruned"]
 _Verdict = Literal["pass", "fail", "undecided"]
 _Preset = Literal["", "default", "paper", "baseline-gpu"]
@@ -32,6 +36,37 @@ class _WithTriangles(Protocol):
 _Mesh = Union[tuple[npt.ArrayLike, npt.ArrayLike], _WithFaces, _WithTriangles]
 
 class DeviceError(RuntimeError): ...
+
+class Interval(NamedTuple):
+    """What is enclosed lies in [lower, upper], in exact arithmetic."""
+
+    lower: float
+    upper: float
+    def __contains__(self, value: object) -> bool: ...
+
+class Field:
+    """Of each face, by its row: the largest distance of a point of it lies between lower and upper."""
+
+    lower: npt.NDArray[np.float64]
+    upper: npt.NDArray[np.float64]
+    def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike) -> None: ...
+    def __len__(self) -> int: ...
+
+class Survey:
+    """What is known of the distances of all of a mesh from the other one."""
+
+    upper: float
+    field: Field | None
+    area: float | None
+    mean: Interval | None
+    rms: Interval | None
+    percentiles: dict[float, Interval] | None
+    bands: dict[float | str, Interval] | None
+    curve: list[tuple[float, Interval]] | None
+    met: bool
+    stats: dict[str, Any]
+    def area_within(self, distance: _Number | str) -> Interval: ...
+    def to_dict(self) -> dict[str, Any]: ...
 
 class Result:
     """A certified interval and what proves its lower end."""
@@ -56,6 +91,24 @@ class Result:
     def face_b(self) -> int: ...
     @property
     def stats(self) -> dict[str, Any]: ...
+    @property
+    def field(self) -> Field | None: ...
+    @property
+    def field_back(self) -> Field | None: ...
+    @property
+    def mean(self) -> Interval | None: ...
+    @property
+    def rms(self) -> Interval | None: ...
+    @property
+    def percentiles(self) -> dict[float, Interval] | None: ...
+    def area_within(self, distance: _Number | str) -> Interval: ...
+    @property
+    def survey_met(self) -> bool | None: ...
+    @property
+    def survey(self) -> Survey | None: ...
+    @property
+    def survey_back(self) -> Survey | None: ...
+    def to_dict(self) -> dict[str, Any]: ...
 
 class Solver:
     """Mesh B on the device, its hierarchy built once, for many A's."""
@@ -74,6 +127,10 @@ class Solver:
         progress: _Progress | None = None,
         enable: _Names = (),
         preset: _Preset = "",
+        field: bool | _Number | str = False,
+        statistics: bool = False,
+        bands: _Bands = (),
+        survey_time: _Number | None = 10.0,
     ) -> Result: ...
     def close(self) -> None: ...
     def __enter__(self) -> Solver: ...
@@ -98,6 +155,10 @@ def distance(
     progress: _Progress | None = None,
     enable: _Names = (),
     preset: _Preset = "",
+    field: bool | _Number | str = False,
+    statistics: bool = False,
+    bands: _Bands = (),
+    survey_time: _Number | None = 10.0,
 ) -> Result: ...
 def gate(
     a: _Mesh,
@@ -114,5 +175,10 @@ def gate(
     progress: _Progress | None = None,
     enable: _Names = (),
     preset: _Preset = "",
+    field: bool | _Number | str = False,
+    statistics: bool = False,
+    bands: _Bands = (),
+    area: _Number | str | None = None,
+    survey_time: _Number | None = 10.0,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...

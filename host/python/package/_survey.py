@@ -1,0 +1,141 @@
+"""What a survey of a mesh found, as Python shows it. vkhausdorff._core makes them."""
+
+from dataclasses import dataclass, field as _member
+from itertools import chain
+from numbers import Real
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Interval(NamedTuple):
+    """What is enclosed lies in [lower, upper], in exact arithmetic. A tuple of two: lower, upper = interval."""
+
+    lower: float
+    upper: float
+
+    def __contains__(self, value):
+        return self.lower <= value <= self.upper
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Field:
+    """Of each face, by its row: the largest distance of a point of it lies between lower and upper.
+
+    lower, upper: float64 arrays of shape (faces,), read-only, in the coordinates' unit, rounded outward.
+    """
+
+    lower: Any
+    upper: Any
+
+    def __init__(self, lower, upper):
+        for name, values in (("lower", lower), ("upper", upper)):
+            own = np.array(values, dtype=np.float64)
+            own.setflags(write=False)
+            object.__setattr__(self, name, own)
+
+    def __reduce__(self):  # unpickled arrays could be written to
+        return Field, (self.lower, self.upper)
+
+    def __len__(self):
+        return len(self.lower)
+
+    def __eq__(self, other):
+        if not isinstance(other, Field):
+            return NotImplemented
+        return np.array_equal(self.lower, other.lower) and np.array_equal(self.upper, other.upper)
+
+    __hash__ = None
+
+    def __repr__(self):
+        return f"<vkhausdorff.Field of {len(self)} faces>"
+
+
+@dataclass(frozen=True, repr=False)
+class Survey:
+    """What is known of the distances of all of a mesh from the other one. Lengths are in the coordinates' unit.
+
+    upper: no distance is above it. field: a Field, or None. Of statistics, or None: area, of the mesh, to nearest; mean
+    and rms, weighted by area, Intervals; percentiles, {share: Interval} of the least distance that so much of the area is
+    within; bands, {distance as it was given: Interval} of the share of the area within it; curve, [(distance, Interval)],
+    the same for distances that ascend from 0 to the largest. met: whether all is as narrow as was asked. stats: its cost.
+    """
+
+    upper: float
+    field: Any
+    area: Any
+    mean: Any
+    rms: Any
+    percentiles: Any
+    bands: Any
+    curve: Any
+    met: bool
+    stats: Any = _member(compare=False)
+
+    __hash__ = None
+
+    def area_within(self, distance):
+        """The Interval of the share of the area, from 0 to 1, that is within this distance of the other mesh.
+
+        A number, in the coordinates' unit: narrow at one of bands, true at any. Or a string that was one of bands.
+        ValueError without statistics.
+        """
+        if self.bands is None:
+            raise ValueError("area_within(): ask for it with statistics=True or bands=(...); a mesh without area has none")
+        if isinstance(distance, str):
+            if distance in self.bands:
+                return self.bands[distance]
+            raise ValueError(f"distance: {distance!r} is not one of bands, which are {', '.join(map(repr, self.bands)) or 'none'}")
+        expected = "expected a number, 0 or more, or a string that was one of bands"
+        if not isinstance(distance, Real) or isinstance(distance, (bool, np.bool_)):
+            raise TypeError(f"distance: {expected}, not a value of type {type(distance).__name__}")
+        t = float(distance)
+        if not t >= 0:
+            raise ValueError(f"distance: {expected}, not {t!r}")
+        return self._within(t)
+
+    def _within(self, t):
+        """What is surely within less is within t; what is not even within more is not."""
+        known = chain(self.curve, ((d, share) for d, share in self.bands.items() if not isinstance(d, str)))
+        lower, upper = float(t >= self.upper), 1.0
+        for d, share in known:
+            if d <= t:
+                lower = max(lower, share.lower)
+            if d >= t:
+                upper = min(upper, share.upper)
+        return Interval(lower, upper)
+
+    def to_dict(self):
+        """All of it as plain values, which json.dumps takes."""
+        plain = {"upper": self.upper, "met": self.met, "field": None, "statistics": None, "stats": dict(self.stats)}
+        if self.field is not None:
+            plain["field"] = {"lower": self.field.lower.tolist(), "upper": self.field.upper.tolist()}
+        if self.bands is not None:
+            plain["statistics"] = {
+                "area": self.area, "mean": list(self.mean), "rms": list(self.rms),
+                "bands": [{"distance": d, "share": list(share)} for d, share in self.bands.items()],
+                "percentiles": [{"share": share, "distance": list(d)} for share, d in self.percentiles.items()],
+                "curve": [{"distance": d, "share": list(share)} for d, share in self.curve]}
+        return plain
+
+    def __repr__(self):
+        words = [f"{self.field!r}"] if self.field is not None else []
+        words += [f"mean={tuple(self.mean)}", f"rms={tuple(self.rms)}"] if self.bands is not None else []
+        return f"<vkhausdorff.Survey {', '.join(words)}{'' if self.met else ', not met'}>"
+
+
+for _cls in (Interval, Field, Survey):
+    _cls.__module__ = "vkhausdorff"  # whose names they are, for pickles too
+
+
+def made(field, statistics, upper, met, stats):
+    """A Survey of what C++ found."""
+    field = Field(*field) if field is not None else None
+    if statistics is None:
+        return Survey(upper, field, None, None, None, None, None, None, met, stats)
+
+    def pairs(name):
+        return [(key, Interval(*bounds)) for key, bounds in statistics[name]]
+
+    return Survey(upper, field, statistics["area"], Interval(*statistics["mean"]), Interval(*statistics["rms"]),
+                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, stats)
