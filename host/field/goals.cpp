@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/base/parallel.h"
 
@@ -21,6 +22,7 @@ struct Asked {
   SurveyOptions options;
   double displacement;
   Frame frame;
+  double largest = std::numeric_limits<double>::infinity();  // no distance is above it
 };
 
 // A distance of the files in the frame, from below and above what it is on the stored meshes.
@@ -168,7 +170,12 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
   for (const double d : distances) at.push_back(in_frame(asked, d));
   const std::vector<Enclosure> shares = shares_within(store, areas, at);
   std::vector<AreaWithin> all;
-  for (size_t i = 0; i < at.size(); ++i) all.push_back({distances[i], shares[i]});
+  for (size_t i = 0; i < at.size(); ++i) {
+    // All is within what no distance is above: by the threshold, which displacement moves, only
+    // nearly all may be.
+    const bool is_all = distances[i] >= asked.largest;
+    all.push_back({distances[i], is_all ? Enclosure{1, 1} : shares[i]});
+  }
   return all;
 }
 
@@ -177,7 +184,8 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
 std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
                                         const SurveyedPair& pair, const SurveyOptions& options) {
   if (!(areas.whole > 2 * areas.error)) return std::nullopt;
-  const Asked asked{options, pair.displacement, pair.frame};
+  const double last = largest_upper(store, pair);
+  const Asked asked{options, pair.displacement, pair.frame, last};
   const Moments moments = moments_of(store, areas);
   Statistics s;
   s.area = pair.frame.length_up(pair.frame.length_up(areas.whole));
@@ -187,7 +195,6 @@ std::optional<Statistics> statistics_of(const CellStore& store, const Areas& are
   const std::vector<Enclosure> at = percentiles(store, areas, options.percentiles);
   for (size_t i = 0; i < at.size(); ++i)
     s.percentiles.push_back({options.percentiles[i], in_files(pair, at[i])});
-  const double last = largest_upper(store, pair);
   std::vector<double> steps;
   for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(last * k / kCurveSteps);
   s.curve = within(store, areas, asked, steps);

@@ -137,6 +137,10 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
 
 }  // namespace
 
+Field field_within(size_t face_count, double upper) {
+  return {std::vector<double>(face_count, 0.0), std::vector<double>(face_count, upper)};
+}
+
 Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
   return [&options, &result](const SurveyedPair& pair, const BoundCells& bound) {
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
@@ -151,7 +155,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     result.field = field_of(store, pair);
     result.faces = options.faces;
     if (options.statistics) result.statistics = statistics_of(store, areas, pair, options);
-    result.is_met = is_met;
+    result.is_met = is_met && options.statistics == result.statistics.has_value();
     result.cells = store.count();
     result.bounded = bounding.bounded();
     result.ms = bounding.ms();

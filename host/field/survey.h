@@ -45,6 +45,9 @@ struct SurveyResult {
   double ms = 0;
 };
 
+/// Of a run that ended before its survey began: no distance is above `upper`.
+Field field_within(size_t face_count, double upper);
+
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it.
 Survey survey_with(const SurveyOptions& options, SurveyResult& result);
 

@@ -221,11 +221,12 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
       gate({job.face_max_b, pair.b, pair.a, answer.max->faces_b}, options, solver, answer);
 }
 
-/// A run that only decides a limit leaves a wide interval; no distance is above any face's.
-void narrow(Report& report, const SurveyResult& survey) {
-  const std::vector<double>& upper = survey.field.upper;
-  if (!upper.empty())
-    report.upper = std::min(report.upper, *std::max_element(upper.begin(), upper.end()));
+/// A run that only decides a limit leaves a wide interval; no distance is above any face's. One
+/// that ended before its survey began says of each face what it says of all.
+void join(Report& report, SurveyResult& survey, size_t face_count) {
+  Field& field = survey.field;
+  if (field.face_count() != face_count) field = field_within(face_count, report.upper);
+  report.upper = std::min(report.upper, *std::max_element(field.upper.begin(), field.upper.end()));
 }
 
 /// Of A, and of B on the way back: after a run that looks for the distance, in that run; beside
@@ -254,10 +255,10 @@ struct Surveys {
     if (apart) alone(solver, solve, false);
     if (apart && answer.b_to_a) alone(solver, solve, true);
     answer.survey_a = std::move(a);
-    narrow(answer.a_to_b, *answer.survey_a);
+    join(answer.a_to_b, *answer.survey_a, pair.a.faces.size());
     if (!answer.b_to_a) return;
     answer.survey_b = std::move(b);
-    narrow(*answer.b_to_a, *answer.survey_b);
+    join(*answer.b_to_a, *answer.survey_b, pair.b.faces.size());
   }
 
   const MeshPair& pair;

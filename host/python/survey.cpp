@@ -151,7 +151,7 @@ SurveyRun::SurveyRun(const SurveyAsked& asked, const SolveOptions& options, cons
     is_cancelled_ = is_cancelled_ || !goes_on;
     return goes_on;
   };
-  survey_.goes_on = [this] {
+  survey_.goes_on = [this](size_t) {
     if (!is_cancelled_) ours_->outside(hear_signals);
     return !is_cancelled_;
   };
@@ -168,7 +168,7 @@ void SurveyRun::beside(const std::function<void(const SolveOptions&)>& run) {
   if (!is_any_ || !is_apart_ || is_cancelled_) return;
   options_.limit = {};
   options_.wave_limit = 1;
-  options_.progress = [this](const Progress&) { return survey_.goes_on(); };
+  options_.progress = [this](const Progress&) { return survey_.goes_on(0); };
   hook();
   run(options_);
 }
