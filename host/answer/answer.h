@@ -42,6 +42,7 @@ struct Asked {
   std::optional<FaceLimits> faces_a = {}, faces_b = {};
   /// The share of its area that is to be within, in [0, 1]; none: all of it, every point.
   std::optional<double> area = {};
+  std::string area_requested = {};  ///< as typed
 };
 
 /// What a user waited for, in milliseconds; parts that ran side by side overlap.

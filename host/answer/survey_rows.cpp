@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "host/answer/answer.h"
 #include "host/base/decimal.h"
@@ -23,10 +24,21 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   return text;
 }
 
+// The shortest decimal that is read back as the same double.
 std::string plain(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, x);
+    if (std::strtod(text, nullptr) == x) break;
+  }
   return text;
+}
+
+// In percent, outward: 100 times a share is rounded, unless it is 0 or 1.
+Enclosure in_percent(const Enclosure& share) {
+  const double up = std::nextafter(100 * share.upper, 101.0);
+  return {share.lower < 1 ? std::nextafter(100 * share.lower, 0.0) : 100,
+          share.upper > 0 && share.upper < 1 ? up : 100 * share.upper};
 }
 
 std::string field_text(const Field& field, const Answer& answer) {
@@ -64,15 +76,14 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
     rows.push_back(
         {"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
     for (const AreaWithin& band : s.bands)
-      rows.push_back({"area", enclosure({100 * band.share.lower, 100 * band.share.upper}, "%") +
-                                  " within " + plain(band.distance) +
-                                  (unit.empty() ? "" : " " + unit)});
+      rows.push_back({"area", enclosure(in_percent(band.share), "%") + " within " +
+                                  plain(band.distance) + (unit.empty() ? "" : " " + unit)});
     if (!s.percentiles.empty())
       rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
   }
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
-  if (!survey.is_met) work += ": its time ended first, and all is true as it is";
+  if (!survey.is_met) work += ": not all that was asked is met, and all is true as it is";
   rows.push_back({"survey", work});
   return rows;
 }

@@ -88,9 +88,16 @@ std::string faces_in_words(const FaceLimits& faces) {
   return std::to_string(faces.within) + " of " + std::to_string(faces.faces) + " faces";
 }
 
-// "99.53 %", rounded so that the sentence stays true.
-std::string percent(double share, Rounding rounding) {
-  return decimal(100 * share, share > 0.99 ? 6 : 4, rounding) + " %";
+// In percent, outward; with so many digits that it is not printed on the other side of `asked`.
+std::string percent(double share, double asked, Rounding rounding) {
+  double percent = 100 * share;
+  if (share > 0 && share < 1)
+    percent = std::nextafter(percent, rounding == Rounding::kUp ? 101.0 : 0.0);
+  const double gap = 100 * std::max(std::abs(share - asked), 1e-4);
+  const double fine = 100 * std::abs(share - asked);
+  return decimal(percent, digits_that_matter(percent, fine > 0 ? std::min(gap, fine) : gap),
+                 rounding) +
+         " %";
 }
 
 // Of the mesh that decides: the one that is not within, else the one with less.
@@ -101,13 +108,15 @@ std::string area_in_words(const Answer& answer) {
   const Enclosure share = share_within(answer, back);
   const std::string of = std::string(" of ") + (back ? "B" : "A") + "'s area is within " +
                          answer.max->length.requested + " of " + (back ? "A" : "B");
-  const std::string asked = " (" + percent(area, Rounding::kDown) + " asked)";
-  if (share.lower >= area)
-    return "PASS  at least " + percent(share.lower, Rounding::kDown) + of + ", proven" + asked;
-  if (share.upper < area)
-    return "FAIL  at most " + percent(share.upper, Rounding::kUp) + of + ", proven" + asked;
-  return "UNDECIDED  from " + percent(share.lower, Rounding::kDown) + " to " +
-         percent(share.upper, Rounding::kUp) + of + asked + "; ask for more --time";
+  const std::string asked = " (" + answer.max->area_requested + " asked)";
+  const Verdict verdict = verdict_of(answer);
+  if (verdict == Verdict::kWithin)
+    return "PASS  at least " + percent(share.lower, area, Rounding::kDown) + of + ", proven" +
+           asked;
+  if (verdict == Verdict::kBeyond)
+    return "FAIL  at most " + percent(share.upper, area, Rounding::kUp) + of + ", proven" + asked;
+  return "UNDECIDED  from " + percent(share.lower, area, Rounding::kDown) + " to " +
+         percent(share.upper, area, Rounding::kUp) + of + asked + "; ask for more --time";
 }
 
 std::string gate_in_words(const Answer& answer) {
@@ -143,18 +152,17 @@ CertifiedInterval interval_of(const Answer& answer) {
   return symmetric_interval(r, *answer.b_to_a);
 }
 
-// From below of the limit rounded down, from above of it rounded up.
 Enclosure share_within(const Answer& answer, bool back) {
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
-  if (!survey || !survey->statistics || survey->statistics->bands.size() < 2) return {0, 1};
-  const std::vector<AreaWithin>& bands = survey->statistics->bands;
-  return {bands[0].share.lower, bands[1].share.upper};
+  if (!survey || !survey->statistics || survey->statistics->bands.empty()) return {0, 1};
+  return survey->statistics->bands[0].share;
 }
 
 Verdict verdict_of(const Answer& answer, bool back) {
   if (answer.max->area) {
     const Enclosure share = share_within(answer, back);
-    if (share.lower >= *answer.max->area) return Verdict::kWithin;
+    // What was typed may be above the double nearest to it.
+    if (share.lower >= std::nextafter(*answer.max->area, 1.0)) return Verdict::kWithin;
     return share.upper < *answer.max->area ? Verdict::kBeyond : Verdict::kUndecided;
   }
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;

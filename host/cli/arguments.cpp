@@ -78,6 +78,7 @@ SurveyWish survey_of(const Typed& typed) {
     wish.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
   wish.statistics = typed.statistics || !typed.bands.empty();
   if (!typed.area.empty()) wish.area = share_of("--area", typed.area);
+  wish.area_requested = typed.area;
   return wish;
 }
 

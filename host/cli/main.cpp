@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
@@ -79,11 +81,24 @@ Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destina
   }
 }
 
+/// Two outputs in one file would be one.
+void check_distinct(const Outputs& outputs) {
+  const PicturesAsked& p = outputs.pictures;
+  std::set<std::filesystem::path> places;
+  for (const std::optional<std::string>& file :
+       {outputs.json_file, outputs.junit_file, p.field, p.image, p.report}) {
+    if (file && !places.insert(std::filesystem::absolute(path_of(*file)).lexically_normal()).second)
+      throw UsageError("two outputs would be written to '" + *file + "'");
+  }
+}
+
 int run_pair(const CommandLine& line, const Stop& stop) {
+  check_distinct(line.outputs);
   Destinations destinations(
       line.outputs, {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
-  const Pictures pictures(line.outputs.pictures, line.job.symmetric,
-                          {line.job.file_a, line.job.file_b});
+  const Pictures pictures(
+      line.outputs.pictures, line.job.symmetric,
+      {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
   const Done done = answer_for(line, stop, destinations);  // taken apart after the answer is out
   std::string not_written = destinations.write(done.answer);
   const std::string not_drawn = pictures.write(done);

@@ -92,6 +92,7 @@ std::string picture_of(const Side& side, const Done& done, const PicturesAsked& 
                   .back = side.back,
                   .caption = {in_words(answer)}};
   if (answer.max) picture.limit = answer.max->limit;
+  if (answer.max) picture.verdict = verdict_of(answer, side.back);
   if (side.report.has_witness)
     picture.witness = Witness{side.report.witness_a, side.report.witness_b};
   return encode_png(draw(*done.session.device, picture, picture_options(asked, answer)));
@@ -112,7 +113,7 @@ std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
 std::string picture_or_none(const Side& side, const Done& done, const PicturesAsked& asked) {
   try {
     return picture_of(side, done, asked);
-  } catch (const std::exception&) {
+  } catch (const DeviceError&) {  // a queue that does not draw
     return "";
   }
 }
@@ -160,18 +161,37 @@ void add_picture_options(CLI::App& command, TypedPictures& typed) {
   command.add_option("--steps", typed.steps, "So many steps of colour [smooth]")->type_name("N");
 }
 
+// What would be ignored otherwise.
+void check_needed(const TypedPictures& typed) {
+  const bool draws = !typed.image.empty() || !typed.report.empty();
+  const std::pair<const char*, bool> given[] = {{"--view", typed.view.has_value()},
+                                                {"--up", typed.up.has_value()},
+                                                {"--size", typed.size.has_value()},
+                                                {"--range", !typed.range.empty()},
+                                                {"--steps", typed.steps.has_value()}};
+  for (const auto& [option, is_given] : given) {
+    if (is_given && !draws)
+      throw UsageError(std::string(option) + ": is of a picture: ask for --image or --report");
+  }
+  if (typed.map && !draws && typed.field.empty())
+    throw UsageError("--map: is of colours: ask for --image, --report or --field");
+}
+
 PicturesAsked asked_of(const TypedPictures& typed) {
+  constexpr uint32_t kMostSteps = 256;
+  check_needed(typed);
   PicturesAsked asked;
   if (!typed.field.empty()) asked.field = typed.field;
   if (!typed.image.empty()) asked.image = typed.image;
   if (!typed.report.empty()) asked.report = typed.report;
-  asked.options.view = parse_view("--view", typed.view);
-  asked.options.map = parse_colour_map("--map", typed.map);
-  if (!typed.size.empty()) parse_picture_size("--size", typed.size, asked.options);
-  if (typed.up != "y" && typed.up != "z")
-    throw UsageError("--up '" + typed.up + "': expected y or z");
-  asked.options.up = typed.up == "y" ? Up::kY : Up::kZ;
-  asked.options.bands = typed.steps;
+  asked.options.view = parse_view("--view", typed.view.value_or("iso"));
+  asked.options.map = parse_colour_map("--map", typed.map.value_or("viridis"));
+  if (typed.size) parse_picture_size("--size", *typed.size, asked.options);
+  const std::string up = typed.up.value_or("z");
+  if (up != "y" && up != "z") throw UsageError("--up '" + up + "': expected y or z");
+  asked.options.up = up == "y" ? Up::kY : Up::kZ;
+  asked.options.bands = typed.steps.value_or(0);
+  if (asked.options.bands > kMostSteps) throw UsageError("--steps: 256 at most");
   if (!typed.range.empty()) asked.range = range_of(typed.range);
   return asked;
 }
@@ -212,6 +232,8 @@ std::string Pictures::write(const Done& done) const {
   } catch (const OutputError& error) {
     return error.what();
   } catch (const DeviceError& error) {
+    return error.what();
+  } catch (const UsageError& error) {  // of lengths that the files' units do not resolve
     return error.what();
   }
   return "";

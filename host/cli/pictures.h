@@ -18,9 +18,10 @@ namespace vkh {
 
 /// As typed.
 struct TypedPictures {
-  std::string field, image, report, view = "iso", size, map = "viridis", up = "z";
+  std::string field, image, report;
+  std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
-  uint32_t steps = 0;
+  std::optional<uint32_t> steps;
 };
 void add_picture_options(CLI::App& command, TypedPictures& typed);
 

@@ -164,8 +164,8 @@ void Drawing::draw_header() {
   const PrintedInterval h = printed(picture_);
   double at = x;
   if (picture_.limit) {
-    const Verdict verdict =
-        verdict_of(picture_.interval.lower, picture_.interval.upper, *picture_.limit);
+    const Verdict verdict = picture_.verdict.value_or(
+        verdict_of(picture_.interval.lower, picture_.interval.upper, *picture_.limit));
     std::string word = verdict_name(verdict);
     for (char& c : word) c = static_cast<char>(c - 'a' + 'A');
     const Area pill{at, 76 * u, text_width(word, 18 * u) + 26 * u, 30 * u};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "host/base/decimal.h"
 
@@ -193,8 +194,11 @@ std::string with_unit(const Picture& picture, const std::string& number) {
 }
 
 std::string limit_text(const Picture& picture) {
-  // Twelve digits are what was typed; the limit's two ends differ in the sixteenth.
-  std::string number = decimal(picture.limit->beyond, 12, Rounding::kDown);
+  // What was typed, as a rule: its two ends are 32 ulps apart.
+  const double middle = picture.limit->within / 2 + picture.limit->beyond / 2;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.15g", middle);
+  std::string number = text.data();
   return with_unit(picture, number);
 }
 

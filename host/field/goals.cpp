@@ -16,6 +16,10 @@ void each_cell(const CellStore& store, const F& work) {
   });
 }
 
+// In the frame: what plain floats leave of a cell's bounds, a few times over. Splits gain nothing
+// below it.
+constexpr double kFloor = 2e-6;
+
 double width(const Enclosure& e) { return e.upper - e.lower; }
 
 struct Asked {
@@ -31,32 +35,43 @@ Threshold in_frame(const Asked& asked, double distance) {
   return {d * (1 - 1e-15) - asked.displacement, d * (1 + 1e-15) + asked.displacement};
 }
 
+// Of a cell: how far its bounds are apart.
+double spread(const gpu::CellBounds& b) {
+  return static_cast<double>(b.highest) - static_cast<double>(lowest(b));
+}
+
 // A cell is in the way that lifts its face's highest too far above what the face reaches.
-std::vector<Scored> score_faces(const CellStore& store, const Asked& asked) {
+Scores score_faces(const CellStore& store, const Asked& asked) {
   const SurveyOptions& options = asked.options;
-  const double tolerance = options.field_tolerance > 0
-                               ? asked.frame.to_frame(options.field_tolerance)
-                               : options.face_tolerance * static_cast<double>(store.reached());
-  std::vector<Scored> scored;
+  const double wanted = options.field_tolerance > 0
+                            ? asked.frame.to_frame(options.field_tolerance)
+                            : options.face_tolerance * static_cast<double>(store.reached());
+  const double tolerance = wanted - 2 * asked.displacement;
+  Scores scores{{}, true};
   for (size_t i = 0; i < store.count(); ++i) {
     const double above = static_cast<double>(store.bounds(i).highest) -
                          static_cast<double>(store.reached(store.face(i)));
-    if (above > tolerance - 2 * asked.displacement) scored.push_back({above, i});
+    if (above <= tolerance) continue;
+    scores.is_met = false;
+    if (above > kFloor) scores.cells.push_back({above, i});
   }
-  return scored;
+  return scores;
 }
 
 // Or too far for the limit, on a face that is not known to be beyond it.
-std::vector<Scored> score_verdicts(const CellStore& store, const Asked& asked) {
+Scores score_verdicts(const CellStore& store, const Asked& asked) {
   const double within = in_frame(asked, asked.options.limit.within).down;
   const double beyond = in_frame(asked, asked.options.limit.beyond).up;
-  std::vector<Scored> scored;
+  Scores scores{{}, true};
   for (size_t i = 0; i < store.count(); ++i) {
-    const double above = static_cast<double>(store.bounds(i).highest) - within;
-    const bool is_beyond = static_cast<double>(store.reached(store.face(i))) > beyond;
-    if (above > 0 && !is_beyond) scored.push_back({above, i});
+    const gpu::CellBounds& b = store.bounds(i);
+    const double above = static_cast<double>(b.highest) - within;
+    const auto reached = static_cast<double>(store.reached(store.face(i)));
+    if (above <= 0 || reached > beyond) continue;
+    scores.is_met = false;
+    if (spread(b) > kFloor) scores.cells.push_back({above, i});
   }
-  return scored;
+  return scores;
 }
 
 double area_of(const CellStore& store, const Areas& areas, size_t i) {
@@ -72,7 +87,8 @@ void score_undecided(const CellStore& store, const Areas& areas, const Threshold
     const double surely = at.down >= static_cast<double>(b.highest)
                               ? 1.0
                               : share_within(b.upper_a, b.upper_b, b.upper_c, at.down);
-    if (perhaps > surely) scores[i] += (perhaps - surely) * area_of(store, areas, i);
+    if (perhaps > surely && spread(b) > kFloor)
+      scores[i] += (perhaps - surely) * area_of(store, areas, i);
   });
 }
 
@@ -97,37 +113,40 @@ bool is_enough(const Enclosure& share, const SurveyOptions& options) {
 
 // A percentile's own width is not what its distribution's is: at both ends of it there may be area
 // that is undecided.
-std::vector<Scored> score_distribution(const CellStore& store, const Areas& areas,
-                                       const Asked& asked) {
+Scores score_distribution(const CellStore& store, const Areas& areas, const Asked& asked) {
   const auto reached = static_cast<double>(store.reached());
   const std::vector<Threshold> bands = bands_of(asked);
   const std::vector<Enclosure> shares = shares_within(store, areas, bands);
   std::vector<double> scores(store.count(), 0.0);
+  bool is_met = true;
   for (size_t i = 0; i < bands.size(); ++i) {
-    if (!is_enough(shares[i], asked.options)) score_undecided(store, areas, bands[i], scores);
+    if (is_enough(shares[i], asked.options)) continue;
+    is_met = false;
+    score_undecided(store, areas, bands[i], scores);
   }
   for (const Enclosure& p : percentiles(store, areas, asked.options.percentiles)) {
     if (width(p) <= asked.options.mean_tolerance * reached) continue;
+    is_met = false;
     score_undecided(store, areas, {p.lower, p.lower}, scores);
     score_undecided(store, areas, {p.upper, p.upper}, scores);
   }
-  return positive(scores);
+  return {positive(scores), is_met};
 }
 
 // The mean, and then its square's: a cell's part of the width.
-std::vector<Scored> score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
+Scores score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
   const Moments moments = moments_of(store, areas);
   const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
   const bool by_mean = width(moments.mean) > tolerance;
-  if (!by_mean && width(moments.rms) <= tolerance) return {};
+  if (!by_mean && width(moments.rms) <= tolerance) return {{}, true};
   std::vector<double> scores(store.count());
   each_cell(store, [&](size_t i) {
     const gpu::CellBounds& b = store.bounds(i);
     const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
     const double squares = static_cast<double>(b.square_upper) - down * down;
-    scores[i] = area_of(store, areas, i) * (by_mean ? up - down : squares);
+    if (spread(b) > kFloor) scores[i] = area_of(store, areas, i) * (by_mean ? up - down : squares);
   });
-  return positive(scores);
+  return {positive(scores), false};
 }
 
 }  // namespace
@@ -185,10 +204,12 @@ std::optional<Statistics> statistics_of(const CellStore& store, const Areas& are
                                         const SurveyedPair& pair, const SurveyOptions& options) {
   if (!(areas.whole > 2 * areas.error)) return std::nullopt;
   const double last = largest_upper(store, pair);
+  const double area = pair.frame.length_up(pair.frame.length_up(areas.whole));
+  if (!std::isfinite(last) || !std::isfinite(area)) return std::nullopt;
   const Asked asked{options, pair.displacement, pair.frame, last};
   const Moments moments = moments_of(store, areas);
   Statistics s;
-  s.area = pair.frame.length_up(pair.frame.length_up(areas.whole));
+  s.area = area;
   s.mean = in_files(pair, moments.mean);
   s.rms = in_files(pair, moments.rms);
   s.bands = within(store, areas, asked, options.bands);

@@ -18,8 +18,12 @@ struct Scored {
     return score > other.score || (score == other.score && cell < other.cell);
   }
 };
-/// The cells to split; none where the goal is met.
-using Goal = std::function<std::vector<Scored>(const CellStore&)>;
+/// The cells to split; none where the goal is met, or no split would bring it nearer.
+struct Scores {
+  std::vector<Scored> cells;
+  bool is_met = false;
+};
+using Goal = std::function<Scores(const CellStore&)>;
 
 /// One after the other: faces, then the mean and the root mean square, then the distribution.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,

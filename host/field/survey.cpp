@@ -109,8 +109,9 @@ void choose_some(const CellStore& store, std::vector<Scored>& scored, size_t mos
 // Whether the goal was met.
 bool refine(CellStore& store, Bounding& bounding, const SurveyOptions& options, const Goal& goal) {
   for (;;) {
-    std::vector<Scored> scored = goal(store);
-    if (scored.empty()) return true;
+    Scores scores = goal(store);
+    std::vector<Scored>& scored = scores.cells;
+    if (scored.empty() || scores.is_met) return scores.is_met;
     const size_t room = options.cell_limit - std::min(options.cell_limit, store.count());
     choose_some(store, scored, std::min(std::max(store.count() / 2, kFewestSplits), room));
     if (scored.empty() || !bounding.goes_on()) return false;
@@ -142,7 +143,9 @@ Field field_within(size_t face_count, double upper) {
 }
 
 Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
-  return [&options, &result](const SurveyedPair& pair, const BoundCells& bound) {
+  return [&options, &result](const SurveyedPair& on_device, const BoundCells& bound) {
+    SurveyedPair pair = on_device;
+    pair.farthest = std::min(pair.farthest, options.upper);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
     CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
     Bounding bounding(pair, bound, options);
@@ -150,7 +153,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     const Areas areas = areas_of(pair.a, pair.frame);
     bool is_met = bounding.goes_on();
     for (const Goal& goal : goals_of(options, pair, areas)) {
-      if (is_met) is_met = refine(store, bounding, options, goal);
+      if (!refine(store, bounding, options, goal)) is_met = false;
     }
     result.field = field_of(store, pair);
     result.faces = options.faces;

@@ -29,7 +29,9 @@ struct SurveyOptions {
   /// With one: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
-  double time_limit_s = 10;                                  ///< of the survey alone
+  /// No distance is above it, in the files' units.
+  double upper = std::numeric_limits<double>::infinity();
+  double time_limit_s = 10;  ///< of the survey alone
   size_t cell_limit = size_t{1} << 23;
   /// Asked between submissions, with how many cells have been bounded; false ends the survey.
   std::function<bool(size_t)> goes_on;

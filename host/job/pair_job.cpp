@@ -78,7 +78,11 @@ class Progressing {
     known_.inputs[0].path = job.file_a;
     known_.inputs[1].path = job.file_b;
     known_.tolerance = job.tolerance;
-    if (job.max) known_.max = Asked{.length = *job.max, .limit = {}, .area = job.survey.area};
+    if (job.max)
+      known_.max = Asked{.length = *job.max,
+                         .limit = {},
+                         .area = job.survey.area,
+                         .area_requested = job.survey.area_requested};
     // Undecided until it is known better: an answer that is given before must not forget them.
     if (!job.face_max_a.empty()) known_.max->faces_a = FaceLimits{.path = job.face_max_a};
     if (!job.face_max_b.empty()) known_.max->faces_b = FaceLimits{.path = job.face_max_b};
@@ -127,6 +131,17 @@ class Progressing {
     r.upper = std::min(progress.upper, farthest_);
   }
 
+  /// All runs have ended: this is the answer, but for a survey.
+  void keep(const Answer& answer) {
+    const std::lock_guard lock(mutex_);
+    known_ = answer;
+    is_final_ = true;
+  }
+  bool is_final() const {
+    const std::lock_guard lock(mutex_);
+    return is_final_;
+  }
+
   Answer known() const {
     const std::lock_guard lock(mutex_);
     return known_;
@@ -140,6 +155,7 @@ class Progressing {
 
   mutable std::mutex mutex_;
   Answer known_;
+  bool is_final_ = false;
   double farthest_ = std::numeric_limits<double>::infinity();
 };
 
@@ -221,62 +237,11 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
       gate({job.face_max_b, pair.b, pair.a, answer.max->faces_b}, options, solver, answer);
 }
 
-/// A run that only decides a limit leaves a wide interval; no distance is above any face's. One
-/// that ended before its survey began says of each face what it says of all.
-void join(Report& report, SurveyResult& survey, size_t face_count) {
-  Field& field = survey.field;
-  if (field.face_count() != face_count) field = field_within(face_count, report.upper);
-  report.upper = std::min(report.upper, *std::max_element(field.upper.begin(), field.upper.end()));
-}
-
-/// Of A, and of B on the way back: after a run that looks for the distance, in that run; beside
-/// one that only decides a limit, in one of its own.
-struct Surveys {
-  Surveys(const MeshPair& meshes, const SurveyOptions& asked) : pair(meshes), options(asked) {}
-
-  Survey hook() {
-    return [this](const SurveyedPair& surveyed, const BoundCells& bound) {
-      survey_with(options, &surveyed.a == &pair.a ? a : b)(surveyed, bound);
-    };
-  }
-  void alone(Solver& solver, SolveOptions solve, bool back) {
-    solve.limit = {};
-    solve.coverage = false;
-    solve.wave_limit = 1;
-    solve.survey = hook();
-    if (back) {
-      solver.distance(pair.b, pair.a, solve);
-    } else {
-      solver.distance(pair.a, pair.b, solve);
-    }
-  }
-
-  void finish(Solver& solver, const SolveOptions& solve, bool apart, Answer& answer) {
-    if (apart) alone(solver, solve, false);
-    if (apart && answer.b_to_a) alone(solver, solve, true);
-    answer.survey_a = std::move(a);
-    join(answer.a_to_b, *answer.survey_a, pair.a.faces.size());
-    if (!answer.b_to_a) return;
-    answer.survey_b = std::move(b);
-    join(*answer.b_to_a, *answer.survey_b, pair.b.faces.size());
-  }
-
-  const MeshPair& pair;
-  const SurveyOptions options;
-  SurveyResult a, b;
-};
-
 void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
   SolveOptions options = options_for(at, answer);
-  SurveyOptions survey = survey_options(at.job.survey, answer, at.stop);
-  survey.goes_on = [&at](size_t cells) {
-    at.line.show_survey(cells);
-    return !at.stop.is_asked();
-  };
-  Surveys surveys(pair, survey);
+  // With the pipelines that a survey needs, so that it needs no others.
+  if (at.job.survey.is_any()) options.survey = no_survey;
   const bool by_face = !at.job.face_max_a.empty() || !at.job.face_max_b.empty();
-  const bool apart = by_face || options.limit.within > 0;
-  if (at.job.survey.is_any() && !apart) options.survey = surveys.hook();
   if (by_face) {
     solve_by_face(at, pair, solver, options, answer);
   } else if (at.job.symmetric) {
@@ -286,8 +251,12 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
   } else {
     answer.a_to_b = solver.distance(pair.a, pair.b, options);
   }
-  if (at.job.survey.is_any()) surveys.finish(solver, options, apart, answer);
   add_memory_notes(options.memory_bytes, answer);
+  if (at.job.survey.is_any()) {
+    at.keep(answer);
+    survey_all({at.job.survey, pair, at.stop, [&at](size_t cells) { at.line.show_survey(cells); }},
+               solver, options, answer);
+  }
   if (!at.job.verify) return;
   if (answer.a_to_b.has_witness)
     answer.a_to_b.witness_check = verify_witness(pair.a, pair.b, answer.a_to_b);
@@ -344,20 +313,23 @@ Done unfinished(Progressing& at) {
   at.line.end();
   Done done;
   done.answer = at.known();
+  if (at.is_final()) return done;
   done.answer.a_to_b.status = at.stop.why();
   if (done.answer.b_to_a) done.answer.b_to_a->status = at.stop.why();
   return done;
 }
 
 /// True once `result` is there; false when nobody is to wait any longer.
-bool wait_for(const std::future<Done>& result, const Stop& stop) {
+bool wait_for(const std::future<Done>& result, const Progressing& at) {
   constexpr std::chrono::milliseconds kLook(20);
   constexpr double kGraceful = 0.06;  // in which a run on a GPU ends by itself, with more to say
+  constexpr double kToAddUp = 3;      // a survey has files to write, which somebody asked for
+  const Stop& stop = at.stop;
   double asked_at = std::numeric_limits<double>::infinity();
   while (result.wait_for(kLook) == std::future_status::timeout) {
     if (!stop.is_asked()) continue;
     asked_at = std::min(asked_at, stop.elapsed_s());
-    if (stop.elapsed_s() - asked_at > kGraceful) return false;
+    if (stop.elapsed_s() - asked_at > (at.is_final() ? kToAddUp : kGraceful)) return false;
   }
   return true;
 }
@@ -373,7 +345,7 @@ Done run_job(const PairJob& job, const Stop& stop) {
   });
   Done done;
   try {
-    done = wait_for(result, stop) ? result.get() : unfinished(*at);
+    done = wait_for(result, *at) ? result.get() : unfinished(*at);
   } catch (const Interrupted&) {
     done = unfinished(*at);
   }

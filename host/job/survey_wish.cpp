@@ -1,36 +1,126 @@
 #include "host/job/survey_wish.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "host/base/error.h"
 
 namespace vkh {
 namespace {
 
-constexpr double kSeconds = 10;       // where --time leaves so many
-constexpr double kPartOfTime = 0.85;  // adding up, and the outputs, need the rest
+constexpr double kSeconds = 10;       // unless --time gives more, or less,
+constexpr double kPartOfTime = 0.85;  // of which adding up and the outputs need the rest
 
-double resolved(const Length& length, const char* option, const Answer& answer) {
-  return in_files(length, option, answer.unit, answer.a_to_b.diagonal_a).within;
+Limit resolved(const Length& length, const char* option, const Answer& answer) {
+  return in_files(length, option, answer.unit, answer.a_to_b.diagonal_a);
+}
+
+// Each as two: rounded down, and up.
+std::vector<Limit> bands_of(const SurveyWish& wish, const Answer& answer) {
+  std::vector<Limit> bands;
+  if (answer.max && (wish.area || wish.statistics)) bands.push_back(answer.max->limit);
+  for (const Length& band : wish.bands) bands.push_back(resolved(band, "--bands", answer));
+  return bands;
+}
+
+SurveyOptions options_of(const SurveyJob& job, const Answer& answer, size_t left) {
+  const SurveyWish& wish = job.wish;
+  SurveyOptions options;
+  options.faces = wish.faces;
+  if (wish.face_tolerance)
+    options.field_tolerance = resolved(*wish.face_tolerance, "--field-tol", answer).within;
+  if (answer.max) options.limit = answer.max->limit;
+  options.statistics = wish.statistics || wish.area;
+  for (const Limit& band : bands_of(wish, answer))
+    options.bands.insert(options.bands.end(), {band.within, band.beyond});
+  options.enough = wish.area;
+  if (!wish.statistics) options.percentiles.clear();
+  if (!wish.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
+  const double time = job.stop.left_s();
+  options.time_limit_s = std::isfinite(time)
+                             ? kPartOfTime * std::max(time, 0.0) / static_cast<double>(left)
+                             : kSeconds;
+  options.goes_on = [&job](size_t cells) {
+    job.show(cells);
+    return !job.stop.is_asked();
+  };
+  return options;
+}
+
+// The decimal of fifteen digits, where it lies between a length's ends: what was typed, as a rule.
+double named(const Limit& limit) {
+  const double middle = limit.within / 2 + limit.beyond / 2;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.15g", middle);
+  const double decimal = std::strtod(text, nullptr);
+  return decimal >= limit.within && decimal <= limit.beyond ? decimal : middle;
+}
+
+// What holds from a length rounded down up to it rounded up holds for it.
+void join_bands(Statistics& s) {
+  std::vector<AreaWithin> bands;
+  for (size_t i = 0; i + 1 < s.bands.size(); i += 2) {
+    const AreaWithin &down = s.bands[i], &up = s.bands[i + 1];
+    bands.push_back({named({down.distance, up.distance}), {down.share.lower, up.share.upper}});
+  }
+  s.bands = std::move(bands);
+}
+
+// A run that only decides a limit leaves a wide interval; no distance is above any face's. One that
+// ended before its survey began says of each face what it says of all.
+void join(Report& report, SurveyResult& survey, size_t face_count) {
+  Field& field = survey.field;
+  if (field.face_count() != face_count) field = field_within(face_count, report.upper);
+  report.upper = std::min(report.upper, *std::max_element(field.upper.begin(), field.upper.end()));
+  if (survey.statistics) join_bands(*survey.statistics);
+}
+
+struct Side {
+  const Mesh& from;
+  const Mesh& to;
+  const char* name;
+};
+
+SurveyResult survey_one(const SurveyJob& job, const Side& side, const SurveyOptions& asked,
+                        Solver& solver, SolveOptions options) {
+  SurveyResult result;
+  options.limit = {};
+  options.known_lower = 0;
+  options.coverage = false;
+  options.wave_limit = 1;
+  options.time_limit_s = std::numeric_limits<double>::infinity();
+  options.progress = [&job](const Progress&) { return !job.stop.is_asked(); };
+  options.survey = survey_with(asked, result);
+  if (!job.stop.is_asked()) solver.distance(side.from, side.to, options);
+  return result;
 }
 
 }  // namespace
 
-SurveyOptions survey_options(const SurveyWish& wish, const Answer& answer, const Stop& stop) {
-  SurveyOptions options;
-  options.faces = wish.faces;
-  if (wish.face_tolerance)
-    options.field_tolerance = resolved(*wish.face_tolerance, "--field-tol", answer);
-  if (answer.max) options.limit = answer.max->limit;
-  options.statistics = wish.statistics || wish.area;
-  // Those of the limit come first: a share of area is told from them.
-  if (wish.area) options.bands = {answer.max->limit.within, answer.max->limit.beyond};
-  for (const Length& band : wish.bands) options.bands.push_back(resolved(band, "--bands", answer));
-  if (wish.statistics && !wish.area && answer.max)
-    options.bands.push_back(answer.max->limit.within);
-  options.enough = wish.area;
-  if (!wish.statistics) options.percentiles.clear();
-  if (!wish.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
-  options.time_limit_s = std::clamp(kPartOfTime * stop.left_s(), 1e-3, kSeconds);
-  return options;
+void survey_all(const SurveyJob& job, Solver& solver, const SolveOptions& options, Answer& answer) {
+  const auto one = [&](const Side& side, Report& report, size_t left) {
+    SurveyOptions asked = options_of(job, answer, left);
+    asked.upper = report.upper;
+    SurveyResult result;
+    try {
+      result = survey_one(job, side, asked, solver, options);
+    } catch (const std::bad_alloc&) {
+      answer.notes.push_back(std::string("there was no memory to survey ") + side.name);
+    } catch (const MemoryError&) {
+      answer.notes.push_back(std::string("the device had no memory to survey ") + side.name);
+    }
+    join(report, result, side.from.faces.size());
+    if (asked.statistics && !result.statistics)
+      answer.notes.push_back(std::string("there are no statistics of ") + side.name);
+    return result;
+  };
+  const size_t count = answer.b_to_a ? 2 : 1;
+  answer.survey_a = one({job.pair.a, job.pair.b, "A"}, answer.a_to_b, count);
+  if (answer.b_to_a) answer.survey_b = one({job.pair.b, job.pair.a, "B"}, *answer.b_to_a, 1);
 }
 
 }  // namespace vkh

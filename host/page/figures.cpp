@@ -20,10 +20,25 @@ constexpr int kDecades = 6;           // below the largest distance; less is as 
 constexpr double kLinearSteps = 250;  // at least so many: finer than a hand drags
 constexpr double kNiceFactors[] = {5, 2, 1};
 
+// The shortest decimal that is read back as the same double: a statement about it is not about
+// another length.
 std::string short_number(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+    if (std::strtod(text.data(), nullptr) == value) break;
+  }
   return text.data();
+}
+
+// As it was typed, as a rule: the decimal of fifteen digits, where it lies between the limit's
+// ends.
+std::string limit_number(const Limit& limit) {
+  std::array<char, 32> text{};
+  const double middle = limit.within / 2 + limit.beyond / 2;
+  std::snprintf(text.data(), text.size(), "%.15g", middle);
+  const double decimal = std::strtod(text.data(), nullptr);
+  return short_number(decimal >= limit.within && decimal <= limit.beyond ? decimal : middle);
 }
 
 // The double nearest to a decimal of few digits. The decimal itself lies between its neighbours.
@@ -77,7 +92,7 @@ void add_asked(std::vector<Step>& steps, const Limit& asked) {
     return step.limit.beyond >= asked.within && step.limit.within <= asked.beyond;
   });
   const double value = asked.within / 2 + asked.beyond / 2;
-  steps.push_back({value, asked, short_number(value)});
+  steps.push_back({value, asked, limit_number(asked)});
 }
 
 void merge_equals(std::vector<Step>& steps) {

@@ -96,7 +96,6 @@ SolveOptions coarser(const std::vector<Pair>& pairs, const SolveOptions& options
     for (const Pair& pair : pairs) unit = std::min(unit, diagonal(pair.box_a));
   }
   SolveOptions coarse = options;
-  coarse.survey = {};
   coarse.tolerance = std::max(options.tolerance, kCoarse * unit);
   return coarse;
 }
@@ -149,7 +148,6 @@ std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOpt
   }
   if (open.empty()) return reports;
   SolveOptions fine = options;
-  fine.survey = {};
   fine.progress = [&](Progress progress) {
     progress.pair = numbers[progress.pair];
     return !options.progress || options.progress(progress);

@@ -288,7 +288,8 @@ VKH_FN vec3 lower_of(Gathered g, CellFrame t) {
   if (least3(lower) < around) lower = vec3(around, around, around);
   return lower;
 }
-VKH_FN float reached_of(Gathered g) { return max(max(g.centre, max3(g.at_corners)), 0.0f); }
+// Not at the centre, which may lie outside of T by a rounding of its barycentrics.
+VKH_FN float reached_of(Gathered g) { return max(max3(g.at_corners), 0.0f); }
 
 VKH_LIB_END
 #endif

@@ -6,10 +6,12 @@ usage: see_test.py PROGRAM. Uses assimp's program where it is there.
 import json
 import pathlib
 import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -175,6 +177,31 @@ class See(unittest.TestCase):
         said = self.run_program("distance", "in.ply", "plane.obj", "--field", "in.ply", code=2).stderr
         self.assertIn("--field", said)
         self.assertEqual((self.folder / "in.ply").read_bytes(), b"x")
+
+    def test_what_would_be_ignored_or_lost_is_refused(self):
+        for words in (["--size", "800x600"], ["--view", "six"], ["--steps", "5"], ["--map", "batlow"], ["--range", "0,1abs"]):
+            with self.subTest(words):
+                self.assertIn(words[0], self.run_program("distance", "roof.obj", "plane.obj", *words, code=2).stderr)
+        for words in (["--json=out.html", "--report", "./out.html"], ["--field", "a.ply", "--image", "a.png", "--json=a.png"]):
+            with self.subTest(words):
+                self.assertIn("two outputs", self.run_program("distance", "roof.obj", "plane.obj", *words, code=2).stderr)
+
+    def test_a_verdict_that_is_known_outlives_the_survey(self):
+        # B lacks a part of A, so that the ways differ: what is known of one is not said of the other.
+        for words, code in ((["gate", "wide.obj", "plane.obj", "--max", "0.5abs"], 1), (["gate", "plane.obj", "wide.obj", "--max", "0.5abs"], 0)):
+            done = self.run_program(*words, "--stats", "--field-tol", "1e-9", "--time", "3s", "--json", code=code)
+            answer = json.loads(done.stdout)
+            self.assertEqual(answer["verdict"], "fail" if code else "pass")
+        started = subprocess.Popen([PROGRAM, "distance", "wide.obj", "plane.obj", "--symmetric", "--stats", "--field-tol", "1e-12", "--bands",
+                                    "0.3abs", "--json"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(2.5)
+        started.send_signal(signal.SIGINT)
+        out, err = started.communicate(timeout=60)
+        answer = json.loads(out)
+        there, back = answer["directions"]
+        self.assertLessEqual(there["interval"]["lower"], 1)
+        self.assertGreaterEqual(there["interval"]["upper"], 1)
+        self.assertEqual((back["interval"]["lower"], back["status"] == "cancelled"), (0, False), err)
 
     def test_a_run_that_ends_before_there_is_a_field_says_so(self):
         done = self.run_program("distance", "roof.obj", "plane.obj", "--field", "out.ply", "--time", "1ms", code=6)

@@ -50,7 +50,6 @@ gpu::Cell random_cell(Random& random, uint32_t face_count) {
 
 struct CellCheck::Placed {
   std::array<glm::dvec3, 3> at;
-  glm::dvec3 middle;
   gpu::CellBounds bounds;
 
   glm::dvec3 point(const glm::dvec3& w) const { return w.x * at[0] + w.y * at[1] + w.z * at[2]; }
@@ -97,7 +96,7 @@ void CellCheck::check_one(const Placed& cell, uint64_t seed, CellTally& tally) c
   const gpu::CellBounds& b = cell.bounds;
   const double more = pair_.displacement;
   Random random(seed);
-  double farthest = distance(cell.middle);
+  double farthest = 0;
   for (int k = 0; k < kSamples; ++k) {
     glm::dvec3 w(k == 0, k == 1, k == 2);
     if (k >= 3) w = {random.unit(), random.unit(), k % 3 == 0 ? 0 : random.unit()};
@@ -147,7 +146,6 @@ void CellCheck::check(const std::vector<gpu::Cell>& cells,
     const lib::Bary3 t = lib::unpack_corners({w.x, w.y, w.z, w.w});
     const uint32_t face = cells[i].face;
     const Placed cell{{place(a_, face, t.a), place(a_, face, t.b), place(a_, face, t.c)},
-                      place(a_, face, lib::centroid_of(t)),
                       bounds[i]};
     check_one(cell, seed + i, tally);
     if (i % 16 == 0) check_means(cell, tally);

@@ -26,8 +26,8 @@ struct CellTally {
   uint64_t wrong() const { return below + above + means + reached; }
 };
 
-/// Bounds random cells of A's faces, of every size, and measures points of each: corners, the
-/// middle, on edges, inside. `b`: the other mesh, as given.
+/// Bounds random cells of A's faces, of every size, and measures points of each: corners, on
+/// edges, inside. `b`: the other mesh, as given.
 class CellCheck {
  public:
   CellCheck(const SurveyedPair& pair, const Mesh& b);
