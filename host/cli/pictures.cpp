@@ -81,6 +81,13 @@ PictureOptions picture_options(const PicturesAsked& asked, const Answer& answer)
   return options;
 }
 
+// A share of a diagonal has too many digits as a number.
+std::string limit_as(const Asked& max) {
+  if (max.length.of != Length::Of::kDiagonal) return "";
+  const std::string& typed = max.length.requested;
+  return typed + (typed.ends_with("diag") ? "(A)" : " of A's diagonal");
+}
+
 std::string picture_of(const Side& side, const Done& done, const PicturesAsked& asked) {
   const Answer& answer = done.answer;
   Picture picture{.mesh = side.mesh,
@@ -92,6 +99,7 @@ std::string picture_of(const Side& side, const Done& done, const PicturesAsked& 
                   .back = side.back,
                   .caption = {in_words(answer)}};
   if (answer.max) picture.limit = answer.max->limit;
+  if (answer.max) picture.limit_as = limit_as(*answer.max);
   if (answer.max) picture.verdict = verdict_of(answer, side.back);
   if (side.report.has_witness)
     picture.witness = Witness{side.report.witness_a, side.report.witness_b};

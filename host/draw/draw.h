@@ -30,6 +30,7 @@ struct Picture {
   const Field& field;
   Enclosure interval;                     ///< of the largest distance over the mesh
   std::optional<Limit> limit = {};        ///< faces get verdicts in place of lengths
+  std::string limit_as = {};              ///< as it was typed; empty: by its number
   std::optional<Verdict> verdict = {};    ///< of all that was asked; else by interval and limit
   std::optional<Witness> witness = {};    ///< else the face of the largest upper is magnified
   std::string unit = {};                  ///< of lengths; empty: the files' units

@@ -194,6 +194,7 @@ std::string with_unit(const Picture& picture, const std::string& number) {
 }
 
 std::string limit_text(const Picture& picture) {
+  if (!picture.limit_as.empty()) return picture.limit_as;
   // What was typed, as a rule: its two ends are 32 ulps apart.
   const double middle = picture.limit->within / 2 + picture.limit->beyond / 2;
   std::array<char, 32> text{};
