@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "host/base/error.h"
@@ -106,6 +108,14 @@ Limit in_files(const Length& length, const char* option, const std::string& file
   if (!std::isfinite(limit.beyond))
     throw UsageError(std::string(option) + " '" + length.requested + "': longer than any double");
   return limit;
+}
+
+double typed_length(const Limit& limit) {
+  const double middle = limit.within / 2 + limit.beyond / 2;
+  char text[32] = "";
+  std::snprintf(text, sizeof text, "%.15g", middle);
+  const double decimal = std::strtod(text, nullptr);
+  return decimal >= limit.within && decimal <= limit.beyond ? decimal : middle;
 }
 
 }  // namespace vkh

@@ -21,6 +21,10 @@ struct Length {
   std::string unit = {};
 };
 
+/// Of a length that is known to lie between a limit's ends, the decimal of fifteen digits there, if
+/// there is one: what was typed, as a rule. What holds at both ends holds for it.
+double typed_length(const Limit& limit);
+
 /// Whether a number alone is a fraction of diag(A), or refused.
 enum class PlainNumber { kFraction, kRefused };
 

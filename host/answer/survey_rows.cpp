@@ -1,8 +1,6 @@
 // A survey as rows of the table.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "host/answer/answer.h"
 #include "host/base/decimal.h"
@@ -21,16 +19,6 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   text += ", ";
   text += number(e.upper, gap, Rounding::kUp);
   text += unit.empty() ? "]" : "] " + unit;
-  return text;
-}
-
-// The shortest decimal that is read back as the same double.
-std::string plain(double x) {
-  char text[32];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, x);
-    if (std::strtod(text, nullptr) == x) break;
-  }
   return text;
 }
 
@@ -61,7 +49,8 @@ std::string field_text(const Field& field, const Answer& answer) {
 std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit) {
   std::string text;
   for (const Percentile& p : percentiles)
-    text += (text.empty() ? "p" : ", p") + plain(100 * p.share) + " " + enclosure(p.distance, unit);
+    text += (text.empty() ? "p" : ", p") + shortest_decimal(100 * p.share) + " " +
+            enclosure(p.distance, unit);
   return text;
 }
 
@@ -77,7 +66,8 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
         {"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
     for (const AreaWithin& band : s.bands)
       rows.push_back({"area", enclosure(in_percent(band.share), "%") + " within " +
-                                  plain(band.distance) + (unit.empty() ? "" : " " + unit)});
+                                  shortest_decimal(band.distance) +
+                                  (unit.empty() ? "" : " " + unit)});
     if (!s.percentiles.empty())
       rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
   }

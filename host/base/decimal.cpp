@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 namespace vkh {
@@ -92,6 +93,15 @@ int digits_that_matter(double value, double gap) {
   if (gap <= 0) return kJsonDigits;
   const double past_gap = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(gap));
   return static_cast<int>(std::clamp(past_gap + 3, 3.0, static_cast<double>(kJsonDigits)));
+}
+
+std::string shortest_decimal(double value) {
+  char text[40] = "";
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
 }
 
 }  // namespace vkh

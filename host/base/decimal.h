@@ -14,6 +14,9 @@ inline constexpr int kJsonDigits = 18;  ///< rounded outward, and read back as t
 /// of its last digit, and equal where it can be. "inf", "-inf" or "nan" for what is no number.
 std::string decimal(double value, int digits, Rounding rounding);
 
+/// The shortest decimal, of six digits or more, that is read back as the same double.
+std::string shortest_decimal(double value);
+
 /// The double itself, readable by strtod and by Python's float.fromhex: "0x1.8p-3".
 std::string hex_float(double value);
 

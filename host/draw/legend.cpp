@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host/answer/length.h"
 #include "host/base/decimal.h"
 
 namespace vkh::drawing {
@@ -195,11 +196,7 @@ std::string with_unit(const Picture& picture, const std::string& number) {
 
 std::string limit_text(const Picture& picture) {
   if (!picture.limit_as.empty()) return picture.limit_as;
-  // What was typed, as a rule: its two ends are 32 ulps apart.
-  const double middle = picture.limit->within / 2 + picture.limit->beyond / 2;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.15g", middle);
-  std::string number = text.data();
+  const std::string number = shortest_decimal(typed_length(*picture.limit));
   return with_unit(picture, number);
 }
 

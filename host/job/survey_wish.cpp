@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <new>
 
@@ -51,21 +49,13 @@ SurveyOptions options_of(const SurveyJob& job, const Answer& answer, size_t left
   return options;
 }
 
-// The decimal of fifteen digits, where it lies between a length's ends: what was typed, as a rule.
-double named(const Limit& limit) {
-  const double middle = limit.within / 2 + limit.beyond / 2;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", middle);
-  const double decimal = std::strtod(text, nullptr);
-  return decimal >= limit.within && decimal <= limit.beyond ? decimal : middle;
-}
-
 // What holds from a length rounded down up to it rounded up holds for it.
 void join_bands(Statistics& s) {
   std::vector<AreaWithin> bands;
   for (size_t i = 0; i + 1 < s.bands.size(); i += 2) {
     const AreaWithin &down = s.bands[i], &up = s.bands[i + 1];
-    bands.push_back({named({down.distance, up.distance}), {down.share.lower, up.share.upper}});
+    bands.push_back(
+        {typed_length({down.distance, up.distance}), {down.share.lower, up.share.upper}});
   }
   s.bands = std::move(bands);
 }

@@ -10,6 +10,9 @@
 #include <limits>
 #include <numeric>
 
+#include "host/answer/length.h"
+#include "host/base/decimal.h"
+
 namespace vkh {
 namespace {
 
@@ -19,27 +22,6 @@ constexpr std::array kSeries = {10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30,
 constexpr int kDecades = 6;           // below the largest distance; less is as good as 0 to the eye
 constexpr double kLinearSteps = 250;  // at least so many: finer than a hand drags
 constexpr double kNiceFactors[] = {5, 2, 1};
-
-// The shortest decimal that is read back as the same double: a statement about it is not about
-// another length.
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-    if (std::strtod(text.data(), nullptr) == value) break;
-  }
-  return text.data();
-}
-
-// As it was typed, as a rule: the decimal of fifteen digits, where it lies between the limit's
-// ends.
-std::string limit_number(const Limit& limit) {
-  std::array<char, 32> text{};
-  const double middle = limit.within / 2 + limit.beyond / 2;
-  std::snprintf(text.data(), text.size(), "%.15g", middle);
-  const double decimal = std::strtod(text.data(), nullptr);
-  return short_number(decimal >= limit.within && decimal <= limit.beyond ? decimal : middle);
-}
 
 // The double nearest to a decimal of few digits. The decimal itself lies between its neighbours.
 Step step_of(double digits, int exponent) {
@@ -92,7 +74,7 @@ void add_asked(std::vector<Step>& steps, const Limit& asked) {
     return step.limit.beyond >= asked.within && step.limit.within <= asked.beyond;
   });
   const double value = asked.within / 2 + asked.beyond / 2;
-  steps.push_back({value, asked, limit_number(asked)});
+  steps.push_back({value, asked, shortest_decimal(typed_length(asked))});
 }
 
 void merge_equals(std::vector<Step>& steps) {
@@ -159,7 +141,7 @@ std::vector<Step> tolerance_steps(double top, const std::optional<Limit>& asked)
   if (std::isfinite(top) &&
       steps.back().limit.within < top) {  // the limit took the last one's place
     const double last = std::max(top, steps.back().limit.beyond);
-    steps.push_back({last, {last, std::nextafter(last, last * 2)}, short_number(last)});
+    steps.push_back({last, {last, std::nextafter(last, last * 2)}, shortest_decimal(last)});
   }
   return steps;
 }

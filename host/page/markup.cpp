@@ -91,12 +91,6 @@ std::string part_of_side(const char* tag, const char* style, bool back) {
          "\">";
 }
 
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
-}
-
 std::string vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}).dump(); }
 
 struct PlaceButton {
@@ -157,8 +151,8 @@ std::string facts_html(const PageText& page) {
       page.json["status"].get<std::string>() + ": " + page.json["stop_reason"].get<std::string>());
   if (answer.max) {
     const Asked& max = *answer.max;
-    const std::string length = short_number(max.limit.within / 2 + max.limit.beyond / 2) +
-                               (answer.unit.empty() ? "" : " " + answer.unit);
+    const std::string length =
+        shortest_decimal(typed_length(max.limit)) + (answer.unit.empty() ? "" : " " + answer.unit);
     const bool says_more = max.length.of == Length::Of::kDiagonal || max.length.unit != answer.unit;
     out += fact("Limit", says_more ? max.length.requested : length, says_more ? length : "");
   }
@@ -214,11 +208,11 @@ std::string statistics_html(const PageText& page, bool back, const Statistics& s
   out += row("RMS", range_number(statistics.rms));
   for (const Percentile& p : statistics.percentiles) {
     const std::string name =
-        p.share == 0.5 ? "median" : short_number(100 * p.share) + "th percentile";
+        p.share == 0.5 ? "median" : shortest_decimal(100 * p.share) + "th percentile";
     out += row(name, range_number(p.distance));
   }
   for (const AreaWithin& band : statistics.bands) {
-    out += row("within " + short_number(band.distance), share_text(band.share));
+    out += row("within " + shortest_decimal(band.distance), share_text(band.share));
   }
   return out + "</tbody></table><p class=\"quiet\">Each is certified.</p></div>";
 }
