@@ -53,31 +53,52 @@ float box_distance_down(CellFrame t, float distance2) {
   return max(round_down(d, 8.0) - box_doubt(t, d), 0.0);
 }
 
-// Over what may be closest somewhere on the cell.
+// With the triangles of a leaf.
+Gathered with_leaf(Gathered g, CellFrame t, uint leaf, inout uint looked_at) {
+  uint first = leaf & (kMaxTriangles - 1u);
+  uint last = first + ((leaf >> 28) & 7u);
+  for (uint i = first; i <= last; ++i) {
+    g = gathered(g, t, load_surface(i, cell_view(t)), i);
+    ++looked_at;
+  }
+  return g;
+}
+
+// With the boxes that are left.
+Gathered with_boxes(Gathered g, CellFrame t, float reach, inout uint to_go) {
+  for (uint k = 0u; k < left_count; ++k) {
+    if (left_distance2[k] < reach) g = without(g, t, box_distance_down(t, left_distance2[k]));
+    --to_go;
+  }
+  return g;
+}
+
+// Over what may be closest somewhere on the cell. Bounds from below need all that is within reach,
+// and drivers may end a loop early (docs/certificate.md, 'Loops that a driver ends'): what the
+// loops have done is counted, and not by what ends them, which compilers take as known behind them.
 Gathered gather(CellFrame t, uint start) {
   Query middle = Query(t.origin, 0.0, false);
   if (start != kNone) start = min(start, push.triangle_count - 1u);
   uint nearest = min(nearest_triangle(middle, start).triangle, push.triangle_count - 1u);
   Gathered g = begin_gathering(t, load_surface(nearest, cell_view(t)), nearest);
   float reach = cell_reach(g, t);
+  uint not_leaves = 0u;
+  uint found = 0u;
   uint looked_at = 0u;
   left_count = 0u;
   walk_at = 0u;
   while (walk_at != kNone && looked_at < kCellTriangles) {
     while ((walk_at & kLeafFlag) == 0u) walk_at = step_down(walk_at, t.origin.hi, reach);
     if (walk_at == kNone) break;
-    uint first = walk_at & (kMaxTriangles - 1u);
-    uint last = first + ((walk_at >> 28) & 7u);
-    for (uint i = first; i <= last; ++i) {
-      g = gathered(g, t, load_surface(i, cell_view(t)), i);
-    }
-    looked_at += last - first + 1u;
+    not_leaves += 1u - (walk_at >> 31);
+    found += ((walk_at >> 28) & 7u) + 1u;
+    g = with_leaf(g, t, walk_at, looked_at);
     walk_at = pop(reach);
   }
   if (walk_at != kNone) ++left_count;  // what was taken from the top is left, too
-  for (uint k = 0u; k < left_count; ++k) {
-    if (left_distance2[k] < reach) g = without(g, t, box_distance_down(t, left_distance2[k]));
-  }
+  uint to_go = left_count;
+  g = with_boxes(g, t, reach, to_go);
+  if (not_leaves != 0u || looked_at != found || to_go != 0u) g = without(g, t, 0.0);
   return g;
 }
 

@@ -94,11 +94,13 @@ void try_query(Query q, uint i, inout Nearest best) {
   keep_query(q, i, triangle_distance2(q.p.hi, i), best);
 }
 
+// The last first: that is within reach, should a driver end the loops of a long walk.
 void measure_tied(Query q, inout Nearest best) {
-  for (uint k = 0u; k < tied_count; ++k) {
-    if (tied_distance2[k] <= reach_of(best)) try_tight(q.p, tied[k], q.base, best);
+  while (tied_count > 0u) {
+    --tied_count;
+    if (tied_distance2[tied_count] <= reach_of(best))
+      try_tight(q.p, tied[tied_count], q.base, best);
   }
-  tied_count = 0u;
 }
 
 float reach_of(Query q, Nearest best) { return q.tight ? reach_of(best) : best.distance2; }
