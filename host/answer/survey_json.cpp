@@ -1,6 +1,4 @@
 // A survey as JSON.
-#include <algorithm>
-
 #include "host/answer/json_object.h"
 
 namespace vkh {
@@ -51,21 +49,12 @@ std::string statistics_json(const Statistics& s, const Json& unit) {
 }
 
 Json faces_json(const Field& field, const Answer& answer) {
-  double widest = 0;
-  size_t within = 0, beyond = 0;
-  for (size_t f = 0; f < field.face_count(); ++f) {
-    const Enclosure e = field.of(f);
-    widest = std::max(widest, e.upper - e.lower);
-    if (!answer.max) continue;
-    const Verdict verdict = verdict_of(field, f, answer.max->limit);
-    within += verdict == Verdict::kWithin;
-    beyond += verdict == Verdict::kBeyond;
-  }
-  Json json = {{"faces", field.face_count()}, {"width", widest}};
+  const FieldSummary summary = summary_of(field, answer.max ? answer.max->limit : Limit{});
+  Json json = {{"faces", field.face_count()}, {"width", summary.width}};
   if (!answer.max) return json;
-  json["within"] = within;
-  json["beyond"] = beyond;
-  json["undecided"] = field.face_count() - within - beyond;
+  json["within"] = summary.within;
+  json["beyond"] = summary.beyond;
+  json["undecided"] = summary.undecided;
   return json;
 }
 

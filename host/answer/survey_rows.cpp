@@ -30,20 +30,13 @@ Enclosure in_percent(const Enclosure& share) {
 }
 
 std::string field_text(const Field& field, const Answer& answer) {
-  double widest = 0;
-  for (size_t f = 0; f < field.face_count(); ++f)
-    widest = std::max(widest, field.upper[f] - field.lower[f]);
+  const FieldSummary summary = summary_of(field, answer.max ? answer.max->limit : Limit{});
   const std::string faces = std::to_string(field.face_count()) + " faces";
-  const std::string width = " bounded to " + length_up(answer, widest, widest) + " or closer";
-  if (!answer.max) return faces + width;
-  size_t within = 0, beyond = 0;
-  for (size_t f = 0; f < field.face_count(); ++f) {
-    const Verdict verdict = verdict_of(field, f, answer.max->limit);
-    within += verdict == Verdict::kWithin;
-    beyond += verdict == Verdict::kBeyond;
-  }
-  return faces + ": " + std::to_string(within) + " within the limit, " + std::to_string(beyond) +
-         " beyond, " + std::to_string(field.face_count() - within - beyond) + " undecided";
+  if (!answer.max)
+    return faces + " bounded to " + length_up(answer, summary.width, summary.width) + " or closer";
+  return faces + ": " + std::to_string(summary.within) + " within the limit, " +
+         std::to_string(summary.beyond) + " beyond, " + std::to_string(summary.undecided) +
+         " undecided";
 }
 
 std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit) {

@@ -27,6 +27,13 @@ inline Verdict verdict_of(const Field& field, size_t face, const Limit& limit) {
   return verdict_of(field.lower[face], field.upper[face], limit);
 }
 
+/// Of all faces: the widest bounds, and how many have each verdict.
+struct FieldSummary {
+  double width = 0;
+  size_t within = 0, beyond = 0, undecided = 0;
+};
+FieldSummary summary_of(const Field& field, const Limit& limit);
+
 /// The share of A's area, in [0, 1], that is within `distance` of B.
 struct AreaWithin {
   double distance = 0;  ///< in the files' units

@@ -151,6 +151,12 @@ Scores score_moments(const CellStore& store, const Areas& areas, const Asked& as
 
 }  // namespace
 
+Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
+  const FileInterval f =
+      pair.frame.to_files(lengths.lower, lengths.upper, pair.displacement, pair.farthest);
+  return {f.lower, f.upper};
+}
+
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas) {
   std::vector<Goal> goals;
@@ -170,11 +176,6 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
 namespace {
 
 constexpr int kCurveSteps = 100;
-
-Enclosure in_files(const SurveyedPair& pair, const Enclosure& e) {
-  const FileInterval f = pair.frame.to_files(e.lower, e.upper, pair.displacement, pair.farthest);
-  return {f.lower, f.upper};
-}
 
 double largest_upper(const CellStore& store, const SurveyedPair& pair) {
   const std::vector<float> highest = store.highest_of_faces();

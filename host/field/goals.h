@@ -25,6 +25,9 @@ struct Scores {
 };
 using Goal = std::function<Scores(const CellStore&)>;
 
+/// Of lengths in the frame, on the stored meshes.
+Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
+
 /// One after the other: faces, then the mean and the root mean square, then the distribution.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "host/field/goals.h"
 
@@ -119,11 +118,6 @@ bool refine(CellStore& store, Bounding& bounding, const SurveyOptions& options, 
   }
 }
 
-Enclosure in_files(const SurveyedPair& pair, const Enclosure& e) {
-  const FileInterval f = pair.frame.to_files(e.lower, e.upper, pair.displacement, pair.farthest);
-  return {f.lower, f.upper};
-}
-
 Field field_of(const CellStore& store, const SurveyedPair& pair) {
   const std::vector<float> highest = store.highest_of_faces();
   Field field;
@@ -137,6 +131,18 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
 }
 
 }  // namespace
+
+FieldSummary summary_of(const Field& field, const Limit& limit) {
+  FieldSummary summary;
+  for (size_t f = 0; f < field.face_count(); ++f) {
+    summary.width = std::max(summary.width, field.upper[f] - field.lower[f]);
+    const Verdict verdict = verdict_of(field, f, limit);
+    ++(verdict == Verdict::kWithin   ? summary.within
+       : verdict == Verdict::kBeyond ? summary.beyond
+                                     : summary.undecided);
+  }
+  return summary;
+}
 
 Field field_within(size_t face_count, double upper) {
   return {std::vector<double>(face_count, 0.0), std::vector<double>(face_count, upper)};
