@@ -31,6 +31,18 @@ def soup(rng, n, size, far):
     return vertices, faces
 
 
+def sphere(n, radius):
+    """Of 2 n n faces, by meridians and circles of latitude."""
+    rings = [(radius * math.sin(math.pi * i / n), radius * math.cos(math.pi * i / n)) for i in range(n + 1)]
+    around = [(math.cos(2 * math.pi * j / n), math.sin(2 * math.pi * j / n)) for j in range(n)]
+    vertices = [(r * x, r * y, z) for r, z in rings for x, y in around]
+    faces = []
+    for a in range(n * n):
+        b = a + 1 if (a + 1) % n else a + 1 - n
+        faces += [(a, b, b + n), (a, b + n, a + n)]
+    return vertices, faces
+
+
 def as_obj(vertices, faces):
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices]
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
@@ -53,6 +65,14 @@ def as_ply(vertices, faces):
             f"property double z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
     return (head.encode() + b"".join(struct.pack("<3d", *v) for v in vertices)
             + b"".join(struct.pack("<B3i", 3, *f) for f in faces))
+
+
+def write_long(folder):
+    """Two files whose distance takes seconds: everywhere it is nearly the same."""
+    names = ["inner.ply", "outer.ply"]
+    for name, n, radius in zip(names, (400, 407), (1, 1.1)):
+        (folder / name).write_bytes(as_ply(*sphere(n, radius)))
+    return names
 
 
 FORMATS = (("obj", as_obj), ("ply", as_ply), ("stl", as_stl), ("off", as_off))

@@ -178,9 +178,9 @@ class Run:
 
     def interrupt(self) -> str:
         """Ctrl-C: exit code 3 and a true interval. Asked again later where the program had not yet begun."""
-        words = self.platform.words("vkhausdorff", ["demo", "--tol", "1e-13", "--json"])
+        words = self.platform.words("vkhausdorff", ["distance", *meshes.write_long(self.platform.build), "--tol", "1e-13", "--json"])
         seen = ""
-        for wait in (1.5, 3, 4.5, 6, 12):
+        for wait in (1.5, 2.5, 4, 6, 12):
             running = subprocess.Popen(words, env=self.platform.environment, cwd=self.platform.build,
                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             time.sleep(wait)
