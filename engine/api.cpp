@@ -33,6 +33,7 @@ static_assert(sizeof(VkhCell) == sizeof(gpu::Cell));
 static_assert(offsetof(VkhCell, start) == offsetof(gpu::Cell, start));
 static_assert(sizeof(VkhCellBounds) == sizeof(gpu::CellBounds));
 static_assert(offsetof(VkhCellBounds, squareUpper) == offsetof(gpu::CellBounds, square_upper));
+static_assert(offsetof(VkhCellBounds, faceB) == offsetof(gpu::CellBounds, face));
 static_assert(offsetof(VkhCellBounds, start) == offsetof(gpu::CellBounds, triangle));
 static_assert(VKH_SWITCH_UNCERTIFIED == gpu::kUseUncertified);
 static_assert(VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords && VKH_MAX_CULLS == gpu::kMostCulls);

@@ -443,7 +443,8 @@ typedef struct VkhCellBounds {
   float reached;            /* some x has d(x, B) >= reached: with highest, the greatest value */
   float meanUpper;          /* >= the mean of d(x, B); at most that of upper */
   float squareUpper;        /* >= the mean of its square */
-  uint32_t faceB;           /* of B: near the cell's middle; it steers, and nothing rests on it */
+  uint32_t cornerFaces[3];  /* of B: near its corners; they steer, and nothing rests on them */
+  uint32_t faceB;           /* of B: near its middle; likewise */
   uint32_t start;           /* for cells near this one */
 } VkhCellBounds;
 

@@ -401,12 +401,13 @@ struct CellBounds {
   // of the latter not below it. The former may be negative.
   float lower_a, lower_b, lower_c;
   float upper_a, upper_b, upper_c;
-  float highest;       // >= d(x, B) for every x of it
-  float reached;       // some x of it is at least so far
-  float mean_upper;    // >= the mean
-  float square_upper;  // >= the mean of the square
-  uint face;           // of B, as given: near the cell's middle
-  uint triangle;       // the same in the hierarchy's order
+  float highest;                // >= d(x, B) for every x of it
+  float reached;                // some x of it is at least so far
+  float mean_upper;             // >= the mean
+  float square_upper;           // >= the mean of the square
+  uint face_a, face_b, face_c;  // of B, as given: near its corners
+  uint face;                    // of B, as given: near the cell's middle
+  uint triangle;                // the same in the hierarchy's order
 };
 
 // A part of a face of A as a 64-bit integer: 2^40 is the whole.

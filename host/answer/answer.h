@@ -10,6 +10,7 @@
 
 #include "host/answer/length.h"
 #include "host/field/survey.h"
+#include "host/prove/prover.h"
 #include "host/solve/report.h"
 
 namespace vkh {
@@ -65,6 +66,7 @@ struct Answer {
   Report a_to_b;
   std::optional<Report> b_to_a;                    ///< there for a symmetric run
   std::optional<SurveyResult> survey_a, survey_b;  ///< of A, and of B on the way back
+  std::optional<Proof> proof_a, proof_b;           ///< likewise, for a certificate
   Waits waits;
 };
 

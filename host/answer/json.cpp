@@ -157,6 +157,18 @@ Json times_json(const Times& t) {
           {"wall_ms", t.wall_ms}};
 }
 
+std::string proof_json(const Proof& proof) {
+  JsonObject json;
+  json.add_bound("upper", proof.upper, Rounding::kUp);
+  json.add("leaves", proof.leaves);
+  json.add("cut_leaves", proof.cut_leaves);
+  json.add("unproven", proof.unproven);
+  json.add("cells", proof.asked_cells);
+  json.add("bytes", proof.blocks.size());
+  json.add("wall_ms", proof.ms);
+  return json.text();
+}
+
 std::string direction_json(const Answer& answer, const Report& r, bool back) {
   JsonObject json;
   json.add("from", back ? "b" : "a");
@@ -168,6 +180,8 @@ std::string direction_json(const Answer& answer, const Report& r, bool back) {
   if (r.witness_check) json.add_text("verified", verified_json(r));
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
   if (survey) add_survey(json, *survey, answer);
+  const std::optional<Proof>& proof = back ? answer.proof_b : answer.proof_a;
+  if (proof) json.add_text("certificate", proof_json(*proof));
   json.add("times", times_json(r.times));
   json.add("counts", {{"waves", r.waves},
                       {"candidates", r.candidates},

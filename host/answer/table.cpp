@@ -135,6 +135,14 @@ void print_survey(std::ostream& out, const Answer& answer,
 
 std::string seconds(double ms) { return printed("%.3g s", ms / 1000); }
 
+void print_proof(std::ostream& out, const std::optional<Proof>& proof) {
+  if (!proof) return;
+  row(out, "certificate",
+      printed("%llu leaves, ", Count{proof->leaves}) +
+          printed("%llu of them cut, ", Count{proof->cut_leaves}) +
+          printed("%llu bytes, in ", Count{proof->blocks.size()}) + seconds(proof->ms));
+}
+
 std::string times_text(const Answer& answer) {
   double upload = 0, hierarchy = 0, solve = 0;
   for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
@@ -221,6 +229,7 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
             ending(r.status));
   print_direction(out, r, "A", "B");
   print_survey(out, answer, answer.survey_a);
+  print_proof(out, answer.proof_a);
   if (verbose) print_details(out, r);
   if (answer.b_to_a) {
     const Report& back = *answer.b_to_a;
@@ -229,6 +238,7 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
             ending(back.status));
     print_direction(out, back, "B", "A");
     print_survey(out, answer, answer.survey_b);
+    print_proof(out, answer.proof_b);
     if (verbose) print_details(out, back);
   }
   row(out, "times", times_text(answer));

@@ -100,6 +100,9 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
     throw UsageError("--verify: is not to be had with --face-max");
   if (!typed.area.empty() && (!typed.face_max_a.empty() || !typed.face_max_b.empty()))
     throw UsageError("--area: faces with limits of their own are asked about whole");
+  job.proof = !typed.pictures.certificate.empty();
+  if (job.proof && (!typed.area.empty() || !typed.face_max_a.empty() || !typed.face_max_b.empty()))
+    throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
   job.symmetric = typed.symmetric;
   job.survey = survey_of(typed);
   job.verify = typed.verify;
@@ -234,6 +237,7 @@ struct Program {
     add_symmetric(*command, distance);
     add_survey_options(*command, distance);
     add_picture_options(*command, distance.pictures);
+    add_certificate_option(*command, distance.pictures);
     add_output_options(*command, distance);
     add_search_options(*command, distance);
 
@@ -259,6 +263,7 @@ struct Program {
         ->type_name("SHARE");
     add_survey_options(*command, gate);
     add_picture_options(*command, gate.pictures);
+    add_certificate_option(*command, gate.pictures);
     command->add_option("--junit", gate.junit, "Write a test suite of one test case: JUnit's XML")
         ->type_name("FILE");
     command->add_flag("--github", gate.github,
@@ -346,8 +351,9 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
                                               : std::numeric_limits<double>::infinity(),
                    .outputs = outputs_of(typed),
                    .device = {}};
-  line.job.hashes = line.outputs.json || line.outputs.json_file || line.outputs.pictures.report;
-  line.job.survey.faces = line.job.survey.faces || line.outputs.pictures.any();
+  line.job.hashes =
+      line.outputs.json || line.outputs.json_file || line.outputs.pictures.report || line.job.proof;
+  line.job.survey.faces = line.job.survey.faces || line.outputs.pictures.of_cells();
   line.job.survey.statistics =
       line.job.survey.statistics || line.outputs.pictures.report.has_value();
   return line;

@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "host/export/field_file.h"
 #include "host/page/page.h"
+#include "host/prove/certificate.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -144,6 +145,17 @@ std::string report_of(const std::vector<Side>& sides, const Done& done,
   return to_page(contents);
 }
 
+std::string certificate_text(const Done& done) {
+  const Answer& answer = done.answer;
+  if (!answer.proof_a || answer.b_to_a.has_value() != answer.proof_b.has_value())
+    throw OutputError("the run ended before there was a certificate");
+  std::optional<CertifiedDirection> back;
+  if (answer.b_to_a) back.emplace(CertifiedDirection{*answer.b_to_a, *answer.proof_b});
+  return certificate_of({done.pair.a, answer.inputs[0].sha256},
+                        {done.pair.b, answer.inputs[1].sha256}, {answer.a_to_b, *answer.proof_a},
+                        back);
+}
+
 }  // namespace
 
 void add_picture_options(CLI::App& command, TypedPictures& typed) {
@@ -169,6 +181,13 @@ void add_picture_options(CLI::App& command, TypedPictures& typed) {
   command.add_option("--steps", typed.steps, "So many steps of colour [smooth]")->type_name("N");
 }
 
+void add_certificate_option(CLI::App& command, TypedPictures& typed) {
+  command
+      .add_option("--certificate", typed.certificate,
+                  "Write what proves the interval, for vkh_check to check: .vhc")
+      ->type_name("FILE");
+}
+
 // What would be ignored otherwise.
 void check_needed(const TypedPictures& typed) {
   const bool draws = !typed.image.empty() || !typed.report.empty();
@@ -192,6 +211,7 @@ PicturesAsked asked_of(const TypedPictures& typed) {
   if (!typed.field.empty()) asked.field = typed.field;
   if (!typed.image.empty()) asked.image = typed.image;
   if (!typed.report.empty()) asked.report = typed.report;
+  if (!typed.certificate.empty()) asked.certificate = typed.certificate;
   asked.options.view = parse_view("--view", typed.view.value_or("iso"));
   asked.options.map = parse_colour_map("--map", typed.map.value_or("viridis"));
   if (typed.size) parse_picture_size("--size", *typed.size, asked.options);
@@ -224,11 +244,15 @@ Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
   open(field_, "--field", asked.field, symmetric, taken);
   open(image_, "--image", asked.image, symmetric, taken);
   if (asked.report) report_.emplace("--report", *asked.report, taken);
+  check_ending("--certificate", asked.certificate, {".vhc"});
+  if (asked.certificate) certificate_.emplace("--certificate", *asked.certificate, taken);
 }
 
 std::string Pictures::write(const Done& done) const {
   if (!asked_.any()) return "";
   try {
+    if (certificate_) certificate_->write(certificate_text(done));
+    if (!asked_.of_cells()) return "";
     const std::vector<Side> sides = sides_of(done);
     for (const Side& side : sides) {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;

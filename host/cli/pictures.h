@@ -1,4 +1,4 @@
-// What is written of all of A: its field, a picture, the report.
+// What is written of all of A: its field, a picture, the report, a certificate.
 #pragma once
 
 #include <array>
@@ -18,20 +18,22 @@ namespace vkh {
 
 /// As typed.
 struct TypedPictures {
-  std::string field, image, report;
+  std::string field, image, report, certificate;
   std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;
 };
 void add_picture_options(CLI::App& command, TypedPictures& typed);
+void add_certificate_option(CLI::App& command, TypedPictures& typed);
 
 /// What was asked for.
 struct PicturesAsked {
-  std::optional<std::string> field, image, report;  ///< files
+  std::optional<std::string> field, image, report, certificate;  ///< files
   PictureOptions options;
   std::optional<std::array<Length, 2>> range;  ///< of colours
 
-  bool any() const { return field || image || report; }
+  bool any() const { return field || image || report || certificate; }
+  bool of_cells() const { return field || image || report; }
 };
 /// Throws UsageError.
 PicturesAsked asked_of(const TypedPictures& typed);
@@ -56,7 +58,7 @@ class Pictures {
 
   PicturesAsked asked_;
   Files field_, image_;
-  std::optional<OutputFile> report_;
+  std::optional<OutputFile> report_, certificate_;
 };
 
 }  // namespace vkh

@@ -31,6 +31,9 @@ gpu::CellBounds unknown(float farthest) {
           .reached = 0,
           .mean_upper = farthest,
           .square_upper = std::numeric_limits<float>::max(),
+          .face_a = gpu::kNone,
+          .face_b = gpu::kNone,
+          .face_c = gpu::kNone,
           .face = gpu::kNone,
           .triangle = gpu::kNone};
 }

@@ -1,10 +1,12 @@
 #include "host/job/pair_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <limits>
 #include <mutex>
 
+#include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
@@ -237,10 +239,34 @@ void solve_by_face(Progressing& at, const MeshPair& pair, Solver& solver, SolveO
       gate({job.face_max_b, pair.b, pair.a, answer.max->faces_b}, options, solver, answer);
 }
 
+void prove_all(Progressing& at, const MeshPair& pair, Solver& solver, const SolveOptions& options,
+               Answer& answer) {
+  const auto one = [&](const Mesh& from, const Mesh& to, const Report& report) {
+    std::optional<Proof> proof;
+    if (!std::isfinite(report.upper)) return proof;
+    try {
+      proof = prove(solver, from, to, report, options, [&at](size_t leaves) {
+        at.line.show_proof(leaves);
+        return !at.stop.is_asked();
+      });
+    } catch (const std::bad_alloc&) {
+      answer.notes.push_back("there was no memory for a certificate");
+    } catch (const MemoryError&) {
+      answer.notes.push_back("the device had no memory for a certificate");
+    }
+    if (proof && proof->unproven > 0)
+      answer.notes.push_back("the certificate proves less: " + from.name + " is within " +
+                             shortest_decimal(proof->upper));
+    return proof;
+  };
+  answer.proof_a = one(pair.a, pair.b, answer.a_to_b);
+  if (answer.b_to_a) answer.proof_b = one(pair.b, pair.a, *answer.b_to_a);
+}
+
 void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
   SolveOptions options = options_for(at, answer);
   // With the pipelines that a survey needs, so that it needs no others.
-  if (at.job.survey.is_any()) options.survey = no_survey;
+  if (at.job.asks_for_cells()) options.survey = no_survey;
   const bool by_face = !at.job.face_max_a.empty() || !at.job.face_max_b.empty();
   if (by_face) {
     solve_by_face(at, pair, solver, options, answer);
@@ -256,6 +282,10 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
     at.keep(answer);
     survey_all({at.job.survey, pair, at.stop, [&at](size_t cells) { at.line.show_survey(cells); }},
                solver, options, answer);
+  }
+  if (at.job.proof) {
+    at.keep(answer);
+    prove_all(at, pair, solver, options, answer);
   }
   if (!at.job.verify) return;
   if (answer.a_to_b.has_witness)
@@ -289,7 +319,7 @@ Done work(const std::shared_ptr<Progressing>& shared) {
   SolveOptions options = job.options;
   const bool apart =
       job.max && !job.survey.area;  // else pipelines for cells are made with the rest
-  if (job.survey.is_any() && !apart) options.survey = [](const SurveyedPair&, const BoundCells&) {};
+  if (job.asks_for_cells() && !apart) options.survey = no_survey;
   auto opening = begin_now([selector = job.device, options,
                             cache = job.caches ? user_cache_folder() : std::filesystem::path()] {
     return open_session(selector, options, cache);

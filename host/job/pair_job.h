@@ -27,9 +27,11 @@ struct PairJob {
   std::string face_max_a, face_max_b;  ///< files of limits of faces; empty: none
   bool symmetric = false, verify = false;
   bool hashes = false;  ///< Input::sha256 is wanted
+  bool proof = false;   ///< Answer::proof_a is
   std::string device;   ///< DeviceRequest::selector
   bool caches = true;   ///< compiled pipelines, in the user's folder
   SurveyWish survey;
+  bool asks_for_cells() const { return proof || survey.is_any(); }
   SolveOptions options;  ///< but for tolerance, limit, time and progress
   ReadLimits limits;     ///< but for what listens
 };

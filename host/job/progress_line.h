@@ -46,14 +46,9 @@ class ProgressLine {
   }
 
   /// After a run: what is bounded of all of a mesh.
-  void show_survey(size_t cells) {
-    const std::lock_guard lock(mutex_);
-    if (!is_time()) return;
-    std::array<char, 80> line{};
-    std::snprintf(line.data(), line.size(), "survey  %llu cells bounded",
-                  static_cast<unsigned long long>(cells));
-    show_line(line.data());
-  }
+  void show_survey(size_t cells) { show_count("survey", cells, "cells bounded"); }
+  /// Likewise: what is proven of it.
+  void show_proof(size_t leaves) { show_count("certificate", leaves, "leaves"); }
 
   /// Takes the line away. Whoever still shows something shows it to nobody.
   void end() {
@@ -63,6 +58,15 @@ class ProgressLine {
   }
 
  private:
+  void show_count(const char* what, size_t count, const char* of) {
+    const std::lock_guard lock(mutex_);
+    if (!is_time()) return;
+    std::array<char, 80> line{};
+    std::snprintf(line.data(), line.size(), "%s  %llu %s", what,
+                  static_cast<unsigned long long>(count), of);
+    show_line(line.data());
+  }
+
   using Clock = std::chrono::steady_clock;
 
   bool is_time() const {

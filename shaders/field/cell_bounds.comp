@@ -116,6 +116,11 @@ Gathered with_pairs(Gathered g, CellFrame t) {
   return g;
 }
 
+// Of B, as given.
+uint face_of(uint triangle) {
+  return triangles[kTriangleWords * min(triangle, push.triangle_count - 1u)].w;
+}
+
 CellBounds bounds_of(Gathered g, CellFrame t) {
   vec3 lower = lower_of(g, t);
   CellBounds b;
@@ -129,7 +134,10 @@ CellBounds bounds_of(Gathered g, CellFrame t) {
   b.reached = reached_of(g);
   b.mean_upper = min(g.mean, g.highest);
   b.square_upper = g.square;
-  b.face = triangles[kTriangleWords * g.triangle].w;
+  b.face_a = face_of(g.of_corners.x);
+  b.face_b = face_of(g.of_corners.y);
+  b.face_c = face_of(g.of_corners.z);
+  b.face = face_of(g.triangle);
   b.triangle = g.triangle;
   return b;
 }

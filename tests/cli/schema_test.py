@@ -52,6 +52,7 @@ class Outputs(unittest.TestCase):
                             (["gate", "a.obj", "b.obj", "--max", "0.25abs"], 3),
                             (["distance", "a.obj", "wide.obj", "--symmetric", "--stats", "--bands", "0.1abs,20%", "--field-tol", "1%"], 0),
                             (["distance", "a.obj", "b.obj", "--time", "1ms", "--stats"], 3),
+                            (["distance", "a.obj", "wide.obj", "--symmetric", "--certificate", "out.vhc"], 0),
                             (["gate", "a.obj", "b.obj", "--max", "0.3abs", "--area", "99%"], 0),
                             (["gate", "wide.obj", "a.obj", "--max", "0.5abs", "--area", "0.7"], 0),
                             (["gate", "wide.obj", "a.obj", "--max", "0.5abs", "--area", "80%", "--field-tol", "0.1abs"], 1), (["gate", "a.obj", "b.obj", "--max", "1mm"], 2),

@@ -18,8 +18,8 @@ ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "field", "doctor"],
     "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "field",
-             "answer", "demo", "check", "draw", "export", "page", "job", "cli"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "answer", "draw", "page", "pairs",
+             "prove", "answer", "demo", "check", "draw", "export", "page", "job", "cli"],
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "draw", "page", "pairs",
               "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)

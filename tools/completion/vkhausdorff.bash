@@ -22,8 +22,8 @@ _vkhausdorff() {
     --area | --bands | --field-tol | --size | --range | --steps) return ;;
   esac
   case $command in
-    distance) options="$search $outputs --unit --max-input" ;;
-    gate) options="$search $outputs --unit --max-input --max --area --face-max --face-max-b --junit --github" ;;
+    distance) options="$search $outputs --unit --max-input --certificate" ;;
+    gate) options="$search $outputs --unit --max-input --certificate --max --area --face-max --face-max-b --junit --github" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help" ;;
     help) options="$commands" ;;

@@ -1,0 +1,85 @@
+#include "host/prove/certificate.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "host/system/sha256.h"
+
+namespace vkh {
+namespace {
+
+constexpr unsigned kWitnessBits = 20;  // of a sample's barycentrics
+
+class Bytes {
+ public:
+  std::string text;
+
+  void unsigned_number(uint64_t x, int bytes) {
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>((x >> (8 * i)) & 255);
+  }
+  void number(double x) { unsigned_number(std::bit_cast<uint64_t>(x == 0 ? 0.0 : x), 8); }
+  // 64 digits as 32 bytes; none: as many zeros.
+  void digest(const std::string& digits) {
+    const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+    for (size_t i = 0; i < 64; i += 2)
+      text +=
+          digits.empty() ? '\0' : static_cast<char>(16 * value(digits[i]) + value(digits[i + 1]));
+  }
+};
+
+std::string corners_digest(const Mesh& mesh) {
+  constexpr size_t kFaces = 4096;
+  size_t next = 0;
+  Bytes piece;
+  std::string digits = sha256_of_pieces([&]() -> std::string_view {
+    piece.text.clear();
+    for (const size_t end = std::min(mesh.faces.size(), next + kFaces); next < end; ++next) {
+      const glm::uvec3& f = mesh.faces[next];
+      for (const uint32_t corner : {f.x, f.y, f.z}) {
+        const glm::dvec3& v = mesh.vertices[corner];
+        for (int axis = 0; axis < 3; ++axis) piece.number(v[axis]);
+      }
+    }
+    return piece.text;
+  });
+  if (digits.empty()) throw OutputError("--certificate: this build cannot make SHA-256 hashes");
+  return digits;
+}
+
+uint64_t in_units(double barycentric) {
+  return static_cast<uint64_t>(std::llround(std::ldexp(barycentric, kWitnessBits)));
+}
+
+void add_direction(Bytes& out, const CertifiedDirection& direction) {
+  const Report& r = direction.report;
+  const bool has_witness = r.has_witness && r.lower > 0;
+  out.number(has_witness ? r.lower : 0);
+  out.number(direction.proof.upper);
+  out.unsigned_number(has_witness ? r.witness_a.face : 0, 4);
+  out.unsigned_number(has_witness ? kWitnessBits : 0, 4);
+  out.unsigned_number(has_witness ? in_units(r.witness_a.barycentric.y) : 0, 8);
+  out.unsigned_number(has_witness ? in_units(r.witness_a.barycentric.z) : 0, 8);
+  out.text += direction.proof.blocks;
+}
+
+}  // namespace
+
+std::string certificate_of(const CertifiedMesh& a, const CertifiedMesh& b,
+                           const CertifiedDirection& a_to_b,
+                           const std::optional<CertifiedDirection>& b_to_a) {
+  Bytes out;
+  out.text = "VHCERT01";
+  out.unsigned_number(b_to_a ? 2 : 1, 4);
+  out.unsigned_number(0, 4);
+  for (const CertifiedMesh* one : {&a, &b}) out.unsigned_number(one->mesh.faces.size(), 8);
+  for (const CertifiedMesh* one : {&a, &b}) out.number(one->mesh.delta);
+  for (const CertifiedMesh* one : {&a, &b}) out.digest(one->sha256);
+  for (const CertifiedMesh* one : {&a, &b}) out.digest(corners_digest(one->mesh));
+  add_direction(out, a_to_b);
+  if (b_to_a) add_direction(out, *b_to_a);
+  return std::move(out.text);
+}
+
+}  // namespace vkh

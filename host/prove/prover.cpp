@@ -1,0 +1,280 @@
+#include "host/prove/prover.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "host/base/parallel.h"
+#include "host/base/rounding.h"
+#include "host/prove/proof_tree.h"
+#include "shaders/math/dyadic.h"
+
+namespace vkh {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr unsigned kMostHalvings = 100;  // docs/certificate-file.md
+
+// A part that nothing proves yet.
+struct Open {
+  uint32_t node;
+  uint32_t face;
+  uint8_t depth = 0;
+  bool has_cell = true;  // its corners are multiples of 2^-20
+  bool is_proven = false;
+  gpu::Cell cell{};
+  Part part;
+  Hints hints;
+};
+
+lib::Bary3 corners_of(const gpu::Cell& cell) {
+  const gpu::uvec4& w = cell.corners;
+  return lib::unpack_corners({w.x, w.y, w.z, w.w});
+}
+
+void set_corners(gpu::Cell& cell, const std::array<glm::uvec2, 3>& at) {
+  const glm::uvec4 w = lib::pack_corners({at[0], at[1], at[2]});
+  cell.corners = {w.x, w.y, w.z, w.w};
+}
+
+// Which corner is opposite its longest edge. It only steers.
+uint8_t opposite_longest(const Part& part) {
+  const auto length = [&](size_t i, size_t j) {
+    return glm::distance(part[i].hi - part[j].hi, part[j].lo - part[i].lo);
+  };
+  const double la = length(1, 2), lb = length(2, 0), lc = length(0, 1);
+  if (la >= lb && la >= lc) return 0;
+  return lb >= lc ? 1 : 2;
+}
+
+// A half: the middle of the edge opposite corner `opposite` in the place of corner `gone`.
+Open half_of(const Open& open, uint32_t node, uint8_t opposite, size_t gone) {
+  Open half = open;
+  const size_t j = (opposite + 1u) % 3, k = (opposite + 2u) % 3;
+  half.node = node;
+  ++half.depth;
+  half.part[gone] = between(open.part[j], open.part[k], 0.5);
+  if (!half.has_cell) return half;
+  const lib::Bary3 t = corners_of(open.cell);
+  std::array<glm::uvec2, 3> at = {t.a, t.b, t.c};
+  const glm::uvec2 twice = at[j] + at[k];
+  half.has_cell = (twice.x & 1u) == 0 && (twice.y & 1u) == 0;
+  if (!half.has_cell) return half;
+  at[gone] = {twice.x / 2, twice.y / 2};
+  set_corners(half.cell, at);
+  return half;
+}
+
+struct ProvenPair {
+  const SurveyedPair& on_device;
+  const Mesh& b;
+  const Report& report;
+};
+
+class Prover {
+ public:
+  Prover(const ProvenPair& pair, const BoundCells& bound, const ProofGoesOn& goes_on, Proof& result)
+      : bound_(bound),
+        report_(pair.report),
+        goes_on_(goes_on),
+        result_(result),
+        exponent_(pair.on_device.frame.exponent),
+        delta_(add_up(pair.on_device.a.delta, pair.b.delta)),
+        a_(pair.on_device.a, exponent_),
+        b_(pair.b, exponent_),
+        upper_(target(report_.upper)),
+        batch_(pair.on_device.on_cpu ? 1024 : 65536) {}
+
+  void prove() {
+    const Clock::time_point start = Clock::now();
+    double most = 0;
+    for (size_t first = 0; first < a_.face_count(); first += kFacesAtOnce)
+      most = std::max(most, prove(first, std::min(kFacesAtOnce, a_.face_count() - first)));
+    result_.upper = most > 0 ? std::max(report_.upper, given(most)) : report_.upper;
+    result_.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  }
+
+ private:
+  static constexpr size_t kFacesAtOnce = size_t{1} << 16;  // what is open of them takes the memory
+  static constexpr size_t kPartsATurn = 256;               // of a thread
+
+  // A length of the files in the scaled meshes, less what these are off: rounded down.
+  double target(double upper) const {
+    const double scaled = std::ldexp(add_down(upper, -delta_), exponent_);
+    return std::isnormal(scaled) ? scaled : std::nextafter(scaled, -1.0);
+  }
+  // And back: rounded up.
+  double given(double scaled) const {
+    const double length = std::ldexp(scaled, -exponent_);
+    return add_up(std::isnormal(length) ? length : std::nextafter(length, 1.0), delta_);
+  }
+
+  // Some faces from the first to the last; returns the largest bound that had to be raised to.
+  double prove(size_t first, size_t count) {
+    ProofTree tree(count);
+    std::vector<Open> open(count);
+    for (size_t i = 0; i < count; ++i) open[i] = whole(static_cast<uint32_t>(first + i), i);
+    double raised = 0;
+    for (bool with_hints = false; !open.empty(); with_hints = true) {
+      if (with_hints) close(open, tree);
+      ask(open);
+      close(open, tree);
+      if (ended()) {
+        raised = std::max(raised, give_up(open, tree));
+        break;
+      }
+      halve(open, tree, raised);
+    }
+    result_.blocks += tree.written();
+    return raised;
+  }
+
+  Open whole(uint32_t face, size_t node) const {
+    Open open;
+    open.node = static_cast<uint32_t>(node);
+    open.face = face;
+    open.part = a_.part(face);
+    open.cell.face = face;
+    open.cell.start = gpu::kNone;
+    const lib::Bary3 root = lib::whole_root();
+    set_corners(open.cell, {root.a, root.b, root.c});
+    return open;
+  }
+
+  bool ended() {
+    if (!ended_ && goes_on_ && !goes_on_(result_.leaves)) ended_ = true;
+    return ended_;
+  }
+
+  // Leaves of those that a hint proves; the others stay, in their order.
+  void close(std::vector<Open>& open, ProofTree& tree) {
+    std::vector<std::optional<Leaf>> found(open.size());
+    const size_t turns = (open.size() + kPartsATurn - 1) / kPartsATurn;
+    for_each_index(turns, [&](size_t turn) {
+      const size_t end = std::min(open.size(), (turn + 1) * kPartsATurn);
+      for (size_t i = turn * kPartsATurn; i < end; ++i)
+        found[i] = proof_of(open[i].part, b_, open[i].hints, upper_);
+    });
+    for (size_t i = 0; i < open.size(); ++i) {
+      open[i].is_proven = found[i].has_value();
+      if (found[i]) add(open[i].node, *found[i], tree);
+    }
+    std::erase_if(open, [](const Open& one) { return one.is_proven; });
+  }
+
+  void add(uint32_t node, const Leaf& leaf, ProofTree& tree) {
+    tree.prove(node, leaf);
+    ++result_.leaves;
+    if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
+  }
+
+  // The device, which faces of B are near. Parts that are too small for it keep what they have.
+  void ask(std::vector<Open>& open) {
+    std::vector<Open*> asked;
+    for (Open& one : open) {
+      if (one.has_cell) asked.push_back(&one);
+    }
+    for (size_t first = 0; first < asked.size();) {
+      const size_t count = std::min(batch_, asked.size() - first);
+      ask(std::span(asked).subspan(first, count));
+      first += count;
+      if (first < asked.size() && ended()) return;
+    }
+  }
+
+  void ask(std::span<Open* const> asked) {
+    std::vector<gpu::Cell> cells;
+    std::vector<gpu::CellBounds> bounds(asked.size());
+    for (const Open* one : asked) cells.push_back(one->cell);
+    const Clock::time_point start = Clock::now();
+    bound_({.cells = cells, .first = 0, .bounds = bounds});
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    for (size_t i = 0; i < asked.size(); ++i) learn(*asked[i], bounds[i]);
+    result_.asked_cells += asked.size();
+    const auto fits = static_cast<size_t>(kSubmissionMs * static_cast<double>(asked.size()) / ms);
+    batch_ = std::clamp(fits, kLeastBatch, std::min(4 * batch_, kMostBatch));
+  }
+
+  void learn(Open& one, const gpu::CellBounds& found) const {
+    const Hints before = one.hints;
+    one.hints = {};
+    for (const uint32_t face : {found.face_a, found.face_b, found.face_c, found.face})
+      one.hints.add(face);
+    if (report_.has_witness) one.hints.add(static_cast<uint32_t>(report_.witness_b.face));
+    for (size_t i = 0; i < before.count; ++i) one.hints.add(before.face[i]);
+    one.cell.start = found.triangle;
+  }
+
+  // Those that cannot be halved any more are proven to what they are.
+  void halve(std::vector<Open>& open, ProofTree& tree, double& raised) {
+    std::vector<Open> halves, last;
+    halves.reserve(2 * open.size());
+    for (Open& one : open) {
+      if (one.depth >= kMostHalvings) {
+        last.push_back(one);
+        continue;
+      }
+      const uint8_t opposite = opposite_longest(one.part);
+      const uint32_t node = tree.halve(one.node, opposite);
+      halves.push_back(half_of(one, node, opposite, (opposite + 2u) % 3));
+      halves.push_back(half_of(one, node + 1, opposite, (opposite + 1u) % 3));
+    }
+    if (!last.empty()) raised = std::max(raised, give_up(last, tree));
+    open = std::move(halves);
+  }
+
+  // The largest bound that is left.
+  double give_up(const std::vector<Open>& open, ProofTree& tree) {
+    double most = 0;
+    for (const Open& one : open) {
+      Hints hints = one.hints;
+      if (hints.count == 0) hints.add(0);
+      const Nearest nearest = nearest_of(one.part, b_, hints);
+      add(one.node, nearest.leaf, tree);
+      most = std::max(most, nearest.upper);
+      ++result_.unproven;
+    }
+    return most;
+  }
+
+  static constexpr double kSubmissionMs = 50;  // so that Ctrl-C is heard
+  static constexpr size_t kLeastBatch = 64, kMostBatch = size_t{1} << 20;
+
+  const BoundCells& bound_;
+  const Report& report_;
+  const ProofGoesOn& goes_on_;
+  Proof& result_;
+  int exponent_;
+  double delta_;
+  ScaledMesh a_, b_;
+  double upper_;  // of the scaled meshes
+  size_t batch_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Proof prove(Solver& solver, const Mesh& a, const Mesh& b, const Report& report,
+            const SolveOptions& options, const ProofGoesOn& goes_on) {
+  Proof proof;
+  SolveOptions again = options;
+  again.limit = {};
+  again.known_lower = 0;
+  again.coverage = false;
+  again.wave_limit = 1;
+  again.time_limit_s = std::numeric_limits<double>::infinity();
+  again.progress = {};
+  again.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+    Prover({pair, b, report}, bound, goes_on, proof).prove();
+  };
+  solver.distance(a, b, again);
+  return proof;
+}
+
+}  // namespace vkh

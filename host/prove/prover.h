@@ -1,0 +1,32 @@
+// A proof of an upper bound: A in parts, each with what proves it. The device finds which faces of
+// B are near a part; nothing rests on that.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "host/run/cells.h"
+#include "host/solve/solver.h"
+
+namespace vkh {
+
+/// Asked between submissions, with how many leaves there are; false: what is left is proven to what
+/// it can be at once, and the bound is larger.
+using ProofGoesOn = std::function<bool(size_t)>;
+
+/// Of one direction.
+struct Proof {
+  double upper = 0;    ///< what is proven: at least what was asked
+  std::string blocks;  ///< docs/certificate-file.md
+  size_t leaves = 0, cut_leaves = 0, asked_cells = 0;
+  size_t unproven = 0;  ///< leaves that proved more than was asked: `upper` is larger for them
+  double ms = 0;
+};
+
+/// Of report.upper, in a run of its own: `report` is of a run of these meshes, which ended with it.
+/// `options`: of that.
+Proof prove(Solver& solver, const Mesh& a, const Mesh& b, const Report& report,
+            const SolveOptions& options, const ProofGoesOn& goes_on);
+
+}  // namespace vkh

@@ -1,0 +1,202 @@
+// Certificates of thousands of small, hard, generated pairs, each given to a checker that knows
+// nothing of how they came about: every one must be accepted. Runs differ in preset, switches,
+// workspace, tolerance, direction and limit, and in what ends them and the proof. One line for each
+// certificate that is not accepted, with what repeats it, and a summary.
+//
+//   vkh_proof_sweep --check PROGRAM [--count N] [--first I] [--seed S] [--device D] [--spoil X]
+//
+// --check: vkh_check, or another program that takes a certificate and two meshes. Exit code 1 where
+// one is not accepted. Pair i depends on the seed and i alone.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "host/prove/certificate.h"
+#include "host/solve/solver.h"
+#include "host/system/sha256.h"
+#include "tests/shapes/hard_pairs.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+struct Arguments {
+  uint64_t count = 1000, first = 0, seed = 1;
+  std::string check, device;
+  double spoil = 0;
+};
+
+struct Totals {
+  uint64_t certificates = 0, refused = 0, raised = 0;
+  uint64_t leaves = 0, cut = 0, bytes = 0;
+  std::map<std::string, uint64_t> ended;
+};
+
+using Count = unsigned long long;
+
+/// Binary PLY of doubles: read back as it is.
+void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+  std::ofstream out(path, std::ios::binary);
+  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+      << mesh.faces.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
+  const auto put = [&](const auto& value) {
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const glm::dvec3& v : mesh.vertices) put(v);
+  for (const glm::uvec3& f : mesh.faces) {
+    put(uint8_t{3});
+    put(f);
+  }
+}
+
+/// How pair i is run.
+struct Way {
+  SolveOptions options;
+  bool symmetric = false;
+  uint64_t proof_turns = UINT64_MAX;  ///< after which the proof is called off
+};
+
+Way way_of(uint64_t i, const HardPair& hard) {
+  const std::vector<std::string> presets = preset_names(), switches = switch_names();
+  Way way;
+  SolveOptions& o = way.options;
+  o.tolerance = hard.tolerance;
+  o.preset = presets[i % presets.size()];
+  if (i % 2 == 1) o.disabled = {switches[(i / 2) % switches.size()]};
+  if (i % 5 == 2) o.memory_bytes = 1;  // as little as will do
+  if (i % 7 == 3) o.wave_limit = static_cast<uint32_t>(i / 7 % 4 + 1);
+  if (i % 11 == 5) o.time_limit_s = 1e-3;
+  if (i % 13 == 7) o.tolerance = 1e-9;
+  if (i % 17 == 9 && hard.exact) {
+    const double limit = *hard.exact * (i % 2 == 0 ? 0.7 : 1.5);
+    o.limit = {limit, limit};
+  }
+  way.symmetric = i % 3 == 1;
+  if (i % 19 == 11) way.proof_turns = i / 19 % 4;
+  return way;
+}
+
+struct Files {
+  std::filesystem::path a, b, certificate;
+};
+
+class Sweep {
+ public:
+  Sweep(Solver& solver, const Arguments& args, const std::filesystem::path& folder)
+      : solver_(solver),
+        args_(args),
+        files_{folder / "a.ply", folder / "b.ply", folder / "ab.vhc"},
+        command_(args.check + " '" + files_.certificate.string() + "' '" + files_.a.string() +
+                 "' '" + files_.b.string() + "' >'" + (folder / "said").string() + "' 2>&1") {}
+
+  void pair(uint64_t i) {
+    const size_t families = family_names().size();
+    const HardPair hard = hard_pair(i % families, args_.seed * 1000003 + i);
+    const Way way = way_of(i, hard);
+    const Mesh &a = hard.pair.a, &b = hard.pair.b;
+    write_ply(files_.a, a);
+    write_ply(files_.b, b);
+    const std::string certificate =
+        way.symmetric ? of_both(a, b, way) : of_one(a, b, solver_.distance(a, b, way.options), way);
+    if (certificate.empty()) return;
+    std::ofstream(files_.certificate, std::ios::binary) << certificate;
+    const int code = std::system(command_.c_str());
+    ++totals_.certificates;
+    totals_.bytes += certificate.size();
+    if (code == 0) return;
+    ++totals_.refused;
+    std::printf("NOT ACCEPTED pair %llu (%s, %s), code %d\n", static_cast<Count>(i),
+                family_names()[i % families].c_str(), way.symmetric ? "both ways" : "one way",
+                code);
+  }
+
+  const Totals& totals() const { return totals_; }
+
+ private:
+  CertifiedMesh hashed(const Mesh& mesh, const std::filesystem::path& file) const {
+    return {mesh, sha256_of(file, [] { return true; })};
+  }
+
+  Proof prove_one(const Mesh& a, const Mesh& b, const Report& report, const Way& way) {
+    uint64_t turns = 0;
+    Proof proof = prove(solver_, a, b, report, way.options,
+                        [&](size_t) { return turns++ < way.proof_turns; });
+    ++totals_.ended[status_name(report.status)];
+    totals_.leaves += proof.leaves;
+    totals_.cut += proof.cut_leaves;
+    totals_.raised += proof.upper > report.upper;
+    proof.upper *= 1 - args_.spoil;
+    return proof;
+  }
+
+  std::string of_one(const Mesh& a, const Mesh& b, const Report& report, const Way& way) {
+    if (!std::isfinite(report.upper)) return {};
+    const Proof proof = prove_one(a, b, report, way);
+    return certificate_of(hashed(a, files_.a), hashed(b, files_.b), {report, proof}, {});
+  }
+
+  std::string of_both(const Mesh& a, const Mesh& b, const Way& way) {
+    const SymmetricReport both = solver_.symmetric(a, b, way.options);
+    if (!std::isfinite(both.a_to_b.upper + both.b_to_a.upper)) return {};
+    const Proof there = prove_one(a, b, both.a_to_b, way);
+    const Proof back = prove_one(b, a, both.b_to_a, way);
+    return certificate_of(hashed(a, files_.a), hashed(b, files_.b), {both.a_to_b, there},
+                          CertifiedDirection{both.b_to_a, back});
+  }
+
+  Solver& solver_;
+  const Arguments& args_;
+  Files files_;
+  std::string command_;
+  Totals totals_;
+};
+
+int sweep(const Arguments& args) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("vkh_proof_sweep_" + std::to_string(args.seed));
+  std::filesystem::create_directories(folder);
+  Device device({.selector = args.device});
+  Solver solver(device);
+  Sweep all(solver, args, folder);
+  for (uint64_t i = args.first; i < args.first + args.count; ++i) all.pair(i);
+  std::filesystem::remove_all(folder);
+  const Totals& t = all.totals();
+  std::printf(
+      "proof sweep: %llu certificates of %llu pairs (seed %llu, from %llu) on %s: %llu not "
+      "accepted; %llu leaves, %llu of them cut, %llu bytes, %llu directions raised; ended",
+      static_cast<Count>(t.certificates), static_cast<Count>(args.count),
+      static_cast<Count>(args.seed), static_cast<Count>(args.first),
+      device.description().name.c_str(), static_cast<Count>(t.refused),
+      static_cast<Count>(t.leaves), static_cast<Count>(t.cut), static_cast<Count>(t.bytes),
+      static_cast<Count>(t.raised));
+  for (const auto& [name, count] : t.ended)
+    std::printf(" %s %llu", name.c_str(), static_cast<Count>(count));
+  std::printf("\n");
+  return t.refused > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments args;
+  CLI::App app("Certificates of generated pairs, each given to a checker.", "vkh_proof_sweep");
+  app.add_option("--check", args.check, "The checker")->required();
+  app.add_option("--count", args.count, "Pairs");
+  app.add_option("--first", args.first, "Number of the first pair");
+  app.add_option("--seed", args.seed, "Of the whole sweep");
+  app.add_option("--device", args.device, "As for vkhausdorff");
+  app.add_option("--spoil", args.spoil, "Claim an upper bound that is smaller by so much");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return sweep(args);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vkh_proof_sweep: %s\n", error.what());
+    return 2;
+  }
+}
