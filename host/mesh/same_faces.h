@@ -9,4 +9,8 @@ namespace vkh {
 /// h(part, whole) is 0.
 bool has_faces_of(const Mesh& whole, const Mesh& part);
 
+/// For each face of `part` a face of `whole` that is the same, as above; kNoFace where none is.
+constexpr uint32_t kNoFace = UINT32_MAX;
+std::vector<uint32_t> same_faces(const Mesh& whole, const Mesh& part);
+
 }  // namespace vkh

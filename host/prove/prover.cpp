@@ -11,6 +11,7 @@
 
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
+#include "host/mesh/same_faces.h"
 #include "host/prove/proof_tree.h"
 #include "shaders/math/dyadic.h"
 
@@ -89,7 +90,9 @@ class Prover {
         a_(pair.on_device.a, exponent_),
         b_(pair.b, exponent_),
         upper_(target(report_.upper)),
-        batch_(pair.on_device.on_cpu ? 1024 : 65536) {}
+        batch_(pair.on_device.on_cpu ? 1024 : 65536) {
+    if (upper_ <= 0) same_ = same_faces(pair.b, pair.on_device.a);
+  }
 
   void prove() {
     const Clock::time_point start = Clock::now();
@@ -101,13 +104,16 @@ class Prover {
   }
 
  private:
-  static constexpr size_t kFacesAtOnce = size_t{1} << 16;  // what is open of them takes the memory
-  static constexpr size_t kPartsATurn = 256;               // of a thread
+  static constexpr size_t kFacesAtOnce = size_t{1} << 16,  // what is open of them takes the memory
+      kPartsAtOnce = size_t{1} << 15, kMostOpen = size_t{1} << 21;
+  static constexpr size_t kPartsATurn = 256;  // of a thread
+  static constexpr uint8_t kSmall = 8;        // halvings
+  static constexpr double kMore = 256 * 0x1p-52;
 
   // A length of the files in the scaled meshes, less what these are off: rounded down.
   double target(double upper) const {
     const double scaled = std::ldexp(add_down(upper, -delta_), exponent_);
-    return std::isnormal(scaled) ? scaled : std::nextafter(scaled, -1.0);
+    return std::isnormal(scaled) || scaled == 0 ? scaled : std::nextafter(scaled, -1.0);
   }
   // And back: rounded up.
   double given(double scaled) const {
@@ -121,18 +127,27 @@ class Prover {
     std::vector<Open> open(count);
     for (size_t i = 0; i < count; ++i) open[i] = whole(static_cast<uint32_t>(first + i), i);
     double raised = 0;
-    for (bool with_hints = false; !open.empty(); with_hints = true) {
-      if (with_hints) close(open, tree);
-      ask(open);
-      close(open, tree);
-      if (ended()) {
-        raised = std::max(raised, give_up(open, tree));
-        break;
+    while (!open.empty()) {
+      std::vector<Open> halves;
+      for (size_t begin = 0; begin < open.size(); begin += kPartsAtOnce) {
+        const size_t end = std::min(begin + kPartsAtOnce, open.size());
+        std::vector<Open> some(open.begin() + static_cast<std::ptrdiff_t>(begin),
+                               open.begin() + static_cast<std::ptrdiff_t>(end));
+        const bool gives_up = ended() || halves.size() > kMostOpen;
+        raised = std::max(raised, gives_up ? give_up(some, tree) : advance(some, tree, halves));
       }
-      halve(open, tree, raised);
+      open = std::move(halves);
     }
     result_.blocks += tree.written();
     return raised;
+  }
+
+  // Proves what it can, and halves the rest.
+  double advance(std::vector<Open>& some, ProofTree& tree, std::vector<Open>& halves) {
+    double raised = close(some, tree);
+    ask(some);
+    raised = std::max(raised, close(some, tree));
+    return std::max(raised, halve(some, tree, halves));
   }
 
   Open whole(uint32_t face, size_t node) const {
@@ -144,6 +159,7 @@ class Prover {
     open.cell.start = gpu::kNone;
     const lib::Bary3 root = lib::whole_root();
     set_corners(open.cell, {root.a, root.b, root.c});
+    if (!same_.empty() && same_[face] != kNoFace) open.hints.add(same_[face]);
     return open;
   }
 
@@ -152,20 +168,27 @@ class Prover {
     return ended_;
   }
 
-  // Leaves of those that a hint proves; the others stay, in their order.
-  void close(std::vector<Open>& open, ProofTree& tree) {
-    std::vector<std::optional<Leaf>> found(open.size());
-    const size_t turns = (open.size() + kPartsATurn - 1) / kPartsATurn;
+  // Leaves of those that a hint proves; the others stay, in their order. Small parts may take a
+  // little more: what the arithmetic is off by is not made less by halving.
+  double close(std::vector<Open>& some, ProofTree& tree) {
+    std::vector<std::optional<Leaf>> found(some.size());
+    std::atomic<bool> took_more = false;
+    const size_t turns = (some.size() + kPartsATurn - 1) / kPartsATurn;
     for_each_index(turns, [&](size_t turn) {
-      const size_t end = std::min(open.size(), (turn + 1) * kPartsATurn);
-      for (size_t i = turn * kPartsATurn; i < end; ++i)
-        found[i] = proof_of(open[i].part, b_, open[i].hints, upper_);
+      const size_t end = std::min(some.size(), (turn + 1) * kPartsATurn);
+      for (size_t i = turn * kPartsATurn; i < end; ++i) {
+        found[i] = proof_of(some[i].part, b_, some[i].hints, upper_);
+        if (found[i] || some[i].depth < kSmall) continue;
+        found[i] = proof_of(some[i].part, b_, some[i].hints, upper_ + kMore);
+        if (found[i]) took_more = true;
+      }
     });
-    for (size_t i = 0; i < open.size(); ++i) {
-      open[i].is_proven = found[i].has_value();
-      if (found[i]) add(open[i].node, *found[i], tree);
+    for (size_t i = 0; i < some.size(); ++i) {
+      some[i].is_proven = found[i].has_value();
+      if (found[i]) add(some[i].node, *found[i], tree);
     }
-    std::erase_if(open, [](const Open& one) { return one.is_proven; });
+    std::erase_if(some, [](const Open& one) { return one.is_proven; });
+    return took_more ? upper_ + kMore : 0;
   }
 
   void add(uint32_t node, const Leaf& leaf, ProofTree& tree) {
@@ -212,10 +235,9 @@ class Prover {
   }
 
   // Those that cannot be halved any more are proven to what they are.
-  void halve(std::vector<Open>& open, ProofTree& tree, double& raised) {
-    std::vector<Open> halves, last;
-    halves.reserve(2 * open.size());
-    for (Open& one : open) {
+  double halve(const std::vector<Open>& some, ProofTree& tree, std::vector<Open>& halves) {
+    std::vector<Open> last;
+    for (const Open& one : some) {
       if (one.depth >= kMostHalvings) {
         last.push_back(one);
         continue;
@@ -225,8 +247,7 @@ class Prover {
       halves.push_back(half_of(one, node, opposite, (opposite + 2u) % 3));
       halves.push_back(half_of(one, node + 1, opposite, (opposite + 1u) % 3));
     }
-    if (!last.empty()) raised = std::max(raised, give_up(last, tree));
-    open = std::move(halves);
+    return give_up(last, tree);
   }
 
   // The largest bound that is left.
@@ -253,7 +274,8 @@ class Prover {
   int exponent_;
   double delta_;
   ScaledMesh a_, b_;
-  double upper_;  // of the scaled meshes
+  double upper_;                // of the scaled meshes
+  std::vector<uint32_t> same_;  // where that is 0: of each face, one of B
   size_t batch_;
   bool ended_ = false;
 };
