@@ -33,8 +33,8 @@ class Hash {
   }
   Hash(const Hash&) = delete;
   Hash& operator=(const Hash&) = delete;
-  void add(char* bytes, size_t count) {
-    is_good_ = is_good_ && BCryptHashData(hash_, reinterpret_cast<PUCHAR>(bytes),
+  void add(const char* bytes, size_t count) {
+    is_good_ = is_good_ && BCryptHashData(hash_, reinterpret_cast<PUCHAR>(const_cast<char*>(bytes)),
                                           static_cast<ULONG>(count), 0) == 0;
   }
   bool finish(Digest& digest) {
@@ -80,6 +80,17 @@ class Hash {
 
 #endif
 
+std::string digits_of(Hash& hash) {
+  Digest digest{};
+  if (!hash.finish(digest)) return {};
+  std::string text;
+  for (const unsigned char byte : digest) {
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string sha256_of(const std::filesystem::path& path, const std::function<bool()>& keep_going) {
@@ -93,14 +104,14 @@ std::string sha256_of(const std::filesystem::path& path, const std::function<boo
     hash.add(piece.data(), count);
     at += count;
   }
-  Digest digest{};
-  if (!hash.finish(digest)) return {};
-  std::string text;
-  for (const unsigned char byte : digest) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
+  return digits_of(hash);
+}
+
+std::string sha256_of_pieces(const std::function<std::string_view()>& next) {
+  Hash hash;
+  for (std::string_view piece = next(); !piece.empty(); piece = next())
+    hash.add(piece.data(), piece.size());
+  return digits_of(hash);
 }
 
 }  // namespace vkh

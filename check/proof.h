@@ -1,0 +1,276 @@
+// What a certificate has to prove, and whether it does.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+
+#include "check/certificate.h"
+#include "check/exact.h"
+#include "host/base/parallel.h"
+#include "host/mesh/mesh.h"
+
+namespace vkh::check {
+
+/// Well formed, but it does not prove what it claims.
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What a direction, from X to Y, is proven with. All coordinates are integers times 2^unit.
+struct Question {
+  const std::vector<unsigned char>& file;
+  const Direction& claim;
+  const Mesh &x, &y;
+  int unit;
+  size_t threads;
+  std::function<void()> face_done;  ///< called by all threads
+};
+
+inline void set(Triangle& out, const Mesh& mesh, uint64_t face, int unit) {
+  const glm::uvec3& f = mesh.faces[face];
+  for (int i = 0; i < 3; ++i) set(out.corner[i], mesh.vertices[f[i]], unit);
+}
+
+/// A part of a face. Its corners are multiplied by 2^depth, so that they stay integers.
+struct Part {
+  Point corner[3];
+  unsigned depth;
+};
+
+/// Measures the leaves of blocks, one block after the other.
+class Leaves {
+ public:
+  Leaves(const Question& question, const Fraction& limit)
+      : q_(question), limit_(limit), parts_(kDeepest + 1), near_(kNear) {}
+
+  Fraction largest;
+
+  void face(uint64_t face) {
+    q_.face_done();
+    face_ = face, leaf_ = 0, count_ = 1;
+    Part& whole = parts_[0];
+    whole.depth = 0;
+    for (int i = 0; i < 3; ++i) set(whole.corner[i], q_.x.vertices[q_.x.faces[face][i]], q_.unit);
+  }
+
+  /// With m, the middle of j and k: first the part of i, j, m and then that of i, m, k.
+  void halve(size_t i) {
+    Part &second = parts_[count_ - 1], &first = parts_[count_];
+    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    first.depth = ++second.depth;
+    for (size_t x = 0; x < 3; ++x) {
+      mpz_add(first.corner[k][x], second.corner[j][x], second.corner[k][x]);
+      mpz_mul_2exp(first.corner[i][x], second.corner[i][x], 1);
+      mpz_mul_2exp(first.corner[j][x], second.corner[j][x], 1);
+      mpz_set(second.corner[i][x], first.corner[i][x]);
+      mpz_set(second.corner[j][x], first.corner[k][x]);
+      mpz_mul_2exp(second.corner[k][x], second.corner[k][x], 1);
+    }
+    ++count_;
+  }
+
+  void leaf(uint32_t s) {
+    const Part& part = parts_[--count_];
+    for (const Point& corner : part.corner) check(corner, part.depth, s);
+    ++leaf_;
+  }
+
+  /// p and q are multiplied by 256 more.
+  void cut(uint32_t s, uint32_t r, const Cut& cut) {
+    const Part& part = parts_[--count_];
+    const Point &o = part.corner[cut.o], &j = part.corner[(cut.o + 1) % 3],
+                &k = part.corner[(cut.o + 2) % 3];
+    for (size_t x = 0; x < 3; ++x) {
+      mpz_mul_ui(b_[x], o[x], 256 - cut.s);
+      mpz_addmul_ui(b_[x], j[x], cut.s);
+      mpz_mul_ui(c_[x], o[x], 256 - cut.t);
+      mpz_addmul_ui(c_[x], k[x], cut.t);
+    }
+    check(o, part.depth, s);
+    for (const uint32_t triangle : {s, r}) {
+      check(b_, part.depth + 8, triangle);
+      check(c_, part.depth + 8, triangle);
+    }
+    check(j, part.depth, r);
+    check(k, part.depth, r);
+    ++leaf_;
+  }
+
+ private:
+  static constexpr size_t kNear = 64;
+  struct Known {
+    Triangle triangle;
+    uint64_t number = UINT64_MAX;
+  };
+
+  void check(const Point& point, unsigned depth, uint32_t number) {
+    Known& known = near_[number % kNear];
+    if (known.number != number) {
+      set(known.triangle, q_.y, number, q_.unit);
+      known.triangle.prepare();
+      known.number = number;
+    }
+    known.triangle.measure(square_, point, depth);
+    if (compare(square_, largest) <= 0) return;
+    if (compare(square_, limit_) > 0)
+      throw Refused("face " + std::to_string(face_) + ", leaf " + std::to_string(leaf_) +
+                    ": farther than upper from triangle " + std::to_string(number));
+    swap(largest, square_);
+  }
+
+  const Question& q_;
+  const Fraction& limit_;
+  std::vector<Part> parts_;  ///< the first count_ of them, the one that is spoken of last
+  std::vector<Known> near_;  ///< neighbours are near the same triangles
+  uint64_t face_ = UINT64_MAX, leaf_ = 0;
+  size_t count_ = 0;
+  Point b_, c_;
+  Fraction square_;
+};
+
+/// Looks for the triangle that is nearest to a point.
+class Nearest {
+ public:
+  Fraction square;
+  uint64_t number = UINT64_MAX;  ///< of the triangle; none yet
+
+  /// The point ((2^e - j - k) a + j b + k c), which is multiplied by 2^e.
+  Nearest(const Direction& claim, const Triangle& face) : shift_(claim.e) {
+    const uint64_t weights[] = {(uint64_t{1} << claim.e) - claim.j - claim.k, claim.j, claim.k};
+    Z weight;
+    for (size_t i = 0; i < 3; ++i) {
+      check::set(weight, weights[i]);
+      for (size_t x = 0; x < 3; ++x) mpz_addmul(point_[x], face.corner[i][x], weight);
+    }
+  }
+
+  void look_at(Triangle& triangle, uint64_t of) {
+    const bool is_found = number != UINT64_MAX;
+    if (is_found && is_box_as_far(triangle)) return;
+    triangle.prepare();
+    triangle.measure(other_, point_, shift_);
+    if (is_found && compare(other_, square) >= 0) return;
+    swap(square, other_);
+    number = of;
+    mpz_mul_2exp(reach_, square.numerator, 2 * shift_);
+    mpz_cdiv_q(reach_, reach_, square.denominator);
+  }
+
+ private:
+  /// Whether the box of the triangle is at least as far as what was found: then so is it.
+  bool is_box_as_far(const Triangle& triangle) {
+    mpz_set_ui(sum_, 0);
+    for (size_t x = 0; x < 3; ++x) {
+      mpz_srcptr least = triangle.corner[0][x], most = least;
+      for (size_t i = 1; i < 3; ++i) {
+        mpz_srcptr value = triangle.corner[i][x];
+        if (mpz_cmp(value, least) < 0) least = value;
+        if (mpz_cmp(value, most) > 0) most = value;
+      }
+      mpz_mul_2exp(gap_, least, shift_);
+      mpz_sub(gap_, gap_, point_[x]);
+      if (sign(gap_) < 0) {
+        mpz_mul_2exp(gap_, most, shift_);
+        mpz_sub(gap_, point_[x], gap_);
+      }
+      if (sign(gap_) > 0) mpz_addmul(sum_, gap_, gap_);
+    }
+    return mpz_cmp(sum_, reach_) >= 0;
+  }
+
+  unsigned shift_;
+  Point point_;
+  Fraction other_;
+  Z reach_, sum_, gap_;  ///< reach_: `square`, rounded up
+};
+
+/// The largest e such that all coordinates of both are integers times 2^e.
+inline int common_exponent(const Mesh& a, const Mesh& b) {
+  int out = INT_MAX;
+  for (const Mesh* mesh : {&a, &b}) {
+    for (const glm::dvec3& v : mesh->vertices)
+      out = std::min({out, exponent_of(v.x), exponent_of(v.y), exponent_of(v.z)});
+  }
+  return out == INT_MAX ? 0 : out;
+}
+
+/// claim + sign * (delta of A + delta of B), which has to be at least 0, squared, in 4^unit.
+inline Fraction squared_claim(double claim, int side, const std::array<double, 2>& delta,
+                              int unit) {
+  const int e = std::min({exponent_of(claim), exponent_of(delta[0]), exponent_of(delta[1]), 0});
+  Fraction out;
+  Z part;
+  set(out.numerator, claim, e);
+  for (const double d : delta) {
+    set(part, d, e);
+    side > 0 ? mpz_add(out.numerator, out.numerator, part)
+             : mpz_sub(out.numerator, out.numerator, part);
+  }
+  if (sign(out.numerator) < 0) throw Refused("upper is less than both deltas");
+  mpz_mul(out.numerator, out.numerator, out.numerator);
+  scale(out, e - unit);
+  return out;
+}
+
+/// Throws Refused where a corner of a leaf is farther from its triangle than `limit`. Returns the
+/// largest of their distances; both are squares, in 4^unit.
+inline Fraction largest_of_leaves(const Question& question, const Fraction& limit) {
+  const std::vector<Direction::Block>& blocks = question.claim.blocks;
+  std::atomic<size_t> next = 0, refused_at = SIZE_MAX;
+  std::mutex one_at_a_time;
+  std::string why;
+  Fraction largest;
+  for_each_index(
+      question.threads,
+      [&](size_t) {
+        Leaves leaves(question, limit);
+        for (size_t i = next++; i < blocks.size() && i < refused_at; i = next++) {
+          try {
+            walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i],
+                 question.y.faces.size(), leaves);
+          } catch (const Refused& refused) {  // the first block's word is the answer
+            const std::lock_guard lock(one_at_a_time);
+            if (i < refused_at) refused_at = i, why = refused.what();
+          }
+        }
+        const std::lock_guard lock(one_at_a_time);
+        if (compare(leaves.largest, largest) > 0) swap(leaves.largest, largest);
+      },
+      question.threads);
+  if (refused_at != SIZE_MAX) throw Refused(why);
+  return largest;
+}
+
+/// The witness's distance from Y, likewise.
+inline Fraction distance_of_witness(const Question& question, uint64_t& number) {
+  constexpr size_t kPiece = 4096;
+  const size_t faces = question.y.faces.size();
+  std::atomic<size_t> next = 0;
+  std::mutex one_at_a_time;
+  Triangle face;
+  set(face, question.x, question.claim.witness, question.unit);
+  Nearest nearest(question.claim, face);
+  for_each_index(
+      question.threads,
+      [&](size_t) {
+        Nearest ours(question.claim, face);
+        Triangle triangle;
+        for (size_t i = next++; i * kPiece < faces; i = next++) {
+          for (size_t f = i * kPiece; f < std::min(faces, (i + 1) * kPiece); ++f) {
+            set(triangle, question.y, f, question.unit);
+            ours.look_at(triangle, f);
+          }
+        }
+        const std::lock_guard lock(one_at_a_time);
+        if (ours.number == UINT64_MAX) return;
+        if (nearest.number != UINT64_MAX && compare(ours.square, nearest.square) >= 0) return;
+        swap(nearest.square, ours.square);
+        nearest.number = ours.number;
+      },
+      question.threads);
+  number = nearest.number;
+  return nearest.square;
+}
+
+}  // namespace vkh::check
