@@ -27,9 +27,8 @@ struct Question {
   std::function<void()> face_done;  ///< called by all threads
 };
 
-inline void set(Triangle& out, const Mesh& mesh, uint64_t face, int unit) {
-  const glm::uvec3& f = mesh.faces[face];
-  for (int i = 0; i < 3; ++i) set(out.corner[i], mesh.vertices[f[i]], unit);
+inline void set(Point (&out)[3], const Mesh& mesh, uint64_t face, int unit) {
+  for (int i = 0; i < 3; ++i) set(out[i], mesh.vertices[mesh.faces[face][i]], unit);
 }
 
 /// A part of a face. Its corners are multiplied by 2^depth, so that they stay integers.
@@ -42,16 +41,15 @@ struct Part {
 class Leaves {
  public:
   Leaves(const Question& question, const Fraction& limit)
-      : q_(question), limit_(limit), parts_(kDeepest + 1), near_(kNear) {}
+      : q_(question), limit_(limit), parts_(kDeepest + 1) {}
 
   Fraction largest;
 
   void face(uint64_t face) {
     q_.face_done();
     face_ = face, leaf_ = 0, count_ = 1;
-    Part& whole = parts_[0];
-    whole.depth = 0;
-    for (int i = 0; i < 3; ++i) set(whole.corner[i], q_.x.vertices[q_.x.faces[face][i]], q_.unit);
+    parts_[0].depth = 0;
+    set(parts_[0].corner, q_.x, face, q_.unit);
   }
 
   /// With m, the middle of j and k: first the part of i, j, m and then that of i, m, k.
@@ -88,30 +86,21 @@ class Leaves {
       mpz_addmul_ui(c_[x], k[x], cut.t);
     }
     check(o, part.depth, s);
-    for (const uint32_t triangle : {s, r}) {
-      check(b_, part.depth + 8, triangle);
-      check(c_, part.depth + 8, triangle);
-    }
+    for (const Point* point : {&b_, &c_}) check(*point, part.depth + 8, s);
+    for (const Point* point : {&b_, &c_}) check(*point, part.depth + 8, r);
     check(j, part.depth, r);
     check(k, part.depth, r);
     ++leaf_;
   }
 
  private:
-  static constexpr size_t kNear = 64;
-  struct Known {
-    Triangle triangle;
-    uint64_t number = UINT64_MAX;
-  };
-
   void check(const Point& point, unsigned depth, uint32_t number) {
-    Known& known = near_[number % kNear];
-    if (known.number != number) {
-      set(known.triangle, q_.y, number, q_.unit);
-      known.triangle.prepare();
-      known.number = number;
+    if (number != number_) {
+      set(triangle_.corner, q_.y, number, q_.unit);
+      triangle_.prepare();
+      number_ = number;
     }
-    known.triangle.measure(square_, point, depth);
+    triangle_.measure(square_, point, depth);
     if (compare(square_, largest) <= 0) return;
     if (compare(square_, limit_) > 0)
       throw Refused("face " + std::to_string(face_) + ", leaf " + std::to_string(leaf_) +
@@ -122,68 +111,36 @@ class Leaves {
   const Question& q_;
   const Fraction& limit_;
   std::vector<Part> parts_;  ///< the first count_ of them, the one that is spoken of last
-  std::vector<Known> near_;  ///< neighbours are near the same triangles
-  uint64_t face_ = UINT64_MAX, leaf_ = 0;
+  uint64_t face_ = 0, leaf_ = 0, number_ = UINT64_MAX;
   size_t count_ = 0;
   Point b_, c_;
+  Triangle triangle_;  ///< with this number, ready
   Fraction square_;
 };
 
-/// Looks for the triangle that is nearest to a point.
-class Nearest {
- public:
-  Fraction square;
-  uint64_t number = UINT64_MAX;  ///< of the triangle; none yet
-
-  /// The point ((2^e - j - k) a + j b + k c), which is multiplied by 2^e.
-  Nearest(const Direction& claim, const Triangle& face) : shift_(claim.e) {
-    const uint64_t weights[] = {(uint64_t{1} << claim.e) - claim.j - claim.k, claim.j, claim.k};
-    Z weight;
-    for (size_t i = 0; i < 3; ++i) {
-      check::set(weight, weights[i]);
-      for (size_t x = 0; x < 3; ++x) mpz_addmul(point_[x], face.corner[i][x], weight);
+/// Whether the triangle's box is so far from point / 2^shift that their distance, squared and times
+/// 4^shift, is at least `reach`: then the triangle is, too.
+inline bool is_box_as_far(const Triangle& triangle, const Point& point, unsigned shift,
+                          const Z& reach) {
+  thread_local Z sum, gap;
+  mpz_set_ui(sum, 0);
+  for (size_t x = 0; x < 3; ++x) {
+    mpz_srcptr least = triangle.corner[0][x], most = least;
+    for (size_t i = 1; i < 3; ++i) {
+      mpz_srcptr value = triangle.corner[i][x];
+      if (mpz_cmp(value, least) < 0) least = value;
+      if (mpz_cmp(value, most) > 0) most = value;
     }
-  }
-
-  void look_at(Triangle& triangle, uint64_t of) {
-    const bool is_found = number != UINT64_MAX;
-    if (is_found && is_box_as_far(triangle)) return;
-    triangle.prepare();
-    triangle.measure(other_, point_, shift_);
-    if (is_found && compare(other_, square) >= 0) return;
-    swap(square, other_);
-    number = of;
-    mpz_mul_2exp(reach_, square.numerator, 2 * shift_);
-    mpz_cdiv_q(reach_, reach_, square.denominator);
-  }
-
- private:
-  /// Whether the box of the triangle is at least as far as what was found: then so is it.
-  bool is_box_as_far(const Triangle& triangle) {
-    mpz_set_ui(sum_, 0);
-    for (size_t x = 0; x < 3; ++x) {
-      mpz_srcptr least = triangle.corner[0][x], most = least;
-      for (size_t i = 1; i < 3; ++i) {
-        mpz_srcptr value = triangle.corner[i][x];
-        if (mpz_cmp(value, least) < 0) least = value;
-        if (mpz_cmp(value, most) > 0) most = value;
-      }
-      mpz_mul_2exp(gap_, least, shift_);
-      mpz_sub(gap_, gap_, point_[x]);
-      if (sign(gap_) < 0) {
-        mpz_mul_2exp(gap_, most, shift_);
-        mpz_sub(gap_, point_[x], gap_);
-      }
-      if (sign(gap_) > 0) mpz_addmul(sum_, gap_, gap_);
+    mpz_mul_2exp(gap, least, shift);
+    mpz_sub(gap, gap, point[x]);
+    if (sign(gap) < 0) {
+      mpz_mul_2exp(gap, most, shift);
+      mpz_sub(gap, point[x], gap);
     }
-    return mpz_cmp(sum_, reach_) >= 0;
+    if (sign(gap) > 0) mpz_addmul(sum, gap, gap);
   }
-
-  unsigned shift_;
-  Point point_;
-  Fraction other_;
-  Z reach_, sum_, gap_;  ///< reach_: `square`, rounded up
-};
+  return mpz_cmp(sum, reach) >= 0;
+}
 
 /// The largest e such that all coordinates of both are integers times 2^e.
 inline int common_exponent(const Mesh& a, const Mesh& b) {
@@ -242,35 +199,31 @@ inline Fraction largest_of_leaves(const Question& question, const Fraction& limi
   return largest;
 }
 
-/// The witness's distance from Y, likewise.
-inline Fraction distance_of_witness(const Question& question, uint64_t& number) {
-  constexpr size_t kPiece = 4096;
-  const size_t faces = question.y.faces.size();
-  std::atomic<size_t> next = 0;
-  std::mutex one_at_a_time;
-  Triangle face;
-  set(face, question.x, question.claim.witness, question.unit);
-  Nearest nearest(question.claim, face);
-  for_each_index(
-      question.threads,
-      [&](size_t) {
-        Nearest ours(question.claim, face);
-        Triangle triangle;
-        for (size_t i = next++; i * kPiece < faces; i = next++) {
-          for (size_t f = i * kPiece; f < std::min(faces, (i + 1) * kPiece); ++f) {
-            set(triangle, question.y, f, question.unit);
-            ours.look_at(triangle, f);
-          }
-        }
-        const std::lock_guard lock(one_at_a_time);
-        if (ours.number == UINT64_MAX) return;
-        if (nearest.number != UINT64_MAX && compare(ours.square, nearest.square) >= 0) return;
-        swap(nearest.square, ours.square);
-        nearest.number = ours.number;
-      },
-      question.threads);
-  number = nearest.number;
-  return nearest.square;
+/// The witness's distance from Y, likewise, and which triangle is nearest.
+inline Fraction distance_of_witness(const Question& question, uint64_t& nearest) {
+  const Direction& claim = question.claim;
+  const uint64_t weights[] = {(uint64_t{1} << claim.e) - claim.j - claim.k, claim.j, claim.k};
+  Triangle triangle;
+  set(triangle.corner, question.x, claim.witness, question.unit);
+  Point witness;  // times 2^e
+  Z weight, reach;
+  for (size_t i = 0; i < 3; ++i) {
+    set(weight, weights[i]);
+    for (size_t x = 0; x < 3; ++x) mpz_addmul(witness[x], triangle.corner[i][x], weight);
+  }
+  Fraction least, square;
+  for (uint64_t f = 0; f < question.y.faces.size(); ++f) {
+    set(triangle.corner, question.y, f, question.unit);
+    if (f > 0 && is_box_as_far(triangle, witness, claim.e, reach)) continue;
+    triangle.prepare();
+    triangle.measure(square, witness, claim.e);
+    if (f > 0 && compare(square, least) >= 0) continue;
+    swap(square, least);
+    nearest = f;
+    mpz_mul_2exp(reach, least.numerator, 2 * claim.e);
+    mpz_cdiv_q(reach, reach, least.denominator);
+  }
+  return least;
 }
 
 }  // namespace vkh::check

@@ -4,7 +4,7 @@
 //   certificate.h  the file's bytes: faces of X, halved to leaves, and a triangle of Y for each
 //   proof.h        upper: every corner of a leaf is near enough; lower: the witness is far enough
 //   this page      whether the meshes are those that the file is of; what is printed
-#include <charconv>
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -113,6 +113,13 @@ std::string text_of(const Fraction& fraction) {
   return text_of(lowest.numerator) + "/" + text_of(lowest.denominator);
 }
 
+/// The square of a claim and the deltas, their doubles in hexadecimal.
+std::string text_of(double claim, const char* sign, const std::array<double, 2>& delta) {
+  std::string out = "(" + hex_float(claim);
+  for (const double d : delta) out += d > 0 ? sign + hex_float(d) : "";
+  return out + ")^2";
+}
+
 /// The square root as a decimal of some twenty digits, rounded up or down.
 std::string root(Fraction square, bool is_up) {
   if (sign(square.numerator) == 0) return "0";
@@ -145,9 +152,11 @@ std::array<std::string, 2> check_direction(const Question& question,
     if (compare(lower, least) < 0)
       throw Refused("the witness is nearer than lower to triangle " + std::to_string(nearest));
   }
-  std::string how = "  exactly, squared, in units of 4^" + std::to_string(question.unit) + ": ";
-  if (claim.lower > 0) how += text_of(least) + " <= " + text_of(lower) + " (witness); ";
-  how += text_of(upper) + " (leaves) <= " + text_of(most) + "\n";
+  const std::string unit = " 4^" + std::to_string(question.unit);
+  std::string how = "  exactly: ";
+  if (claim.lower > 0)
+    how += text_of(claim.lower, " + ", delta) + " <= " + text_of(lower) + unit + " (witness); ";
+  how += text_of(upper) + unit + " (leaves) <= " + text_of(claim.upper, " - ", delta) + "\n";
   for (Fraction* fraction : {&lower, &upper}) scale(*fraction, question.unit);
   how = "  at best, of the corners as given: " + root(lower, false) + " <= " + name +
         " <= " + root(upper, true) + "\n" + how;
@@ -190,29 +199,6 @@ void check_all(const Arguments& arguments) {
               gmp_version);
 }
 
-bool understand(const std::vector<std::string>& words, Arguments& out) {
-  std::vector<std::string> names;
-  for (size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--quiet") {
-      out.is_quiet = true;
-    } else if (words[i] == "--threads" && i + 1 < words.size()) {
-      const std::string& count = words[++i];
-      const auto [end, error] =
-          std::from_chars(count.data(), count.data() + count.size(), out.threads);
-      if (error != std::errc() || end != count.data() + count.size()) return false;
-      if (out.threads < 1 || out.threads > 1024) return false;
-    } else if (words[i].starts_with("--")) {
-      return false;
-    } else {
-      names.push_back(words[i]);
-    }
-  }
-  if (names.size() != 3) return false;
-  out.certificate = names[0];
-  std::copy(names.begin() + 1, names.end(), out.mesh);
-  return true;
-}
-
 int complain(const std::string& what, Exit code) {
   std::string line = what;
   std::replace(line.begin(), line.end(), '\n', ' ');
@@ -222,18 +208,25 @@ int complain(const std::string& what, Exit code) {
 
 int run(const std::vector<std::string>& words) {
   Arguments arguments;
-  if (!understand(words, arguments))
-    return complain("usage: vkh_check CERTIFICATE A B [--threads N] [--quiet]", kUsage);
+  CLI::App app("Checks a certificate of the distance of two meshes, exactly.", "vkh_check");
+  app.add_option("CERTIFICATE", arguments.certificate)->required();
+  app.add_option("A", arguments.mesh[0])->required();
+  app.add_option("B", arguments.mesh[1])->required();
+  app.add_option("--threads", arguments.threads, "One a core")->check(CLI::Range(1, 1024));
+  app.add_flag("--quiet", arguments.is_quiet, "The answer alone, and no progress");
   try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     check_all(arguments);
     return std::fflush(stdout) == 0 ? kProven : complain("cannot write the answer", kNotWritten);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(error.what() + std::string("; --help says more"), kUsage);
   } catch (const Refused& refused) {
     return complain(std::string("refused: ") + refused.what(), kRefused);
   } catch (const Broken& broken) {
     return complain(arguments.certificate + ": " + broken.what(), kBroken);
-  } catch (const std::bad_alloc&) {
-    return complain("no memory for this", kBroken);
-  } catch (const std::exception& error) {  // of a mesh, mostly
+  } catch (const std::exception& error) {  // of a mesh, mostly, or no memory
     return complain(error.what(), kBroken);
   }
 }

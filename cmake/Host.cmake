@@ -124,7 +124,8 @@ target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_host CLI11
 if(VKH_GMP_HEADER AND VKH_GMP_LIBRARY AND (VKH_HAS_CRYPTO OR WIN32))
   file(GLOB VKH_CHECK_SOURCES CONFIGURE_DEPENDS check/*.cpp)
   add_executable(vkh_check ${VKH_CHECK_SOURCES} $<TARGET_OBJECTS:vkh_reader>)
-  target_link_libraries(vkh_check PRIVATE vkh_flags vkh_hardening glm::glm ${VKH_FORMAT_LIBRARIES} gmp Threads::Threads)
+  target_link_libraries(vkh_check PRIVATE vkh_flags vkh_hardening glm::glm CLI11::CLI11 ${VKH_FORMAT_LIBRARIES} gmp ${CMAKE_DL_LIBS}
+                        Threads::Threads)
 else()
   message(STATUS "Not built here: vkh_check, which needs libgmp-dev and libssl-dev")
 endif()
