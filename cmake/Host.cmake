@@ -37,6 +37,9 @@ elseif(VKH_CRYPTO_HEADER AND VKH_CRYPTO_LIBRARY)
 else()
   message(STATUS "Not here: the SHA-256 of files, which needs libssl-dev")
 endif()
+# What vkh_check counts with.
+find_file(VKH_GMP_HEADER gmp.h)
+find_library(VKH_GMP_LIBRARY gmp)
 # Pictures: letters and PNG. Of headers alone, so that a cross-build has them, too (cmake/toolchains/headers.cmake).
 find_file(VKH_STB_HEADER stb/stb_truetype.h)
 if(VKH_STB_HEADER)
@@ -63,6 +66,13 @@ if(WIN32)  # what operating systems do differently stands in host/system
 else()
   list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_windows\\.cpp$")
 endif()
+# What reads meshes is of no engine, so that vkh_check takes it in without one.
+set(VKH_READER_SOURCES ${VKH_HOST_SOURCES})
+list(FILTER VKH_READER_SOURCES INCLUDE REGEX "host/(base|system|mesh|source|read|scene|gltf|threemf)/[^/]*$")
+list(REMOVE_ITEM VKH_HOST_SOURCES ${VKH_READER_SOURCES})
+add_library(vkh_reader OBJECT ${VKH_READER_SOURCES})
+target_link_libraries(vkh_reader PRIVATE vkh_flags vkh_hardening glm::glm nlohmann_json::nlohmann_json)
+target_compile_features(vkh_reader PUBLIC cxx_std_20)
 vkh_add_kernel(self_test ${PROJECT_SOURCE_DIR}/shaders/doctor/self_test.comp ${PROJECT_BINARY_DIR}/generated/kernels)
 # What pictures are drawn with: generated/draw/NAME.h with an array each, k_mesh_vert and k_mesh_frag, and kFont.
 set(VKH_DRAW_OUT ${PROJECT_BINARY_DIR}/generated/draw)
@@ -85,7 +95,7 @@ add_custom_command(
   VERBATIM)
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
 include(Page)
-add_library(vkh_host STATIC ${VKH_HOST_SOURCES} ${VKH_PAGE_ASSETS} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
+add_library(vkh_host STATIC ${VKH_HOST_SOURCES} $<TARGET_OBJECTS:vkh_reader> ${VKH_PAGE_ASSETS} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
             ${VKH_DRAW_OUT}/mesh_vert.h ${VKH_DRAW_OUT}/mesh_frag.h ${VKH_DRAW_OUT}/font.h)
 if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
@@ -93,10 +103,13 @@ endif()
 target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
                       $<BUILD_INTERFACE:vkh_shaders> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
 target_link_libraries(vkh_host PRIVATE ${VKH_FORMAT_LIBRARIES})
-target_compile_definitions(vkh_host PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
-                           $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>
-                           $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB> $<$<BOOL:${VKH_HAS_ZLIB}>:VKH_HAS_ZLIB>)
-target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX>)
+foreach(target IN ITEMS vkh_reader vkh_host)
+  target_compile_definitions(${target} PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
+                             $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>
+                             $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB> $<$<BOOL:${VKH_HAS_ZLIB}>:VKH_HAS_ZLIB>
+                             $<$<BOOL:${WIN32}>:NOMINMAX>)
+endforeach()
+target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)
 add_library(VkHausdorff::host ALIAS vkh_host)
@@ -107,6 +120,15 @@ if(WIN32)
   target_sources(vkhausdorff PRIVATE host/cli/windows.rc)
 endif()
 target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
+
+if(VKH_GMP_HEADER AND VKH_GMP_LIBRARY AND (VKH_HAS_CRYPTO OR WIN32))
+  file(GLOB VKH_CHECK_SOURCES CONFIGURE_DEPENDS check/*.cpp)
+  add_executable(vkh_check ${VKH_CHECK_SOURCES} $<TARGET_OBJECTS:vkh_reader>)
+  target_link_libraries(vkh_check PRIVATE vkh_flags vkh_hardening glm::glm CLI11::CLI11 ${VKH_FORMAT_LIBRARIES} gmp ${CMAKE_DL_LIBS}
+                        Threads::Threads)
+else()
+  message(STATUS "Not built here: vkh_check, which needs libgmp-dev and libssl-dev")
+endif()
 
 add_subdirectory(tools)
 if(VKH_EXAMPLES)

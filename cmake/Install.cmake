@@ -58,6 +58,9 @@ endforeach()
 
 set_target_properties(vkhausdorff PROPERTIES INSTALL_RPATH $<$<BOOL:${BUILD_SHARED_LIBS}>:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}>)
 install(TARGETS vkhausdorff RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+if(TARGET vkh_check)
+  install(TARGETS vkh_check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+endif()
 if(NOT WIN32)
   find_program(VKH_GZIP gzip)
   if(VKH_GZIP)  # as Debian wants it, without a time of its own

@@ -24,8 +24,8 @@ files() {
 }
 
 mapfile -t recording < <(files engine -- cpp h)
-mapfile -t formatted < <(files shaders engine host examples tests tools -- comp vert frag glsl h c cpp)
-mapfile -t counted < <(files engine host examples tests tools cmake -- cpp h py sh cmake | grep -v '^engine/vkhausdorff\.h$')
+mapfile -t formatted < <(files shaders engine host check examples tests tools -- comp vert frag glsl h c cpp)
+mapfile -t counted < <(files engine host check examples tests tools cmake -- cpp h py sh cmake | grep -v '^engine/vkhausdorff\.h$')
 
 # Prints 'file:line:<tab>code' for every line with code on it, comments and #includes taken out.
 code_lines() {

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-FOLDERS = ("engine", "host", "examples")  # not the tests and tools: they would take as long again
+FOLDERS = ("engine", "host", "check", "examples")  # not the tests and tools: they would take as long again
 # What the checks must find, so that a configuration that finds nothing is noticed.
 BAIT = """\
 #include <string>

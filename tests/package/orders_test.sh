@@ -14,7 +14,7 @@ fi
 
 copy() {
   mkdir "$1"
-  cp -R "$source"/{CMakeLists.txt,CMakePresets.json,LICENSE,README.md,cmake,docs,engine,examples,host,shaders,tests,tools} "$1"
+  cp -R "$source"/{CMakeLists.txt,CMakePresets.json,LICENSE,README.md,check,cmake,docs,engine,examples,host,shaders,tests,tools} "$1"
   cd "$1"
 }
 # install_says YES|NO: it succeeds, and has the Python module or says that it is not there.

@@ -1,0 +1,202 @@
+// The bytes of a certificate file, docs/certificate-file.md: whether they are well formed, and
+// where what stands. Nothing is read beyond their end, nor believed before it is checked.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vkh::check {
+
+constexpr unsigned kDeepest = 100;  ///< halvings of a part
+
+/// No certificate, or no mesh.
+struct Broken : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Direction {
+  double lower, upper;
+  uint32_t witness, e;
+  uint64_t j, k;
+  struct Block {
+    uint64_t first_face, faces, begin, end;  ///< bytes of the file, the last of each not included
+  };
+  std::vector<Block> blocks;
+  uint64_t leaves = 0, cut = 0;
+  size_t deepest = 0;
+};
+
+struct Certificate {
+  std::array<uint64_t, 2> faces;
+  std::array<double, 2> delta;
+  std::array<std::string, 2> file, corners;  ///< SHA-256; an empty one of a file: there is none
+  std::vector<Direction> directions;
+};
+
+/// Corner o of a part, and bytes s and t of the points on its edges.
+struct Cut {
+  size_t o;
+  unsigned s, t;
+};
+
+class Bytes {
+ public:
+  Bytes(const std::vector<unsigned char>& bytes, uint64_t at, uint64_t end)
+      : bytes_(bytes), at_(at), end_(end) {}
+
+  uint64_t at() const { return at_; }
+  uint64_t left() const { return end_ - at_; }
+  void expect(bool is_so, const char* otherwise) const {
+    if (!is_so) throw Broken("byte " + std::to_string(at_) + ": " + otherwise);
+  }
+
+  /// A little-endian number of so many bytes.
+  uint64_t take(unsigned count) {
+    expect(count <= left(), "ends too early");
+    uint64_t out = 0;
+    for (unsigned i = 0; i < count; ++i) out |= uint64_t{bytes_[at_ + i]} << (8 * i);
+    at_ += count;
+    return out;
+  }
+  void skip(uint64_t count) { at_ += count; }
+  uint32_t word() { return static_cast<uint32_t>(take(4)); }
+  double real() {
+    const auto value = std::bit_cast<double>(take(8));
+    expect(std::isfinite(value) && !std::signbit(value), "a negative number, or none");
+    return value;
+  }
+  std::string hash() {
+    std::string out;
+    for (int i = 0; i < 32; ++i) {
+      const uint64_t byte = take(1);
+      out += {"0123456789abcdef"[byte >> 4], "0123456789abcdef"[byte & 15]};
+    }
+    return out;
+  }
+  /// A triangle's number, coded as its difference from `before`.
+  uint32_t triangle(uint32_t before, uint64_t triangles) {
+    uint64_t code = 0, group = 128;
+    for (unsigned i = 0; group >= 128; ++i) {
+      expect(i < 5, "a number of more than five bytes");
+      group = take(1);
+      code |= (group & 127) << (7 * i);
+      expect(i == 0 || group != 0, "a number that is longer than it needs to be");
+    }
+    const auto half = static_cast<int64_t>(code >> 1);
+    const int64_t number = before + (code % 2 == 0 ? half : -half - 1);
+    expect(number >= 0 && number < static_cast<int64_t>(triangles), "a triangle that is not there");
+    return static_cast<uint32_t>(number);
+  }
+
+ private:
+  const std::vector<unsigned char>& bytes_;
+  uint64_t at_, end_;
+};
+
+/// Tells `visitor` what a block says: face(f), halve(corner), leaf(S), cut(S, R, Cut). The part
+/// that is spoken of is the last that was added; a halving leaves two in its place, first on top.
+template <class Visitor>
+void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, Visitor& visitor) {
+  std::array<unsigned, kDeepest + 1> waiting;  // how deep the parts are that are still to come
+  uint32_t number = 0;
+  for (uint64_t f = 0; f < block.faces; ++f) {
+    visitor.face(block.first_face + f);
+    size_t count = 1;
+    waiting[0] = 0;
+    while (count > 0) {
+      const unsigned depth = waiting[--count];
+      const uint64_t kind = bytes.take(1);
+      bytes.expect(kind <= 6, "a part of no kind");
+      if (kind <= 2) {
+        bytes.expect(depth < kDeepest, "halved more than 100 times");
+        waiting[count] = waiting[count + 1] = depth + 1;
+        count += 2;
+        visitor.halve(kind);
+        continue;
+      }
+      const uint32_t s = number = bytes.triangle(number, triangles);
+      if (kind == 3) {
+        visitor.leaf(s);
+        continue;
+      }
+      const uint32_t r = number = bytes.triangle(number, triangles);
+      const auto p = static_cast<unsigned>(bytes.take(1));
+      visitor.cut(s, r, Cut{kind - 4, p, static_cast<unsigned>(bytes.take(1))});
+    }
+  }
+  bytes.expect(bytes.left() == 0, "a block with more bytes than its faces have");
+}
+
+/// Counts what is there.
+struct Count {
+  Direction& of;
+  size_t depth[kDeepest + 1] = {}, parts = 0;
+
+  void face(uint64_t) { parts = 1, depth[0] = 0; }
+  void halve(size_t) {
+    depth[parts] = ++depth[parts - 1];
+    of.deepest = std::max(of.deepest, depth[parts++]);
+  }
+  void leaf(uint32_t) { ++of.leaves, --parts; }
+  void cut(uint32_t, uint32_t, const Cut&) { ++of.leaves, ++of.cut, --parts; }
+};
+
+inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& bytes,
+                                uint64_t faces, uint64_t triangles) {
+  Direction out{};
+  out.lower = bytes.real();
+  out.upper = bytes.real();
+  bytes.expect(out.lower <= out.upper, "lower is more than upper");
+  out.witness = bytes.word();
+  out.e = bytes.word();
+  bytes.expect(out.witness < faces && out.e <= 62, "a witness that is not there");
+  out.j = bytes.take(8);
+  out.k = bytes.take(8);
+  const uint64_t one = uint64_t{1} << out.e;
+  bytes.expect(out.j <= one && out.k <= one - out.j, "a witness that is not on its face");
+  bytes.expect(out.lower > 0 || (out.witness | out.e | out.j | out.k) == 0,
+               "a witness where lower is 0");
+  Count count{out};
+  for (uint64_t done = 0; done < faces; done += out.blocks.back().faces) {
+    const uint32_t in_block = bytes.word(), size = bytes.word();
+    bytes.expect(in_block >= 1 && in_block <= faces - done, "a block of no, or too many, faces");
+    bytes.expect(size <= bytes.left(), "a block that is longer than the file");
+    out.blocks.push_back({done, in_block, bytes.at(), bytes.at() + size});
+    walk(Bytes(file, bytes.at(), bytes.at() + size), out.blocks.back(), triangles, count);
+    bytes.skip(size);
+  }
+  return out;
+}
+
+/// Throws Broken at the first byte that is not as the format says.
+inline Certificate read_certificate(const std::vector<unsigned char>& file) {
+  Bytes bytes(file, 0, file.size());
+  constexpr uint64_t kMagic = 0x3130'5452'4543'4856;  // "VHCERT01"
+  bytes.expect(bytes.left() >= 8 && bytes.take(8) == kMagic, "no certificate of version 01");
+  const uint32_t directions = bytes.word();
+  bytes.expect(directions == 1 || directions == 2, "neither one direction nor two");
+  bytes.expect(bytes.word() == 0, "not 0");
+  Certificate out;
+  for (uint64_t& faces : out.faces) {
+    faces = bytes.take(8);
+    bytes.expect(faces >= 1 && faces <= uint64_t{1} << 28, "no face, or too many");
+  }
+  for (double& delta : out.delta) delta = bytes.real();
+  for (std::string& hash : out.file) {
+    hash = bytes.hash();
+    if (hash == std::string(64, '0')) hash.clear();
+  }
+  for (std::string& hash : out.corners) hash = bytes.hash();
+  for (size_t x = 0; x < directions; ++x)
+    out.directions.push_back(read_direction(file, bytes, out.faces[x], out.faces[1 - x]));
+  bytes.expect(bytes.left() == 0, "more bytes after the last block");
+  return out;
+}
+
+}  // namespace vkh::check
