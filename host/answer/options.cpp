@@ -105,4 +105,16 @@ double parse_time(const std::string& text) {
   return seconds;
 }
 
+double parse_share(const char* option, const std::string& text) {
+  const bool is_percent = text.ends_with('%');
+  const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));
+  double share = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), share);
+  if (is_percent) share /= 100;
+  if (error != std::errc() || end != number.data() + number.size() || !(share > 0 && share <= 1))
+    throw UsageError(std::string(option) + " '" + text +
+                     "': expected a share of the area, such as 99.5% or 0.995");
+  return share;
+}
+
 }  // namespace vkh

@@ -18,4 +18,7 @@ uint32_t parse_waves(const std::string& text);
 /// Seconds: "10s", "250ms", "2min", "1h", or a plain number of seconds; more than zero.
 double parse_time(const std::string& text);
 
+/// "99.5%", or a number from 0 to 1. Throws UsageError.
+double parse_share(const char* option, const std::string& text);
+
 }  // namespace vkh

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <sstream>
 
@@ -55,19 +54,6 @@ SolveOptions options_of(const Typed& typed) {
   return options;
 }
 
-// "99.5%", or a number from 0 to 1.
-double share_of(const char* option, const std::string& text) {
-  const bool is_percent = text.ends_with('%');
-  const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));
-  double share = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), share);
-  if (is_percent) share /= 100;
-  if (error != std::errc() || end != number.data() + number.size() || !(share > 0 && share <= 1))
-    throw UsageError(std::string(option) + " '" + text +
-                     "': expected a share of the area, such as 99.5% or 0.995");
-  return share;
-}
-
 SurveyWish survey_of(const Typed& typed) {
   SurveyWish wish;
   wish.faces = !typed.field_tolerance.empty();
@@ -77,9 +63,20 @@ SurveyWish survey_of(const Typed& typed) {
   for (const std::string& band : typed.bands)
     wish.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
   wish.statistics = typed.statistics || !typed.bands.empty();
-  if (!typed.area.empty()) wish.area = share_of("--area", typed.area);
+  if (!typed.area.empty()) wish.area = parse_share("--area", typed.area);
   wish.area_requested = typed.area;
   return wish;
+}
+
+void check_together(const Typed& typed) {
+  const bool by_face = !typed.face_max_a.empty() || !typed.face_max_b.empty();
+  if (!typed.face_max_b.empty() && !typed.symmetric)
+    throw UsageError("--face-max-b: limits of B's faces are asked about by --symmetric alone");
+  if (by_face && typed.verify) throw UsageError("--verify: is not to be had with --face-max");
+  if (by_face && !typed.area.empty())
+    throw UsageError("--area: faces with limits of their own are asked about whole");
+  if (!typed.pictures.certificate.empty() && (by_face || !typed.area.empty()))
+    throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
 }
 
 PairJob job_of(const Typed& typed, const Words& words, const char* command) {
@@ -94,15 +91,8 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
   if (!typed.max.empty()) job.max = parse_length("--max", typed.max, PlainNumber::kRefused);
   job.face_max_a = typed.face_max_a;
   job.face_max_b = typed.face_max_b;
-  if (!typed.face_max_b.empty() && !typed.symmetric)
-    throw UsageError("--face-max-b: limits of B's faces are asked about by --symmetric alone");
-  if (typed.verify && (!typed.face_max_a.empty() || !typed.face_max_b.empty()))
-    throw UsageError("--verify: is not to be had with --face-max");
-  if (!typed.area.empty() && (!typed.face_max_a.empty() || !typed.face_max_b.empty()))
-    throw UsageError("--area: faces with limits of their own are asked about whole");
   job.proof = !typed.pictures.certificate.empty();
-  if (job.proof && (!typed.area.empty() || !typed.face_max_a.empty() || !typed.face_max_b.empty()))
-    throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
+  check_together(typed);
   job.symmetric = typed.symmetric;
   job.survey = survey_of(typed);
   job.verify = typed.verify;
