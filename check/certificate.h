@@ -29,7 +29,6 @@ struct Direction {
   };
   std::vector<Block> blocks;
   uint64_t leaves = 0, cut = 0;
-  size_t deepest = 0;
 };
 
 struct Certificate {
@@ -135,16 +134,11 @@ void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, Visito
 
 /// Counts what is there.
 struct Count {
-  Direction& of;
-  size_t depth[kDeepest + 1] = {}, parts = 0;
-
-  void face(uint64_t) { parts = 1, depth[0] = 0; }
-  void halve(size_t) {
-    depth[parts] = ++depth[parts - 1];
-    of.deepest = std::max(of.deepest, depth[parts++]);
-  }
-  void leaf(uint32_t) { ++of.leaves, --parts; }
-  void cut(uint32_t, uint32_t, const Cut&) { ++of.leaves, ++of.cut, --parts; }
+  uint64_t leaves = 0, cuts = 0;
+  void face(uint64_t) {}
+  void halve(size_t) {}
+  void leaf(uint32_t) { ++leaves; }
+  void cut(uint32_t, uint32_t, const Cut&) { ++leaves, ++cuts; }
 };
 
 inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& bytes,
@@ -162,7 +156,7 @@ inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& b
   bytes.expect(out.j <= one && out.k <= one - out.j, "a witness that is not on its face");
   bytes.expect(out.lower > 0 || (out.witness | out.e | out.j | out.k) == 0,
                "a witness where lower is 0");
-  Count count{out};
+  Count count;
   for (uint64_t done = 0; done < faces; done += out.blocks.back().faces) {
     const uint32_t in_block = bytes.word(), size = bytes.word();
     bytes.expect(in_block >= 1 && in_block <= faces - done, "a block of no, or too many, faces");
@@ -171,6 +165,8 @@ inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& b
     walk(Bytes(file, bytes.at(), bytes.at() + size), out.blocks.back(), triangles, count);
     bytes.skip(size);
   }
+  out.leaves = count.leaves;
+  out.cut = count.cuts;
   return out;
 }
 

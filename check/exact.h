@@ -2,39 +2,24 @@
 // No floating-point number is computed with here: a double's bits are taken apart, once.
 #pragma once
 
-#include <gmp.h>
+#include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <climits>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 
 namespace vkh::check {
 
-/// An integer. Its memory is kept from one use to the next.
-class Z {
- public:
-  Z() { mpz_init(z_); }
-  Z(const Z& other) { mpz_init_set(z_, other.z_); }
-  Z& operator=(const Z& other) {
-    mpz_set(z_, other.z_);
-    return *this;
-  }
-  ~Z() { mpz_clear(z_); }
-  operator mpz_ptr() { return z_; }
-  operator mpz_srcptr() const { return z_; }
+using Z = mpz_class;
 
- private:
-  mpz_t z_;
-};
-
-inline int sign(const Z& z) { return mpz_sgn(static_cast<mpz_srcptr>(z)); }
-
-using Point = std::array<Z, 3>;
-
-inline void set(Z& out, uint64_t value) { mpz_import(out, 1, -1, sizeof value, 0, 0, &value); }
+inline Z integer(uint64_t value) {
+  Z out;
+  mpz_import(out.get_mpz_t(), 1, -1, sizeof value, 0, 0, &value);
+  return out;
+}
 
 /// A finite double: mantissa * 2^exponent, and a sign.
 struct Bits {
@@ -42,7 +27,6 @@ struct Bits {
   int exponent;
   bool is_negative;
 };
-static_assert(sizeof(double) == 8 && std::numeric_limits<double>::is_iec559);
 
 inline Bits bits_of(double value) {
   const auto bits = std::bit_cast<uint64_t>(value);
@@ -58,139 +42,106 @@ inline int exponent_of(double value) {
   return bits.mantissa == 0 ? INT_MAX : bits.exponent + std::countr_zero(bits.mantissa);
 }
 
-/// out = value / 2^exponent, for an exponent of at most exponent_of(value).
-inline void set(Z& out, double value, int exponent) {
+/// value / 2^exponent, for an exponent of at most exponent_of(value).
+inline Z integer(double value, int exponent) {
   const Bits bits = bits_of(value);
-  set(out, bits.mantissa);
   const int shift = bits.exponent - exponent;
-  if (shift >= 0) mpz_mul_2exp(out, out, static_cast<mp_bitcnt_t>(shift));
-  if (shift < 0) mpz_tdiv_q_2exp(out, out, static_cast<mp_bitcnt_t>(-shift));  // only zeros go
-  if (bits.is_negative) mpz_neg(out, out);
+  Z out = integer(bits.mantissa);
+  shift >= 0 ? out <<= static_cast<unsigned>(shift) : out >>= static_cast<unsigned>(-shift);
+  return bits.is_negative ? Z(-out) : out;
 }
 
-inline void set(Point& out, const glm::dvec3& value, int exponent) {
-  set(out[0], value.x, exponent);
-  set(out[1], value.y, exponent);
-  set(out[2], value.z, exponent);
-}
+struct Point {
+  Z x, y, z;
+};
 
-/// out = a - b * 2^shift.
-inline void subtract(Point& out, const Point& a, const Point& b, unsigned shift) {
-  for (size_t i = 0; i < 3; ++i) {
-    mpz_mul_2exp(out[i], b[i], shift);
-    mpz_sub(out[i], a[i], out[i]);
-  }
+inline Point point(const glm::dvec3& value, int exponent) {
+  return {integer(value.x, exponent), integer(value.y, exponent), integer(value.z, exponent)};
 }
-
-inline void dot(Z& out, const Point& a, const Point& b) {
-  mpz_mul(out, a[0], b[0]);
-  mpz_addmul(out, a[1], b[1]);
-  mpz_addmul(out, a[2], b[2]);
+inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Point operator<<(const Point& a, unsigned shift) {
+  return {a.x << shift, a.y << shift, a.z << shift};
 }
-
-/// `out` is another point than a and b.
-inline void cross(Point& out, const Point& a, const Point& b) {
-  for (size_t i = 0; i < 3; ++i) {
-    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    mpz_mul(out[i], a[j], b[k]);
-    mpz_submul(out[i], a[k], b[j]);
-  }
+/// m a + n b, for small m and n.
+inline Point sum(unsigned m, const Point& a, unsigned n, const Point& b) {
+  return {m * a.x + n * b.x, m * a.y + n * b.y, m * a.z + n * b.z};
+}
+inline Z dot(const Point& a, const Point& b) {
+  Z out = a.x * b.x;
+  out += a.y * b.y;
+  return out += a.z * b.z;
+}
+inline Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// numerator / denominator, which is positive; not reduced.
 struct Fraction {
-  Z numerator, denominator;
-  Fraction() { mpz_set_ui(denominator, 1); }
+  Z numerator = 0, denominator = 1;
 };
-
-inline int compare(const Fraction& a, const Fraction& b) {
-  thread_local Z left, right;
-  mpz_mul(left, a.numerator, b.denominator);
-  mpz_mul(right, b.numerator, a.denominator);
-  return mpz_cmp(left, right);
+inline bool operator<(const Fraction& a, const Fraction& b) {
+  return Z(a.numerator * b.denominator) < Z(b.numerator * a.denominator);
 }
-
-inline void swap(Fraction& a, Fraction& b) {
-  mpz_swap(a.numerator, b.numerator);
-  mpz_swap(a.denominator, b.denominator);
-}
-
 /// fraction * 4^exponent.
-inline void scale(Fraction& fraction, int exponent) {
+inline Fraction scaled(Fraction fraction, int exponent) {
   Z& part = exponent >= 0 ? fraction.numerator : fraction.denominator;
-  mpz_mul_2exp(part, part, 2 * static_cast<mp_bitcnt_t>(exponent >= 0 ? exponent : -exponent));
+  part <<= 2 * static_cast<unsigned>(exponent >= 0 ? exponent : -exponent);
+  return fraction;
 }
 
 /// A triangle that many points are measured from. Corners may coincide or be collinear.
 class Triangle {
  public:
-  Point corner[3];
-
-  /// To be called when the corners are set.
-  void prepare() {
+  Triangle() = default;
+  explicit Triangle(const std::array<Point, 3>& corners) : corner(corners) {
     for (size_t i = 0; i < 3; ++i) {
-      subtract(edge_[i], corner[(i + 1) % 3], corner[i], 0);
-      dot(length_[i], edge_[i], edge_[i]);
+      edge_[i] = corner[(i + 1) % 3] - corner[i];
+      length_[i] = dot(edge_[i], edge_[i]);
     }
-    cross(normal_, edge_[0], edge_[1]);
-    dot(area_, normal_, normal_);
-    for (size_t i = 0; i < 3; ++i) cross(inward_[i], normal_, edge_[i]);
+    normal_ = cross(edge_[0], edge_[1]);
+    area_ = dot(normal_, normal_);
+    for (size_t i = 0; i < 3; ++i) inward_[i] = cross(normal_, edge_[i]);
   }
+  std::array<Point, 3> corner;
 
   /// The exact squared distance of p / 2^shift. The nearest point is the foot of p on the plane
   /// where the foot is inside the triangle; otherwise it is on an edge. Without a plane it is on
   /// one, too.
-  void measure(Fraction& out, const Point& p, unsigned shift) {
-    for (size_t i = 0; i < 3; ++i) subtract(from_[i], p, corner[i], shift);
-    if (is_inside()) {
-      dot(out.numerator, from_[0], normal_);  // the height times |normal|
-      mpz_mul(out.numerator, out.numerator, out.numerator);
-      mpz_set(out.denominator, area_);
-    } else {
-      for (size_t i = 0; i < 3; ++i) dot(square_[i], from_[i], from_[i]);
-      measure_edge(out, 0, shift);
-      for (size_t i = 1; i < 3; ++i) {
-        measure_edge(other_, i, shift);
-        if (compare(other_, out) < 0) swap(out, other_);
-      }
+  Fraction squared_distance(const Point& p, unsigned shift) const {
+    std::array<Point, 3> from;
+    for (size_t i = 0; i < 3; ++i) from[i] = p - (corner[i] << shift);
+    if (is_inside(from)) {
+      const Z height = dot(from[0], normal_);  // times |normal|
+      return {height * height, area_ << 2 * shift};
     }
-    mpz_mul_2exp(out.denominator, out.denominator, 2 * shift);
+    Fraction best = from_edge(from, 0, shift);
+    for (size_t i = 1; i < 3; ++i) best = std::min(best, from_edge(from, i, shift));
+    best.denominator <<= 2 * shift;
+    return best;
   }
 
  private:
   /// Whether the foot is on the triangle's side of each edge: inward_[i] is in the plane, is
   /// perpendicular to edge i and points to that side.
-  bool is_inside() {
-    if (sign(area_) == 0) return false;
-    for (size_t i = 0; i < 3; ++i) {
-      dot(side_, from_[i], inward_[i]);
-      if (sign(side_) < 0) return false;
-    }
-    return true;
+  bool is_inside(const std::array<Point, 3>& from) const {
+    return area_ > 0 && dot(from[0], inward_[0]) >= 0 && dot(from[1], inward_[1]) >= 0 &&
+           dot(from[2], inward_[2]) >= 0;
   }
 
   /// From edge i: from its start, its end, or the point of it between them that is nearest, where
   /// Pythagoras says |from|^2 - (from . edge)^2 / |edge|^2. An edge of length 0 is its start.
-  void measure_edge(Fraction& out, size_t i, unsigned shift) {
-    dot(along_, from_[i], edge_[i]);
-    mpz_mul_2exp(end_, length_[i], shift);
-    mpz_set_ui(out.denominator, 1);
-    if (sign(along_) <= 0) {
-      mpz_set(out.numerator, square_[i]);
-    } else if (mpz_cmp(along_, end_) >= 0) {
-      mpz_set(out.numerator, square_[(i + 1) % 3]);
-    } else {
-      mpz_mul(out.numerator, square_[i], length_[i]);
-      mpz_submul(out.numerator, along_, along_);
-      mpz_set(out.denominator, length_[i]);
-    }
+  Fraction from_edge(const std::array<Point, 3>& from, size_t i, unsigned shift) const {
+    const Point& end = from[(i + 1) % 3];
+    const Z along = dot(from[i], edge_[i]);
+    if (along <= 0) return {dot(from[i], from[i]), 1};
+    if (along >= Z(length_[i] << shift)) return {dot(end, end), 1};
+    return {dot(from[i], from[i]) * length_[i] - along * along, length_[i]};
   }
 
-  Point edge_[3], normal_, inward_[3];  ///< edge i from corner i
-  Z length_[3], area_;                  ///< squares: of the edges, of the normal
-  Point from_[3];                       ///< p minus the corners
-  Z square_[3], side_, along_, end_;
-  Fraction other_;
+  std::array<Point, 3> edge_, inward_;  ///< edge i from corner i
+  Point normal_;
+  std::array<Z, 3> length_;  ///< squares
+  Z area_;                   ///< the normal's
 };
 
 }  // namespace vkh::check

@@ -27,119 +27,95 @@ struct Question {
   std::function<void()> face_done;  ///< called by all threads
 };
 
-inline void set(Point (&out)[3], const Mesh& mesh, uint64_t face, int unit) {
-  for (int i = 0; i < 3; ++i) set(out[i], mesh.vertices[mesh.faces[face][i]], unit);
+inline std::array<Point, 3> corners(const Mesh& mesh, uint64_t face, int unit) {
+  const glm::uvec3 f = mesh.faces[face];
+  return {point(mesh.vertices[f.x], unit), point(mesh.vertices[f.y], unit),
+          point(mesh.vertices[f.z], unit)};
 }
 
 /// A part of a face. Its corners are multiplied by 2^depth, so that they stay integers.
 struct Part {
-  Point corner[3];
+  std::array<Point, 3> corner;
   unsigned depth;
 };
 
 /// Measures the leaves of blocks, one block after the other.
 class Leaves {
  public:
-  Leaves(const Question& question, const Fraction& limit)
-      : q_(question), limit_(limit), parts_(kDeepest + 1) {}
+  Leaves(const Question& question, const Fraction& limit) : q_(question), limit_(limit) {}
 
   Fraction largest;
 
   void face(uint64_t face) {
     q_.face_done();
-    face_ = face, leaf_ = 0, count_ = 1;
-    parts_[0].depth = 0;
-    set(parts_[0].corner, q_.x, face, q_.unit);
+    face_ = face, leaf_ = 0;
+    parts_ = {{corners(q_.x, face, q_.unit), 0}};
   }
 
   /// With m, the middle of j and k: first the part of i, j, m and then that of i, m, k.
   void halve(size_t i) {
-    Part &second = parts_[count_ - 1], &first = parts_[count_];
+    const Part whole = std::move(parts_.back());
     const size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    first.depth = ++second.depth;
-    for (size_t x = 0; x < 3; ++x) {
-      mpz_add(first.corner[k][x], second.corner[j][x], second.corner[k][x]);
-      mpz_mul_2exp(first.corner[i][x], second.corner[i][x], 1);
-      mpz_mul_2exp(first.corner[j][x], second.corner[j][x], 1);
-      mpz_set(second.corner[i][x], first.corner[i][x]);
-      mpz_set(second.corner[j][x], first.corner[k][x]);
-      mpz_mul_2exp(second.corner[k][x], second.corner[k][x], 1);
-    }
-    ++count_;
+    Part second{{}, whole.depth + 1};
+    for (size_t c = 0; c < 3; ++c) second.corner[c] = whole.corner[c] << 1;
+    Part first = second;
+    first.corner[k] = second.corner[j] = sum(1, whole.corner[j], 1, whole.corner[k]);
+    parts_.back() = std::move(second);
+    parts_.push_back(std::move(first));
   }
 
   void leaf(uint32_t s) {
-    const Part& part = parts_[--count_];
-    for (const Point& corner : part.corner) check(corner, part.depth, s);
-    ++leaf_;
+    for (const Point& corner : parts_.back().corner) check(corner, parts_.back().depth, s);
+    done();
   }
 
   /// p and q are multiplied by 256 more.
   void cut(uint32_t s, uint32_t r, const Cut& cut) {
-    const Part& part = parts_[--count_];
-    const Point &o = part.corner[cut.o], &j = part.corner[(cut.o + 1) % 3],
-                &k = part.corner[(cut.o + 2) % 3];
-    for (size_t x = 0; x < 3; ++x) {
-      mpz_mul_ui(b_[x], o[x], 256 - cut.s);
-      mpz_addmul_ui(b_[x], j[x], cut.s);
-      mpz_mul_ui(c_[x], o[x], 256 - cut.t);
-      mpz_addmul_ui(c_[x], k[x], cut.t);
+    const auto& [corner, depth] = parts_.back();
+    const Point &o = corner[cut.o], &j = corner[(cut.o + 1) % 3], &k = corner[(cut.o + 2) % 3];
+    const Point p = sum(256 - cut.s, o, cut.s, j), q = sum(256 - cut.t, o, cut.t, k);
+    check(o, depth, s);
+    for (const uint32_t each : {s, r}) {
+      check(p, depth + 8, each);
+      check(q, depth + 8, each);
     }
-    check(o, part.depth, s);
-    for (const Point* point : {&b_, &c_}) check(*point, part.depth + 8, s);
-    for (const Point* point : {&b_, &c_}) check(*point, part.depth + 8, r);
-    check(j, part.depth, r);
-    check(k, part.depth, r);
-    ++leaf_;
+    check(j, depth, r);
+    check(k, depth, r);
+    done();
   }
 
  private:
   void check(const Point& point, unsigned depth, uint32_t number) {
-    if (number != number_) {
-      set(triangle_.corner, q_.y, number, q_.unit);
-      triangle_.prepare();
-      number_ = number;
-    }
-    triangle_.measure(square_, point, depth);
-    if (compare(square_, largest) <= 0) return;
-    if (compare(square_, limit_) > 0)
+    if (number != number_) triangle_ = Triangle(corners(q_.y, number, q_.unit));
+    number_ = number;
+    Fraction square = triangle_.squared_distance(point, depth);
+    if (!(largest < square)) return;
+    if (limit_ < square)
       throw Refused("face " + std::to_string(face_) + ", leaf " + std::to_string(leaf_) +
                     ": farther than upper from triangle " + std::to_string(number));
-    swap(largest, square_);
+    largest = std::move(square);
+  }
+
+  void done() {
+    parts_.pop_back();
+    ++leaf_;
   }
 
   const Question& q_;
   const Fraction& limit_;
-  std::vector<Part> parts_;  ///< the first count_ of them, the one that is spoken of last
+  std::vector<Part> parts_;  ///< the last is the one that is spoken of
   uint64_t face_ = 0, leaf_ = 0, number_ = UINT64_MAX;
-  size_t count_ = 0;
-  Point b_, c_;
-  Triangle triangle_;  ///< with this number, ready
-  Fraction square_;
+  Triangle triangle_;  ///< with this number
 };
 
-/// Whether the triangle's box is so far from point / 2^shift that their distance, squared and times
-/// 4^shift, is at least `reach`: then the triangle is, too.
-inline bool is_box_as_far(const Triangle& triangle, const Point& point, unsigned shift,
-                          const Z& reach) {
-  thread_local Z sum, gap;
-  mpz_set_ui(sum, 0);
-  for (size_t x = 0; x < 3; ++x) {
-    mpz_srcptr least = triangle.corner[0][x], most = least;
-    for (size_t i = 1; i < 3; ++i) {
-      mpz_srcptr value = triangle.corner[i][x];
-      if (mpz_cmp(value, least) < 0) least = value;
-      if (mpz_cmp(value, most) > 0) most = value;
-    }
-    mpz_mul_2exp(gap, least, shift);
-    mpz_sub(gap, gap, point[x]);
-    if (sign(gap) < 0) {
-      mpz_mul_2exp(gap, most, shift);
-      mpz_sub(gap, point[x], gap);
-    }
-    if (sign(gap) > 0) mpz_addmul(sum, gap, gap);
+/// Whether the triangle is beyond a plane across an axis that is `reach` away from the point: then
+/// all of it is so far away.
+inline bool is_beyond(const std::array<Point, 3>& triangle, const Point& point, const Z& reach) {
+  for (const auto axis : {&Point::x, &Point::y, &Point::z}) {
+    const auto [low, high] = std::minmax({triangle[0].*axis, triangle[1].*axis, triangle[2].*axis});
+    if (low - point.*axis >= reach || point.*axis - high >= reach) return true;
   }
-  return mpz_cmp(sum, reach) >= 0;
+  return false;
 }
 
 /// The largest e such that all coordinates of both are integers times 2^e.
@@ -152,76 +128,56 @@ inline int common_exponent(const Mesh& a, const Mesh& b) {
   return out == INT_MAX ? 0 : out;
 }
 
-/// claim + sign * (delta of A + delta of B), which has to be at least 0, squared, in 4^unit.
+/// claim + side * (delta of A + delta of B), which has to be at least 0, squared, in 4^unit.
 inline Fraction squared_claim(double claim, int side, const std::array<double, 2>& delta,
                               int unit) {
   const int e = std::min({exponent_of(claim), exponent_of(delta[0]), exponent_of(delta[1]), 0});
-  Fraction out;
-  Z part;
-  set(out.numerator, claim, e);
-  for (const double d : delta) {
-    set(part, d, e);
-    side > 0 ? mpz_add(out.numerator, out.numerator, part)
-             : mpz_sub(out.numerator, out.numerator, part);
-  }
-  if (sign(out.numerator) < 0) throw Refused("upper is less than both deltas");
-  mpz_mul(out.numerator, out.numerator, out.numerator);
-  scale(out, e - unit);
-  return out;
+  const Z sum = integer(claim, e) + side * (integer(delta[0], e) + integer(delta[1], e));
+  if (sum < 0) throw Refused("upper is less than both deltas");
+  return scaled({sum * sum, 1}, e - unit);
 }
 
 /// Throws Refused where a corner of a leaf is farther from its triangle than `limit`. Returns the
 /// largest of their distances; both are squares, in 4^unit.
 inline Fraction largest_of_leaves(const Question& question, const Fraction& limit) {
   const std::vector<Direction::Block>& blocks = question.claim.blocks;
-  std::atomic<size_t> next = 0, refused_at = SIZE_MAX;
+  std::atomic<size_t> next = 0;
   std::mutex one_at_a_time;
-  std::string why;
   Fraction largest;
-  for_each_index(
-      question.threads,
-      [&](size_t) {
-        Leaves leaves(question, limit);
-        for (size_t i = next++; i < blocks.size() && i < refused_at; i = next++) {
-          try {
-            walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i],
-                 question.y.faces.size(), leaves);
-          } catch (const Refused& refused) {  // the first block's word is the answer
-            const std::lock_guard lock(one_at_a_time);
-            if (i < refused_at) refused_at = i, why = refused.what();
-          }
-        }
-        const std::lock_guard lock(one_at_a_time);
-        if (compare(leaves.largest, largest) > 0) swap(leaves.largest, largest);
-      },
-      question.threads);
-  if (refused_at != SIZE_MAX) throw Refused(why);
+  const auto some_blocks = [&](size_t) {
+    Leaves leaves(question, limit);
+    for (size_t i = next++; i < blocks.size(); i = next++)
+      walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i], question.y.faces.size(),
+           leaves);
+    const std::lock_guard lock(one_at_a_time);
+    largest = std::max(largest, leaves.largest);
+  };
+  for_each_index(question.threads, some_blocks, question.threads);
   return largest;
 }
 
 /// The witness's distance from Y, likewise, and which triangle is nearest.
 inline Fraction distance_of_witness(const Question& question, uint64_t& nearest) {
   const Direction& claim = question.claim;
-  const uint64_t weights[] = {(uint64_t{1} << claim.e) - claim.j - claim.k, claim.j, claim.k};
-  Triangle triangle;
-  set(triangle.corner, question.x, claim.witness, question.unit);
-  Point witness;  // times 2^e
-  Z weight, reach;
-  for (size_t i = 0; i < 3; ++i) {
-    set(weight, weights[i]);
-    for (size_t x = 0; x < 3; ++x) mpz_addmul(witness[x], triangle.corner[i][x], weight);
-  }
-  Fraction least, square;
+  const std::array<Point, 3> face = corners(question.x, claim.witness, question.unit);
+  const Z i = integer((uint64_t{1} << claim.e) - claim.j - claim.k), j = integer(claim.j),
+          k = integer(claim.k);
+  const auto weighted = [&](Z Point::*axis) {
+    return Z(i * face[0].*axis + j * face[1].*axis + k * face[2].*axis);
+  };
+  const Point witness{weighted(&Point::x), weighted(&Point::y), weighted(&Point::z)};  // times 2^e
+  // Rounded, and up: a triangle that is not measured must be as far as one that was.
+  const Point about{witness.x >> claim.e, witness.y >> claim.e, witness.z >> claim.e};
+  Fraction least;
+  Z reach;
   for (uint64_t f = 0; f < question.y.faces.size(); ++f) {
-    set(triangle.corner, question.y, f, question.unit);
-    if (f > 0 && is_box_as_far(triangle, witness, claim.e, reach)) continue;
-    triangle.prepare();
-    triangle.measure(square, witness, claim.e);
-    if (f > 0 && compare(square, least) >= 0) continue;
-    swap(square, least);
+    const std::array<Point, 3> triangle = corners(question.y, f, question.unit);
+    if (f > 0 && is_beyond(triangle, about, reach)) continue;
+    Fraction square = Triangle(triangle).squared_distance(witness, claim.e);
+    if (f > 0 && !(square < least)) continue;
+    least = std::move(square);
     nearest = f;
-    mpz_mul_2exp(reach, least.numerator, 2 * claim.e);
-    mpz_cdiv_q(reach, reach, least.denominator);
+    reach = sqrt(Z(least.numerator / least.denominator)) + 2;
   }
   return least;
 }

@@ -8,11 +8,11 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include "check/proof.h"
 #include "host/base/decimal.h"
 #include "host/read/mesh_io.h"
+#include "host/source/corners_hash.h"
 #include "host/system/input_file.h"
 #include "host/system/sha256.h"
 #include "host/system/system.h"
@@ -38,24 +38,6 @@ std::vector<unsigned char> read_file(const std::string& name) {
   return out;
 }
 
-/// SHA-256 of nine doubles a face, little-endian.
-std::string hash_of_corners(const Mesh& mesh) {
-  std::vector<char> piece;
-  size_t face = 0;
-  return sha256_of_pieces([&] {
-    piece.clear();
-    for (; face < mesh.faces.size() && piece.size() < size_t{1} << 20; ++face) {
-      for (int i = 0; i < 9; ++i) {
-        const double value = mesh.vertices[mesh.faces[face][i / 3]][i % 3];
-        const auto bits = value == 0 ? 0 : std::bit_cast<uint64_t>(value);
-        for (int byte = 0; byte < 8; ++byte)
-          piece.push_back(static_cast<char>(bits >> (8 * byte) & 255));
-      }
-    }
-    return std::string_view(piece.data(), piece.size());
-  });
-}
-
 /// The mesh, if it is that which the certificate is of.
 Mesh read(const Certificate& certificate, size_t which, const std::string& name) {
   Mesh mesh = read_mesh(path_of(name));
@@ -66,73 +48,47 @@ Mesh read(const Certificate& certificate, size_t which, const std::string& name)
   expect(mesh.faces.size() == certificate.faces[which], ": has another number of faces");
   expect(file.empty() || sha256_of(path_of(name), [] { return true; }) == file,
          ": is another file (SHA-256)");
-  expect(hash_of_corners(mesh) == certificate.corners[which], ": has other corners (SHA-256)");
+  expect(sha256_of_corners(mesh) == certificate.corners[which], ": has other corners (SHA-256)");
   expect(mesh.delta <= certificate.delta[which], ": is read less exactly than delta says");
   return mesh;
 }
 
-/// How far it is: on a terminal four times a second, elsewhere every ten seconds.
+/// How far it is, every ten seconds.
 class Progress {
  public:
   Progress(uint64_t faces, bool is_quiet) : faces_(faces), is_quiet_(is_quiet) {}
   void face_done() {
     const uint64_t done = ++done_;
-    if (is_quiet_ || done % 64 != 0) return;
-    const int64_t now = (Clock::now() - start_) / std::chrono::milliseconds(1);
-    int64_t due = due_;
-    if (now < due || !due_.compare_exchange_strong(due, now + (is_terminal_ ? 250 : 10000))) return;
-    std::fprintf(stderr, is_terminal_ ? "\r%.1f %%" : "%.1f %%\n",
+    const int64_t now = (Clock::now() - start_) / std::chrono::seconds(10);
+    int64_t told = told_;
+    if (is_quiet_ || now <= told || !told_.compare_exchange_strong(told, now)) return;
+    std::fprintf(stderr, "%.1f %%\n",
                  100 * static_cast<double>(done) / static_cast<double>(faces_));
-  }
-  ~Progress() {
-    if (is_terminal_ && !is_quiet_) std::fputs("\r       \r", stderr);
   }
 
  private:
   const uint64_t faces_;
-  const bool is_quiet_, is_terminal_ = is_error_terminal();
+  const bool is_quiet_;
   const Clock::time_point start_ = Clock::now();
   std::atomic<uint64_t> done_ = 0;
-  std::atomic<int64_t> due_ = is_terminal_ ? 0 : 10000;
+  std::atomic<int64_t> told_ = 0;
 };
-
-std::string text_of(const Z& z) {
-  std::string out(mpz_sizeinbase(z, 10) + 2, '\0');
-  mpz_get_str(out.data(), 10, z);
-  out.resize(std::strlen(out.data()));
-  return out;
-}
-
-/// "N/D" in lowest terms.
-std::string text_of(const Fraction& fraction) {
-  Fraction lowest = fraction;
-  Z common;
-  mpz_gcd(common, fraction.numerator, fraction.denominator);
-  mpz_divexact(lowest.numerator, fraction.numerator, common);
-  mpz_divexact(lowest.denominator, fraction.denominator, common);
-  return text_of(lowest.numerator) + "/" + text_of(lowest.denominator);
-}
-
-/// The square of a claim and the deltas, their doubles in hexadecimal.
-std::string text_of(double claim, const char* sign, const std::array<double, 2>& delta) {
-  std::string out = "(" + hex_float(claim);
-  for (const double d : delta) out += d > 0 ? sign + hex_float(d) : "";
-  return out + ")^2";
-}
 
 /// The square root as a decimal of some twenty digits, rounded up or down.
 std::string root(Fraction square, bool is_up) {
-  if (sign(square.numerator) == 0) return "0";
-  const auto bits = [](const Z& z) { return static_cast<int64_t>(mpz_sizeinbase(z, 2)); };
+  if (square.numerator == 0) return "0";
+  const auto bits = [](const Z& z) {
+    return static_cast<int64_t>(mpz_sizeinbase(z.get_mpz_t(), 2));
+  };
   const int64_t places = 20 - (bits(square.numerator) - bits(square.denominator)) * 3 / 20;
-  Z root, rest;
-  mpz_ui_pow_ui(root, 100, static_cast<unsigned long>(std::abs(places)));
-  Z& part = places > 0 ? square.numerator : square.denominator;
-  mpz_mul(part, part, root);
-  (is_up ? mpz_cdiv_q : mpz_fdiv_q)(square.numerator, square.numerator, square.denominator);
-  mpz_sqrtrem(root, rest, square.numerator);
-  if (is_up && sign(rest) != 0) mpz_add_ui(root, root, 1);
-  std::string digits = text_of(root);
+  Z power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 100, static_cast<unsigned long>(std::abs(places)));
+  (places > 0 ? square.numerator : square.denominator) *= power;
+  const Z whole = square.numerator / square.denominator;
+  Z digits_root = sqrt(whole);
+  const bool is_exact = digits_root * digits_root * square.denominator == square.numerator;
+  if (is_up && !is_exact) ++digits_root;
+  std::string digits = digits_root.get_str();
   const int64_t exponent = static_cast<int64_t>(digits.size()) - 1 - places;
   digits.erase(digits.find_last_not_of('0') + 1);
   return digits.insert(1, digits.size() > 1 ? "." : "") + "e" + std::to_string(exponent);
@@ -145,24 +101,19 @@ std::array<std::string, 2> check_direction(const Question& question,
   const Direction& claim = question.claim;
   const Fraction most = squared_claim(claim.upper, -1, delta, question.unit);
   const Fraction least = squared_claim(claim.lower, 1, delta, question.unit);
-  Fraction upper = largest_of_leaves(question, most), lower;
+  const Fraction upper = largest_of_leaves(question, most);
+  Fraction lower;
   if (claim.lower > 0) {
     uint64_t nearest = 0;
     lower = distance_of_witness(question, nearest);
-    if (compare(lower, least) < 0)
+    if (lower < least)
       throw Refused("the witness is nearer than lower to triangle " + std::to_string(nearest));
   }
-  const std::string unit = " 4^" + std::to_string(question.unit);
-  std::string how = "  exactly: ";
-  if (claim.lower > 0)
-    how += text_of(claim.lower, " + ", delta) + " <= " + text_of(lower) + unit + " (witness); ";
-  how += text_of(upper) + unit + " (leaves) <= " + text_of(claim.upper, " - ", delta) + "\n";
-  for (Fraction* fraction : {&lower, &upper}) scale(*fraction, question.unit);
-  how = "  at best, of the corners as given: " + root(lower, false) + " <= " + name +
-        " <= " + root(upper, true) + "\n" + how;
+  std::string how =
+      "  at best, of the corners as given: " + root(scaled(lower, question.unit), false) +
+      " <= " + name + " <= " + root(scaled(upper, question.unit), true) + "\n";
   how += "  " + std::to_string(question.x.faces.size()) + " faces, " +
-         std::to_string(claim.leaves) + " leaves, " + std::to_string(claim.cut) +
-         " of them cut, halved up to " + std::to_string(claim.deepest) + " times\n";
+         std::to_string(claim.leaves) + " leaves, " + std::to_string(claim.cut) + " of them cut\n";
   return {"proven: " + decimal(claim.lower, kJsonDigits, Rounding::kDown) + " <= " + name +
               " <= " + decimal(claim.upper, kJsonDigits, Rounding::kUp) + "\n",
           how};

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "host/base/error.h"
-#include "host/system/sha256.h"
+#include "host/source/corners_hash.h"
 
 namespace vkh {
 namespace {
@@ -30,20 +30,7 @@ class Bytes {
 };
 
 std::string corners_digest(const Mesh& mesh) {
-  constexpr size_t kFaces = 4096;
-  size_t next = 0;
-  Bytes piece;
-  std::string digits = sha256_of_pieces([&]() -> std::string_view {
-    piece.text.clear();
-    for (const size_t end = std::min(mesh.faces.size(), next + kFaces); next < end; ++next) {
-      const glm::uvec3& f = mesh.faces[next];
-      for (const uint32_t corner : {f.x, f.y, f.z}) {
-        const glm::dvec3& v = mesh.vertices[corner];
-        for (int axis = 0; axis < 3; ++axis) piece.number(v[axis]);
-      }
-    }
-    return piece.text;
-  });
+  std::string digits = sha256_of_corners(mesh);
   if (digits.empty()) throw OutputError("--certificate: this build cannot make SHA-256 hashes");
   return digits;
 }

@@ -124,7 +124,6 @@ void main() {
     item.distance = max(found.above, 0.0);
     // In plain floats it steers; the second pass measures what matters.
     if (plain) item.distance = root(found.distance2);  // uncertified: steers
-    if (found.triangle == kNone) item.distance = 0.0;  // it says nothing of the lower bound
   }
   if (are_points(asks)) {
     if (item.exists) answer_point(i, item.nearest, item.distance);

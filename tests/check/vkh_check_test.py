@@ -125,7 +125,6 @@ class Check(unittest.TestCase):
             return self.certificate(HIGH, FLAT, [direction(lower, upper, [block(leaf())], (0, 1, 1, 0) if lower else (0, 0, 0, 0))])
         out = self.expect(PROVEN, of(.25, .25), "proven: 0.25 <= h(A,B) <= 0.25\n")
         self.assertIn("at best, of the corners as given: 2.5e-1 <= h(A,B) <= 2.5e-1\n", out)
-        self.assertIn("  exactly: (0x1p-2)^2 <= 1/1 4^-2 (witness); 1/1 4^-2 (leaves) <= (0x1p-2)^2\n", out)
         self.expect(PROVEN, of(.125, .5), "proven: 0.125 <= h(A,B) <= 0.5\n", "--threads", "1")
         self.expect(PROVEN, of(0, .5), "2.5e-1")
         self.expect(REFUSED, of(.125, below(.25)), "refused: h(A,B): face 0, leaf 0: farther than upper from triangle 0")
@@ -182,14 +181,13 @@ class Check(unittest.TestCase):
             return self.certificate(a, b, [direction(1, 1, [block(*faces)], (0, 1, 1, 0))])
         # Opposite corner 2: j = 0, k = 1; the first half keeps corner 0 and has m for corner 1.
         out = self.expect(PROVEN, of(halved(2, leaf(0), leaf(1))), "2 leaves")
-        self.assertIn("halved up to 1 times", out)
         self.expect(REFUSED, of(halved(2, leaf(1), leaf(-1))), "face 0, leaf 0: farther")
         self.expect(REFUSED, of(halved(2, leaf(0), leaf(0))), "face 0, leaf 1: farther than upper from triangle 0")
         self.expect(REFUSED, of(leaf(0)), "farther")
         deep = leaf(0)
         for _ in range(99):
             deep = halved(0, deep, leaf(0))
-        self.expect(PROVEN, of(halved(2, deep, leaf(1))), "halved up to 100 times")
+        self.expect(PROVEN, of(halved(2, deep, leaf(1))))
         self.expect(BROKEN, of(halved(2, halved(1, deep, leaf(0)), leaf(1))), "halved more than 100 times")
 
     def test_each_corner_to_halve_at(self):
@@ -257,7 +255,7 @@ class Check(unittest.TestCase):
     def test_delta(self):
         def of(lower, upper, delta):
             return self.certificate(HIGH, FLAT, [direction(lower, upper, [block(leaf())], (0, 0, 0, 0))], delta)
-        self.expect(PROVEN, of(.0625, .4375, (.125, .0625)), "(0x1.cp-2 - 0x1p-3 - 0x1p-4)^2")
+        self.expect(PROVEN, of(.0625, .4375, (.125, .0625)))
         self.expect(REFUSED, of(.0625, below(.4375), (.125, .0625)), "farther than upper")
         self.expect(REFUSED, of(above(.0625), .4375, (.125, .0625)), "nearer than lower")
         self.expect(REFUSED, of(0.1, .125, (.125, .0625)), "upper is less than both deltas")

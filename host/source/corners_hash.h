@@ -1,0 +1,13 @@
+// The SHA-256 of a mesh's faces as positions, by which a certificate names what it is of.
+#pragma once
+
+#include <string>
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+/// Of nine doubles a face, little-endian, -0 as 0: 64 hexadecimal digits. Empty: no library.
+std::string sha256_of_corners(const Mesh& mesh);
+
+}  // namespace vkh
