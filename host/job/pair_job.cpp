@@ -254,7 +254,7 @@ void prove_all(Progressing& at, const MeshPair& pair, Solver& solver, const Solv
     } catch (const MemoryError&) {
       answer.notes.push_back("the device had no memory for a certificate");
     }
-    if (proof && proof->unproven > 0)
+    if (proof && proof->upper > report.upper)
       answer.notes.push_back("the certificate proves less: " + from.name + " is within " +
                              shortest_decimal(proof->upper));
     return proof;

@@ -109,6 +109,10 @@ class Prover {
   static constexpr size_t kPartsATurn = 256;  // of a thread
   static constexpr uint8_t kSmall = 8;        // halvings
   static constexpr double kMore = 256 * 0x1p-52;
+  // Where an edge of B crosses a face in its plane, no part of it is proven to 0: so many parts
+  // that are so small may take more and more.
+  static constexpr uint8_t kVerySmall = 24;
+  static constexpr size_t kManySmall = size_t{1} << 12;
 
   // A length of the files in the scaled meshes, less what these are off: rounded down.
   double target(double upper) const {
@@ -127,6 +131,7 @@ class Prover {
     std::vector<Open> open(count);
     for (size_t i = 0; i < count; ++i) open[i] = whole(static_cast<uint32_t>(first + i), i);
     double raised = 0;
+    more_ = kMore;
     while (!open.empty()) {
       std::vector<Open> halves;
       for (size_t begin = 0; begin < open.size(); begin += kPartsAtOnce) {
@@ -137,6 +142,7 @@ class Prover {
         raised = std::max(raised, gives_up ? give_up(some, tree) : advance(some, tree, halves));
       }
       open = std::move(halves);
+      if (open.size() > kManySmall && open.front().depth >= kVerySmall) more_ *= 4;
     }
     result_.blocks += tree.written();
     return raised;
@@ -179,7 +185,7 @@ class Prover {
       for (size_t i = turn * kPartsATurn; i < end; ++i) {
         found[i] = proof_of(some[i].part, b_, some[i].hints, upper_);
         if (found[i] || some[i].depth < kSmall) continue;
-        found[i] = proof_of(some[i].part, b_, some[i].hints, upper_ + kMore);
+        found[i] = proof_of(some[i].part, b_, some[i].hints, upper_ + more_);
         if (found[i]) took_more = true;
       }
     });
@@ -188,7 +194,7 @@ class Prover {
       if (found[i]) add(some[i].node, *found[i], tree);
     }
     std::erase_if(some, [](const Open& one) { return one.is_proven; });
-    return took_more ? upper_ + kMore : 0;
+    return took_more ? upper_ + more_ : 0;
   }
 
   void add(uint32_t node, const Leaf& leaf, ProofTree& tree) {
@@ -276,6 +282,7 @@ class Prover {
   ScaledMesh a_, b_;
   double upper_;                // of the scaled meshes
   std::vector<uint32_t> same_;  // where that is 0: of each face, one of B
+  double more_ = kMore;
   size_t batch_;
   bool ended_ = false;
 };
