@@ -3,10 +3,12 @@
 
 usage: vkh_check.py CERTIFICATE A B
 A and B: OBJ, OFF or STL, by the file's ending. They are read as given, so that any delta is good enough.
-Exit codes: 0 proven, 1 refused, 2 usage, 4 broken. Arithmetic is of integers and fractions: only what is printed is rounded.
+Exit codes: 0 proven, 1 refused, 2 usage, 4 broken. Arithmetic is of integers and fractions; what is printed is rounded outwards.
 """
+import decimal
 import hashlib
 import math
+import pathlib
 import struct
 import sys
 from fractions import Fraction
@@ -27,16 +29,15 @@ def read_obj(data):
         if words[:1] == ["v"]:
             points.append(tuple(map(float, words[1:4])))
         elif words[:1] == ["f"]:
-            numbers = [int(word.split("/")[0]) for word in words[1:]]
-            polygons.append([n - 1 if n >= 0 else n + len(points) for n in numbers])
+            polygons.append([n - 1 if n >= 0 else n + len(points) for n in (int(word.split("/")[0]) for word in words[1:])])
     return fanned(points, polygons)
 
 
 def read_off(data):
-    rows = [words for words in (line.split("#")[0].split() for line in data.decode("ascii", "replace").split("\n")) if words]
+    rows = list(filter(None, (line.split("#")[0].split() for line in data.decode("ascii", "replace").split("\n"))))
     if rows[0].pop(0) != "OFF":
         raise ValueError("not an OFF file of plain vertices")
-    rows = rows if rows[0] else rows[1:]
+    rows = list(filter(None, rows))
     vertices, faces = int(rows[0][0]), int(rows[0][1])
     polygons = [list(map(int, rows[1 + vertices + i])) for i in range(faces)]
     return fanned([tuple(map(float, row[:3])) for row in rows[1:1 + vertices]], [row[1:1 + row[0]] for row in polygons])
@@ -44,8 +45,7 @@ def read_off(data):
 
 def read_stl(data):
     if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
-        faces = (struct.unpack_from("<9f", data, at + 12) for at in range(84, len(data), 50))
-        return [(f[0:3], f[3:6], f[6:9]) for f in faces]
+        return [(f[0:3], f[3:6], f[6:9]) for f in struct.iter_unpack("<12x9f2x", data[84:])]
     words = data.decode("ascii", "replace").split()
     points = [tuple(map(float, words[i + 1:i + 4])) for i, word in enumerate(words) if word == "vertex"]
     return fanned(points, [(i, i + 1, i + 2) for i in range(0, len(points), 3)])
@@ -53,8 +53,7 @@ def read_stl(data):
 
 def read_mesh(path):
     try:
-        with open(path, "rb") as file:
-            data = file.read()
+        data = pathlib.Path(path).read_bytes()
         faces = {"obj": read_obj, "off": read_off, "stl": read_stl}[path.rsplit(".", 1)[-1].lower()](data)
         corners = [Fraction(p[i]) for face in faces for p in face for i in range(3)]  # raises where it is NaN or infinity
     except Exception as error:
@@ -91,12 +90,14 @@ def from_triangle(p, triangle):
     return min(from_segment(p, u, v) for u, v in edges)  # without a normal these are all of it
 
 
-def root(square, plus, up):
-    """The root of a square, and a number, as a double: not less where up, else not more."""
-    unit = 1 << 1300  # more than enough for what is not less than the least double
-    value = max(Fraction(math.isqrt(square * unit * unit // 1) + up, unit) + plus, Fraction(0))
-    near = float(min(value, Fraction(sys.float_info.max)))
-    return near if (near >= value if up else near <= value) else math.nextafter(near, math.inf if up else 0)
+def digits(value, up):
+    """A fraction as a decimal: not less than it where up, else not more."""
+    context = decimal.Context(18, decimal.ROUND_CEILING if up else decimal.ROUND_FLOOR)
+    return context.divide(decimal.Decimal(value.numerator), decimal.Decimal(value.denominator))
+
+
+def root(square, up):
+    return Fraction(math.isqrt(square * 4 ** 1300 // 1) + up, 2 ** 1300)
 
 
 class Certificate:
@@ -108,8 +109,7 @@ class Certificate:
                   and all(0 <= d < math.inf and math.copysign(1, d) == 1 for d in deltas), "the header")
         self.delta = sum(map(Fraction, deltas))
         for (faces, _, of_file, of_corners), count, file_hash, corner_hash in zip(meshes, self.faces, hashes, hashes[2:]):
-            self.hold(len(faces) == count and corner_hash == of_corners, "it is of another mesh")
-            self.hold(file_hash in (bytes(32), of_file), "it is of another file")
+            self.hold(len(faces) == count and corner_hash == of_corners and file_hash in (bytes(32), of_file), "it is of another mesh")
         self.scale = max(denominator for _, denominator, _, _ in meshes) << DEEPEST + 8  # all points become integers
         self.scaled = [[[tuple(int(Fraction(x) * self.scale) for x in p) for p in face] for face in mesh[0]] for mesh in meshes]
         for x in range(directions):
@@ -143,14 +143,15 @@ class Certificate:
                 self.part([(0, 0, 0)] * 3 if self.refusal else self.scaled[x][i], 0, y)
             self.need(self.at == end, "a block's length")
             done += count
-        nearest = Fraction(0)
+        self.nearest = Fraction(0)
         if lower > 0 and not self.refusal:
             witness = [((1 << e) - j - k) * a + j * b + k * c >> e for a, b, c in zip(*self.scaled[x][face])]
-            nearest = min(from_triangle(witness, triangle) for triangle in self.scaled[y])
-            self.hold(nearest >= ((Fraction(lower) + self.delta) * self.scale) ** 2, "the witness is too near")
-        name, unit = "h(B,A)" if x else "h(A,B)", Fraction(self.scale) ** 2
-        best = root(nearest / unit, -self.delta, False), root(self.farthest / unit, self.delta, True)
-        self.said += [f"proven: {lower!r} <= {name} <= {upper!r}", f"at best: {best[0]!r} <= {name} <= {best[1]!r}"]
+            self.nearest = min(from_triangle(witness, triangle) for triangle in self.scaled[y])
+            self.hold(self.nearest >= ((Fraction(lower) + self.delta) * self.scale) ** 2, "the witness is too near")
+        name, bounds = "h(B,A)" if x else "h(A,B)", (Fraction(lower), Fraction(upper))
+        best = root(self.nearest / self.scale ** 2, False) - self.delta, root(self.farthest / self.scale ** 2, True) + self.delta
+        self.said += [f"{word}: {digits(max(low, Fraction(0)), False)} <= {name} <= {digits(high, True)}"
+                      for word, (low, high) in (("proven", bounds), ("  at best", best))]
 
     def number(self, y):
         code, shift, byte = 0, 0, 128
@@ -165,8 +166,7 @@ class Certificate:
     def part(self, v, depth, y):
         op, = self.take("<B")
         self.need(op <= 6 and (op >= 3 or depth < DEEPEST), "a part")
-        i = op - 4 if op > 3 else op % 3
-        j, k = (i + 1) % 3, (i + 2) % 3
+        i, j, k = ((op - 4 * (op > 3) + n) % 3 for n in range(3))
         if op < 3:
             middle = tuple((a + b) // 2 for a, b in zip(v[j], v[k]))
             for replaced in (k, j):
@@ -188,8 +188,7 @@ class Certificate:
 
 def checked(path, path_a, path_b):
     try:
-        with open(path, "rb") as file:
-            certificate = Certificate(file.read(), [read_mesh(path_a), read_mesh(path_b)])
+        certificate = Certificate(pathlib.Path(path).read_bytes(), [read_mesh(path_a), read_mesh(path_b)])
     except (ValueError, OSError) as error:
         return 4, f"broken: {error}"
     return (1, f"refused: {certificate.refusal}") if certificate.refusal else (0, "\n".join(certificate.said))
