@@ -61,7 +61,8 @@ def encode_block(trees, padding=0):
 
 
 def encode(model, padding=0):
-    out = struct.pack("<8sIIQQdd", model.magic, model.count or len(model.directions), model.zero, *model.faces, *model.deltas)
+    count = len(model.directions) if model.count is None else model.count
+    out = struct.pack("<8sIIQQdd", model.magic, count, model.zero, *model.faces, *model.deltas)
     out += b"".join(model.hashes)
     for direction in model.directions:
         out += struct.pack("<ddIIQQ", direction.lower, direction.upper, *direction.witness)
