@@ -125,8 +125,8 @@ class Sweep {
 
   Proof prove_one(const Mesh& a, const Mesh& b, const Report& report, const Way& way) {
     uint64_t turns = 0;
-    Proof proof = prove(solver_, a, b, report, way.options,
-                        [&](size_t) { return turns++ < way.proof_turns; });
+    Proof proof = prove(
+        solver_, {a, b, report, way.options, [&](size_t) { return turns++ < way.proof_turns; }});
     ++totals_.ended[status_name(report.status)];
     totals_.leaves += proof.leaves;
     totals_.cut += proof.cut_leaves;

@@ -245,10 +245,10 @@ void prove_all(Progressing& at, const MeshPair& pair, Solver& solver, const Solv
     std::optional<Proof> proof;
     if (!std::isfinite(report.upper)) return proof;
     try {
-      proof = prove(solver, from, to, report, options, [&at](size_t leaves) {
-        at.line.show_proof(leaves);
-        return !at.stop.is_asked();
-      });
+      proof = prove(solver, {from, to, report, options, [&at](size_t leaves) {
+                               at.line.show_proof(leaves);
+                               return !at.stop.is_asked();
+                             }});
     } catch (const std::bad_alloc&) {
       answer.notes.push_back("there was no memory for a certificate");
     } catch (const MemoryError&) {

@@ -72,26 +72,20 @@ Open half_of(const Open& open, uint32_t node, uint8_t opposite, size_t gone) {
   return half;
 }
 
-struct ProvenPair {
-  const SurveyedPair& on_device;
-  const Mesh& b;
-  const Report& report;
-};
-
 class Prover {
  public:
-  Prover(const ProvenPair& pair, const BoundCells& bound, const ProofGoesOn& goes_on, Proof& result)
+  Prover(const SurveyedPair& pair, const BoundCells& bound, const ProofJob& job, Proof& result)
       : bound_(bound),
-        report_(pair.report),
-        goes_on_(goes_on),
+        report_(job.report),
+        goes_on_(job.goes_on),
         result_(result),
-        exponent_(pair.on_device.frame.exponent),
-        delta_(add_up(pair.on_device.a.delta, pair.b.delta)),
-        a_(pair.on_device.a, exponent_),
-        b_(pair.b, exponent_),
+        exponent_(pair.frame.exponent),
+        delta_(add_up(job.a.delta, job.b.delta)),
+        a_(job.a, exponent_),
+        b_(job.b, exponent_),
         upper_(target(report_.upper)),
-        batch_(pair.on_device.on_cpu ? 1024 : 65536) {
-    if (upper_ <= 0) same_ = same_faces(pair.b, pair.on_device.a);
+        batch_(pair.on_cpu ? 1024 : 65536) {
+    if (upper_ <= 0) same_ = same_faces(job.b, job.a);
   }
 
   void prove() {
@@ -275,7 +269,7 @@ class Prover {
 
   const BoundCells& bound_;
   const Report& report_;
-  const ProofGoesOn& goes_on_;
+  const std::function<bool(size_t)>& goes_on_;
   Proof& result_;
   int exponent_;
   double delta_;
@@ -289,10 +283,9 @@ class Prover {
 
 }  // namespace
 
-Proof prove(Solver& solver, const Mesh& a, const Mesh& b, const Report& report,
-            const SolveOptions& options, const ProofGoesOn& goes_on) {
+Proof prove(Solver& solver, const ProofJob& job) {
   Proof proof;
-  SolveOptions again = options;
+  SolveOptions again = job.options;
   again.limit = {};
   again.known_lower = 0;
   again.coverage = false;
@@ -300,9 +293,9 @@ Proof prove(Solver& solver, const Mesh& a, const Mesh& b, const Report& report,
   again.time_limit_s = std::numeric_limits<double>::infinity();
   again.progress = {};
   again.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
-    Prover({pair, b, report}, bound, goes_on, proof).prove();
+    Prover(pair, bound, job, proof).prove();
   };
-  solver.distance(a, b, again);
+  solver.distance(job.a, job.b, again);
   return proof;
 }
 

@@ -11,9 +11,14 @@
 
 namespace vkh {
 
-/// Asked between submissions, with how many leaves there are; false: what is left is proven to what
-/// it can be at once, and the bound is larger.
-using ProofGoesOn = std::function<bool(size_t)>;
+struct ProofJob {
+  const Mesh &a, &b;
+  const Report& report;         ///< of a run of these meshes: report.upper is to be proven
+  const SolveOptions& options;  ///< of that run
+  /// Asked between submissions, with how many leaves there are; false: what is left is proven to
+  /// what it can be at once, and the bound is larger.
+  std::function<bool(size_t)> goes_on;
+};
 
 /// Of one direction.
 struct Proof {
@@ -24,9 +29,7 @@ struct Proof {
   double ms = 0;
 };
 
-/// Of report.upper, in a run of its own: `report` is of a run of these meshes, which ended with it.
-/// `options`: of that.
-Proof prove(Solver& solver, const Mesh& a, const Mesh& b, const Report& report,
-            const SolveOptions& options, const ProofGoesOn& goes_on);
+/// In a run of its own.
+Proof prove(Solver& solver, const ProofJob& job);
 
 }  // namespace vkh

@@ -76,7 +76,7 @@ TEST_CASE("distances from above, of hard triangles and points that halvings lead
 
 TEST_CASE("a corner of a face is 0 away from it") {
   Random random(6);
-  for (int i = 0; i < 1000; ++i) {
+  for (size_t i = 0; i < 1000; ++i) {
     const StoredTriangle t = hard_triangle(random);
     const std::array<glm::dvec3, 3> corners = {t.at(0), t.at(1), t.at(2)};
     CHECK(distance_up({corners[i % 3], {}}, corners) == 0);
