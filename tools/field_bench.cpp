@@ -56,8 +56,9 @@ double widest(const Field& field) {
 
 void print_row(const std::string& name, const Report& plain, const SurveyResult& r) {
   const double h = plain.upper;
-  std::printf("%s,%zu,%.6g,%.3f,%.3f,%zu,%zu,%d,%.3g", name.c_str(), r.field.face_count(), h,
-              plain.times.wall_ms, r.ms, r.cells, r.bounded, r.is_met ? 1 : 0, widest(r.field) / h);
+  std::printf("%s,%zu,%.6g,%.3f,%.3f,%.3f,%zu,%zu,%d,%.3g", name.c_str(), r.field.face_count(), h,
+              plain.times.wall_ms, r.ms, r.device_ms, r.cells, r.bounded, r.is_met ? 1 : 0,
+              widest(r.field) / h);
   if (r.statistics) {
     const Statistics& s = *r.statistics;
     std::printf(",%.6g,%.6g,%.3g,%.3g,%.3g,%.3g", s.mean.lower, s.mean.upper, width(s.mean) / h,
@@ -205,7 +206,8 @@ int run(int argc, char** argv) {
   Device device({.selector = arguments.device});
   Solver solver(device);
   std::printf(
-      "pair,faces,h,plain_ms,survey_ms,cells,bounded,met,field_width,mean_lower,mean_upper,"
+      "pair,faces,h,plain_ms,survey_ms,device_ms,cells,bounded,met,field_width,mean_lower,mean_"
+      "upper,"
       "mean_width,rms_width,area_width,p99_width,met_moments,met_areas\n");
   int refuted = 0;
   for (const Row& row : read_manifest(arguments.manifest, arguments.choice))

@@ -1,10 +1,12 @@
 #include "host/field/cell_store.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "host/base/parallel.h"
 #include "shaders/math/dyadic.h"
 
 namespace vkh {
@@ -53,6 +55,20 @@ uint32_t opposite_longest(const Mesh& a, const gpu::Cell& cell) {
   return lb >= lc ? 1 : 2;
 }
 
+void raise(float& most, float value) {
+  const std::atomic_ref<float> shared(most);
+  float seen = shared.load(std::memory_order_relaxed);
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
+}
+
+template <class F>
+void each_of(size_t count, const F& work) {
+  for_each_block(count, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) work(i);
+  });
+}
+
 }  // namespace
 
 float lowest(const gpu::CellBounds& b) {
@@ -67,29 +83,44 @@ CellStore::CellStore(const Mesh& a, float farthest) : a_(a), reached_(a.faces.si
   for (size_t i = 0; i < cells_.size(); ++i) cells_[i].face = static_cast<uint32_t>(i);
   bounds_.assign(cells_.size(), unknown(farthest));
   depth_.assign(cells_.size(), 0);
+  opposite_.resize(cells_.size());
+  each_of(cells_.size(), [&](size_t i) { see_split(i); });
   for (unsigned depth = 0; depth <= kMostDepth; ++depth)
     shares_.push_back(std::ldexp(1.0, -static_cast<int>(depth)));
 }
 
 // `highest` alone is kept of the larger cell, for a face's bounds.
-void CellStore::narrow(size_t i, const gpu::CellBounds& found) {
-  gpu::CellBounds& b = bounds_[i];
-  const float highest = std::min(b.highest, found.highest);
-  b = found;
-  b.highest = highest;
-  b.mean_upper = std::min(b.mean_upper, highest);
-  cells_[i].start = found.triangle;
-  float& reached = reached_[cells_[i].face];
-  reached = std::max(reached, found.reached);
+void CellStore::narrow(std::span<const size_t> which, std::span<const gpu::CellBounds> found) {
+  each_of(which.size(), [&](size_t k) {
+    const size_t i = which[k];
+    gpu::CellBounds& b = bounds_[i];
+    const float highest = std::min(b.highest, found[k].highest);
+    b = found[k];
+    b.highest = highest;
+    b.mean_upper = std::min(b.mean_upper, highest);
+    cells_[i].start = found[k].triangle;
+    raise(reached_[cells_[i].face], found[k].reached);
+  });
 }
 
-bool CellStore::can_split(size_t i) const {
-  return depth_[i] < kMostDepth &&
-         lib::has_middle_opposite(corners_of(cells_[i]), opposite_longest(a_, cells_[i]));
-}
-
-void CellStore::split(size_t i) {
+void CellStore::see_split(size_t i) {
   const uint32_t opposite = opposite_longest(a_, cells_[i]);
+  const bool can =
+      depth_[i] < kMostDepth && lib::has_middle_opposite(corners_of(cells_[i]), opposite);
+  opposite_[i] = can ? static_cast<uint8_t>(opposite) : kNoSplit;
+}
+
+void CellStore::split(std::span<const size_t> which) {
+  const size_t first = cells_.size();
+  cells_.resize(first + which.size());
+  bounds_.resize(cells_.size());
+  depth_.resize(cells_.size());
+  opposite_.resize(cells_.size());
+  each_of(which.size(), [&](size_t k) { split(which[k], first + k); });
+}
+
+void CellStore::split(size_t i, size_t half) {
+  const uint32_t opposite = opposite_[i];
   const lib::Bary3 t = corners_of(cells_[i]);
   const lib::Halves halves = lib::halves_of(t, opposite, lib::middle_opposite(t, opposite));
   // An affine function has other values at a half's corners: of the larger cell its extremes hold.
@@ -99,11 +130,13 @@ void CellStore::split(size_t i) {
   b.mean_upper = b.highest;
   b.square_upper = std::numeric_limits<float>::max();
   ++depth_[i];
+  cells_[half] = cells_[i];
+  bounds_[half] = b;
+  depth_[half] = depth_[i];
   set_corners(cells_[i], halves.first);
-  cells_.push_back(cells_[i]);
-  set_corners(cells_.back(), halves.second);
-  bounds_.push_back(bounds_[i]);
-  depth_.push_back(depth_[i]);
+  set_corners(cells_[half], halves.second);
+  see_split(i);
+  see_split(half);
 }
 
 std::vector<float> CellStore::highest_of_faces() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "host/run/cells.h"
@@ -25,13 +26,13 @@ class CellStore {
   /// Of its face's area.
   double share(size_t i) const { return shares_[depth_[i]]; }
 
-  /// With what was found of the cell.
-  void narrow(size_t i, const gpu::CellBounds& found);
+  /// With what was found of some cells. None is named twice.
+  void narrow(std::span<const size_t> which, std::span<const gpu::CellBounds> found);
   /// Whether its longest edge's middle is a dyadic point of the face: 20 bits may have run out.
-  bool can_split(size_t i) const;
-  /// The cell becomes one half; the other is the last. Both keep what of its bounds holds
-  /// for them, until they are narrowed.
-  void split(size_t i);
+  bool can_split(size_t i) const { return opposite_[i] != kNoSplit; }
+  /// Each cell becomes one half of itself; the others are the last cells, in the same order. Both
+  /// keep what of its bounds holds for them, until they are narrowed. None is named twice.
+  void split(std::span<const size_t> which);
 
   /// Of the greatest distance on a face: some point is so far, and none farther.
   float reached(uint32_t face) const { return reached_[face]; }
@@ -41,11 +42,17 @@ class CellStore {
 
  private:
   static constexpr unsigned kMostDepth = 64;
+  static constexpr uint8_t kNoSplit = 3;
+
+  void split(size_t i, size_t half);
+  void see_split(size_t i);
+
   const Mesh& a_;
   std::vector<gpu::Cell> cells_;
   std::vector<gpu::CellBounds> bounds_;
   std::vector<uint8_t> depth_;
-  std::vector<float> reached_;  // of each face
+  std::vector<uint8_t> opposite_;  // which corner its longest edge is opposite of, or kNoSplit
+  std::vector<float> reached_;     // of each face
   std::vector<double> shares_;
 };
 

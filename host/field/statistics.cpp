@@ -163,12 +163,20 @@ struct Extremes {
   double lowest = 3e38, highest = 0;
 };
 Extremes extremes_of(const CellStore& cells) {
-  Extremes e;
-  for (size_t i = 0; i < cells.count(); ++i) {
-    e.lowest = std::min(e.lowest, static_cast<double>(lowest(cells.bounds(i))));
-    e.highest = std::max(e.highest, static_cast<double>(cells.bounds(i).highest));
+  std::vector<Extremes> blocks(block_count(cells.count()));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    Extremes& e = blocks[block];
+    for (size_t i = begin; i < end; ++i) {
+      e.lowest = std::min(e.lowest, static_cast<double>(lowest(cells.bounds(i))));
+      e.highest = std::max(e.highest, static_cast<double>(cells.bounds(i).highest));
+    }
+  });
+  Extremes all;
+  for (const Extremes& e : blocks) {
+    all.lowest = std::min(all.lowest, e.lowest);
+    all.highest = std::max(all.highest, e.highest);
   }
-  return e;
+  return all;
 }
 
 // All and nothing are exact.

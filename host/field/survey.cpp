@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "host/field/goals.h"
 
@@ -27,26 +28,30 @@ class Bounding {
   // Whole faces.
   void faces(CellStore& store) {
     all(store.count(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
-      bound_({.cells = {}, .first = static_cast<uint32_t>(first), .bounds = bounds});
-      for (size_t i = 0; i < bounds.size(); ++i) store.narrow(first + i, bounds[i]);
+      bound({.cells = {}, .first = static_cast<uint32_t>(first), .bounds = bounds});
+      which_.resize(bounds.size());
+      std::iota(which_.begin(), which_.end(), first);
+      store.narrow(which_, bounds);
     });
   }
 
   // Halves cells, and bounds both halves: none is left that is split and not bounded.
   void halves(CellStore& store, std::span<const Scored> which) {
     std::vector<gpu::Cell> asked;
-    std::vector<size_t> fresh;
+    std::vector<size_t> parents;
     all(2 * which.size(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
-      asked.clear();
-      fresh.clear();
+      parents.clear();
+      which_.clear();
       for (size_t i = first / 2; i < (first + bounds.size()) / 2; ++i) {
-        fresh.push_back(which[i].cell);
-        fresh.push_back(store.count());
-        store.split(which[i].cell);
+        which_.push_back(which[i].cell);
+        which_.push_back(store.count() + parents.size());
+        parents.push_back(which[i].cell);
       }
-      for (const size_t i : fresh) asked.push_back(store.cell(i));
-      bound_({.cells = asked, .first = 0, .bounds = bounds});
-      for (size_t i = 0; i < fresh.size(); ++i) store.narrow(fresh[i], bounds[i]);
+      store.split(parents);
+      asked.clear();
+      for (const size_t i : which_) asked.push_back(store.cell(i));
+      bound({.cells = asked, .first = 0, .bounds = bounds});
+      store.narrow(which_, bounds);
     });
   }
 
@@ -57,8 +62,15 @@ class Bounding {
   }
   double ms() const { return ms_since(start_); }
   size_t bounded() const { return bounded_; }
+  double device_ms() const { return device_ms_; }
 
  private:
+  void bound(const CellBatch& batch) {
+    const Clock::time_point start = Clock::now();
+    bound_(batch);
+    device_ms_ += ms_since(start);
+  }
+
   template <class Bound>
   void all(size_t count, const Bound& bound) {
     for (size_t first = 0; first < count && (bounded_ == 0 || goes_on());) {
@@ -80,6 +92,8 @@ class Bounding {
   const Clock::time_point start_ = Clock::now();
   size_t batch_;
   size_t bounded_ = 0;
+  double device_ms_ = 0;
+  std::vector<size_t> which_;  // cells of a batch
   bool ended_ = false;
 };
 
@@ -167,6 +181,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     result.is_met = is_met && options.statistics == result.statistics.has_value();
     result.cells = store.count();
     result.bounded = bounding.bounded();
+    result.device_ms = bounding.device_ms();
     result.ms = bounding.ms();
   };
 }

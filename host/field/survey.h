@@ -45,6 +45,7 @@ struct SurveyResult {
   size_t cells = 0;
   size_t bounded = 0;  ///< cells that the device bounded, those that were split later among them
   double ms = 0;
+  double device_ms = 0;  ///< of `ms`: submissions, from the first byte sent to the last one read
 };
 
 /// Of a run that ended before its survey began: no distance is above `upper`.
