@@ -148,6 +148,8 @@ class Search {
     r.witness_a.face = group[std::min<uint64_t>(r.witness_a.face, group.size() - 1)];
     const double lower = r.lower, upper = r.upper;
     const Status status = r.status;
+    // A run that ended in its first submission has asked nobody.
+    if (!is_cancelled_) options_.progress({.wave = r.waves, .lower = lower, .upper = upper});
     const bool is_beyond = r.has_witness && lower > limits_[r.witness_a.face].beyond;
     add(std::move(r), is_beyond);
     if (is_beyond) return;
