@@ -8,12 +8,14 @@
 // --check: vkh_check, or another program that takes a certificate and two meshes. Exit code 1 where
 // one is not accepted. Pair i depends on the seed and i alone.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <random>
 
 #include "host/prove/certificate.h"
 #include "host/solve/solver.h"
@@ -62,13 +64,25 @@ struct Way {
   uint64_t proof_turns = UINT64_MAX;  ///< after which the proof is called off
 };
 
-Way way_of(uint64_t i, const HardPair& hard) {
+/// Each set of switches has pipelines of its own, which some drivers take a second to compile.
+constexpr uint64_t kSets = 20;
+
+/// Every preset, and the default without one switch. Every family meets every set.
+void choose_set(SolveOptions& options, uint64_t i, size_t families) {
   const std::vector<std::string> presets = preset_names(), switches = switch_names();
+  const uint64_t set = (i + i / families) % kSets;
+  if (set < presets.size()) {
+    options.preset = presets[set];
+  } else {
+    options.disabled = {switches[(set - presets.size()) % switches.size()]};
+  }
+}
+
+Way way_of(uint64_t i, const HardPair& hard) {
   Way way;
   SolveOptions& o = way.options;
   o.tolerance = hard.tolerance;
-  o.preset = presets[i % presets.size()];
-  if (i % 2 == 1) o.disabled = {switches[(i / 2) % switches.size()]};
+  choose_set(o, i, family_names().size());
   if (i % 5 == 2) o.memory_bytes = 1;  // as little as will do
   if (i % 7 == 3) o.wave_limit = static_cast<uint32_t>(i / 7 % 4 + 1);
   if (i % 11 == 5) o.time_limit_s = 1e-3;
@@ -157,14 +171,43 @@ class Sweep {
   Totals totals_;
 };
 
+/// A folder of this process's own.
+std::filesystem::path new_folder(const Arguments& args) {
+  std::random_device random;
+  for (;;) {
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() /
+        ("vkh_proof_sweep_" + std::to_string(args.seed) + "_" + std::to_string(random()));
+    if (std::filesystem::create_directories(folder)) return folder;
+  }
+}
+
+/// Says how far it is, at most each ten seconds.
+class Pulse {
+ public:
+  void operator()(uint64_t done, const Arguments& args) {
+    const Clock::time_point now = Clock::now();
+    if (now < last_ + std::chrono::seconds(10)) return;
+    last_ = now;
+    std::fprintf(stderr, "%llu of %llu pairs\n", static_cast<Count>(done),
+                 static_cast<Count>(args.count));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
 int sweep(const Arguments& args) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("vkh_proof_sweep_" + std::to_string(args.seed));
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = new_folder(args);
   Device device({.selector = args.device});
   Solver solver(device);
   Sweep all(solver, args, folder);
-  for (uint64_t i = args.first; i < args.first + args.count; ++i) all.pair(i);
+  Pulse pulse;
+  for (uint64_t i = 0; i < args.count; ++i) {
+    all.pair(args.first + i);
+    pulse(i + 1, args);
+  }
   std::filesystem::remove_all(folder);
   const Totals& t = all.totals();
   std::printf(
