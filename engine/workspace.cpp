@@ -120,7 +120,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.vertex_nearest, vertex_count);
   take(w.vertex_distance, vertex_count);
   take(w.face_shared, face_count);
-  take(w.frontier, 2ull * capacity);
+  take(w.frontier, frontier_places(capacity, room.switches));
   take(w.splits, parents);
   take(w.points, 3 * parents);
   take(w.lower_bits, 1);
@@ -146,6 +146,11 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 }
 
 }  // namespace
+
+uint64_t frontier_places(uint64_t capacity, uint32_t switches) {
+  const bool has_subroots = gpu::has_subroots(switches, false);
+  return 2 * capacity + (has_subroots ? capacity / gpu::kPlacesASubroot : 0);
+}
 
 uint32_t sort_rows(uint32_t count) {
   constexpr uint32_t most_passes = 4;  // of few blocks, each has counts of its own
@@ -195,7 +200,10 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 }
 
 uint32_t largest_capacity(const Limits& limits) {
-  const VkDeviceSize reach = limits.storage_range / (2 * sizeof(gpu::Candidate));
+  const VkDeviceSize most = limits.storage_range / sizeof(gpu::Candidate);
+  // As frontier_places has it: at most most / 2 and, with a quarter besides, 4 most / 9.
+  const bool has_subroots = gpu::has_subroots(limits.switches, limits.wide);
+  const VkDeviceSize reach = has_subroots ? 4 * most / 9 : most / 2;
   return static_cast<uint32_t>(std::min<VkDeviceSize>(reach, 1u << 28));
 }
 
