@@ -121,7 +121,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_SPLIT_TWICE = 65536,
   VKH_SWITCH_FIELD = 131072, /* no part of the method: vkhCmdBoundCells can be recorded */
   /* No part of the method: candidates down to 2^-40 of a face's edge, where 2^-20 is not enough:
-   * for tolerances under some 5e-7 of A's diagonal. An eighth more memory, and a little time. */
+   * for tolerances under some 5e-7 of A's diagonal. Half a MiB more, and a little time. */
   VKH_SWITCH_SUBROOTS = 262144,
   VKH_SWITCH_NONE = 1 << 30, /* switches nothing: the set that is empty, which 0 is not */
   /* What 0 stands for, by the kind of device. Fewer candidates are worth a query on a CPU; on a

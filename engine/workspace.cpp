@@ -149,7 +149,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 
 uint64_t frontier_places(uint64_t capacity, uint32_t switches) {
   const bool has_subroots = gpu::has_subroots(switches, false);
-  return 2 * capacity + (has_subroots ? capacity / gpu::kPlacesASubroot : 0);
+  return 2 * capacity + (has_subroots ? std::min<uint64_t>(capacity / 4, gpu::kMostSubroots) : 0);
 }
 
 uint32_t sort_rows(uint32_t count) {
@@ -200,10 +200,9 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 }
 
 uint32_t largest_capacity(const Limits& limits) {
-  const VkDeviceSize most = limits.storage_range / sizeof(gpu::Candidate);
-  // As frontier_places has it: at most most / 2 and, with a quarter besides, 4 most / 9.
   const bool has_subroots = gpu::has_subroots(limits.switches, limits.wide);
-  const VkDeviceSize reach = has_subroots ? 4 * most / 9 : most / 2;
+  const VkDeviceSize places = limits.storage_range / sizeof(gpu::Candidate);
+  const VkDeviceSize reach = (places - (has_subroots ? gpu::kMostSubroots : 0)) / 2;
   return static_cast<uint32_t>(std::min<VkDeviceSize>(reach, 1u << 28));
 }
 

@@ -98,8 +98,8 @@ VKH_CONST uint kUseUncertified = 1u << 10;
 VKH_CONST uint kUseField = 1u << 17;
 // A candidate whose barycentric bits run out becomes a root of its own (candidate/subroot.glsl).
 VKH_CONST uint kUseSubroots = 1u << 18;
-// So many may, a share of the frontier's capacity: one in four.
-VKH_CONST uint kPlacesASubroot = 4u;
+// So many may: a quarter of the frontier's capacity, and no more than this. Most runs have tens.
+VKH_CONST uint kMostSubroots = 1u << 14;
 
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
 VKH_CONST uint kUseBesides = kUseU4 | kUsePaperU3;       // either brings in paper_bound

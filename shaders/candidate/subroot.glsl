@@ -12,6 +12,8 @@
 
 bool is_subroot(uint root) { return has_subroots() && root >= control.face_count; }
 
+uint most_subroots() { return min(control.capacity / 4u, kMostSubroots); }
+
 uint subroot_place(uint i) { return 2u * control.capacity + i; }
 
 Candidate subroot_of(uint root) { return frontier[subroot_place(root - control.face_count)]; }

@@ -41,7 +41,11 @@ Two3 b_corner(uint v) {
 }
 
 // A face of A, whatever the coordinates were, or a subroot.
-uint root_of(Witness w) { return has_subroots() ? w.root : min(w.root, control.face_count - 1u); }
+uint root_of(Witness w) {
+  uint subroots = min(control.subroots, most_subroots());
+  if (is_subroot(w.root) && w.root - control.face_count < subroots) return w.root;
+  return min(w.root, control.face_count - 1u);
+}
 
 // Of this invocation's triangle. Those past the end repeat the last one: every one takes part in
 // the subgroup's minimum.
@@ -78,7 +82,7 @@ uint coordinate_in_face(uvec3 corners, uvec2 at, out uint low) {
 void write_witness(Witness w) {
   report.witness_low_j = 0u;
   report.witness_low_k = 0u;
-  if (is_subroot(w.root)) {
+  if (is_subroot(root_of(w))) {
     Candidate c = subroot_of(w.root);
     Bary3 t = unpack_corners(c.corners);
     uvec2 at = uvec2(w.j, w.k), low;

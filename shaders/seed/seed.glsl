@@ -33,8 +33,7 @@ uint start_of(uint i) {
 // lies where it was, a corner.
 void clamp_witness() {
   if (is_subroot(control.witness.root)) {
-    uint i =
-        min(control.witness.root - control.face_count, control.capacity / kPlacesASubroot - 1u);
+    uint i = min(control.witness.root - control.face_count, most_subroots() - 1u);
     Candidate c = frontier[subroot_place(i)];
     uvec2 corner = unpack_corners(c.corners).a;
     control.witness.root = c.root;

@@ -49,7 +49,7 @@ bool has_bits_to_split(Bary3 t) {
 Candidate with_bits(Candidate c, Bary3 t) {
   if (!has_subroots() || is_subroot(c.root) || has_bits_to_split(t)) return c;
   uint i = atomicAdd(control.subroots, 1u);
-  if (i >= control.capacity / kPlacesASubroot) return c;
+  if (i >= most_subroots()) return c;
   frontier[subroot_place(i)] = c;
   close_area(true, c.root, t);
   return Candidate(pack_corners(whole_root()), control.face_count + i, c.nearest, c.upper);
