@@ -200,9 +200,13 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 }
 
 uint32_t largest_capacity(const Limits& limits) {
-  const bool has_subroots = gpu::has_subroots(limits.switches, limits.wide);
   const VkDeviceSize places = limits.storage_range / sizeof(gpu::Candidate);
-  const VkDeviceSize reach = (places - (has_subroots ? gpu::kMostSubroots : 0)) / 2;
+  VkDeviceSize reach = places / 2;
+  // Behind the halves a quarter of one, or so many: what fits either way fits.
+  if (gpu::has_subroots(limits.switches, limits.wide)) {
+    constexpr VkDeviceSize most = gpu::kMostSubroots;
+    reach = std::max(4 * places / 9, places > most ? (places - most) / 2 : 0);
+  }
   return static_cast<uint32_t>(std::min<VkDeviceSize>(reach, 1u << 28));
 }
 
