@@ -74,7 +74,7 @@ class Program(unittest.TestCase):
                              (["distance", "a.obj", "b.obj", "--preset", "baseline-gpu", "--memory", "1"], (0, 3)),
                              (["distance", "a.obj", "b.obj", "--waves", "1", "--tol", "1e-9"], (3,)),
                              (["distance", "face.obj", "points.obj", "--tol", "1e-8"], (0,)),
-                             (["distance", "face.obj", "points.obj", "--tol", "1e-9", "--symmetric", "--verify"], (0,)),
+                             (["distance", "face.obj", "points.obj", "--tol", "2e-8", "--symmetric", "--verify"], (0,)),
                              (["distance", "a.obj", "b.obj", "--field-tol", "1%", "--stats"], (0,)),
                              (["gate", "a.obj", "b.obj", "--max", "0.5abs"], (0,)),
                              (["gate", "a.obj", "b.obj", "--max", "0.01abs", "--symmetric"], (1,))):

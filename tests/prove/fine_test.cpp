@@ -68,7 +68,7 @@ TEST_CASE("an absolute tolerance, both directions and a limit are as fine") {
   const SymmetricReport both = solver().symmetric(kA, kB, options);
   CHECK(both.interval().status == Status::kClosed);
   check_true(both.a_to_b);
-  for (const double off : {-4e-8, 4e-8}) {
+  for (const double off : {-2e-7, 2e-7}) {
     const double limit = std::sqrt(5) + off;
     SolveOptions gate = options_of(1e-8);
     gate.limit = {limit, limit};
@@ -98,12 +98,13 @@ TEST_CASE("what becomes a subroot counts as closed, in the smallest workspace to
   }
 }
 
-TEST_CASE("its upper bound is proven by leaves, to the same digits") {
+TEST_CASE("its upper bound is proven by leaves, but for what doubles round") {
   const SolveOptions options = options_of(1e-9);
   const Report r = solver().distance(kA, kB, options);
   const Proof proof =
       prove(solver(), {.a = kA, .b = kB, .report = r, .options = options, .goes_on = {}});
-  CHECK(proof.upper == r.upper);
+  CHECK(proof.upper >= r.upper);
+  CHECK(proof.upper - r.upper <= 1e-12);  // leaves may take so much more: host/prove/prover.cpp
   CHECK(proof.unproven == 0);
   CHECK(proof.leaves > 3);
 }
