@@ -173,8 +173,8 @@ VKH_CONST uint kSortFrom = 1u << 14;
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
 // frontier with no more room than this is gone through depth first. A candidate has at most
-// kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places; twice
-// as many where there are subroots.
+// kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places;
+// twice as many where there are subroots.
 VKH_CONST uint kReserve = 64u;
 
 VKH_CONST uint kSelectDigits = 256u;  // of a key, where a plan selects: 8 bits
