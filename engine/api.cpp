@@ -29,6 +29,7 @@ VKH_STATUSES(VKH_SAME_STATUS)
 #undef VKH_SAME_STATUS
 static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
 static_assert(VKH_SWITCH_FIELD == gpu::kUseField);
+static_assert(VKH_SWITCH_SUBROOTS == gpu::kUseSubroots);
 static_assert(sizeof(VkhCell) == sizeof(gpu::Cell));
 static_assert(offsetof(VkhCell, start) == offsetof(gpu::Cell, start));
 static_assert(sizeof(VkhCellBounds) == sizeof(gpu::CellBounds));

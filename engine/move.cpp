@@ -25,6 +25,12 @@ struct Move {
   }
 };
 
+// The subroots.
+Slice<gpu::Candidate> behind_halves(const Slice<gpu::Candidate>& frontier, const Workspace& w) {
+  const VkDeviceSize halves = 2ull * w.capacity * sizeof(gpu::Candidate);
+  return {frontier.buffer, frontier.offset + halves, frontier.size - halves};
+}
+
 void record_copies(Recorder& rec, const Problem& p, const Workspace& to) {
   const Workspace& from = p.ws;
   const Move move{rec, from.capacity, to.capacity};
@@ -38,6 +44,8 @@ void record_copies(Recorder& rec, const Problem& p, const Workspace& to) {
   move.keep(from.lower_bits, to.lower_bits);
   move.keep(from.groups_done, to.groups_done);
   move.keep_halves(from.frontier, to.frontier);
+  if (gpu::has_subroots(p.switches, p.wide))
+    move.keep(behind_halves(from.frontier, from), behind_halves(to.frontier, to));
   if (gpu::asks_centroids(p.switches, p.wide))
     move.keep_halves(from.centroid_nearest, to.centroid_nearest);
 }

@@ -119,8 +119,9 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
   /* Few candidates are split twice in a wave, unless CENTROID, PACKET or U3_PAPER is on. */
   VKH_SWITCH_SPLIT_TWICE = 65536,
-  VKH_SWITCH_FIELD = 131072, /* no part of the method: vkhCmdBoundCells can be recorded */
-  VKH_SWITCH_NONE = 1 << 30, /* switches nothing: the set that is empty, which 0 is not */
+  VKH_SWITCH_FIELD = 131072,    /* no part of the method: vkhCmdBoundCells can be recorded */
+  VKH_SWITCH_SUBROOTS = 262144, /* likewise: edges are halved 40 times, not 20 (tight tolerances) */
+  VKH_SWITCH_NONE = 1 << 30,    /* switches nothing: the set that is empty, which 0 is not */
   /* What 0 stands for, by the kind of device. Fewer candidates are worth a query on a CPU; on a
    * wide device, a chain of short steps, more candidates at once are cheaper than another step. */
   VKH_SWITCH_DEFAULT_NARROW = 1 + 2 + 4 + 8 + 16 + 64 + 512 + 8192,
@@ -323,9 +324,8 @@ typedef struct VkhProblem {
    * usage STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute
    * shaders and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport
    * what is open. It holds faceCount 64-bit integers (two little-endian words each), what of each
-   * face has been closed, and faceCount more, what is open, in units of 2^-40 of the face. After
-   * vkhCmdWriteReport the two are 2^40 together, or both 0 for a face that waits for its first
-   * bound. */
+   * face has been closed or is finer than 2^-20, and faceCount more, what is open, in 2^-40 of the
+   * face. After vkhCmdWriteReport both are 2^40 together, or 0 for a face without a bound yet. */
   VkBuffer coverageBuffer;
   VkDeviceSize coverageOffset; /* bytes */
   /* With VKH_SWITCH_SORT: frontiers of fewer candidates are not sorted. 0: as measured to pay. */
@@ -414,6 +414,7 @@ typedef struct VkhReport {
   uint32_t wanted; /* the run pauses: vkhGetWorkspaceSize of so many candidates would do; else 0 */
   uint32_t culled[VKH_MAX_CULLS]; /* by exact, u1, u2, ha, u3, u4, lower raised, precision */
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
+  uint32_t witnessBarycentricLow[2]; /* to be added, in units of 2^-40: VKH_SWITCH_SUBROOTS */
 } VkhReport;
 
 /* Certifies the witness against every triangle of B and writes the report at `offset` (a multiple

@@ -37,6 +37,7 @@ struct VkhReport {
   uint wanted;
   uint culled[VKH_MAX_CULLS];
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS];
+  uint witnessBarycentricLow[2];
 };
 
 #endif

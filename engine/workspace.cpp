@@ -120,7 +120,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   take(w.vertex_nearest, vertex_count);
   take(w.vertex_distance, vertex_count);
   take(w.face_shared, face_count);
-  take(w.frontier, 2ull * capacity);
+  take(w.frontier, frontier_places(capacity, room.switches));
   take(w.splits, parents);
   take(w.points, 3 * parents);
   take(w.lower_bits, 1);
@@ -146,6 +146,11 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 }
 
 }  // namespace
+
+uint64_t frontier_places(uint64_t capacity, uint32_t switches) {
+  const bool has_subroots = gpu::has_subroots(switches, false);
+  return 2 * capacity + (has_subroots ? std::min<uint64_t>(capacity / 4, gpu::kMostSubroots) : 0);
+}
 
 uint32_t sort_rows(uint32_t count) {
   constexpr uint32_t most_passes = 4;  // of few blocks, each has counts of its own
@@ -195,7 +200,13 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 }
 
 uint32_t largest_capacity(const Limits& limits) {
-  const VkDeviceSize reach = limits.storage_range / (2 * sizeof(gpu::Candidate));
+  const VkDeviceSize places = limits.storage_range / sizeof(gpu::Candidate);
+  VkDeviceSize reach = places / 2;
+  // Behind the halves a quarter of one, or so many: what fits either way fits.
+  if (gpu::has_subroots(limits.switches, limits.wide)) {
+    constexpr VkDeviceSize most = gpu::kMostSubroots;
+    reach = std::max(4 * places / 9, places > most ? (places - most) / 2 : 0);
+  }
   return static_cast<uint32_t>(std::min<VkDeviceSize>(reach, 1u << 28));
 }
 

@@ -55,7 +55,7 @@ struct Workspace {
   Slice<uint32_t> vertex_nearest;
   Slice<uint32_t> vertex_distance;  // floats, as bits
   Slice<uint32_t> face_shared;      // whether a face of A is one of B, too
-  Slice<gpu::Candidate> frontier;   // two halves of `capacity`
+  Slice<gpu::Candidate> frontier;   // two halves of `capacity`, then the subroots
   Slice<gpu::Split> splits;
   Slice<gpu::Point> points;
   Slice<uint32_t> lower_bits;   // between reports kNone
@@ -75,6 +75,8 @@ inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, size_t o
   return {sizes.buffer, sizes.offset + offset, sizeof(gpu::Dispatch)};
 }
 
+// Of the frontier's stream.
+uint64_t frontier_places(uint64_t capacity, uint32_t switches);
 // Boxes of all levels of the pyramid over `face_count` triangles.
 uint32_t pyramid_size(uint32_t face_count);
 // And of those between them, over four boxes of a level each.

@@ -96,6 +96,10 @@ VKH_CONST uint kUseCoverage = 1u << 7;
 VKH_CONST uint kUseUncertified = 1u << 10;
 // Cells can be bounded after the run (field/cell_bounds.comp).
 VKH_CONST uint kUseField = 1u << 17;
+// A candidate whose barycentric bits run out becomes a root of its own (candidate/subroot.glsl).
+VKH_CONST uint kUseSubroots = 1u << 18;
+// So many may: a quarter of the frontier's capacity, and no more than this. Most runs have tens.
+VKH_CONST uint kMostSubroots = 1u << 14;
 
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
 VKH_CONST uint kUseBesides = kUseU4 | kUsePaperU3;       // either brings in paper_bound
@@ -169,7 +173,8 @@ VKH_CONST uint kSortFrom = 1u << 14;
 // Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
 // u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
 // frontier with no more room than this is gone through depth first. A candidate has at most
-// kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places.
+// kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places;
+// twice as many where there are subroots.
 VKH_CONST uint kReserve = 64u;
 
 VKH_CONST uint kSelectDigits = 256u;  // of a key, where a plan selects: 8 bits
@@ -329,6 +334,7 @@ struct Control {
   uint split_twice;     // this wave splits its candidates twice
   uint measuring;       // this wave measures its witness above a new base, and nothing else
   uint spilled;         // candidates that could neither be refined nor wait
+  uint subroots;        // candidates that became roots, or would have, had there been room
   uint pauses;          // a wave that has not room for all waits for a larger workspace
   uint wanted;          // such a one does: so many places each half should have; else 0
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
@@ -386,6 +392,7 @@ struct Report {
   uint wanted;  // places in each half of the frontier that the paused run asks for; else 0
   uint culled[kMostCulls];
   WaveRecord waves[64];
+  uint witness_low_j, witness_low_k;  // 20 more bits of the witness's barycentrics
 };
 
 // A sub-triangle of a face of A that is asked about, in words.

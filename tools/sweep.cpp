@@ -3,10 +3,11 @@
 // distance where that is known. One line of summary, one for each violation, with what repeats it:
 //
 //   vkh_sweep [--count N] [--first I] [--seed S] [--family NAME] [--device D] [--tol T] [--threads
-//   N] [--gates]
+//   N] [--gates] [--closes]
 //
 // With --gates each pair is also asked whether it is within a limit near its distance, and the
 // verdict is held against the same solver.
+// With --closes no run is cut short, and each is to close where that solver does.
 // Exit code 1 for any violation. Pair i depends on the seed and i alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -37,7 +38,7 @@ struct Arguments {
   double spoil =
       0;  ///< lower bounds are raised by so much of themselves: shows that the sweep sees it
   uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
-  bool gates = false;
+  bool gates = false, closes = false;
 };
 
 struct Job {
@@ -77,6 +78,7 @@ class Families {
     const size_t family = all_ ? i % names_.size() : only_;
     return {family, Random(args_.seed * 0x9e3779b97f4a7c15u + i).bits()};
   }
+  const Arguments& asked() const { return args_; }
   const char* name(const Job& job) const { return names_[job.family].c_str(); }
 
  private:
@@ -118,9 +120,10 @@ void ask_reference(const Job& job, Outcome& out) {
                                       rescaled(hard.pair.b, out.exponent), kTolerance, kCandidates);
 }
 
-SolveOptions options_for(const HardPair& hard, const Job& job, double tolerance) {
+SolveOptions options_for(const HardPair& hard, const Job& job, const Arguments& args) {
   SolveOptions options;
-  options.tolerance = tolerance > 0 ? tolerance : hard.tolerance;
+  options.tolerance = args.tolerance > 0 ? args.tolerance : hard.tolerance;
+  if (args.closes) return options;
   Random random(job.seed ^ 0x5eed);
   // Nearly all as users run them; some out of memory or cut short, where intervals hold too.
   const uint32_t way = random.below(16);
@@ -131,9 +134,9 @@ SolveOptions options_for(const HardPair& hard, const Job& job, double tolerance)
   return options;
 }
 
-void ask_solver(Solver& solver, const Job& job, double tolerance, Outcome& out) {
+void ask_solver(Solver& solver, const Job& job, const Arguments& args, Outcome& out) {
   const HardPair hard = hard_pair(job.family, job.seed);
-  const SolveOptions options = options_for(hard, job, tolerance);
+  const SolveOptions options = options_for(hard, job, args);
   const auto start = std::chrono::steady_clock::now();
   const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
   out.solve_ms =
@@ -194,8 +197,13 @@ std::string fault_of_gate(const Outcome& out) {
   return {};
 }
 
+bool is_closed_by_reference(const Outcome& out) {
+  const double width = out.reference.upper - out.reference.lower;
+  return std::ldexp(width, -out.exponent) <= out.tolerance;
+}
+
 /// What is untrue of an outcome; empty where nothing is.
-std::string fault_of(const Job& job, const Outcome& out) {
+std::string fault_of(const Job& job, const Outcome& out, const Arguments& asked) {
   const Interval found = out.found;
   if (!(found.lower >= 0 && found.lower <= found.upper && std::isfinite(found.upper)))
     return "no interval";
@@ -209,6 +217,8 @@ std::string fault_of(const Job& job, const Outcome& out) {
   if (out.gate && !fault_of_gate(out).empty()) return fault_of_gate(out);
   if (out.status == Status::kClosed && found.upper - found.lower > out.tolerance)
     return "says closed and is wider than the tolerance";
+  if (asked.closes && out.status != Status::kClosed && is_closed_by_reference(out))
+    return "stays open, and not the reference";
   if (out.repeated && (out.again.lower != found.lower || out.again.upper != found.upper))
     return "differs from run to run";
   return {};
@@ -229,7 +239,7 @@ struct Totals {
   uint64_t passed = 0, failed = 0, undecided = 0;
   std::vector<double> bands;  ///< of the undecided, in tolerances; of what has one
   struct PerFamily {
-    uint64_t count = 0, closed = 0, violations = 0;
+    uint64_t count = 0, closed = 0, closed_by_reference = 0, violations = 0;
   };
   std::map<std::string, PerFamily> families;
 };
@@ -251,12 +261,13 @@ void count_gate(const char* family, uint64_t i, const Outcome& out, Totals& tota
 
 void judge(const Families& families, uint64_t i, const Outcome& out, Totals& totals) {
   const Job job = families.job(i);
-  const std::string fault = fault_of(job, out);
+  const std::string fault = fault_of(job, out, families.asked());
   Totals::PerFamily& family = totals.families[families.name(job)];
   ++family.count;
   const bool closed = out.status == Status::kClosed;
   totals.closed += closed ? 1 : 0;
   family.closed += closed ? 1 : 0;
+  family.closed_by_reference += is_closed_by_reference(out) ? 1 : 0;
   totals.repeated += out.repeated ? 1 : 0;
   totals.solve_ms += out.solve_ms;
   // So wide that it would not see an error of the size of a float's ulp.
@@ -278,8 +289,10 @@ void judge(const Families& families, uint64_t i, const Outcome& out, Totals& tot
 
 void print_summary(const Arguments& args, const Totals& t, const Device& device, double seconds) {
   for (const auto& [name, f] : t.families) {
-    std::printf("  %-12s %6llu pairs, %6llu closed, %llu violations\n", name.c_str(),
-                static_cast<unsigned long long>(f.count), static_cast<unsigned long long>(f.closed),
+    std::printf("  %-12s %6llu pairs, %6llu closed, %6llu by the reference, %llu violations\n",
+                name.c_str(), static_cast<unsigned long long>(f.count),
+                static_cast<unsigned long long>(f.closed),
+                static_cast<unsigned long long>(f.closed_by_reference),
                 static_cast<unsigned long long>(f.violations));
   }
   std::printf(
@@ -324,7 +337,7 @@ int sweep(const Arguments& args) {
   }
   for (uint64_t i = 0; i < args.count; ++i) {
     const Job job = families.job(args.first + i);
-    ask_solver(solver, job, args.tolerance, outcomes[i]);
+    ask_solver(solver, job, args, outcomes[i]);
     if (args.gates) ask_gate(solver, job, outcomes[i]);
   }
   for (Outcome& out : outcomes)
@@ -353,6 +366,7 @@ int main(int argc, char** argv) {
   app.add_option("--spoil", args.spoil,
                  "Raise each lower bound by so much of itself: the sweep must see it");
   app.add_flag("--gates", args.gates, "Also ask whether each is within a limit near its distance");
+  app.add_flag("--closes", args.closes, "What the reference closes is to be closed");
   app.add_option("--threads", args.threads, "For the reference");
   CLI11_PARSE(app, argc, argv);
   try {

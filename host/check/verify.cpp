@@ -77,7 +77,7 @@ Enclosure distance_to(const QuadVector& p, const Triangle& t, Quad scale, double
   return {outward(static_cast<double>(reach) / length(d), -1), upper, beyond};
 }
 
-// The exact point: barycentrics are multiples of 2^-20, so that their products with doubles have 73
+// The exact point: barycentrics are multiples of 2^-40, so that their products with doubles have 93
 // bits; the sum of three of them is rounded.
 QuadVector witness_of(const Mesh& a, const Report& r) {
   const glm::uvec3 f = a.faces[r.witness_a.face];
@@ -108,11 +108,11 @@ double box_distance_down(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t
 bool is_exact_point(const glm::dvec3& weights) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double units = weights[i] * 0x1p20;
-    if (!(units >= 0 && units <= 0x1p20 && units == std::floor(units))) return false;
+    const double units = weights[i] * 0x1p40;
+    if (!(units >= 0 && units <= 0x1p40 && units == std::floor(units))) return false;
     sum += units;
   }
-  return sum == 0x1p20;
+  return sum == 0x1p40;
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 namespace vkh {
 namespace {
 
-constexpr unsigned kWitnessBits = 20;  // of a sample's barycentrics
+// Of a sample's barycentrics; of one in a subroot.
+constexpr unsigned kWitnessBits = 20, kMostWitnessBits = 40;
 
 class Bytes {
  public:
@@ -35,19 +36,28 @@ std::string corners_digest(const Mesh& mesh) {
   return digits;
 }
 
-uint64_t in_units(double barycentric) {
-  return static_cast<uint64_t>(std::llround(std::ldexp(barycentric, kWitnessBits)));
+uint64_t in_units(double barycentric, unsigned bits) {
+  return static_cast<uint64_t>(std::llround(std::ldexp(barycentric, static_cast<int>(bits))));
+}
+
+unsigned bits_of(const glm::dvec3& barycentric) {
+  const auto is_coarse = [](double x) {
+    const double units = std::ldexp(x, kWitnessBits);
+    return units == std::floor(units);
+  };
+  return is_coarse(barycentric.y) && is_coarse(barycentric.z) ? kWitnessBits : kMostWitnessBits;
 }
 
 void add_direction(Bytes& out, const CertifiedDirection& direction) {
   const Report& r = direction.report;
   const bool has_witness = r.has_witness && r.lower > 0;
+  const unsigned bits = bits_of(r.witness_a.barycentric);
   out.number(has_witness ? r.lower : 0);
   out.number(direction.proof.upper);
   out.unsigned_number(has_witness ? r.witness_a.face : 0, 4);
-  out.unsigned_number(has_witness ? kWitnessBits : 0, 4);
-  out.unsigned_number(has_witness ? in_units(r.witness_a.barycentric.y) : 0, 8);
-  out.unsigned_number(has_witness ? in_units(r.witness_a.barycentric.z) : 0, 8);
+  out.unsigned_number(has_witness ? bits : 0, 4);
+  out.unsigned_number(has_witness ? in_units(r.witness_a.barycentric.y, bits) : 0, 8);
+  out.unsigned_number(has_witness ? in_units(r.witness_a.barycentric.z, bits) : 0, 8);
   out.text += direction.proof.blocks;
 }
 

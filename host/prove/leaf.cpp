@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "host/base/rounding.h"
 #include "host/mesh/closest.h"
@@ -179,6 +180,26 @@ double distance_up(const Point2& p, const std::array<glm::dvec3, 3>& t) {
 void Hints::add(uint32_t one) {
   const auto end = face.begin() + static_cast<std::ptrdiff_t>(count);
   if (count < kMostHints && std::find(face.begin(), end, one) == end) face[count++] = one;
+}
+
+Hints nearest_faces(const Part& part, const ScaledMesh& b) {
+  const glm::dvec3 middle = (part[0].hi + part[1].hi + part[2].hi) / 3.0;
+  using Found = std::pair<double, uint32_t>;
+  std::vector<Found> nearest;  // a heap, the farthest of them first
+  for (uint32_t face = 0; face < b.face_count(); ++face) {
+    const Found found{distance_up({.hi = middle, .lo = {}}, b.corners(face)), face};
+    if (nearest.size() == kMostHints && found >= nearest.front()) continue;
+    if (nearest.size() == kMostHints) {
+      std::pop_heap(nearest.begin(), nearest.end());
+      nearest.pop_back();
+    }
+    nearest.push_back(found);
+    std::push_heap(nearest.begin(), nearest.end());
+  }
+  std::sort(nearest.begin(), nearest.end());
+  Hints hints;
+  for (const Found& found : nearest) hints.add(found.second);
+  return hints;
 }
 
 std::optional<Leaf> proof_of(const Part& part, const ScaledMesh& b, const Hints& hints,

@@ -55,6 +55,9 @@ struct Hints {
   void add(uint32_t one);
 };
 
+/// Of all faces, those nearest to the part's middle; the part is small.
+Hints nearest_faces(const Part& part, const ScaledMesh& b);
+
 /// Which of them proves that the part is within `upper` of B, or none does.
 std::optional<Leaf> proof_of(const Part& part, const ScaledMesh& b, const Hints& hints,
                              double upper);

@@ -28,6 +28,7 @@ struct Open {
   uint32_t face;
   uint8_t depth = 0;
   bool has_cell = true;  // its corners are multiples of 2^-20
+  uint8_t searched = 0;  // its depth, or an ancestor's, when all of B was searched for it; 0: never
   bool is_proven = false;
   gpu::Cell cell{};
   Part part;
@@ -105,7 +106,8 @@ class Prover {
   static constexpr double kMore = 256 * 0x1p-52;
   // Where an edge of B crosses a face in its plane, no part of it is proven to 0: so many parts
   // that are so small may take more and more.
-  static constexpr uint8_t kVerySmall = 24;
+  static constexpr uint8_t kVerySmall = 24, kSearchAgain = 8;
+  static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
 
   // A length of the files in the scaled meshes, less what these are off: rounded down.
@@ -146,6 +148,7 @@ class Prover {
   double advance(std::vector<Open>& some, ProofTree& tree, std::vector<Open>& halves) {
     double raised = close(some, tree);
     ask(some);
+    search(some);
     raised = std::max(raised, close(some, tree));
     return std::max(raised, halve(some, tree, halves));
   }
@@ -195,6 +198,23 @@ class Prover {
     tree.prove(node, leaf);
     ++result_.leaves;
     if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
+  }
+
+  // Parts that are too small to ask the device about: the nearest faces of B to each, by the host,
+  // and again when the part is that much smaller. In plain floats many faces are as near as the
+  // nearest one.
+  void search(std::vector<Open>& open) {
+    std::vector<Open*> sought;
+    for (Open& one : open) {
+      const bool is_new = one.searched == 0 || one.depth - one.searched >= kSearchAgain;
+      if (one.has_cell || !is_new || seen_ > kMostSeen) continue;
+      seen_ += b_.face_count();
+      sought.push_back(&one);
+    }
+    for_each_index(sought.size(), [&](size_t i) {
+      sought[i]->hints = nearest_faces(sought[i]->part, b_);
+      sought[i]->searched = sought[i]->depth;
+    });
   }
 
   // The device, which faces of B are near. Parts that are too small for it keep what they have.
@@ -277,6 +297,7 @@ class Prover {
   double upper_;                // of the scaled meshes
   std::vector<uint32_t> same_;  // where that is 0: of each face, one of B
   double more_ = kMore;
+  size_t seen_ = 0;
   size_t batch_;
   bool ended_ = false;
 };

@@ -37,6 +37,9 @@ using Survey = std::function<void(const SurveyedPair&, const BoundCells&)>;
 struct SolveOptions {
   double tolerance = 1e-6;  ///< fraction of diag(A), or in the files' units if absolute
   bool tolerance_is_absolute = false;
+  /// The pipelines of a fine tolerance (VKH_SWITCH_SUBROOTS), whatever the tolerance: for the runs
+  /// of one question, which would else create two sets.
+  bool subroots = false;
   double time_limit_s = std::numeric_limits<double>::infinity();
   uint32_t wave_limit = std::numeric_limits<uint32_t>::max();
   /// The workspace; 0: chosen from the meshes, and a larger one where the run wants it and the

@@ -69,6 +69,13 @@ uint32_t switches_of(const SolveOptions& options, const Device& device) {
   return options.certified ? on : on | VKH_SWITCH_UNCERTIFIED;
 }
 
+uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Device& device) {
+  const double coarse =
+      options.tolerance_is_absolute ? kFineTolerance * diagonal_a : kFineTolerance;
+  const bool is_fine = options.subroots || options.tolerance < coarse;
+  return switches_of(options, device) | (is_fine ? uint32_t{VKH_SWITCH_SUBROOTS} : 0);
+}
+
 SwitchStates switch_states(uint32_t switches) {
   SwitchStates states;
   for (const NamedSwitch& s : kSwitches)

@@ -26,6 +26,11 @@ uint32_t default_switches(const Device& device);
 /// is none.
 uint32_t switches_of(const SolveOptions& options, const Device& device);
 
+/// Of A's diagonal. A sample is within 2^-20 of a face's edge of the farthest point: half of that.
+constexpr double kFineTolerance = 5e-7;
+/// The same, with VKH_SWITCH_SUBROOTS where 20 bits of barycentrics are too few for the tolerance.
+uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Device& device);
+
 struct SwitchStates {
   std::vector<std::string> on, off;
 };

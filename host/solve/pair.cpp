@@ -97,6 +97,7 @@ SolveOptions coarser(const std::vector<Pair>& pairs, const SolveOptions& options
   }
   SolveOptions coarse = options;
   coarse.tolerance = std::max(options.tolerance, kCoarse * unit);
+  coarse.subroots = coarse.subroots || options.tolerance < kFineTolerance * unit;
   return coarse;
 }
 

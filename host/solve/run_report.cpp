@@ -38,9 +38,10 @@ void fill_stages(const RunOutput& run, Report& out) {
 
 void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out) {
   if (r.witnessFaceA >= a.faces.size() || r.witnessFaceB >= b.faces.size()) return;
-  const double one = 1 << 20;
-  const double v = r.witnessBarycentric[0] / one;
-  const double w = r.witnessBarycentric[1] / one;
+  const auto coordinate = [&](int i) {  // exact: 40 bits
+    return r.witnessBarycentric[i] * 0x1p-20 + r.witnessBarycentricLow[i] * 0x1p-40;
+  };
+  const double v = coordinate(0), w = coordinate(1);
   const glm::uvec3 fa = a.faces[r.witnessFaceA];
   const glm::dvec3 p = (1 - v - w) * a.vertices[fa.x] + v * a.vertices[fa.y] + w * a.vertices[fa.z];
   out.witness_a = {r.witnessFaceA, {1 - v - w, v, w}, p};

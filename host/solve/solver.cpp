@@ -159,6 +159,12 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   return out;
 }
 
+double most_diagonal(const std::vector<Pair>& pairs) {
+  double most = 0;
+  for (const Pair& pair : pairs) most = std::max(most, diagonal(pair.box_a));
+  return most;
+}
+
 void check_options(const SolveOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw UsageError("the tolerance must be positive and finite");
@@ -189,7 +195,7 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const So
 
 std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
                                              const SolveOptions& options, Clock::time_point start) {
-  const uint32_t switches = switches_of(options, device);
+  const uint32_t switches = switches_for(options, most_diagonal(pairs), device);
   std::vector<Watch> watches;
   std::vector<RunInput> inputs;
   watches.reserve(pairs.size());  // inputs refer to them
@@ -230,7 +236,8 @@ std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
 
 void Solver::make_ready(const SolveOptions& options) {
   const FloatEnvironment ours;
-  impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
+  // Of an absolute tolerance it is not known yet whether it is fine.
+  impl_->runner.make_ready(switches_for(options, 0, impl_->device) & ~kSwitchMultiwave);
 }
 
 std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
@@ -328,6 +335,7 @@ SolveOptions options_back(const SolveOptions& options, const Report& there, doub
   SolveOptions back = options;
   back.tolerance = there.tolerance;  // 0 where A is one point
   back.tolerance_is_absolute = true;
+  back.subroots = there.tolerance < kFineTolerance * there.diagonal_a || options.subroots;
   back.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
   back.known_lower = std::max(options.known_lower, there.lower);
   const bool cancelled = there.status == Status::kCancelled;

@@ -1,5 +1,7 @@
 // For --verify: what of each face of A has been closed, as an exact 64-bit integer, in units of
-// 2^-40 of the face. Nothing is left of it where kUseCoverage is off. The kernel declares `areas`.
+// 2^-40 of the face. What became a subroot (candidate/subroot.glsl) counts as closed then: no more
+// is said of it. Nothing is left of it where kUseCoverage is off. The kernel declares `areas`,
+// `control`.
 #ifndef VKH_SHADERS_BASE_COVERAGE_GLSL
 #define VKH_SHADERS_BASE_COVERAGE_GLSL
 
@@ -27,7 +29,7 @@ void add_area(uint at, Bary3 t) {
 }
 
 void close_area(bool closed, uint root, Bary3 t) {
-  if ((kSwitches & kUseCoverage) != 0u && closed) add_area(root, t);
+  if ((kSwitches & kUseCoverage) != 0u && closed && root < control.face_count) add_area(root, t);
 }
 
 #endif

@@ -5,9 +5,9 @@
 
 #include "shaders/math/bary.h"
 #include "shaders/candidate/base.glsl"
+#include "shaders/candidate/subroot.glsl"
 #include "shaders/math/bounds.h"
 #include "shaders/math/hash.h"
-#include "shaders/base/root.glsl"
 
 // The half of the frontier that this wave reads, and the one that it writes.
 uint reading(uint i) { return control.parity * control.capacity + i; }
@@ -77,7 +77,9 @@ Key key_of(Candidate c, bool largest) {
   vec2 ac = vec2(ivec2(t.c) - ivec2(t.a));
   // A dyadic area is a power of two: its exponent, 0 to 42, and 26 bits of the hash.
   uint exponent = (floatBitsToUint(max(abs(ab.x * ac.y - ab.y * ac.x), 1.0)) >> 23) - 127u;
-  uint hash = mixed(mixed(mixed(mixed(mixed(0u, c.root), c.corners.x), c.corners.y), c.corners.z),
+  // A split takes two from it. What is in a subroot comes before all that is in none.
+  if (has_subroots()) exponent = exponent / 2u + (is_subroot(c.root) ? 0u : 22u);
+  uint hash = mixed(mixed(mixed(mixed(root_hash(c.root), c.corners.x), c.corners.y), c.corners.z),
                     c.corners.w);
   return Key(first_of_key(c.upper, largest), (exponent << 26) | (hash >> 6));
 }

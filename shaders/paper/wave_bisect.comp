@@ -28,7 +28,7 @@ void main() {
   uint i = item_index();
   if (i >= control.count[kCountSurvivors]) return;
   Child c = load_child(survivors[i]);
-  LocalCorners placed = local_corners(load_root(c.root), c.at);
+  LocalCorners placed = placed_corners(c.root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
   View view = view_of(placed, (kSwitches & kUseUncertified) != 0u);
   u3_bounds[i] = kept_bound(paper_u3(t, c.nearest, view), placed.slack);

@@ -36,7 +36,7 @@ void main() {
   if (i >= control.count[kCountFrontier]) return;
   Candidate c = frontier[reading(i)];
   Bary3 corners = unpack_corners(c.corners);
-  Root root = load_root(c.root);
+  Root root = root_at(c.root);
   uint key = morton_of(position_of(root, centroid_of(corners)).hi);
   if ((kSwitches & kUseThin) != 0u && quality(plain_corners(root, corners)) < kThinQuality)
     key |= kKeyThin;

@@ -93,7 +93,7 @@ void share_room() {
   uint held = control.count[kCountFrontier];
   uint capacity = control.capacity;
   uint room = capacity - held;
-  uint parents = min(held, room > kReserve + 3u ? (room - kReserve) / 3u : 1u);
+  uint parents = min(held, room > reserve() + 3u ? (room - reserve()) / 3u : 1u);
   control.parents = parents;
   control.deferred = held - parents;
   held = schedule(held, room);

@@ -5,18 +5,20 @@
 
 #include "shaders/candidate/split_counts.glsl"
 
+uint reserve() { return has_subroots() ? 2u * kReserve : kReserve; }
+
 // Faces of A that the wave admits, beside `held` candidates, with so much room left: while the
 // frontier is at most a quarter full, so that it can be refined as a whole.
 uint roots_to_admit(uint held, uint room) {
-  uint quarter = (control.capacity - kReserve) / 4u;
+  uint quarter = (control.capacity - reserve()) / 4u;
   uint waiting = control.face_count - control.root_cursor;
-  return held < quarter ? min(waiting, min(quarter - held, room - kReserve)) : 0u;
+  return held < quarter ? min(waiting, min(quarter - held, room - reserve())) : 0u;
 }
 
 // Whether the wave splits its `held` candidates twice: there are few, and there is room for their
 // children and, in a stream for three of each of a quarter of the capacity, for their new points.
 bool may_split_twice(uint held, uint room) {
-  bool fits = 15u * held + kReserve < room && 20u * held <= control.capacity;
+  bool fits = 15u * held + reserve() < room && 20u * held <= control.capacity;
   return kMaySplitTwice && held > 0u && held <= kSplitTwiceParents && fits;
 }
 
@@ -26,9 +28,9 @@ bool may_split_twice(uint held, uint room) {
 // 2^30.
 uint room_for_all(uint held) {
   uint waiting = control.face_count - control.root_cursor;
-  uint once = 4u * (held + waiting + 1u) + kReserve;
+  uint once = 4u * (held + waiting + 1u) + reserve();
   bool few = kMaySplitTwice && held <= kSplitTwiceParents;
-  return few ? max(once, 20u * held + kReserve) : once;
+  return few ? max(once, 20u * held + reserve()) : once;
 }
 
 // What a run ends with that decided all it held.

@@ -3,7 +3,7 @@
 #ifndef VKH_SHADERS_PLAN_SCHEDULE_GLSL
 #define VKH_SHADERS_PLAN_SCHEDULE_GLSL
 
-#include "shaders/base/switches.glsl"
+#include "shaders/plan/room.glsl"
 
 bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
 
@@ -19,7 +19,7 @@ bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
 // the u of each, and so it goes with what A's other faces leave, so that at the end every face has
 // a bound.
 uint schedule(uint held, uint room) {
-  bool largest = (kSwitches & kUseLargestFirst) != 0u && room > kReserve + 3u;
+  bool largest = (kSwitches & kUseLargestFirst) != 0u && room > reserve() + 3u;
   control.select_largest = largest ? 1u : 0u;
   control.sorted = sorts_frontier() && held >= control.sort_from ? 1u : 0u;
   if (may_wait() || (control.deferred == 0u && control.spilled == 0u)) return held;

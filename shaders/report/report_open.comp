@@ -18,5 +18,6 @@ void main() {
   uint i = item_index();
   if (i >= control.count[kCountFrontier]) return;
   Candidate c = frontier[control.parity * control.capacity + i];
+  if (c.root >= control.face_count) return;  // a subroot, which counts as closed
   add_area(control.face_count + c.root, unpack_corners(c.corners));
 }

@@ -26,11 +26,12 @@ layout(scalar, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(scalar, binding = 6) buffer LowerBits { uint lower_bits; };
 layout(scalar, binding = 7) buffer GroupsDone { uint groups_done; };
 layout(scalar, binding = 8) writeonly buffer ReportBlock { Report report; };
+layout(scalar, binding = 9) readonly buffer Frontier { Candidate frontier[]; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
 #include "shaders/base/last_group.glsl"
-#include "shaders/base/root.glsl"
 #include "shaders/candidate/base.glsl"
+#include "shaders/candidate/subroot.glsl"
 
 // A corner of B by the parts that the run works with.
 Two3 b_corner(uint v) {
@@ -39,15 +40,19 @@ Two3 b_corner(uint v) {
   return p;
 }
 
-// A face of A, whatever the coordinates were.
-uint root_of(Witness w) { return min(w.root, control.face_count - 1u); }
+// A face of A, whatever the coordinates were, or a subroot.
+uint root_of(Witness w) {
+  uint subroots = min(control.subroots, most_subroots());
+  if (is_subroot(w.root) && w.root - control.face_count < subroots) return w.root;
+  return min(w.root, control.face_count - 1u);
+}
 
 // Of this invocation's triangle. Those past the end repeat the last one: every one takes part in
 // the subgroup's minimum.
 float certified_distance() {
   uint i = min(item_index(), push.count - 1u);
   Witness w = control.witness;
-  Root root = load_root(root_of(w));
+  Root root = root_at(root_of(w));
   Two3 p = position_of(root, uvec2(w.j, w.k));
   uvec3 f = b_faces[i];
   Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
@@ -57,7 +62,40 @@ float certified_distance() {
   return triangle_distance_down(s, enough);
 }
 
-float witness_slack(Witness w) { return local_corners(load_root(root_of(w)), whole_root()).slack; }
+float witness_slack(Witness w) { return placed_corners(root_of(w), whole_root()).slack; }
+
+// A point of a subroot, one coordinate in its face: its corners' by its place among them, in units
+// of 2^-40, exact in two words.
+uint coordinate_in_face(uvec3 corners, uvec2 at, out uint low) {
+  uvec3 weights = uvec3(kBaryOne - at.x - at.y, at);
+  uvec2 sum = uvec2(0u);  // low word, high word
+  for (uint i = 0u; i < 3u; ++i) {
+    uint high, word, carry;
+    umulExtended(corners[i], weights[i], high, word);
+    sum.x = uaddCarry(sum.x, word, carry);
+    sum.y += high + carry;
+  }
+  low = sum.x & (kBaryOne - 1u);
+  return (sum.x >> kBaryBits) | (sum.y << (32u - kBaryBits));
+}
+
+void write_witness(Witness w) {
+  report.witness_low_j = 0u;
+  report.witness_low_k = 0u;
+  if (is_subroot(root_of(w))) {
+    Candidate c = subroot_of(w.root);
+    Bary3 t = unpack_corners(c.corners);
+    uvec2 at = uvec2(w.j, w.k), low;
+    w.j = coordinate_in_face(uvec3(t.a.x, t.b.x, t.c.x), at, low.x);
+    w.k = coordinate_in_face(uvec3(t.a.y, t.b.y, t.c.y), at, low.y);
+    w.root = c.root;
+    report.witness_low_j = low.x;
+    report.witness_low_k = low.y;
+  }
+  w.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
+  report.witness = w;
+  report.witness_face = triangles[min(w.nearest, push.count - 1u)].face;
+}
 
 // What a limit asks for, if it is proven; `lower` and `upper` are what they are above the base.
 uint proven_status(float lower, float upper) {
@@ -106,9 +144,7 @@ void write_report() {
   report.certified = control.certified;
   bool is_planned = is_running() && control.wanted == 0u;
   report.wave = is_planned ? control.wave - 1u : control.wave;
-  report.witness = w;
-  report.witness.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
-  report.witness_face = triangles[min(w.nearest, push.count - 1u)].face;
+  write_witness(w);
   report.remaining = remaining();
   report.candidate_total = control.candidate_total;
   report.query_total = control.query_total;

@@ -8,8 +8,8 @@
 #ifndef VKH_SHADERS_SEED_SEED_GLSL
 #define VKH_SHADERS_SEED_SEED_GLSL
 
-#include "shaders/base/root.glsl"
 #include "shaders/candidate/base.glsl"
+#include "shaders/candidate/subroot.glsl"
 #include "shaders/walk/query.glsl"
 
 // The last run's, or this one's where it is measured again.
@@ -19,7 +19,7 @@ uint seed_count() { return push.vertex_count + (push.warm != 0u ? 1u : 0u); }
 
 Two3 seed_point(uint i) {
   if (i < push.vertex_count) return vertex_at(i);
-  return position_of(load_root(control.witness.root), uvec2(control.witness.j, control.witness.k));
+  return position_of(root_at(control.witness.root), uvec2(control.witness.j, control.witness.k));
 }
 
 // The triangle to start from: what the last run left there, if it is one of B.
@@ -29,8 +29,17 @@ uint start_of(uint i) {
   return start < push.triangle_count ? start : kNone;
 }
 
-// Makes the witness a sample of A, if it was none.
+// Makes the witness a sample of A, if it was none; of one in a subroot of the last run, which still
+// lies where it was, a corner.
 void clamp_witness() {
+  if (is_subroot(control.witness.root)) {
+    uint i = min(control.witness.root - control.face_count, most_subroots() - 1u);
+    Candidate c = frontier[subroot_place(i)];
+    uvec2 corner = unpack_corners(c.corners).a;
+    control.witness.root = c.root;
+    control.witness.j = corner.x;
+    control.witness.k = corner.y;
+  }
   control.witness.root = min(control.witness.root, control.face_count - 1u);
   control.witness.j = min(control.witness.j, kBaryOne);
   control.witness.k = min(control.witness.k, kBaryOne - control.witness.j);

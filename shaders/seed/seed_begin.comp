@@ -27,6 +27,7 @@ void begin() {
   control.sort_from = push.sort_from;
   control.sorted = 0u;
   control.spilled = 0u;
+  control.subroots = 0u;
   control.pauses = push.pauses;
   control.wanted = 0u;
   control.split_twice = 0u;

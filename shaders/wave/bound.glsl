@@ -39,13 +39,30 @@ uint centre_of(uint i) {
   return centroids[i].nearest;
 }
 
+// Whether both kinds of split are sure to find their points: two halvings of every coordinate.
+bool has_bits_to_split(Bary3 t) {
+  uvec2 any = t.a | t.b | t.c;
+  return ((any.x | any.y) & 3u) == 0u;
+}
+
+// The same candidate, as a root of its own where its bits run out, and there is room.
+Candidate with_bits(Candidate c, Bary3 t) {
+  if (!has_subroots() || is_subroot(c.root) || has_bits_to_split(t)) return c;
+  uint i = atomicAdd(control.subroots, 1u);
+  if (i >= most_subroots()) return c;
+  frontier[subroot_place(i)] = c;
+  close_area(true, c.root, t);
+  return Candidate(pack_corners(whole_root()), control.face_count + i, c.nearest, c.upper);
+}
+
 void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;
   if (mine) close_area(closed, c.root, c.at);
   uint slot = give(closed, open, v);
   if (!open) return;
-  frontier[writing(slot)] = Candidate(pack_corners(c.at), c.root, c.nearest, v.upper);
+  Candidate left = Candidate(pack_corners(c.at), c.root, c.nearest, v.upper);
+  frontier[writing(slot)] = with_bits(left, c.at);
   keep_nearest_to_centroid(writing(slot), centre);
 }
 

@@ -89,7 +89,7 @@ vec3 distances_of(uint child, uint k) {
 
 // Of a child whose known triangles are there already.
 void hold(uint child, Child c) {
-  LocalCorners placed = without_low_parts(local_corners(load_root(c.root), c.at));
+  LocalCorners placed = without_low_parts(placed_corners(c.root, c.at));
   hold_vector(kHeldB, child, placed.b.hi);
   hold_vector(kHeldC, child, placed.c.hi);
   hold_vector(kHeldOrigin, child, placed.origin.hi);

@@ -137,8 +137,9 @@ uint shared_slot_of(uint item, bool held, bool first, Refined r, uint group) {
 // Whether it is rounding that holds u up, so that no split helps: the candidate is tiny; or it lies
 // on B, where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
 // A's.
-bool is_noise(Bary3 corners, Root root, float upper) {
+bool is_noise(Bary3 corners, uint number, Root root, float upper) {
   Corners t = plain_corners(root, corners);
+  if (is_subroot(number)) root = load_root(face_of(number));
   float size2 = max(dot3(t.b, t.b), dot3(t.c, t.c));
   float root_size2 = max(dot3(root.ab.hi, root.ab.hi), dot3(root.ac.hi, root.ac.hi));
   float left = upper - adopted_lower();
@@ -161,8 +162,9 @@ Refined refine(uint item, bool first, uint group) {
   r.split = kSplitNone;
   if (r.slot != kNone) {
     r.at = unpack_corners(r.c.corners);
-    r.root = load_root(r.c.root);
-    if (!r.closed && !is_noise(r.at, r.root, r.upper)) r.split = choose_split(r.at, r.root);
+    r.root = root_at(r.c.root);
+    if (!r.closed && !is_noise(r.at, r.c.root, r.root, r.upper))
+      r.split = choose_split(r.at, r.root);
   }
   return r;
 }

@@ -54,9 +54,9 @@ void measure(Patch t, uint triangle, View view, inout vec3 own, inout Verdict v,
   }
 }
 
-Verdict filter_child(uint code, Child c, Root root, float threshold) {
+Verdict filter_child(uint code, Child c, float threshold) {
   uint child = gl_LocalInvocationID.x;
-  LocalCorners placed = local_corners(root, c.at);
+  LocalCorners placed = placed_corners(c.root, c.at);
   Patch t = make_patch(two(vec3(0.0)), placed.b, placed.c);
   View view = view_of(placed, (kSwitches & kUseUncertified) != 0u);
   float shift = placed.slack;
@@ -93,12 +93,11 @@ void main() {
   Two3 centre = two(vec3(0.0));
   if (mine) {
     Child c = load_child(code);
-    Root root = load_root(c.root);
     bool shared_face = is_root(code) && face_shared[c.root] != 0u;
     v = Verdict(0.0, kCullExact, kNone);
-    if (!shared_face) v = filter_child(code, c, root, threshold);
+    if (!shared_face) v = filter_child(code, c, threshold);
     close_area(v.upper <= threshold, c.root, c.at);
-    centre = position_of(root, centroid_of(c.at));
+    centre = position_of(root_at(c.root), centroid_of(c.at));
   }
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;

@@ -27,7 +27,7 @@ bool is_new_lower(float distance) {
 }
 
 Witness witness_from(Point asked, uint root, uvec2 at) {
-  vec3 position = position_of(load_root(root), at).hi;
+  vec3 position = position_of(root_at(root), at).hi;
   return Witness(position, asked.distance, root, at.x, at.y, asked.nearest);
 }
 
@@ -50,7 +50,7 @@ Witness witness_at(uint s) {
 }
 
 uint key_of_witness(Witness w) {
-  uint key = mixed(mixed(mixed(mixed(0u, w.root), w.j), w.k), w.nearest);
+  uint key = mixed(mixed(mixed(root_hash(w.root), w.j), w.k), w.nearest);
   return min(key, kNone - 1u);
 }
 

@@ -29,6 +29,9 @@ def sheet(name, n, height, seed):
 
 FILES = dict([sheet("a.obj", 12, 0, 1), sheet("b.obj", 9, 0.05, 2), sheet("same.obj", 12, 0, 1), sheet("fine.obj", 60, 0, 3)])
 FILES["wide.off"] = "OFF\n4 2 0\n-1 -1 0\n2 -1 0\n2 2 0.1\n-1 2 0\n3 0 1 2\n3 2 3 0\n"
+# The farthest point of the one from the other's three points is at thirds of its edges.
+FILES["face.obj"] = "v 0 0 0\nv 4 0 0\nv 1 3 0\nf 1 2 3\n"
+FILES["points.obj"] = "v 0 0 0\nv 4 0 0\nv 1 3 0\nf 1 1 1\nf 2 2 2\nf 3 3 3\n"
 FILES["scene.gltf"] = json.dumps({
     "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0, "rotation": [0.1, 0.2, 0.3, 0.9], "scale": [1.1, 0.7, 1.3], "translation": [0.1, 0.2, 0.3]}],
@@ -70,6 +73,8 @@ class Program(unittest.TestCase):
                              (["distance", "a.obj", "b.obj", "--preset", "paper"], (0,)),
                              (["distance", "a.obj", "b.obj", "--preset", "baseline-gpu", "--memory", "1"], (0, 3)),
                              (["distance", "a.obj", "b.obj", "--waves", "1", "--tol", "1e-9"], (3,)),
+                             (["distance", "face.obj", "points.obj", "--tol", "1e-8"], (0,)),
+                             (["distance", "face.obj", "points.obj", "--tol", "2e-8", "--symmetric", "--verify"], (0,)),
                              (["distance", "a.obj", "b.obj", "--field-tol", "1%", "--stats"], (0,)),
                              (["gate", "a.obj", "b.obj", "--max", "0.5abs"], (0,)),
                              (["gate", "a.obj", "b.obj", "--max", "0.01abs", "--symmetric"], (1,))):

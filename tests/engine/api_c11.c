@@ -126,7 +126,7 @@ static void check_context(VkhDeviceInfo info) {
 
 int main(void) {
   VkhDeviceInfo info = {NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE};
-  static_assert(sizeof(VkhReport) == 4 * (4 + 3 + 15 + VKH_MAX_CULLS + 7 * VKH_MAX_WAVE_RECORDS),
+  static_assert(sizeof(VkhReport) == 4 * (4 + 3 + 17 + VKH_MAX_CULLS + 7 * VKH_MAX_WAVE_RECORDS),
                 "no padding");
   info.getInstanceProcAddr = open_loader();
   if (info.getInstanceProcAddr != NULL) info.instance = create_instance(info.getInstanceProcAddr);

@@ -2,6 +2,7 @@
 // had it from the start, bit by bit.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -192,4 +193,42 @@ TEST_CASE("sizes of workspaces grow with the candidates that they have room for"
   CHECK(mover.bytes_for(1) == least_bytes(pair));
   CHECK(mover.bytes_for(1u << 16) < mover.bytes_for(1u << 17));
   CHECK(mover.bytes_for(UINT32_MAX) >= mover.bytes_for(1u << 20));
+}
+
+TEST_CASE("a moved run keeps its subroots") {
+  const Mesh face = single_triangle({0, 0, 0}, {1, 0, 0}, {0.25, 0.75, 0});
+  Mesh points = face;
+  points.faces = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+  ApiMesh a(face), b(points);
+  for (const auto kind : {VKH_DEVICE_KIND_NARROW, VKH_DEVICE_KIND_WIDE}) {
+    const bool wide = kind == VKH_DEVICE_KIND_WIDE;
+    // What is split twice depends on the room that there is.
+    const uint32_t switches =
+        wide ? VKH_SWITCH_DEFAULT_WIDE & ~VKH_SWITCH_SPLIT_TWICE : VKH_SWITCH_DEFAULT_NARROW;
+    const VkhContextCreateInfo info{test_device().engine_info(), VK_NULL_HANDLE,
+                                    switches | VKH_SWITCH_SUBROOTS, kind, VK_FALSE};
+    VkhContext context = nullptr;
+    REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
+    {
+      ApiPair pair(a, b, 1e-9f, context);
+      pair.problem().twoFloat = VK_TRUE;
+      VkhReport moved, stayed;
+      {
+        Mover mover(pair, least_bytes(pair));
+        stayed = to_the_end(mover, mover.start());
+      }
+      Mover mover(pair, least_bytes(pair));
+      moved = mover.start();
+      for (uint32_t wave = 0; wave < 100 && moved.status == VKH_STATUS_RUNNING; ++wave)
+        moved = mover.move(mover.memory(mover.bytes_for(300 + 20 * wave)));
+      CHECK(moved.status == VKH_STATUS_DECIDED);
+      CHECK(is_same(moved, stayed));
+      CHECK(moved.witnessBarycentricLow[0] + moved.witnessBarycentricLow[1] > 0);
+      const double base = static_cast<double>(moved.base), exact = std::sqrt(5.0) / 4;
+      CHECK(base + static_cast<double>(moved.lowerAbove) <= exact + 1e-15);
+      CHECK(base + static_cast<double>(moved.upperAbove) >= exact - 1e-15);
+      CHECK(moved.upperAbove - moved.lowerAbove < 1.5e-9f);
+    }
+    vkhDestroyContext(context);
+  }
 }

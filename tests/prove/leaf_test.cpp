@@ -89,6 +89,17 @@ Mesh of_triangles(const std::vector<glm::dvec3>& corners) {
   return make_mesh("test", corners, faces);
 }
 
+TEST_CASE("the nearest faces of all, the nearest first") {
+  std::vector<glm::dvec3> corners;
+  for (const double x : {7.0, 3.0, 9.0, 1.0, 5.0, 11.0, 2.0, 8.0, 4.0, 10.0, 6.0})
+    corners.insert(corners.end(), {{x, -1, 0}, {x, 1, 0}, {x, 0, 1}});
+  const Part part = ScaledMesh(of_triangles({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}), 0).part(0);
+  const Hints found = nearest_faces(part, ScaledMesh(of_triangles(corners), 0));
+  REQUIRE(found.count == kMostHints);
+  for (size_t i = 0; i < found.count; ++i)
+    CHECK(corners[3 * size_t{found.face[i]}].x == static_cast<double>(i + 1));
+}
+
 TEST_CASE("a roof needs both of its sides, and the cut is between them") {
   const Mesh roof =
       of_triangles({{0, -4, 0}, {0, 4, 0}, {-8, 0, 0}, {0, -4, 0}, {0, 4, 0}, {8, 0, 1}});

@@ -214,6 +214,23 @@ HardPair patch(Random& random) {
   return out;
 }
 
+/// B is A moved along its vertices' normals: about all of A is equally far.
+HardPair offset(Random& random) {
+  const Mesh shapes[] = {icosphere(1.0, random.below(3)), torus(1.0, 0.3, some(random, 9) + 3, 5),
+                         height_field(2 + some(random, 6), 1), cube(1.0)};
+  const Mesh& a = shapes[random.below(4)];
+  std::vector<dvec3> normals(a.vertices.size(), dvec3(0.0));
+  for (const glm::uvec3& f : a.faces) {
+    const dvec3 p = a.vertices[f.x];
+    const dvec3 normal = glm::cross(a.vertices[f.y] - p, a.vertices[f.z] - p);
+    for (int i = 0; i < 3; ++i) normals[f[i]] += normal;
+  }
+  const double by = log10_uniform(random, -4.0, -0.3);
+  std::vector<dvec3> moved = a.vertices;
+  for (size_t i = 0; i < moved.size(); ++i) moved[i] += by * glm::normalize(normals[i]);
+  return of(a, make_mesh("offset", std::move(moved), a.faces));
+}
+
 struct Family {
   const char* name;
   HardPair (*make)(Random&);
@@ -238,7 +255,8 @@ constexpr Family kFamilies[] = {{"mixed", mixed},
                                 {"twins", twins},
                                 {"float32", single_precision},
                                 {"self", self},
-                                {"patch", patch}};
+                                {"patch", patch},
+                                {"offset", offset}};
 
 }  // namespace
 
