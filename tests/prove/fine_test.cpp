@@ -79,7 +79,7 @@ TEST_CASE("an absolute tolerance, both directions and a limit are as fine") {
 }
 
 TEST_CASE("what becomes a subroot counts as closed, in the smallest workspace too") {
-  for (const uint64_t memory : {0, 1}) {
+  for (const uint64_t memory : {uint64_t{0}, uint64_t{1}}) {
     for (const char* preset : {"default", "paper", "baseline-gpu"}) {
       CAPTURE(memory);
       CAPTURE(preset);
