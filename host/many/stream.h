@@ -15,6 +15,14 @@
 
 namespace vkh {
 
+/// What came of a pair.
+struct StreamResult {
+  size_t number = 0;
+  Report a_to_b;
+  std::optional<Report> b_to_a;  ///< there for a symmetric pair
+  std::exception_ptr error;      ///< instead: what Solver threw
+};
+
 /// A pair, and what is asked about it.
 struct StreamPair {
   size_t number = 0;  ///< the caller's own
@@ -24,14 +32,9 @@ struct StreamPair {
   bool shares_b = false;
   bool symmetric = false;
   SolveOptions options;  ///< `progress` is asked on the threads that run
-};
-
-/// What came of it.
-struct StreamResult {
-  size_t number = 0;
-  Report a_to_b;
-  std::optional<Report> b_to_a;  ///< there for a symmetric pair
-  std::exception_ptr error;      ///< instead: what Solver threw
+  /// Called after the pair's own run, with the solver that ran it, before it is delivered: for
+  /// surveys and certificates. What it throws is the pair's error.
+  std::function<void(Solver&, StreamResult&)> beside = {};
 };
 
 struct StreamOptions {
