@@ -20,7 +20,7 @@ try:
 except ImportError:
     junitparser = None
 
-PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+PROGRAM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 SQUARE = "v 0 0 {z}\nv {x} 0 {z}\nv {x} 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
 ODD = "it's <a>, \"b\" \u00e9\u6f22\x07\nand a line"
 # What a batch can be asked, and the code of its line.
