@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/batch/batch.h"
+#include "host/job/session.h"
 #include "host/record/merge.h"
 #include "host/record/tables.h"
 #include "host/system/output_file.h"

@@ -12,17 +12,17 @@ _vkhausdorff() {
     return
   fi
   case $previous in
-    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu" -- "$current"); return ;;
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu all" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-    --area | --bands | --field-tol | --size | --range | --steps) return ;;
+    --part | --known-lower | --area | --bands | --field-tol | --size | --range | --steps) return ;;
   esac
   case $command in
-    distance) options="$search $outputs --unit --max-input --certificate" ;;
+    distance) options="$search $outputs --unit --max-input --certificate --part --known-lower" ;;
     gate) options="$search $outputs --unit --max-input --certificate --max --area --face-max --face-max-b --junit --github" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help" ;;
