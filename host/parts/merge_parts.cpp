@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fstream>
 #include <limits>
 
 #include "host/base/error.h"
@@ -10,6 +11,7 @@
 #include "host/base/rounding.h"
 #include "host/base/text_scanner.h"
 #include "host/parts/joined.h"
+#include "host/system/system.h"
 
 namespace vkh {
 namespace {
@@ -331,6 +333,24 @@ void add_member(JsonObject& json, const std::string& key, const Json& value,
 }  // namespace
 
 bool is_part(const Json& answer) { return answer.is_object() && answer.contains("part"); }
+
+std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files) {
+  std::vector<WrittenAnswer> parts;
+  for (const std::string& path : files) {
+    std::ifstream file(path_of(path), std::ios::binary);
+    if (!file) throw InputError(path + ": cannot be read; expected results");
+    uint64_t number = 0;
+    for (std::string line; std::getline(file, line);) {
+      const std::string place = "line " + std::to_string(++number);
+      Json json = Json::parse(line, nullptr, false);
+      if (parts.empty() && !is_part(json)) return {};
+      if (json.is_discarded()) reject(path, place, quoted(line), "a JSON object a line");
+      parts.push_back({path, place, std::move(json)});
+    }
+    if (file.bad()) throw InputError(path + ": cannot be read");
+  }
+  return parts;
+}
 
 std::string merge_parts(const std::vector<WrittenAnswer>& written) {
   const FloatEnvironment ours;

@@ -17,6 +17,10 @@ struct WrittenAnswer {
 /// Whether it says that it is of a part alone.
 bool is_part(const Json& answer);
 
+/// All lines of the files, where the first one of the first file is a part's; else none. Throws
+/// InputError for what cannot be read, and for lines that are no JSON.
+std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files);
+
 /// One line of JSON, of docs/schema/answer.schema.json: lower the largest, with its witness; upper
 /// the largest; their bits are carried, and only compared. It is closed where that width is at most
 /// the tolerance in exact arithmetic, whatever became of the parts: one that was pruned by a known

@@ -67,12 +67,16 @@ class Together {
  private:
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Every part that waits, by every device that is there. Throws the last one's error.
+  /// Every part that waits, by every device that is there. Throws the last one's error where it
+  /// leaves a part without an answer.
   void work_off() {
     for_each_index(
         solvers_.size(), [&](size_t i) { work(i); }, solvers_.size());
     if (error_) std::rethrow_exception(error_);
-    if (!waiting_.empty()) std::rethrow_exception(loss_);
+    for (const size_t number : waiting_) {
+      if (!parts_[number].report) std::rethrow_exception(loss_);
+    }
+    waiting_.clear();
   }
 
   /// One device: part after part, until none is waiting and none is left that could be given back.
@@ -100,7 +104,7 @@ class Together {
       Report r = distance_of_part(alone, a_, parts_[number].ranges, b_, options_for(number));
       const std::lock_guard lock(mutex_);
       PartState& part = parts_[number];
-      part.proven = std::max(part.proven, r.lower);
+      if (options_.certified) part.proven = std::max(part.proven, r.lower);
       if (options_.limit.beyond > 0 && r.lower > options_.limit.beyond) is_over_ = true;
       part.report = part.report ? narrowed(*part.report, std::move(r)) : std::move(r);
       part.device = device;

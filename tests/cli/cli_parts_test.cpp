@@ -151,3 +151,26 @@ TEST_CASE("several devices: two of one, all, and what cannot be") {
   CHECK(distance({"--device", "0,0", "--stats", "--time", "20s"}).exit_code == 0);
   CHECK(distance({"--device", "0,0", "--time", "1ms"}).exit_code == 3);
 }
+
+TEST_CASE("merge makes one answer of all parts, and of nothing less") {
+  Words files;
+  for (size_t i = 0; i < 3; ++i) {
+    files.push_back(folder() / ("part-" + std::to_string(i) + ".json"));
+    distance({"--part", std::to_string(i) + "/3", "--json=" + files.back()});
+  }
+  if (json::parse(read_file(files[0]))["inputs"][0]["sha256"].is_null()) return;
+  const std::string out = folder() / "merged.json";
+  const Outcome outcome = run(Words{"merge"} + files + Words{"--out", out});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.starts_with("every point of A is within "));
+  const json merged = json::parse(read_file(out));
+  CHECK(merged["status"] == "closed");
+  CHECK(merged["parts"] == 3);
+  const Outcome missing = run({"merge", files[0], files[2], "--out", out});
+  CHECK(missing.exit_code == 4);
+  CHECK(missing.err.find("without part 1; expected all 3 parts") != std::string::npos);
+  const std::string garbage = write_file("garbage.json", "{\n");
+  CHECK(run({"merge", files[0], garbage, "--out", out}).exit_code == 4);
+  CHECK(run(Words{"merge"} + files + Words{"--out", files[0]}).exit_code == 2);
+  CHECK(run(Words{"merge"} + files + Words{"--out", out, "--reproducible"}).exit_code == 2);
+}
