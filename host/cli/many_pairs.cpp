@@ -84,7 +84,10 @@ void add_batch(CLI::App& command, TypedMany& typed) {
 }
 
 void add_merge(CLI::App& command, TypedMany& typed) {
-  command.add_option("RESULTS", typed.files, "Results of batches")->required();
+  command
+      .add_option("RESULTS", typed.files,
+                  "Results of batches; or the answers of all parts of one pair")
+      ->required();
   add_tables(command, typed);
   command
       .add_option("--list", typed.list,

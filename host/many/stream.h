@@ -38,7 +38,7 @@ struct StreamPair {
 };
 
 struct StreamOptions {
-  /// DeviceRequest::selector of each; see selectors_of().
+  /// DeviceRequest::selector of each; see host/job/session.h.
   std::vector<std::string> devices = {""};
   std::filesystem::path cache_folder;  ///< see Solver
   SolveOptions first;                  ///< whose pipelines are made while the first pairs are read
@@ -53,10 +53,6 @@ struct StreamTimes {
   double lanes_s = 0;  ///< lanes with pairs, each for itself
   double gpu_s = 0;    ///< timestamps around what they submitted; 0 where a queue has none
 };
-
-/// "all", every GPU, or the CPU device where there is none; else names that DeviceRequest takes,
-/// between commas. Throws UsageError for an empty one.
-std::vector<std::string> selectors_of(const std::string& text);
 
 class PairStream {
  public:

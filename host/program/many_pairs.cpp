@@ -7,6 +7,8 @@
 
 #include "host/base/error.h"
 #include "host/batch/batch.h"
+#include "host/job/session.h"
+#include "host/parts/merge_parts.h"
 #include "host/record/merge.h"
 #include "host/record/tables.h"
 #include "host/system/output_file.h"
@@ -110,8 +112,29 @@ ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
   return code;
 }
 
+namespace {
+
+/// Of one pair, whose parts were measured apart. The answer is one line, as of `distance --json`.
+ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswer>& parts) {
+  if (!asked.list.empty() || asked.reproducible || asked.tables.csv || asked.tables.junit)
+    throw UsageError(
+        "merge: the parts of one pair make one answer: no --list, --reproducible, "
+        "--csv or --junit");
+  const OutputFile out("--out", asked.results, asked.files);
+  const std::string text = merge_parts(parts);
+  out.write(text + '\n');
+  const Json json = Json::parse(text);
+  std::cout << json.at("words").get<std::string>() << "\n  parts      " << parts.size() << ": "
+            << json.at("stop_reason").get<std::string>() << '\n';
+  return json.at("status") == status_name(Status::kClosed) ? kExitClosed : kExitNotClosed;
+}
+
+}  // namespace
+
 ExitCode run_merge_command(const MergeAsked& asked) {
   check_outputs(asked.results, asked.tables);
+  if (const auto parts = read_parts(asked.files); !parts.empty())
+    return merge_all_parts(asked, parts);
   std::vector<std::string> inputs = asked.files;
   if (!asked.list.empty()) inputs.push_back(asked.list);
   const OutputFile out("--out", asked.results, inputs);

@@ -13,21 +13,18 @@ _vkhausdorff() {
     return
   fi
   case $previous in
-    --device)
-      local devices="gpu cpu"
-      [ "$command" = batch ] && devices+=" all"
-      mapfile -t COMPREPLY < <(compgen -W "$devices" -- "$current")
-      return ;;
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu all" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-    --area | --bands | --field-tol | --size | --range | --steps | --shard | --together | --lanes | --read-ahead) return ;;
+      --area | --bands | --field-tol | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
+      --part | --known-lower) return ;;
   esac
   case $command in
-    distance) options="$search $outputs --unit --max-input --certificate" ;;
+    distance) options="$search $outputs --unit --max-input --certificate --part --known-lower" ;;
     gate) options="$search $outputs --unit --max-input --certificate --max --area --face-max --face-max-b --junit --github" ;;
     batch)
       options="$search $tables --against --resume --shard --fail-fast --max --tol --symmetric --unit --max-input"
