@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "host/base/float_environment.h"
@@ -55,15 +56,23 @@ bool Flow::has_room() const {
 }
 
 void Flow::put(FlowPair pair) {
+  const uint64_t bytes = pair.a.bytes() + pair.b.bytes();  // asks the disk
   const std::lock_guard lock(mutex_);
   if (is_ended_) return;
-  const uint64_t bytes = pair.a.bytes() + (asked_.against ? 0 : pair.b.bytes());
+  if (idle_ <= jobs_.size() && threads_.size() < thread_count()) add_thread();
   bytes_.emplace(pair.number, bytes);
   bytes_sum_ += bytes;
   jobs_.push_back(std::move(pair));
-  if (idle_ < jobs_.size() && threads_.size() < thread_count())
-    threads_.emplace_back([this] { work(); });
   jobs_changed_.notify_one();
+}
+
+// One is enough, where there are no more to be had.
+void Flow::add_thread() {
+  try {
+    threads_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {
+    if (threads_.empty()) throw;
+  }
 }
 
 void Flow::work() {
@@ -103,7 +112,10 @@ void Flow::solve(FlowPair pair) {
                    .options = asked_.options};
   if (!asked_.against) whole.b = made_mesh(std::move(pair.b), goes_on);
   if (asked_.max) whole.options.limit = limit_for(*asked_.max, *whole.a);
-  stream_->push(std::move(whole));
+  try {
+    stream_->push(std::move(whole));
+  } catch (...) {  // no device is left, and the fault is not the pair's: wait() says so
+  }
 }
 
 void Flow::deliver(StreamResult&& result) {

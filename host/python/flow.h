@@ -42,7 +42,7 @@ class Flow {
   /// Whether one more may be put: fewer than `ahead` are there, and their meshes are not above
   /// kMostBytes.
   bool has_room() const;
-  /// Never waits: threads of the flow read it, clean it and pass it on.
+  /// Waits for nobody: threads of the flow read it, clean it and pass it on.
   void put(FlowPair pair);
   /// What ended, in the order in which pairs end; `number` is the pair's.
   std::optional<StreamResult> take();
@@ -60,6 +60,7 @@ class Flow {
 
  private:
   static size_t default_ahead(const StreamOptions& devices);
+  void add_thread();
   void work();
   void solve(FlowPair pair);
   void deliver(StreamResult&& result);

@@ -120,6 +120,8 @@ void PythonStream::put(size_t index, const py::object& id, const py::object& a,
   FlowPair pair{.number = index, .a = mesh_given("a", "A", a), .b = {}};
   if (!b.is_none()) pair.b = mesh_given("b", "B", b);
   if (!id.is_none()) ids_[index] = id;
+  std::optional<WithoutGil> outside;
+  if (!pair.a.file.empty() || !pair.b.file.empty()) outside.emplace();  // disks may be slow
   flow->put(std::move(pair));
 }
 
@@ -165,12 +167,17 @@ void PythonStream::close() {
 PythonStream::~PythonStream() { close(); }
 
 void define_many(py::module_& m) {
-  py::class_<PythonStream>(m, "_Stream", "What stands behind distances().")
+  constexpr const char* kName = "_Stream";
+  py::class_<PythonStream>(m, kName, "What stands behind distances().")
       .def(py::init<const py::args&, const py::kwargs&>())
-      .def("has_room", &PythonStream::has_room)
-      .def("put", &PythonStream::put)
-      .def("take", &PythonStream::take)
-      .def("close", &PythonStream::close);
+      .def("has_room",
+           [](const py::object& self) { return made<PythonStream>(self, kName).has_room(); })
+      .def("put",
+           [](const py::object& self, size_t index, const py::object& id, const py::object& a,
+              const py::object& b) { made<PythonStream>(self, kName).put(index, id, a, b); })
+      .def("take", [](const py::object& self,
+                      bool waits) { return made<PythonStream>(self, kName).take(waits); })
+      .def("close", [](const py::object& self) { made<PythonStream>(self, kName).close(); });
   m.def("_failed", failed);
 }
 

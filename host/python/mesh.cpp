@@ -98,8 +98,13 @@ bool is_pair(const py::object& object) {
          py::len(object) == 2;
 }
 
+// None where there is none. What else is wrong with it is raised.
 py::object attribute(const py::object& object, const char* name) {
-  return py::getattr(object, name, py::none());
+  auto value = py::reinterpret_steal<py::object>(PyObject_GetAttrString(object.ptr(), name));
+  if (value) return value;
+  if (PyErr_ExceptionMatches(PyExc_AttributeError) == 0) throw py::error_already_set();
+  PyErr_Clear();
+  return py::none();
 }
 
 // (vertices, faces); None of both for an object that has none.

@@ -1,6 +1,6 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from os import PathLike
 from types import TracebackType
 from typing import Any, Literal, NamedTuple, Protocol, SupportsFloat, SupportsIndex, Union, overload
@@ -231,6 +231,15 @@ def distance(
     bands: _Bands = (),
     survey_time: _Number | None = 10.0,
 ) -> Result: ...
+class _Results(Iterator[Result]):
+    def __next__(self) -> Result: ...
+    def close(self) -> None: ...
+    def __enter__(self) -> _Results: ...
+    def __exit__(
+        self,
+        *error: type[BaseException] | BaseException | TracebackType | None,
+    ) -> None: ...
+
 def distances(
     pairs: Iterable[tuple[_Mesh, _Mesh] | tuple[Any, _Mesh, _Mesh] | _Mesh | tuple[str | int, _Mesh]],
     *,
@@ -248,7 +257,7 @@ def distances(
     together: SupportsIndex | None = None,
     lanes: SupportsIndex | None = None,
     ahead: SupportsIndex | None = None,
-) -> Generator[Result, None, None]: ...
+) -> _Results: ...
 def gate(
     a: _Mesh,
     b: _Mesh,

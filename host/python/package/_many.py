@@ -23,8 +23,8 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or
     one that was not asked for. That is 2 * lanes * together of a GPU (96) a device if None. No pair is taken while meshes
     of those are above 2 GiB. An exception that pairs raises is raised after the results of what was taken before. To end
-    early, leave the loop and drop the iterator, or call its close(): what runs is cancelled and no device is left open.
-    Ctrl-C does so, too. DeviceError if no device is left.
+    early, leave the loop and drop the iterator, use it in a with statement, or call its close(), on any thread: what runs is
+    cancelled and no device is left open. Ctrl-C does so, too. DeviceError if no device is left.
     """
     try:
         items = iter(pairs)
@@ -33,7 +33,30 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     named = {} if tol is None else {"tol": tol}
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead, **named)
-    return _results(stream, items, _with_one if against is not None else _with_two)
+    return _Results(stream, _results(stream, items, _with_one if against is not None else _with_two))
+
+
+class _Results:
+    """What distances() returns: an iterator, and a context manager that closes itself."""
+
+    def __init__(self, stream, results):
+        self._stream, self._results = stream, results
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        return next(self._results)
+
+    def close(self):
+        """Cancels what runs. Any thread: one that waits for a result gets StopIteration."""
+        self._stream.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
 
 
 def _with_two(item):
