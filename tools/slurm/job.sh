@@ -1,0 +1,128 @@
+#!/usr/bin/env bash
+# What tools/slurm/submit submits: the tasks of an array, and the merge after them. By hand:
+#   sbatch --array=0-63 tools/slurm/job.sh task PROGRAM LIST FOLDER SHARDS 64 [OPTIONS OF vkhausdorff batch]
+#   sbatch --dependency=afterany:ARRAY tools/slurm/job.sh merge PROGRAM LIST FOLDER [OPTIONS OF vkhausdorff merge]
+# Paths are absolute, on file systems that all nodes share. Task i of 64 does shards i, i + 64, i + 128 ... of SHARDS.
+#
+# What becomes of a task:
+#   killed program  say for memory: the task is requeued, and goes on after the last whole line
+#   time limit      USR1 comes two minutes before it: the batch ends, and the task is requeued
+#   preempted       TERM: the batch ends; Slurm requeues the task, where the partition's PreemptMode says so
+#   cancelled       TERM: the batch ends; submit again to go on
+#   lost node       Slurm requeues the task; it waits for the lock of a former process that lives on
+#   exit codes      those of `vkhausdorff batch`, the worst of the task's shards; none of them is requeued
+#SBATCH --job-name=vkhausdorff
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:USR1@120
+set -euo pipefail
+
+kTries=3          # so often in a row a task is requeued that has written no new line
+kLockSeconds=600  # so long a task waits for its former process
+
+say() { echo "$(date +%FT%T) $(hostname) ${task:+task $task: }$*"; }
+
+# The worst of a batch's codes is the first of 5 4 6 1 3 0 among them. What is none of these is worse.
+worst() {
+  local code known
+  for code; do
+    [[ $code == [013456] ]] || { echo "$code"; return; }
+  done
+  for known in 5 4 6 1 3 0; do
+    for code; do
+      [ "$code" != $known ] || { echo $known; return; }
+    done
+  done
+}
+
+# By a trap: a task that stops gives the program time to end with whole lines.
+# shellcheck disable=SC2317
+stop() {
+  stopped=$1
+  [ -z "$child" ] || kill -TERM "$child" 2>/dev/null || true
+}
+
+take_lock() {
+  local code=0
+  exec 9>>"$folder/lock-$task"
+  flock --wait $kLockSeconds --conflict-exit-code 75 9 || code=$?
+  [ $code != 75 ] || { say "a former process of this task still lives after $kLockSeconds s"; exit 6; }
+  [ $code = 0 ] || say "no locks on $folder: be sure that no former process of this task lives"
+}
+
+# The lines that the task's shards have, of all attempts.
+lines() {
+  local shard count=0
+  for ((shard = task; shard < shards; shard += tasks)); do
+    [ ! -e "$folder/results-$shard.jsonl" ] || count=$((count + $(wc -l <"$folder/results-$shard.jsonl")))
+  done
+  echo $count
+}
+
+# Runs one shard and leaves its exit code in `code`. Where a trap breaks off bash's wait, the next one may say -1 in place
+# of the code (bash 5.2.15: of one child in five that a signal ended together with this script). So it looks each second.
+run_shard() {
+  "$program" batch "$list" --out "$folder/results-$1.jsonl" --shard "$1/$shards" --resume "${@:2}" &
+  child=$!
+  [ -z "$stopped" ] || kill -TERM "$child" 2>/dev/null || true  # it came before there was a child
+  while kill -0 "$child" 2>/dev/null; do { sleep 1 || true; } 2>/dev/null; done
+  code=0
+  wait "$child" || code=$?
+  child=''
+}
+
+# Only by this name: the last task's SLURM_JOB_ID is that of the whole array.
+requeue() {
+  local now was=-1 times=0
+  now=$(lines)
+  [ ! -e "$folder/tries-$task" ] || read -r was times <"$folder/tries-$task"
+  [ "$now" = "$was" ] || times=0
+  [ "$times" -lt $kTries ] || { say "$1: $kTries requeues brought no line, and there is no other"; return; }
+  echo "$now $((times + 1))" >"$folder/tries-$task"
+  say "$1 after $now lines: requeued"
+  scontrol requeue "${SLURM_ARRAY_JOB_ID}_$task" || { say "Slurm does not requeue it"; return; }
+  exit 0  # Slurm ends it, if it has not yet
+}
+
+run_task() {
+  local shards=$1 tasks=$2 shard code codes=() killed=''
+  shift 2
+  task=$SLURM_ARRAY_TASK_ID child='' stopped=''
+  trap 'stop limit' USR1
+  trap 'stop ended' TERM
+  [ -d "$folder" ] || { say "no $folder on this node: is it on a shared file system?"; exit 6; }
+  take_lock
+  rm -f "$folder/code-$task"
+  for ((shard = task; shard < shards; shard += tasks)); do
+    [ -z "$stopped" ] || { codes+=(3); break; }
+    run_shard $shard "$@"
+    say "shard $shard/$shards: exit code $code"
+    [ $code -lt 128 ] || { killed=$((code - 128)); code=3; }  # what is not done is not closed
+    codes+=("$code")
+  done
+  [ "$stopped" != limit ] || requeue "near its time limit"
+  { [ -n "$stopped" ] || [ -z "$killed" ]; } || requeue "killed by signal $killed"
+  worst "${codes[@]}" >"$folder/code-$task.new"
+  mv "$folder/code-$task.new" "$folder/code-$task"
+  exit "$(<"$folder/code-$task")"
+}
+
+# Exits with the worst of the pairs and the tasks: a task without a device, say, has no line that tells of it.
+run_merge() {
+  local code=0 file codes=() files=("$folder"/results-*.jsonl)
+  [ -e "${files[0]}" ] || { say "no task wrote anything: see $folder/logs"; exit 3; }
+  "$program" merge "${files[@]}" --list "$list" --out "$folder/all.jsonl" --csv="$folder/all.csv" --junit="$folder/all.xml" "$@" ||
+    code=$?
+  for file in "$folder"/code-*; do
+    [ ! -e "$file" ] || codes+=("$(<"$file")")
+  done
+  exit "$(worst "$code" "${codes[@]}")"
+}
+
+mode=$1 program=$2 list=$3 folder=$4 task=''
+shift 4
+case $mode in
+  task) run_task "$@" ;;
+  merge) run_merge "$@" ;;
+  *) echo "job.sh: task or merge, not $mode" >&2; exit 2 ;;
+esac
