@@ -20,7 +20,7 @@ ROOMS = {
     "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "field",
              "prove", "answer", "demo", "check", "draw", "export", "page", "job", "cli"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "draw", "page", "pairs", "check",
-              "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
+              "cli", "faults", "platforms", "cluster", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)
 OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room
