@@ -5,6 +5,7 @@
 #include <array>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -118,7 +119,15 @@ struct TableRow {
 };
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey);
 
-/// A test suite of one test case: JUnit's XML, as build servers read it.
+/// A test case of JUnit's as it ended; `element` empty: it passed.
+struct JunitCase {
+  std::string command, name, words;
+  double seconds = 0;
+  std::string element = {}, type = {};
+};
+/// A test suite: JUnit's XML, as build servers read it. `started` empty: without it and the host.
+std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
+                     const std::string& started);
 std::string to_junit(const Answer& answer);
 std::string to_junit(const Failure& failure);
 

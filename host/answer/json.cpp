@@ -169,7 +169,17 @@ std::string proof_json(const Proof& proof) {
   return json.text();
 }
 
-std::string direction_json(const Answer& answer, const Report& r, bool back) {
+Json counts_json(const Report& r, Detail detail) {
+  Json counts = {{"waves", r.waves},
+                 {"candidates", r.candidates},
+                 {"queries", r.queries},
+                 {"peak_frontier", r.peak_frontier}};
+  // By what the device has had before.
+  if (detail == Detail::kFull) counts["workspace_bytes"] = r.workspace_bytes;
+  return counts;
+}
+
+std::string direction_json(const Answer& answer, const Report& r, bool back, Detail detail) {
   JsonObject json;
   json.add("from", back ? "b" : "a");
   json.add("to", back ? "a" : "b");
@@ -182,12 +192,9 @@ std::string direction_json(const Answer& answer, const Report& r, bool back) {
   if (survey) add_survey(json, *survey, answer);
   const std::optional<Proof>& proof = back ? answer.proof_b : answer.proof_a;
   if (proof) json.add_text("certificate", proof_json(*proof));
-  json.add("times", times_json(r.times));
-  json.add("counts", {{"waves", r.waves},
-                      {"candidates", r.candidates},
-                      {"queries", r.queries},
-                      {"peak_frontier", r.peak_frontier},
-                      {"workspace_bytes", r.workspace_bytes}});
+  if (detail == Detail::kFull) json.add("times", times_json(r.times));
+  json.add("counts", counts_json(r, detail));
+  if (detail == Detail::kBrief) return json.text();
   json.add("stages", stages_json(r.stages));
   json.add("culled", culled_json(r.culled));
   json.add("wave_stats", wave_stats_json(r.wave_stats));
@@ -198,11 +205,8 @@ constexpr const char* kSchema = "vkhausdorff.answer/1";
 
 }  // namespace
 
-std::string to_json(const Answer& answer) {
+void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
   const CertifiedInterval whole = interval_of(answer);
-  JsonObject json;
-  json.add("schema", kSchema);
-  json.add("version", program_version());
   json.add("words", in_words(answer));
   add_status(json, whole.status);
   if (answer.max) {
@@ -210,20 +214,34 @@ std::string to_json(const Answer& answer) {
     json.add_text("max", max_json(answer));
   }
   json.add_text("interval", interval_json(whole.lower, whole.upper, whole.gap, answer.unit));
-  std::string directions = direction_json(answer, answer.a_to_b, false);
-  if (answer.b_to_a) directions += "," + direction_json(answer, *answer.b_to_a, true);
+  std::string directions = direction_json(answer, answer.a_to_b, false, detail);
+  if (answer.b_to_a) directions += "," + direction_json(answer, *answer.b_to_a, true, detail);
   json.add_text("directions", "[" + directions + "]");
   json.add("inputs",
            Json::array({input_json("a", answer.inputs[0]), input_json("b", answer.inputs[1])}));
   json.add("notes", answer.notes);
   json.add("tolerance", tolerance_json(answer));
   json.add("options", options_json(answer));
+}
+
+void add_device(JsonObject& json, const Answer& answer) {
   const DeviceDescription& device = answer.a_to_b.device;
   json.add("device", device_json(device));
   json.add("driver", text_or_null(device.driver));
-  json.add("times", {{"read_ms", answer.waits.read},
-                     {"start_ms", answer.waits.start},
-                     {"total_ms", answer.waits.total}});
+}
+
+void add_waits(JsonObject& json, const Waits& waits) {
+  json.add("times",
+           {{"read_ms", waits.read}, {"start_ms", waits.start}, {"total_ms", waits.total}});
+}
+
+std::string to_json(const Answer& answer) {
+  JsonObject json;
+  json.add("schema", kSchema);
+  json.add("version", program_version());
+  add_answer(json, answer, Detail::kFull);
+  add_device(json, answer);
+  add_waits(json, answer.waits);
   json.add("command", answer.command);
   json.add("arguments", answer.words);
   json.add("host", answer.host);

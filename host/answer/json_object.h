@@ -39,4 +39,14 @@ inline Json text_or_null(const std::string& text) { return text.empty() ? Json()
 /// What was surveyed of a direction's mesh, as its members.
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer);
 
+/// kBrief: without what only one run or machine has: times, stages, waves, workspace.
+enum class Detail { kFull, kBrief };
+
+/// What an answer says, in the members of docs/schema/answer.schema.json: from `words` to
+/// `options`.
+void add_answer(JsonObject& json, const Answer& answer, Detail detail);
+/// `device` and `driver`; `times`.
+void add_device(JsonObject& json, const Answer& answer);
+void add_waits(JsonObject& json, const Waits& waits);
+
 }  // namespace vkh

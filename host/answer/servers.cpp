@@ -111,46 +111,28 @@ std::string pair_name(const Answer& answer) {
   return name;
 }
 
-/// A test case as it ended; `element` empty: it passed.
-struct Case {
-  std::string command, name, words;
-  std::string host = {}, started = {};
-  double seconds = 0;
-  std::string element = {}, type = {};
-};
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", seconds);
+  return text;
+}
 
-std::string suite_of(const Case& one) {
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "%.3f", one.seconds);
-  const std::string counts = std::string("tests=\"1\" failures=\"") +
-                             (one.element == "failure" ? "1" : "0") + "\" errors=\"" +
-                             (one.element == "error" ? "1" : "0") + "\" skipped=\"0\" time=\"" +
-                             seconds + "\"";
+std::string case_xml(const JunitCase& one) {
   const std::string words = in_xml(one.words);
-  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
-                     ">\n<testsuite name=\"vkhausdorff\" " + counts;
-  if (!one.started.empty())
-    text += " timestamp=\"" + in_xml(one.started.substr(0, one.started.find('Z'))) +
-            "\" hostname=\"" + in_xml(one.host) + "\"";
-  text += ">\n<testcase classname=\"vkhausdorff." + one.command + "\" name=\"" + in_xml(one.name) +
-          "\" time=\"" + seconds + "\">\n";
+  std::string text = "<testcase classname=\"vkhausdorff." + one.command + "\" name=\"" +
+                     in_xml(one.name) + "\" time=\"" + seconds_text(one.seconds) + "\">\n";
   if (!one.element.empty()) {
     text += "<" + one.element + " type=\"" + one.type + "\" message=\"" + words + "\">" + words +
             "</" + one.element + ">\n";
   }
-  return text + "<system-out>" + words +
-         "</system-out>\n</testcase>\n</testsuite>\n</testsuites>\n";
+  return text + "<system-out>" + words + "</system-out>\n</testcase>\n";
 }
 
-}  // namespace
-
-std::string to_junit(const Answer& answer) {
-  Case one{.command = answer.command,
-           .name = pair_name(answer),
-           .words = in_words(answer),
-           .host = answer.host,
-           .started = answer.started,
-           .seconds = answer.waits.total / 1000};
+JunitCase case_of(const Answer& answer) {
+  JunitCase one{.command = answer.command,
+                .name = pair_name(answer),
+                .words = in_words(answer),
+                .seconds = answer.waits.total / 1000};
   if (is_failed(answer)) {
     one.element = "failure";
     one.type = "beyond the limit";
@@ -158,15 +140,45 @@ std::string to_junit(const Answer& answer) {
     one.element = "error";
     one.type = "undecided";
   }
-  return suite_of(one);
+  return one;
+}
+
+}  // namespace
+
+std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
+                     const std::string& started) {
+  size_t failures = 0, errors = 0;
+  double seconds = 0;
+  for (const JunitCase& one : cases) {
+    failures += one.element == "failure" ? 1U : 0U;
+    errors += one.element == "error" ? 1U : 0U;
+    seconds += one.seconds;
+  }
+  const std::string counts = "tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
+                             std::to_string(failures) + "\" errors=\"" + std::to_string(errors) +
+                             "\" skipped=\"0\" time=\"" + seconds_text(seconds) + "\"";
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
+                     ">\n<testsuite name=\"vkhausdorff\" " + counts;
+  if (!started.empty())
+    text += " timestamp=\"" + in_xml(started.substr(0, started.find('Z'))) + "\" hostname=\"" +
+            in_xml(host) + "\"";
+  text += ">\n";
+  for (const JunitCase& one : cases) text += case_xml(one);
+  return text + "</testsuite>\n</testsuites>\n";
+}
+
+std::string to_junit(const Answer& answer) {
+  const JunitCase one = case_of(answer);
+  return to_junit({&one, 1}, answer.host, answer.started);
 }
 
 std::string to_junit(const Failure& failure) {
-  return suite_of({.command = "gate",
-                   .name = failure.file.empty() ? "vkhausdorff" : failure.file,
-                   .words = failure.message,
-                   .element = "error",
-                   .type = "no answer"});
+  const JunitCase one{.command = "gate",
+                      .name = failure.file.empty() ? "vkhausdorff" : failure.file,
+                      .words = failure.message,
+                      .element = "error",
+                      .type = "no answer"};
+  return to_junit({&one, 1}, "", "");
 }
 
 std::string github_annotation(const Answer& answer) {

@@ -5,14 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "host/batch/list.h"
 #include "host/cli/pictures.h"
 #include "host/job/pair_job.h"
+#include "host/many/stream.h"
 
 namespace vkh {
 
 using Words = std::vector<std::string>;
 
-enum class Command { kHelp, kDistance, kGate, kDemo, kDoctor };
+enum class Command { kHelp, kDistance, kGate, kDemo, kDoctor, kBatch, kMerge };
 
 /// Where answers go besides the table.
 struct Outputs {
@@ -23,13 +25,42 @@ struct Outputs {
   PicturesAsked pictures;
 };
 
+/// Tables of many pairs, besides a line each.
+struct TablesAsked {
+  std::optional<std::string> csv, junit;
+};
+
+struct BatchAsked {
+  std::string list;     ///< a file, or else:
+  std::string against;  ///< one B for each of `parts`
+  std::vector<std::string> parts;
+  std::string results;
+  Shard shard;
+  bool resumes = false, fails_fast = false;
+  StreamOptions devices;  ///< but for what PairJob says
+  std::string device;     ///< names between commas, or all
+  uint64_t read_ahead_bytes = 0;
+  double time_limit_s = 0;  ///< of a pair; infinite: none
+  TablesAsked tables;
+};
+
+struct MergeAsked {
+  std::vector<std::string> files;
+  std::string results;
+  std::string list;           ///< whose ids are to be there; empty: whatever there is
+  bool reproducible = false;  ///< without what two runs do not have in common
+  TablesAsked tables;
+};
+
 struct CommandLine {
   Command command = Command::kHelp;
   std::string help;         ///< kHelp: what is to be printed
-  PairJob job;              ///< of distance, gate and demo
+  PairJob job;              ///< of distance, gate, demo and batch
   double time_limit_s = 0;  ///< infinite: none
   Outputs outputs;
   std::string device;  ///< of doctor
+  BatchAsked batch = {};
+  MergeAsked merge = {};
 };
 
 /// Throws UsageError: one line that says what was expected, and what a misspelt option may mean.

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <mutex>
 
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/rounding.h"
 #include "host/check/verify.h"
 #include "host/job/face_limits.h"
 #include "host/job/progress_line.h"
@@ -25,72 +23,11 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  char text[32] = "";
-  if (const std::tm* parts = std::gmtime(&now))
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", parts);
-  return text;
-}
-
-Input input_of(const Mesh& mesh) {
-  return {.path = mesh.name,
-          .is_read = true,
-          .counts = mesh.counts,
-          .place = {mesh.delta, mesh.unit},
-          .notes = mesh.notes};
-}
-
-/// What the lengths of a pair are in: what the files say, else what was asked.
-std::string unit_of(const PairJob& job, const MeshPair& pair) {
-  for (const Mesh* mesh : {&pair.a, &pair.b}) {
-    if (!job.unit.empty() && !mesh->unit.empty() && mesh->unit != job.unit)
-      throw UsageError("--unit " + job.unit + ": " + mesh->name + " is in " + mesh->unit);
-  }
-  if (!job.unit.empty()) return job.unit;
-  if (pair.a.unit == pair.b.unit || pair.b.unit.empty()) return pair.a.unit;
-  return pair.a.unit.empty() ? pair.b.unit : "";
-}
-
-std::vector<std::string> pair_notes(const PairJob& job, const MeshPair& pair) {
-  const std::string &a = pair.a.unit, &b = pair.b.unit;
-  if (a == b || !job.unit.empty()) return {};
-  if (!a.empty() && !b.empty())
-    return {"A is in " + a + " and B in " + b + ": neither was converted"};
-  const bool a_says = !a.empty();
-  return {std::string(a_says ? "B" : "A") + "'s file does not say what it is in: taken as " +
-          (a_says ? a : b) + ", as " + (a_says ? "A" : "B") + " is"};
-}
-
-/// A verdict on lengths of which nobody knows what they are would be none.
-void check_units(const PairJob& job, const MeshPair& pair) {
-  const std::string &a = pair.a.unit, &b = pair.b.unit;
-  if (job.max && !a.empty() && !b.empty() && a != b)
-    throw UsageError("gate: A is in " + a + " and B in " + b + ": convert one of them");
-}
-
 /// A job in progress: what its threads share, and what is known of its answer at any time.
 class Progressing {
  public:
-  Progressing(const PairJob& asked, const Stop& until) : job(asked), stop(until) {
-    known_.command = job.command;
-    known_.words = job.words;
-    known_.started = utc_now();
-    known_.host = host_name();
-    known_.inputs[0].path = job.file_a;
-    known_.inputs[1].path = job.file_b;
-    known_.tolerance = job.tolerance;
-    if (job.max)
-      known_.max = Asked{.length = *job.max,
-                         .limit = {},
-                         .area = job.survey.area,
-                         .area_requested = job.survey.area_requested};
-    // Undecided until it is known better: an answer that is given before must not forget them.
-    if (!job.face_max_a.empty()) known_.max->faces_a = FaceLimits{.path = job.face_max_a};
-    if (!job.face_max_b.empty()) known_.max->faces_b = FaceLimits{.path = job.face_max_b};
-    known_.a_to_b.upper = std::numeric_limits<double>::infinity();
-    if (job.symmetric) known_.b_to_a = known_.a_to_b;
-  }
+  Progressing(const PairJob& asked, const Stop& until)
+      : job(asked), stop(until), known_(unread_answer(asked)) {}
 
   const PairJob job;
   const Stop stop;
@@ -99,24 +36,9 @@ class Progressing {
 
   /// The meshes are there: so are units, and a first bound.
   void read(const MeshPair& pair, double ms) {
-    const Box a = bounding_box(pair.a);
-    const double farthest =
-        farthest_in(join(a, bounding_box(pair.b)), add_up(pair.a.delta, pair.b.delta));
-    check_units(job, pair);
     const std::lock_guard lock(mutex_);
-    known_.inputs = {input_of(pair.a), input_of(pair.b)};
-    known_.unit = unit_of(job, pair);
-    known_.notes = pair_notes(job, pair);
+    farthest_ = take_meshes(job, pair.a, pair.b, known_);
     known_.waits.read = ms;
-    for (Report* r : directions()) {
-      r->diagonal_a = diagonal(a);
-      r->upper = farthest;
-      r->tolerance = in_files(job.tolerance, "--tol", known_.unit, r->diagonal_a).within;
-    }
-    if (job.max) known_.max->limit = in_files(*job.max, "--max", known_.unit, diagonal(a));
-    if (!job.face_max_a.empty()) known_.max->faces_a->faces = pair.a.faces.size();
-    if (!job.face_max_b.empty()) known_.max->faces_b->faces = pair.b.faces.size();
-    farthest_ = farthest;
   }
   void open(const DeviceDescription& device, double ms) {
     const std::lock_guard lock(mutex_);
@@ -162,36 +84,13 @@ class Progressing {
 };
 
 SolveOptions options_for(Progressing& at, const Answer& known) {
-  const PairJob& job = at.job;
-  SolveOptions options = job.options;
-  options.tolerance_is_absolute = job.tolerance.of != Length::Of::kDiagonal;
-  options.tolerance = options.tolerance_is_absolute ? known.a_to_b.tolerance : job.tolerance.number;
-  // What is asked of its area is decided by the survey.
-  if (known.max && !known.max->area) options.limit = known.max->limit;
+  SolveOptions options = asked_options(at.job, known);
   options.time_limit_s = std::max(at.stop.left_s(), 1e-3);
-  options.coverage = job.verify;
   options.progress = [&at](const Progress& progress) {
     at.advance(progress);
     return !is_interrupted();
   };
   return options;
-}
-
-void add_memory_notes(uint64_t asked, Answer& answer) {
-  const auto most = [&](uint64_t Report::*bytes) {
-    return std::max(answer.a_to_b.*bytes, answer.b_to_a ? (*answer.b_to_a).*bytes : 0);
-  };
-  const uint64_t in_host = most(&Report::host_memory_bytes);
-  if (in_host > 0) {
-    answer.notes.push_back("the device has too little memory: it reads " +
-                           std::to_string((in_host + 0xfffff) >> 20) +
-                           " MiB from the host's, slowly");
-  }
-  const uint64_t taken = most(&Report::workspace_bytes);
-  if (asked > 0 && taken > asked) {
-    answer.notes.push_back("--memory is less than a search can do with: " +
-                           std::to_string((taken + 1023) >> 10) + " KiB were taken");
-  }
 }
 
 /// A direction whose faces may have limits of their own: in a file, unless that is empty.

@@ -50,6 +50,24 @@ class ProgressLine {
   /// Likewise: what is proven of it.
   void show_proof(size_t leaves) { show_count("certificate", leaves, "leaves"); }
 
+  /// Of many pairs: so many of all are done, and so long it will take.
+  void show_batch(size_t done, size_t all, size_t failed, double seconds_left) {
+    const std::lock_guard lock(mutex_);
+    if (!is_time()) return;
+    const auto left = static_cast<unsigned long long>(seconds_left + 0.5);
+    std::array<char, 48> eta{};
+    std::array<char, 160> line{};
+    if (left < 3600) {
+      std::snprintf(eta.data(), eta.size(), "%llu:%02llu", left / 60, left % 60);
+    } else {
+      std::snprintf(eta.data(), eta.size(), "%llu:%02llu:%02llu", left / 3600, left / 60 % 60,
+                    left % 60);
+    }
+    std::snprintf(line.data(), line.size(), "%zu/%zu  %zu failed  ETA %s", done, all, failed,
+                  eta.data());
+    show_line(line.data());
+  }
+
   /// Takes the line away. Whoever still shows something shows it to nobody.
   void end() {
     const std::lock_guard lock(mutex_);

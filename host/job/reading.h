@@ -1,10 +1,11 @@
-// Both files of a pair, read at the same time.
+// Both files of a pair, read at the same time, and what is known of the answer before and after.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "host/demo/default_pair.h"
+#include "host/job/pair_job.h"
 #include "host/job/progress_line.h"
 #include "host/job/stop.h"
 #include "host/source/read_limits.h"
@@ -22,5 +23,19 @@ struct Reading {
 /// program must end by end_process.
 MeshPair read_pair(const std::string& file_a, const std::string& file_b, ReadLimits limits,
                    const std::shared_ptr<const Reading>& reading);
+
+/// What is known before anything is read: [0, infinity).
+Answer unread_answer(const PairJob& job);
+
+/// Once the meshes are there: counts, units, lengths in them, and a first bound, which is returned:
+/// no point of either is farther from the other than the joint diagonal. Throws UsageError for
+/// units that do not go together and lengths that they do not resolve.
+double take_meshes(const PairJob& job, const Mesh& a, const Mesh& b, Answer& answer);
+
+/// How narrow the interval of such an answer has to be.
+SolveOptions asked_options(const PairJob& job, const Answer& known);
+
+/// After a run: what people should know about the memory that it took of `asked` bytes.
+void add_memory_notes(uint64_t asked, Answer& answer);
 
 }  // namespace vkh

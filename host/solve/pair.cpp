@@ -55,8 +55,8 @@ FileInterval to_files(const VkhReport& r, const Pair& pair) {
 
 // How finely the device has to work. Its errors are relative to the coordinates, which a prepared
 // B's frame lets exceed 1.
-RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
-                   double tolerance_given) {
+RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) {
+  const SolveOptions& options = pair.options;
   const double size = std::max(1.0, pair.frame.reach(pair.joint));
   const double tolerance = pair.frame.to_frame(tolerance_given);
   const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
@@ -89,15 +89,11 @@ namespace {
 
 constexpr double kCoarse = 1e-6;  // of A's diagonal: what plain floats have
 
-SolveOptions coarser(const std::vector<Pair>& pairs, const SolveOptions& options) {
-  double unit = 1;
-  if (options.tolerance_is_absolute) {
-    unit = diagonal(pairs.front().box_a);
-    for (const Pair& pair : pairs) unit = std::min(unit, diagonal(pair.box_a));
-  }
-  SolveOptions coarse = options;
-  coarse.tolerance = std::max(options.tolerance, kCoarse * unit);
-  coarse.subroots = coarse.subroots || options.tolerance < kFineTolerance * unit;
+SolveOptions coarser(const Pair& pair) {
+  const double unit = pair.options.tolerance_is_absolute ? diagonal(pair.box_a) : 1;
+  SolveOptions coarse = pair.options;
+  coarse.tolerance = std::max(coarse.tolerance, kCoarse * unit);
+  coarse.subroots = coarse.subroots || pair.options.tolerance < kFineTolerance * unit;
   return coarse;
 }
 
@@ -128,19 +124,24 @@ Report joined(const Report& coarse, Report r) {
 
 }  // namespace
 
-std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOptions& options,
-                                  const Solve& solve) {
-  if (pairs.empty()) return {};
-  const SolveOptions coarse = coarser(pairs, options);
-  std::vector<Report> reports = solve(pairs, coarse);
-  if (!(coarse.tolerance > options.tolerance)) return reports;
+double tolerance_of(const Pair& pair) {
+  return pair.options.tolerance_is_absolute
+             ? pair.options.tolerance
+             : multiply_down(pair.options.tolerance, diagonal(pair.box_a));
+}
+
+std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& solve) {
+  std::vector<Pair> first = pairs;
+  for (Pair& pair : first) {
+    if (pair.options.limit.within > 0) pair.options = coarser(pair);
+  }
+  std::vector<Report> reports = solve(first);
   std::vector<Pair> open;
   std::vector<size_t> numbers;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    reports[i].tolerance = options.tolerance_is_absolute
-                               ? options.tolerance
-                               : multiply_down(options.tolerance, reports[i].diagonal_a);
+    if (!(first[i].options.tolerance > pairs[i].options.tolerance)) continue;
     Report& r = reports[i];
+    r.tolerance = tolerance_of(pairs[i]);
     if (r.status == Status::kClosed && !is_within(r.lower, r.upper, r.tolerance))
       r.status = is_decided(r.lower, r.upper, r.limit) ? Status::kLimit : Status::kPrecision;
     if (!asks_for_more(r)) continue;
@@ -148,12 +149,7 @@ std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOpt
     numbers.push_back(i);
   }
   if (open.empty()) return reports;
-  SolveOptions fine = options;
-  fine.progress = [&](Progress progress) {
-    progress.pair = numbers[progress.pair];
-    return !options.progress || options.progress(progress);
-  };
-  std::vector<Report> again = solve(open, fine);
+  std::vector<Report> again = solve(open);
   for (size_t i = 0; i < open.size(); ++i)
     reports[numbers[i]] = joined(reports[numbers[i]], std::move(again[i]));
   return reports;

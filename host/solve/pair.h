@@ -11,7 +11,8 @@
 
 namespace vkh {
 
-/// A run's meshes as they are stored in one frame. Proof that any frame will do: the device
+/// A run's meshes as they are stored in one frame, and what is asked about them. Proof that any
+/// frame will do: the device
 /// encloses the stored meshes' h in the frame's units, whatever the frame, for coordinates up to
 /// 2^15 (vkhausdorff.h); a stored vertex is within the displacement, which store_in() bounded for
 /// this very frame, of its exact place; h moves by no more than both displacements together.
@@ -25,21 +26,24 @@ struct Pair {
   double displacement;  // of both
   bool has_low;         // either
   Box box_a, joint;
+  SolveOptions options = {};
+  size_t number = 0;  // Progress::pair
 };
 
 /// What the device certifies of it, in the files' units.
 FileInterval to_files(const VkhReport& report, const Pair& pair);
 
 /// `tolerance`: in the files' units. Budgets by the clock and what listens are not in it.
-RunInput input_for(const Pair& pair, const SolveOptions& options, uint32_t switches,
-                   double tolerance);
+RunInput input_for(const Pair& pair, uint32_t switches, double tolerance);
 
-using Solve = std::function<std::vector<Report>(const std::vector<Pair>&, const SolveOptions&)>;
+/// The pair's tolerance, in the files' units.
+double tolerance_of(const Pair& pair);
 
-/// Asks about options.limit: of all pairs in plain floats first, where the tolerance is finer than
-/// these have, since they decide nearly every limit, and sooner; then of those that this left
+using Solve = std::function<std::vector<Report>(const std::vector<Pair>&)>;
+
+/// `solve`, but that a limit is asked about in plain floats first, where the tolerance is finer
+/// than these have, since they decide nearly every limit, and sooner; then of those that this left
 /// undecided.
-std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const SolveOptions& options,
-                                  const Solve& solve);
+std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& solve);
 
 }  // namespace vkh

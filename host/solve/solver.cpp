@@ -16,6 +16,7 @@
 #include "host/solve/coverage.h"
 #include "host/solve/pair.h"
 #include "host/solve/run_report.h"
+#include "host/solve/way_back.h"
 
 namespace vkh {
 namespace {
@@ -51,11 +52,11 @@ Status status_of(const VkhReport& r, const Report& out, Status ended) {
 
 struct Solver::Impl {
   Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
-  std::vector<Report> distances(std::span<const PairView> meshes, const SolveOptions& options);
-  std::vector<Report> solve(const std::vector<Pair>& pairs, const SolveOptions& options,
-                            Clock::time_point start);
-  std::vector<Report> solve_once(const std::vector<Pair>& pairs, const SolveOptions& options,
-                                 Clock::time_point start);
+  std::vector<Report> distances(std::span<const PairView> meshes,
+                                const std::vector<SolveOptions>& options);
+  std::vector<Report> solve_alike(const std::vector<Pair>& pairs, uint32_t switches,
+                                  Clock::time_point start);
+  std::vector<Report> solve(const std::vector<Pair>& pairs, Clock::time_point start);
   Device& device;
   Runner runner;
 };
@@ -85,19 +86,13 @@ namespace {
 
 // Watches the budgets between submissions and tells the caller how far the run is.
 struct Watch {
-  const SolveOptions& options;
   const Pair& pair;
-  size_t number;  // of the pair
   double diagonal_a;
   Clock::time_point start;
   Status ended = Status::kClosed;
 
-  double tolerance() const {
-    return options.tolerance_is_absolute ? options.tolerance
-                                         : multiply_down(options.tolerance, diagonal_a);
-  }
-
   bool operator()(const VkhReport& r) {
+    const SolveOptions& options = pair.options;
     if (r.status != VKH_STATUS_RUNNING) return false;
     const FileInterval now = to_files(r, pair);
     if (is_decided(now.lower, now.upper, options.limit)) return false;
@@ -120,7 +115,7 @@ struct Watch {
             .upper = now.upper,
             .gap = gap_of(now.lower, now.upper, diagonal_a),
             .back = false,
-            .pair = number};
+            .pair = pair.number};
   }
 };
 
@@ -134,10 +129,10 @@ SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu) {
 
 Report report_of(const RunOutput& run, const Watch& watch) {
   const Pair& pair = watch.pair;
-  const SolveOptions& options = watch.options;
+  const SolveOptions& options = pair.options;
   Report out;
   out.diagonal_a = watch.diagonal_a;
-  out.tolerance = watch.tolerance();
+  out.tolerance = tolerance_of(pair);
   out.known_lower = options.known_lower;
   out.limit = options.limit;
   const FileInterval bounds = to_files(run.report, pair);
@@ -157,12 +152,6 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   // Before every face of A has a bound, `upper` says so: 3e38.
   if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
   return out;
-}
-
-double most_diagonal(const std::vector<Pair>& pairs) {
-  double most = 0;
-  for (const Pair& pair : pairs) most = std::max(most, diagonal(pair.box_a));
-  return most;
 }
 
 void check_options(const SolveOptions& options) {
@@ -185,32 +174,20 @@ SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
 
 }  // namespace
 
-std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, const SolveOptions& options,
-                                        Clock::time_point start) {
-  const auto once = [&](const std::vector<Pair>& some, const SolveOptions& of_them) {
-    return solve_once(some, of_them, start);
-  };
-  return options.limit.within > 0 ? decide_limits(pairs, options, once) : once(pairs, options);
-}
-
-std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
-                                             const SolveOptions& options, Clock::time_point start) {
-  const uint32_t switches = switches_for(options, most_diagonal(pairs), device);
+// `pairs`: whose pipelines are the same.
+std::vector<Report> Solver::Impl::solve_alike(const std::vector<Pair>& pairs, uint32_t switches,
+                                              Clock::time_point start) {
   std::vector<Watch> watches;
   std::vector<RunInput> inputs;
   watches.reserve(pairs.size());  // inputs refer to them
   for (const Pair& pair : pairs) {
-    watches.push_back({.options = options,
-                       .pair = pair,
-                       .number = watches.size(),
-                       .diagonal_a = diagonal(pair.box_a),
-                       .start = start});
-    inputs.push_back(input_for(pair, options, switches, watches.back().tolerance()));
+    watches.push_back({.pair = pair, .diagonal_a = diagonal(pair.box_a), .start = start});
+    inputs.push_back(input_for(pair, switches, tolerance_of(pair)));
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
-    if (options.survey) {
+    if (pair.options.survey) {
       const bool on_cpu = device.description().type == "cpu";
       inputs.back().survey = [&, on_cpu](const VkhReport& report, const BoundCells& bound) {
-        options.survey(surveyed(pair, report, on_cpu), bound);
+        pair.options.survey(surveyed(pair, report, on_cpu), bound);
       };
     }
   }
@@ -234,51 +211,107 @@ std::vector<Report> Solver::Impl::solve_once(const std::vector<Pair>& pairs,
   return reports;
 }
 
+// Pairs with the same switches run side by side: which these are is each pair's own matter, so that
+// an answer does not depend on the pairs beside it.
+std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::time_point start) {
+  std::map<uint32_t, std::vector<size_t>> alike;
+  for (size_t i = 0; i < pairs.size(); ++i)
+    alike[switches_for(pairs[i].options, diagonal(pairs[i].box_a), device)].push_back(i);
+  std::vector<Report> reports(pairs.size());
+  for (const auto& [switches, numbers] : alike) {
+    std::vector<Pair> some;
+    for (const size_t i : numbers) some.push_back(pairs[i]);
+    std::vector<Report> found = solve_alike(some, switches, start);
+    for (size_t i = 0; i < numbers.size(); ++i) reports[numbers[i]] = std::move(found[i]);
+  }
+  return reports;
+}
+
 void Solver::make_ready(const SolveOptions& options) {
   const FloatEnvironment ours;
   // Of an absolute tolerance it is not known yet whether it is fine.
   impl_->runner.make_ready(switches_for(options, 0, impl_->device) & ~kSwitchMultiwave);
 }
 
+namespace {
+
+// A mesh of the caller's as it is stored, in a frame around both or in that of a prepared B.
+struct Framed {
+  FramedPair pair;
+  double displacement_b = 0;
+  bool has_low_b = false;
+  Box box_a, joint;
+};
+
+}  // namespace
+
 std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
-                                            const SolveOptions& options) {
+                                            const std::vector<SolveOptions>& options) {
   const auto start = Clock::now();
-  struct Framed {
-    FramedPair pair;
-    Box box_a, joint;
-  };
   std::vector<Framed> framed(meshes.size());
+  std::vector<const PreparedMesh::Impl*> kept(meshes.size());
   for_each_index(meshes.size(), [&](size_t i) {
-    const auto& [a, b] = meshes[i];
-    const Box box_a = bounding_box(a);
-    framed[i] = {frame_pair(a, b), box_a, join(box_a, bounding_box(b))};
+    const PairView& m = meshes[i];
+    Framed& f = framed[i];
+    f.box_a = bounding_box(m.a);
+    if (m.prepared != nullptr && m.prepared->serves(m.a)) {
+      kept[i] = m.prepared->impl_.get();
+      f.joint = join(f.box_a, kept[i]->box);
+      f.pair.frame = kept[i]->frame;
+      f.pair.a = store_in(kept[i]->frame, m.a);
+      f.displacement_b = kept[i]->displacement;
+      f.has_low_b = kept[i]->has_low;
+      return;
+    }
+    f.joint = join(f.box_a, bounding_box(m.b));
+    f.pair = frame_pair(m.a, m.b);
+    f.displacement_b = f.pair.b.displacement;
+    f.has_low_b = f.pair.b.has_low;
   });
   std::vector<Pair> pairs;
   for (size_t i = 0; i < meshes.size(); ++i) {
-    const FramedPair& f = framed[i].pair;
+    const Framed& f = framed[i];
     pairs.push_back({.a = meshes[i].a,
-                     .b = meshes[i].b,
-                     .frame = f.frame,
-                     .stored_a = f.a,
-                     .stored_b = &f.b,
-                     .resident = nullptr,
-                     .displacement = add_up(f.a.displacement, f.b.displacement),
-                     .has_low = f.a.has_low || f.b.has_low,
-                     .box_a = framed[i].box_a,
-                     .joint = framed[i].joint});
+                     .b = kept[i] != nullptr ? kept[i]->mesh : meshes[i].b,
+                     .frame = f.pair.frame,
+                     .stored_a = f.pair.a,
+                     .stored_b = kept[i] != nullptr ? nullptr : &f.pair.b,
+                     .resident = kept[i] != nullptr ? &kept[i]->resident : nullptr,
+                     .displacement = add_up(f.pair.a.displacement, f.displacement_b),
+                     .has_low = f.pair.a.has_low || f.has_low_b,
+                     .box_a = f.box_a,
+                     .joint = f.joint,
+                     .options = options[i],
+                     .number = i});
   }
-  return solve(pairs, options, start);
+  return decide_limits(pairs, [&](const std::vector<Pair>& some) { return solve(some, start); });
 }
+
+namespace {
+
+// Each pair's own, and what it listens with.
+std::vector<SolveOptions> options_of(std::span<const PairView> pairs, const SolveOptions& options,
+                                     FloatEnvironment& ours) {
+  std::vector<SolveOptions> all;
+  for (const PairView& pair : pairs) {
+    const SolveOptions& own = pair.options != nullptr ? *pair.options : options;
+    check_options(own);
+    all.push_back(heard_outside(own, ours));
+  }
+  return all;
+}
+
+}  // namespace
 
 std::vector<Report> Solver::distances(std::span<const PairView> meshes,
                                       const SolveOptions& options) {
   FloatEnvironment ours;
   check_options(options);
-  return impl_->distances(meshes, heard_outside(options, ours));
+  return impl_->distances(meshes, options_of(meshes, options, ours));
 }
 
 Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
-  const PairView pair{a, b};
+  const PairView pair{.a = a, .b = b};
   return std::move(distances({&pair, 1}, options)[0]);
 }
 
@@ -305,85 +338,49 @@ bool PreparedMesh::serves(const Mesh& a) const {
 }
 
 Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options) {
-  if (!b.serves(a)) return distance(a, b.mesh(), options);
+  const PairView pair{.a = a, .b = b.mesh(), .prepared = &b};
+  return std::move(distances({&pair, 1}, options)[0]);
+}
+
+std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
+                                                const SolveOptions& options) {
   FloatEnvironment ours;
   const auto start = Clock::now();
   check_options(options);
-  const PreparedMesh::Impl& kept = *b.impl_;
-  const StoredMesh stored = store_in(kept.frame, a);
-  const Box box_a = bounding_box(a);
-  const Pair pair{.a = a,
-                  .b = kept.mesh,
-                  .frame = kept.frame,
-                  .stored_a = stored,
-                  .stored_b = nullptr,
-                  .resident = &kept.resident,
-                  .displacement = add_up(stored.displacement, kept.displacement),
-                  .has_low = stored.has_low || kept.has_low,
-                  .box_a = box_a,
-                  .joint = join(box_a, kept.box)};
-  return std::move(impl_->solve({pair}, heard_outside(options, ours), start)[0]);
+  const std::vector<SolveOptions> heard = options_of(pairs, options, ours);
+  std::vector<Report> there = impl_->distances(pairs, heard);
+  const double elapsed_s = ms_since(start) / 1000;
+  std::vector<SymmetricReport> both(pairs.size());
+  std::vector<size_t> sought;
+  std::vector<PairView> back;
+  std::vector<SolveOptions> of_back;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const auto& [a, b, prepared, own] = pairs[i];
+    both[i].a_to_b = std::move(there[i]);
+    const double limit = heard[i].limit.beyond;
+    if (limit > 0 && both[i].a_to_b.lower > limit) {
+      both[i].b_to_a = unsought_back(a, b, both[i].a_to_b);
+      continue;
+    }
+    sought.push_back(i);
+    back.push_back({.a = b, .b = a});
+    of_back.push_back(options_back(heard[i], both[i].a_to_b, elapsed_s));
+  }
+  // Numbered as the pairs were.
+  for (SolveOptions& of_it : of_back) {
+    of_it.progress = [&sought, listen = std::move(of_it.progress)](Progress progress) {
+      progress.pair = sought[progress.pair];
+      return listen(progress);
+    };
+  }
+  std::vector<Report> found = impl_->distances(back, of_back);
+  for (size_t i = 0; i < sought.size(); ++i) both[sought[i]].b_to_a = std::move(found[i]);
+  return both;
 }
-
-namespace {
-
-// The way back has the way there's tolerance, which is a fraction of A's diagonal, and what is left
-// of the time. Every candidate whose u is within the tolerance of the way there's lower bound can
-// be closed: max(h(A,B), h(B,A)) is no smaller than that bound.
-SolveOptions options_back(const SolveOptions& options, const Report& there, double elapsed_s) {
-  constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
-  SolveOptions back = options;
-  back.tolerance = there.tolerance;  // 0 where A is one point
-  back.tolerance_is_absolute = true;
-  back.subroots = there.tolerance < kFineTolerance * there.diagonal_a || options.subroots;
-  back.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
-  back.known_lower = std::max(options.known_lower, there.lower);
-  const bool cancelled = there.status == Status::kCancelled;
-  back.progress = [&options, cancelled](Progress progress) {
-    progress.back = true;
-    return !cancelled && (!options.progress || options.progress(progress));
-  };
-  return back;
-}
-
-// The way back where the way there has decided the limit: true, and nothing was sought.
-Report unsought_back(const Mesh& a, const Mesh& b, const Report& there) {
-  Report back;
-  back.status = Status::kLimit;
-  const Box box_b = bounding_box(b);
-  back.upper = farthest_in(join(bounding_box(a), box_b), add_up(a.delta, b.delta));
-  back.diagonal_a = diagonal(box_b);
-  back.tolerance = there.tolerance;
-  back.limit = there.limit;
-  back.mesh_a = there.mesh_b;
-  back.mesh_b = there.mesh_a;
-  back.place_a = there.place_b;
-  back.place_b = there.place_a;
-  back.device = there.device;
-  back.preset = there.preset;
-  back.switched_on = there.switched_on;
-  back.switched_off = there.switched_off;
-  return back;
-}
-
-}  // namespace
 
 SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options) {
-  FloatEnvironment ours;
-  const auto start = Clock::now();
-  check_options(options);
-  const SolveOptions heard = heard_outside(options, ours);
-  const auto one = [&](const PairView& pair, const SolveOptions& of_it) {
-    return std::move(impl_->distances({&pair, 1}, of_it)[0]);
-  };
-  SymmetricReport both;
-  both.a_to_b = one({a, b}, heard);
-  if (both.a_to_b.lower > options.limit.beyond && options.limit.beyond > 0) {
-    both.b_to_a = unsought_back(a, b, both.a_to_b);
-  } else {
-    both.b_to_a = one({b, a}, options_back(heard, both.a_to_b, ms_since(start) / 1000));
-  }
-  return both;
+  const PairView pair{.a = a, .b = b};
+  return std::move(symmetrics({&pair, 1}, options)[0]);
 }
 
 }  // namespace vkh

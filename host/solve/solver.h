@@ -32,10 +32,13 @@ class PreparedMesh {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Two meshes of the caller's, who keeps them.
+/// Two meshes of the caller's, who keeps them, and what is asked about them.
 struct PairView {
   const Mesh& a;
   const Mesh& b;
+  const PreparedMesh* prepared = nullptr;  ///< b on the device; its answer is that of distance()
+  const SolveOptions* options = nullptr;   ///< of its own; null: those of the call. Switches,
+                                           ///< preset and memory should be the same for all
 };
 
 /// Keeps pipelines and buffers of one device between runs. Threads take turns; Solvers of their own
@@ -65,6 +68,10 @@ class Solver {
   /// memory for. Times in a report are those of all together while it ran, stages are not told
   /// apart; options.progress is asked for each pair, and ends that one.
   std::vector<Report> distances(std::span<const PairView> pairs, const SolveOptions& options = {});
+  /// Likewise h(b, a) after that, and both as symmetric() has them. There is no way back of
+  /// PairView::prepared.
+  std::vector<SymmetricReport> symmetrics(std::span<const PairView> pairs,
+                                          const SolveOptions& options = {});
 
   /// Uploads B and builds its hierarchy.
   PreparedMesh prepare(Mesh b);

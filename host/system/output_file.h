@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,32 @@ class OutputFile {
   std::string target_;  ///< what the links of `path_` lead to
   /// A descriptor or a HANDLE, open for writing, where there is nothing to rename.
   std::intptr_t special_ = -1;
+};
+
+/// A file that grows by whole lines, by one process at a time.
+class LineFile {
+ public:
+  /// Opens it, makes it where there is none, and locks it. Throws UsageError where it is no regular
+  /// file, one of `inputs` under any name, or another process has it.
+  LineFile(std::string option, std::string path, const std::vector<std::string>& inputs);
+  ~LineFile();
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+
+  uint64_t size() const { return size_; }
+  /// Hands out each line that is whole, without its end; what comes after the last is cut off: a
+  /// process ended while it wrote it. Throws OutputError.
+  void read(const std::function<void(std::string_view)>& take);
+  /// Throws OutputError, and has then taken away what was written of the line. Whoever reads the
+  /// file sees the line once this returns, whatever becomes of this process.
+  void append(std::string_view line);
+  void sync() const;  ///< nor is it lost with the machine's power, once this returns
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  std::string option_, path_;
+  std::intptr_t file_ = -1;  ///< a descriptor or a HANDLE
+  uint64_t size_ = 0;        ///< of whole lines
 };
 
 }  // namespace vkh

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -177,6 +178,76 @@ void OutputFile::replace(std::string_view text) const {
   const bool may_write_over = error == EBUSY || error == EACCES || error == EPERM || error == EXDEV;
   if (older && may_write_over) return write_over(text);
   throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(error));
+}
+
+void LineFile::fail(const std::string& what) const {
+  throw OutputError(option_ + " '" + path_ + "': " + what + ": " + std::strerror(errno));
+}
+
+LineFile::LineFile(std::string option, std::string path, const std::vector<std::string>& inputs)
+    : option_(std::move(option)), path_(std::move(path)) {
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(option_ + " '" + path_ + "': " + why);
+  };
+  const std::optional<struct stat> older = status_of(path_);
+  for (const std::string& input : inputs) {
+    const std::optional<struct stat> read = status_of(input);
+    if (older && read && is_same(*older, *read))
+      refuse("would overwrite the input '" + input + "'");
+  }
+  if (older && !S_ISREG(older->st_mode)) refuse("is no file that lines can be added to");
+  const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file < 0) refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
+  file_ = file;
+  // Some file systems have no locks: then nobody is kept out.
+  const bool is_taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (is_taken) close(file);
+  if (is_taken) refuse("another process writes to it");
+  struct stat status {};
+  if (fstat(file, &status) == 0) size_ = static_cast<uint64_t>(status.st_size);
+}
+
+LineFile::~LineFile() { close(static_cast<int>(file_)); }
+
+void LineFile::read(const std::function<void(std::string_view)>& take) {
+  const int file = static_cast<int>(file_);
+  std::string text;  // what is there of a line
+  uint64_t whole = 0;
+  for (off_t at = 0;;) {
+    char block[1 << 16];
+    const ssize_t bytes = pread(file, block, sizeof block, at);
+    if (bytes < 0 && errno == EINTR) continue;
+    if (bytes < 0) fail("cannot be read");
+    if (bytes == 0) break;
+    at += bytes;
+    text.append(block, static_cast<size_t>(bytes));
+    size_t begin = 0;
+    for (size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+      take(std::string_view(text).substr(begin, end - begin));
+    whole += begin;
+    text.erase(0, begin);
+  }
+  if (whole != size_ && ftruncate(file, static_cast<off_t>(whole)) != 0)
+    fail("cannot be shortened");
+  size_ = whole;
+}
+
+void LineFile::append(std::string_view line) {
+  const std::string text = std::string(line) + '\n';
+  if (write_all(static_cast<int>(file_), text)) {
+    size_ += text.size();
+    return;
+  }
+  const int error = errno;
+  if (ftruncate(static_cast<int>(file_), static_cast<off_t>(size_)) != 0) {
+    // What was written of it stays: the next process cuts it off.
+  }
+  errno = error;
+  fail("cannot be written");
+}
+
+void LineFile::sync() const {
+  if (fsync(static_cast<int>(file_)) != 0 && errno != EINVAL) fail("cannot be written");
 }
 
 }  // namespace vkh

@@ -224,4 +224,82 @@ void OutputFile::replace(std::string_view text) const {
   throw OutputError(option_ + " '" + path_ + "': cannot be written: " + text_of(error));
 }
 
+void LineFile::fail(const std::string& what) const {
+  throw OutputError(option_ + " '" + path_ + "': " + what + ": " + text_of(GetLastError()));
+}
+
+// Nobody else may write to it while it is open: that is the lock.
+LineFile::LineFile(std::string option, std::string path, const std::vector<std::string>& inputs)
+    : option_(std::move(option)), path_(std::move(path)) {
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(option_ + " '" + path_ + "': " + why);
+  };
+  const std::optional<FileId> older =
+      is_pipe(path_) ? std::nullopt : id_of(look_at(path_).handle());
+  for (const std::string& input : inputs) {
+    const std::optional<FileId> read = id_of(look_at(input).handle());
+    if (older && read && is_same(*older, *read))
+      refuse("would overwrite the input '" + input + "'");
+  }
+  File file(CreateFileW(path_of(path_).c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ,
+                        nullptr, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr));
+  const DWORD error = GetLastError();
+  if (!file.is_open() && error == ERROR_SHARING_VIOLATION) refuse("another process writes to it");
+  if (!file.is_open()) refuse("cannot be opened for writing: " + text_of(error));
+  if (GetFileType(file.handle()) != FILE_TYPE_DISK) refuse("is no file that lines can be added to");
+  LARGE_INTEGER size{};
+  if (GetFileSizeEx(file.handle(), &size) != 0) size_ = static_cast<uint64_t>(size.QuadPart);
+  file_ = reinterpret_cast<std::intptr_t>(file.release());
+}
+
+LineFile::~LineFile() { CloseHandle(handle_of(file_)); }
+
+namespace {
+
+bool go_to(HANDLE file, uint64_t place) {
+  LARGE_INTEGER at{};
+  at.QuadPart = static_cast<LONGLONG>(place);
+  return SetFilePointerEx(file, at, nullptr, FILE_BEGIN) != 0;
+}
+
+}  // namespace
+
+void LineFile::read(const std::function<void(std::string_view)>& take) {
+  const HANDLE file = handle_of(file_);
+  std::string text;  // what is there of a line
+  uint64_t whole = 0;
+  if (!go_to(file, 0)) fail("cannot be read");
+  for (;;) {
+    char block[1 << 16];
+    DWORD bytes = 0;
+    if (ReadFile(file, block, sizeof block, &bytes, nullptr) == 0) fail("cannot be read");
+    if (bytes == 0) break;
+    text.append(block, bytes);
+    size_t begin = 0;
+    for (size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+      take(std::string_view(text).substr(begin, end - begin));
+    whole += begin;
+    text.erase(0, begin);
+  }
+  if (!go_to(file, whole) || SetEndOfFile(file) == 0) fail("cannot be shortened");
+  size_ = whole;
+}
+
+void LineFile::append(std::string_view line) {
+  const std::string text = std::string(line) + '\n';
+  const HANDLE file = handle_of(file_);
+  if (go_to(file, size_) && write_all(file, text)) {
+    size_ += text.size();
+    return;
+  }
+  const DWORD error = GetLastError();
+  if (go_to(file, size_)) SetEndOfFile(file);
+  SetLastError(error);
+  fail("cannot be written");
+}
+
+void LineFile::sync() const {
+  if (FlushFileBuffers(handle_of(file_)) == 0) fail("cannot be written");
+}
+
 }  // namespace vkh

@@ -18,7 +18,8 @@ ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "field", "doctor"],
     "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "field",
-             "prove", "answer", "demo", "check", "draw", "export", "page", "job", "cli"],
+             "prove", "answer", "demo", "check", "draw", "export", "page", "record", "job", "many", "batch", "cli",
+             "program"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "draw", "page", "pairs", "check",
               "cli", "faults", "platforms", "cluster", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }

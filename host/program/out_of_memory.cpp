@@ -1,4 +1,4 @@
-#include "host/cli/out_of_memory.h"
+#include "host/program/out_of_memory.h"
 
 #include <cstdio>
 #include <cstdlib>

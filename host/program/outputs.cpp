@@ -1,4 +1,4 @@
-#include "host/cli/outputs.h"
+#include "host/program/outputs.h"
 
 #include <cstdlib>
 #include <fstream>

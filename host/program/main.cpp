@@ -15,11 +15,12 @@
 #include "host/base/float_environment.h"
 #include "host/check/doctor.h"
 #include "host/cli/arguments.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/out_of_memory.h"
-#include "host/cli/outputs.h"
 #include "host/cli/pictures.h"
 #include "host/job/pair_job.h"
+#include "host/program/many_pairs.h"
+#include "host/program/out_of_memory.h"
+#include "host/program/outputs.h"
+#include "host/record/exit_code.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -49,20 +50,6 @@ void check_verified(const Answer& answer) {
         "--verify: the host finds the witness closer than the certified lower bound: "
         "do not trust this device or driver");
   }
-}
-
-ExitCode code_of(const Answer& answer) {
-  if (!answer.max)
-    return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
-  switch (verdict_of(answer)) {
-    case Verdict::kWithin:
-      return kExitClosed;
-    case Verdict::kBeyond:
-      return kExitBeyond;
-    case Verdict::kUndecided:
-      break;
-  }
-  return kExitNotClosed;
 }
 
 /// The answer, or, once outputs were told, what went wrong.
@@ -109,6 +96,11 @@ int run_pair(const CommandLine& line, const Stop& stop) {
   return code_of(done.answer);
 }
 
+int printed(ExitCode code) {
+  check_printed();
+  return code;
+}
+
 int run_doctor(const std::string& device) {
   const bool passed = examine_devices(std::cout, device);
   check_printed();
@@ -125,6 +117,11 @@ int run(const Words& words, Clock::time_point start) {
       return kExitClosed;
     case Command::kDoctor:
       return run_doctor(line.device);
+    case Command::kBatch:
+      note_interrupts();
+      return printed(run_batch_command(line.job, line.batch));
+    case Command::kMerge:
+      return printed(run_merge_command(line.merge));
     default:
       note_interrupts();
       return run_pair(line, Stop(start, line.time_limit_s));

@@ -1,6 +1,10 @@
 // What the program's end says.
 #pragma once
 
+#include <exception>
+
+#include "host/answer/answer.h"
+
 namespace vkh {
 
 enum ExitCode {
@@ -13,5 +17,15 @@ enum ExitCode {
   kExitNotWritten = 6,  ///< the answer was given and an output could not be written
   kExitInternal = 70,   ///< a bug of ours; sysexits.h's EX_SOFTWARE
 };
+
+/// Of a pair's answer: kExitClosed, kExitBeyond or kExitNotClosed.
+ExitCode code_of(const Answer& answer);
+
+/// Of what `error` holds, which must be one of host/base/error.h's or std::bad_alloc; else
+/// kExitInternal.
+ExitCode code_of(const std::exception_ptr& error);
+
+/// What a batch says of two pairs: the worse, in the order 70, 5, 4, 6, 2, 1, 3, 0.
+ExitCode worse(ExitCode x, ExitCode y);
 
 }  // namespace vkh

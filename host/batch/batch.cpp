@@ -1,0 +1,292 @@
+#include "host/batch/batch.h"
+
+#include <atomic>
+#include <map>
+#include <thread>
+#include <unordered_map>
+
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/base/parallel.h"
+#include "host/job/progress_line.h"
+#include "host/many/budget.h"
+#include "host/system/output_file.h"
+
+namespace vkh {
+namespace {
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr uint64_t kReadAhead = uint64_t{2} << 30;
+constexpr uint64_t kBytesOfAByte = 3;  // of a file, while it is read and as a mesh, about
+
+/// What went wrong with a pair, its files as its list names them.
+Failure failure_of(const std::exception_ptr& error, const Entry& entry) {
+  Failure failure{.code = code_of(error), .message = "no memory", .file = {}, .place = {}};
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& e) {
+    failure.message = e.what();
+  } catch (...) {
+    failure.message = "internal error";
+  }
+  for (const auto& [file, name] : {std::pair{&entry.file_a, &entry.a}, {&entry.file_b, &entry.b}}) {
+    if (!failure.message.starts_with(*file + ": ")) continue;
+    failure.file = *name;
+    failure.message = *name + failure.message.substr(file->size());
+    const size_t begin = name->size() + 2, end = failure.message.find(": ", begin);
+    if (end != std::string::npos) failure.place = failure.message.substr(begin, end - begin);
+    break;
+  }
+  return failure;
+}
+
+class Batch {
+ public:
+  explicit Batch(const BatchJob& job)
+      : job_(job),
+        file_("--out", job.results, inputs_of(job)),
+        budget_(job.read_ahead_bytes != 0 ? job.read_ahead_bytes : kReadAhead),
+        reader_(job.pair, job.shared, [this] { return goes_on(); }) {
+    keep_older_lines();
+  }
+
+  ExitCode run(std::ostream& out) {
+    PairStream stream(job_.devices, [this](StreamResult&& result) { take(std::move(result)); });
+    std::exception_ptr error;
+    auto working = std::async(std::launch::async, [&] {
+      for_each_index(thread_count(), [&](size_t) { read_some(stream); });
+      stream.finish();
+    });
+    while (working.wait_for(std::chrono::milliseconds(20)) == std::future_status::timeout) {
+      if (goes_on()) continue;
+      budget_.close();
+      stream.cancel();
+    }
+    try {
+      working.get();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    line_.end();
+    if (error_) error = error_;
+    if (!error) file_.sync();
+    totals_.print(out, {.left = job_.entries.size() - totals_.pairs(),
+                        .wall_s = seconds_since(start_),
+                        .read_s = read_s_,
+                        .device = stream.times(),
+                        .devices = stream.devices(),
+                        .results = job_.results,
+                        .has_limit = job_.pair.max.has_value()});
+    if (error) std::rethrow_exception(error);
+    const bool is_whole = totals_.pairs() == job_.entries.size();
+    return is_whole ? totals_.worst() : worse(totals_.worst(), kExitNotClosed);
+  }
+
+ private:
+  struct Running {
+    NamedEntry entry;
+    EntryMeshes meshes;
+    uint64_t bytes = 0;
+  };
+
+  static std::vector<std::string> inputs_of(const BatchJob& job) {
+    std::vector<std::string> files;
+    for (const Entry& entry : job.entries) {
+      files.push_back(entry.file_a);
+      files.push_back(entry.file_b);
+    }
+    return files;
+  }
+
+  void keep_older_lines() {
+    if (file_.size() > 0 && !job_.resumes)
+      throw UsageError("--out '" + job_.results +
+                       "': has results: add --resume to go on, or name another file");
+    uint64_t number = 0;
+    file_.read([&](std::string_view line) {
+      ++number;
+      try {
+        Record record = read_record(line);
+        record.words.clear();  // which nobody asks for any more
+        older_.insert_or_assign(record.name.id, std::move(record));
+      } catch (const InputError& error) {
+        throw InputError(job_.results + ": line " + std::to_string(number) + ": " + error.what());
+      }
+    });
+  }
+
+  bool goes_on() const { return !stopped_ && !is_interrupted(); }
+
+  void stop(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    if (error && !error_) error_ = error;
+    stopped_ = true;
+  }
+
+  // Entries in the list's order, on each of the reading threads.
+  void read_some(PairStream& stream) {
+    for (;;) {
+      size_t number = 0;
+      uint64_t ticket = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        if (next_ == job_.entries.size()) return;
+        number = next_++;
+        ticket = budget_.ticket();
+      }
+      if (!goes_on()) return budget_.close();
+      try {
+        if (!read_one(number, ticket, stream)) return;
+      } catch (...) {
+        stop(nullptr);
+        throw;
+      }
+    }
+  }
+
+  void count_reading(Clock::time_point start) {
+    const double seconds = seconds_since(start);
+    const std::lock_guard lock(mutex_);
+    read_s_ += seconds;
+  }
+
+  bool read_one(size_t number, uint64_t ticket, PairStream& stream) {
+    Running running;
+    const Entry& entry = job_.entries[number];
+    bool has_room = false;
+    try {
+      running.entry.entry = &entry;
+      running.entry.known.inputs[0].path = entry.a;
+      running.entry.known.inputs[1].path = entry.b;
+      running.entry.name.id = entry.id;
+      auto start = Clock::now();
+      running.entry = reader_.name(entry);
+      count_reading(start);
+      running.bytes = is_done(running.entry) ? 0 : kBytesOfAByte * running.entry.file_bytes;
+      if (!budget_.take(ticket, running.bytes)) return false;
+      has_room = true;
+      if (running.bytes == 0 && is_done(running.entry)) return true;
+      start = Clock::now();
+      running.meshes = reader_.read(running.entry);
+      count_reading(start);
+    } catch (const Interrupted&) {
+      return false;
+    } catch (...) {
+      if (!has_room && !budget_.take(ticket, 0)) return false;
+      write(to_record(running.entry.name, failure_of(std::current_exception(), entry),
+                      running.entry.known));
+      budget_.give(running.bytes);
+      return true;
+    }
+    return push(number, std::move(running), stream);
+  }
+
+  bool is_done(const NamedEntry& entry) {
+    const auto older = older_.find(entry.name.id);
+    if (older == older_.end() || !older->second.is_final() ||
+        older->second.name.key != entry.name.key)
+      return false;
+    const std::lock_guard lock(mutex_);
+    if (kept_.insert(entry.name.id).second) {
+      totals_.add_kept(older->second);
+      show();
+    }
+    return true;
+  }
+
+  bool push(size_t number, Running running, PairStream& stream) {
+    StreamPair pair{.number = number,
+                    .a = running.meshes.a,
+                    .b = running.meshes.b,
+                    .shares_b = running.meshes.shares_b,
+                    .symmetric = running.entry.job.symmetric,
+                    .options = asked_options(running.entry.job, running.entry.known)};
+    pair.options.progress = [this](const Progress&) { return goes_on(); };
+    {
+      const std::lock_guard lock(mutex_);
+      running_.emplace(number, std::move(running));
+    }
+    return stream.push(std::move(pair));
+  }
+
+  Running taken(size_t number) {
+    const std::lock_guard lock(mutex_);
+    auto node = running_.extract(number);
+    return std::move(node.mapped());
+  }
+
+  // On a lane's thread.
+  void take(StreamResult&& result) {
+    const Running running = taken(result.number);
+    try {
+      write_result(running.entry, std::move(result));
+    } catch (...) {
+      stop(std::current_exception());
+    }
+    budget_.give(running.bytes);
+  }
+
+  void write_result(const NamedEntry& entry, StreamResult&& result) {
+    Answer answer = entry.known;
+    if (result.error)
+      return write(to_record(entry.name, failure_of(result.error, *entry.entry), answer));
+    answer.a_to_b = std::move(result.a_to_b);
+    answer.b_to_a = std::move(result.b_to_a);
+    const bool is_cancelled = answer.a_to_b.status == Status::kCancelled ||
+                              (answer.b_to_a && answer.b_to_a->status == Status::kCancelled);
+    if (is_cancelled) return;  // it is done again
+    add_memory_notes(entry.job.options.memory_bytes, answer);
+    answer.waits.total = answer.waits.read + answer.a_to_b.times.wall_ms +
+                         (answer.b_to_a ? answer.b_to_a->times.wall_ms : 0);
+    write(to_record(entry.name, answer));
+  }
+
+  void write(const std::string& line) {
+    const Record record = read_record(line);
+    const std::lock_guard lock(mutex_);
+    if (error_) return;
+    try {
+      file_.append(line);
+    } catch (const OutputError&) {
+      error_ = std::current_exception();
+      stopped_ = true;
+      return;
+    }
+    totals_.add(record);
+    show();
+    const bool is_bad = record.code == kExitBeyond || record.status.empty();
+    if (job_.fails_fast && is_bad) stopped_ = true;
+  }
+
+  void show() {
+    const size_t done = totals_.pairs(), all = job_.entries.size();
+    const double each = seconds_since(start_) / static_cast<double>(std::max<size_t>(done, 1));
+    line_.show_batch(done, all, totals_.failed(), each * static_cast<double>(all - done));
+  }
+
+  const BatchJob& job_;
+  const Clock::time_point start_ = Clock::now();
+  LineFile file_;
+  Budget budget_;
+  EntryReader reader_;
+  ProgressLine line_;
+  std::unordered_map<std::string, Record> older_;
+  std::mutex mutex_;
+  std::atomic<bool> stopped_ = false;
+  std::exception_ptr error_;
+  size_t next_ = 0;
+  double read_s_ = 0;
+  std::map<size_t, Running> running_;
+  std::set<std::string> kept_;
+  Totals totals_;
+};
+
+}  // namespace
+
+ExitCode run_batch(const BatchJob& job, std::ostream& out) { return Batch(job).run(out); }
+
+}  // namespace vkh

@@ -1,0 +1,157 @@
+#include "host/batch/reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/read/mesh_io.h"
+#include "host/system/sha256.h"
+#include "host/system/system.h"
+
+namespace vkh {
+namespace {
+
+uint64_t size_of(const std::string& file) {
+  std::error_code none;
+  const uintmax_t size = std::filesystem::file_size(path_of(file), none);
+  return none ? 0 : size;
+}
+
+std::string sha256_of_text(const std::string& text) {
+  bool is_over = false;
+  return sha256_of_pieces([&]() -> std::string_view {
+    return std::exchange(is_over, true) ? std::string_view() : std::string_view(text);
+  });
+}
+
+// All that an answer depends on, but for the device.
+std::string key_of(const PairJob& job, const Answer& known, bool shares_b) {
+  std::string text = program_version();
+  const auto add = [&](const std::string& part) { text += '\n' + part; };
+  for (const Input& input : known.inputs) add(input.sha256);
+  add(job.tolerance.requested);
+  add(job.max ? job.max->requested : "");
+  add(job.unit);
+  add(job.symmetric ? "symmetric" : "");
+  add(shares_b ? "prepared" : "");
+  const SolveOptions& o = job.options;
+  add(o.preset);
+  for (const std::string& name : o.enabled) add("+" + name);
+  for (const std::string& name : o.disabled) add("-" + name);
+  add(std::to_string(o.time_limit_s));
+  add(std::to_string(o.wave_limit));
+  add(std::to_string(o.memory_bytes));
+  return sha256_of_text(text);
+}
+
+}  // namespace
+
+std::set<std::string> shared_files(const std::vector<Entry>& entries) {
+  std::set<std::string> once, more;
+  for (const Entry& entry : entries) {
+    if (!once.insert(entry.file_b).second) more.insert(entry.file_b);
+  }
+  return more;
+}
+
+// A thread that asks for what another one reads waits for it.
+std::string EntryReader::hash_of(const std::string& file, bool is_shared) {
+  if (!is_shared) return sha256_of(path_of(file), keep_going_);
+  std::promise<std::string> mine;
+  std::shared_future<std::string> theirs;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [known, is_new] = hashes_.try_emplace(file);
+    if (is_new) known->second = mine.get_future().share();
+    if (!is_new) theirs = known->second;
+  }
+  if (theirs.valid()) return theirs.get();
+  std::string hash = sha256_of(path_of(file), keep_going_);
+  mine.set_value(hash);
+  return hash;
+}
+
+NamedEntry EntryReader::name(const Entry& entry) {
+  NamedEntry named;
+  named.entry = &entry;
+  PairJob& job = named.job = base_;
+  job.file_a = entry.file_a;
+  job.file_b = entry.file_b;
+  if (!entry.unit.empty()) check_unit("unit", entry.unit);
+  if (!entry.unit.empty()) job.unit = entry.unit;
+  if (!entry.tolerance.empty())
+    job.tolerance = parse_length("tol", entry.tolerance, PlainNumber::kFraction);
+  if (!entry.max.empty()) job.max = parse_length("max", entry.max, PlainNumber::kRefused);
+  job.symmetric = entry.symmetric.value_or(job.symmetric);
+  named.known = unread_answer(job);
+  const bool shares_b = shared_.count(entry.file_b) > 0;
+  named.known.inputs[0].path = entry.a;
+  named.known.inputs[1].path = entry.b;
+  named.known.inputs[0].sha256 = hash_of(entry.file_a, false);
+  named.known.inputs[1].sha256 = hash_of(entry.file_b, shares_b);
+  named.name = {entry.id, key_of(job, named.known, shares_b)};
+  named.file_bytes = size_of(entry.file_a) + (shares_b ? 0 : size_of(entry.file_b));
+  return named;
+}
+
+EntryReader::MeshPointer EntryReader::mesh_of(const std::string& file,
+                                              const ReadLimits& limits) const {
+  constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones are as many as there are threads
+  ReadLimits of_this = limits;
+  of_this.keep_going = keep_going_;
+  of_this.threads = size_of(file) < kLarge ? 1 : 0;
+  return std::make_shared<const Mesh>(read_mesh(path_of(file), of_this));
+}
+
+// Those used last, so that a list that goes back and forth between two B's reads each once.
+void EntryReader::drop_old() {
+  constexpr size_t kMost = 8;
+  while (meshes_.size() > kMost) {
+    meshes_.erase(std::min_element(
+        meshes_.begin(), meshes_.end(),
+        [](const auto& x, const auto& y) { return x.second.last_use < y.second.last_use; }));
+  }
+}
+
+EntryReader::MeshPointer EntryReader::shared_mesh_of(const std::string& file,
+                                                     const ReadLimits& limits) {
+  std::promise<MeshPointer> mine;
+  std::shared_future<MeshPointer> theirs;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [known, is_new] = meshes_.try_emplace(file);
+    known->second.last_use = ++uses_;
+    if (is_new) known->second.mesh = mine.get_future().share();
+    if (!is_new) theirs = known->second.mesh;
+    drop_old();
+  }
+  if (theirs.valid()) return theirs.get();
+  try {
+    MeshPointer mesh = mesh_of(file, limits);
+    mine.set_value(mesh);
+    return mesh;
+  } catch (...) {
+    mine.set_exception(std::current_exception());
+    throw;
+  }
+}
+
+EntryMeshes EntryReader::read(NamedEntry& entry) {
+  const auto start = Clock::now();
+  EntryMeshes meshes;
+  meshes.shares_b = shared_.count(entry.job.file_b) > 0;
+  meshes.a = mesh_of(entry.job.file_a, entry.job.limits);
+  meshes.b = meshes.shares_b ? shared_mesh_of(entry.job.file_b, entry.job.limits)
+                             : mesh_of(entry.job.file_b, entry.job.limits);
+  const std::array<Input, 2> before = entry.known.inputs;
+  take_meshes(entry.job, *meshes.a, *meshes.b, entry.known);
+  for (size_t i = 0; i < before.size(); ++i) {
+    entry.known.inputs[i].path = before[i].path;
+    entry.known.inputs[i].sha256 = before[i].sha256;
+  }
+  entry.known.waits.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return meshes;
+}
+
+}  // namespace vkh

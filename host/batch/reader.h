@@ -1,0 +1,67 @@
+// From an entry of a list to what is solved: names and hashes first, then meshes.
+#pragma once
+
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "host/batch/list.h"
+#include "host/job/reading.h"
+#include "host/record/record.h"
+
+namespace vkh {
+
+/// An entry with what is known of it before its meshes are read.
+struct NamedEntry {
+  const Entry* entry = nullptr;
+  PairJob job;
+  RecordName name;
+  Answer known;  ///< with its inputs' hashes
+  uint64_t file_bytes = 0;
+};
+
+struct EntryMeshes {
+  std::shared_ptr<const Mesh> a, b;
+  bool shares_b = false;
+};
+
+/// Files that lists name as B more than once: their meshes are kept for each other, and prepared.
+std::set<std::string> shared_files(const std::vector<Entry>& entries);
+
+/// Threads may share it.
+class EntryReader {
+ public:
+  /// `base`: what is asked of every pair. `shared`: of the whole list, whatever the shard, since
+  /// answers depend on it. `keep_going`: false ends what is read with Interrupted.
+  EntryReader(PairJob base, std::set<std::string> shared, std::function<bool()> keep_going)
+      : base_(std::move(base)), shared_(std::move(shared)), keep_going_(std::move(keep_going)) {}
+
+  /// Throws UsageError for what an entry says of itself.
+  NamedEntry name(const Entry& entry);
+  /// Throws what read_mesh and take_meshes throw. Fills entry.known.
+  EntryMeshes read(NamedEntry& entry);
+
+ private:
+  using MeshPointer = std::shared_ptr<const Mesh>;
+  struct Kept {
+    std::shared_future<MeshPointer> mesh;
+    uint64_t last_use = 0;
+  };
+  std::string hash_of(const std::string& file, bool is_shared);
+  MeshPointer mesh_of(const std::string& file, const ReadLimits& limits) const;
+  MeshPointer shared_mesh_of(const std::string& file, const ReadLimits& limits);
+  void drop_old();
+
+  PairJob base_;
+  std::set<std::string> shared_;
+  std::function<bool()> keep_going_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_future<std::string>> hashes_;  // of shared files
+  std::map<std::string, Kept> meshes_;                             // likewise
+  uint64_t uses_ = 0;
+};
+
+}  // namespace vkh

@@ -1,0 +1,132 @@
+#include "host/batch/totals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+#include "host/base/decimal.h"
+
+namespace vkh {
+namespace {
+
+constexpr size_t kTop = 5;
+
+std::string number(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string count_of(size_t count, const char* what) { return std::to_string(count) + " " + what; }
+
+std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::kUp) + " %"; }
+
+void row(std::ostream& out, const char* label, const std::string& text) {
+  out << "  " << label << std::string(11 - std::string(label).size(), ' ') << text << '\n';
+}
+
+}  // namespace
+
+void Totals::add(const Record& record) {
+  worst_ = worse(worst_, record.code);
+  if (record.status.empty()) {
+    ++failed_;
+    return;
+  }
+  const bool has_verdict = !record.verdict.empty();
+  ++(record.code == kExitBeyond      ? beyond_
+     : record.code == kExitNotClosed ? open_
+     : has_verdict                   ? within_
+                                     : closed_);
+  if (!std::isfinite(record.upper) || !(record.diagonal > 0)) return;
+  const double ratio = record.upper / record.diagonal;
+  ratios_.push_back(ratio);
+  if (top_.size() == kTop && ratio <= top_.back().ratio) return;
+  const auto place = std::find_if(top_.begin(), top_.end(),
+                                  [&](const Place& other) { return ratio > other.ratio; });
+  top_.insert(place, {ratio, record.lower, record.upper, record.name.id, record.unit});
+  if (top_.size() > kTop) top_.pop_back();
+}
+
+void Totals::add_kept(const Record& record) {
+  ++kept_;
+  add(record);
+}
+
+std::string Totals::in_words(const Run& run) const {
+  const std::string all = count_of(pairs() + run.left, "pairs");
+  std::string rest;
+  const auto add = [&](size_t count, const char* what) {
+    if (count > 0) rest += "; " + count_of(count, what);
+  };
+  if (within_ + beyond_ > 0 || run.has_limit) {
+    const char* verdict = beyond_ > 0                      ? "FAIL"
+                          : open_ + failed_ + run.left > 0 ? "UNDECIDED"
+                                                           : "PASS";
+    add(open_, "undecided");
+    add(closed_, "without a limit");
+    add(failed_, "without an answer");
+    add(run.left, "left");
+    return std::string(verdict) + "  " + std::to_string(within_) + " of " + all +
+           " are within their limit, " + std::to_string(beyond_) + " are beyond it, proven" + rest;
+  }
+  add(open_, "not closed");
+  add(failed_, "without an answer");
+  add(run.left, "left");
+  return std::to_string(closed_) + " of " + all + " have an interval within the tolerance" + rest;
+}
+
+void Totals::print_percentiles(std::ostream& out) const {
+  if (ratios_.empty()) return;
+  std::vector<double> sorted = ratios_;
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = [&](double share) {
+    const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    return percent_up(sorted[std::max<size_t>(rank, 1) - 1]);
+  };
+  row(out, "upper",
+      "of diag(A): median " + at(0.5) + ", p90 " + at(0.9) + ", p99 " + at(0.99) + ", largest " +
+          at(1));
+}
+
+void Totals::print_worst(std::ostream& out) const {
+  for (const Place& place : top_) {
+    row(out, &place == top_.data() ? "farthest" : "",
+        percent_up(place.ratio) + "  [" + decimal(place.lower, 7, Rounding::kDown) + ", " +
+            decimal(place.upper, 7, Rounding::kUp) + "]" +
+            (place.unit.empty() ? "" : " " + place.unit) + "  " + printable(place.id));
+  }
+}
+
+void Totals::print(std::ostream& out, const Run& run) const {
+  out << in_words(run) << '\n';
+  const size_t done = pairs() - kept_;
+  std::string now = count_of(done, "pairs") + " in " + number("%.2f s", run.wall_s);
+  if (done > 0 && run.wall_s > 0)
+    now += ", " + number("%.4g a second", static_cast<double>(done) / run.wall_s);
+  if (kept_ > 0) now += "; " + count_of(kept_, "were done before");
+  row(out, "pairs", now);
+  row(out, "time",
+      "reading " + number("%.2f s", run.read_s) + " of all threads, devices ready after " +
+          number("%.2f s", run.device.start_s) + ", lanes busy " +
+          number("%.2f s", run.device.lanes_s) + ", GPU time " +
+          number("%.2f s", run.device.gpu_s));
+  print_percentiles(out);
+  print_worst(out);
+  for (const DeviceDescription& device : run.devices)
+    row(out, &device == run.devices.data() ? "devices" : "",
+        std::to_string(device.index) + " " + device.name + ", driver " + device.driver);
+  row(out, "results", printable(run.results));
+}
+
+void Totals::print_merged(std::ostream& out, size_t missing, const std::string& results) const {
+  Run run;
+  run.left = missing;
+  out << in_words(run) << '\n';
+  print_percentiles(out);
+  print_worst(out);
+  row(out, "results", printable(results));
+}
+
+}  // namespace vkh

@@ -1,0 +1,51 @@
+// What a batch adds up to, as people read it at its end.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "host/many/stream.h"
+#include "host/record/record.h"
+
+namespace vkh {
+
+class Totals {
+ public:
+  void add(const Record& record);
+  /// Of an earlier run, which this one need not do again.
+  void add_kept(const Record& record);
+
+  size_t pairs() const { return closed_ + within_ + beyond_ + open_ + failed_; }
+  size_t failed() const { return failed_; }
+  ExitCode worst() const { return worst_; }
+
+  struct Run {
+    size_t left = 0;  ///< pairs without a line
+    double wall_s = 0, read_s = 0;
+    StreamTimes device;
+    std::vector<DeviceDescription> devices;
+    std::string results;  ///< the file
+    bool has_limit = false;
+  };
+  /// A line in words, then a table.
+  void print(std::ostream& out, const Run& run) const;
+  /// Of results that were merged; `missing`: pairs that have none.
+  void print_merged(std::ostream& out, size_t missing, const std::string& results) const;
+
+ private:
+  struct Place {
+    double ratio, lower, upper;
+    std::string id, unit;
+  };
+  void print_worst(std::ostream& out) const;
+  void print_percentiles(std::ostream& out) const;
+  std::string in_words(const Run& run) const;
+
+  ExitCode worst_ = kExitClosed;
+  size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
+  std::vector<Place> top_;      // the farthest, in order
+  std::vector<double> ratios_;  // upper / diag(A)
+};
+
+}  // namespace vkh

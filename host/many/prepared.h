@@ -1,0 +1,32 @@
+// The B's of one device that pairs share.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "host/solve/solver.h"
+
+namespace vkh {
+
+class PreparedMeshes {
+ public:
+  /// `bytes`: what hierarchies that nobody uses may take of the device's memory, about.
+  explicit PreparedMeshes(uint64_t bytes) : most_bytes_(bytes) {}
+
+  /// B, prepared now unless it was. Threads that ask meanwhile wait. Null: the device has no room.
+  std::shared_ptr<const PreparedMesh> get(Solver& solver, const std::shared_ptr<const Mesh>& b);
+
+ private:
+  struct Kept {
+    std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const PreparedMesh> prepared;
+  };
+  void drop_until(uint64_t bytes);
+
+  uint64_t most_bytes_;
+  std::mutex mutex_;
+  std::vector<Kept> kept_;  // used last at the end
+};
+
+}  // namespace vkh

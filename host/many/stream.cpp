@@ -1,0 +1,211 @@
+#include "host/many/stream.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/many/lane.h"
+
+namespace vkh {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A device that is lost again and again without an answer between is not opened any more.
+constexpr int kMostReopened = 3;
+
+}  // namespace
+
+std::vector<std::string> selectors_of(const std::string& text) {
+  std::vector<std::string> selectors;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (word.empty() && !text.empty())
+      throw UsageError("--device '" + text + "': expected names between commas, or all");
+    if (word == "all") {
+      const std::vector<DeviceDescription> all = list_devices();
+      for (const DeviceDescription& d : all) {
+        if (d.usable && d.type != "cpu") selectors.push_back(std::to_string(d.index));
+      }
+      if (selectors.empty()) selectors.emplace_back("");
+    } else {
+      selectors.push_back(word);
+    }
+    begin = end + 1;
+  }
+  return selectors;
+}
+
+struct PairStream::Impl {
+  Impl(StreamOptions given, std::function<void(StreamResult&&)> to)
+      : options(std::move(given)),
+        deliver(std::move(to)),
+        queue(options.waiting != 0 ? options.waiting : waiting_for(options)),
+        share{.options = options,
+              .queue = queue,
+              .deliver = [this](StreamResult&& result) { hand_out(std::move(result)); },
+              .count = [this](double busy, double gpu) { count(busy, gpu); }} {
+    left = options.devices.size();
+    for (const std::string& selector : options.devices)
+      threads.emplace_back([this, selector] { serve(selector); });
+  }
+  ~Impl() {
+    cancel();
+    join();
+  }
+
+  // Of GPUs, which take most: 3 lanes of 16 pairs.
+  static size_t waiting_for(const StreamOptions& options) {
+    const size_t lanes = options.lanes != 0 ? options.lanes : 3;
+    const size_t together = options.together != 0 ? options.together : 16;
+    return 2 * lanes * together * options.devices.size();
+  }
+
+  void hand_out(StreamResult&& result) {
+    ++delivered;
+    deliver(std::move(result));
+  }
+  void count(double busy, double gpu) {
+    const std::lock_guard lock(mutex);
+    times.lanes_s += busy;
+    times.gpu_s += gpu;
+  }
+  void note_open(const DeviceDescription& device) {
+    const std::lock_guard lock(mutex);
+    if (opened.empty()) times.start_s = seconds_since(start);
+    const bool is_taken = std::any_of(opened.begin(), opened.end(), [&](const auto& other) {
+      return other.index == device.index && other.name == device.name;
+    });
+    if (!is_taken) opened.push_back(device);
+  }
+  void claim(const DeviceDescription& device) {
+    const std::lock_guard lock(mutex);
+    if (!claimed.insert(device.index).second)
+      throw UsageError("device " + std::to_string(device.index) + ", " + device.name +
+                       ", is named more than once");
+  }
+
+  // One life of a device: until nothing waits (true), or it is lost.
+  bool live(const std::string& selector, bool is_first) {
+    Device device(DeviceRequest{.selector = selector});
+    if (is_first) claim(device.description());
+    const LaneShape shape = shape_for(options, device.description());
+    PreparedMeshes prepared(device.description().memory_bytes / 8);
+    std::vector<std::unique_ptr<Solver>> solvers;
+    solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+    solvers[0]->make_ready(options.first);
+    note_open(device.description());
+    std::atomic<bool> goes_on = true;
+    const auto run = [&](Solver& solver) {
+      const FloatEnvironment ours;
+      if (!Lane(share, device, solver, prepared, shape).work()) goes_on = false;
+    };
+    std::vector<std::thread> others;
+    const auto join_all = [&] {
+      for (std::thread& thread : others) thread.join();
+    };
+    try {
+      for (size_t i = 1; i < shape.lanes; ++i) {
+        solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+        others.emplace_back([&, solver = solvers.back().get()] { run(*solver); });
+      }
+    } catch (...) {  // with fewer lanes, then
+    }
+    run(*solvers[0]);
+    join_all();
+    return goes_on;
+  }
+
+  // What was asked for and cannot be had ends all; what is lost later leaves the rest to others.
+  void serve(const std::string& selector) {
+    const FloatEnvironment ours;
+    size_t before = 0;
+    int lives = 0;
+    try {
+      while (!live(selector, lives == 0)) {
+        lives = delivered > before ? 1 : lives + 1;
+        before = delivered;
+        if (lives > kMostReopened) throw DeviceError("the device was lost again and again");
+      }
+      leave(nullptr, false);
+    } catch (...) {
+      leave(std::current_exception(), lives == 0);
+    }
+  }
+  void leave(std::exception_ptr why, bool ends_all) {
+    const std::lock_guard lock(mutex);
+    if (why && !error) error = why;
+    if (--left > 0 && !ends_all) return;
+    if (!ends_all && queue.is_empty() && why == nullptr) return;
+    is_dead = true;
+    share.is_cancelled = true;
+    queue.close();
+  }
+
+  void cancel() {
+    share.is_cancelled = true;
+    queue.close();
+  }
+  void join() {
+    for (std::thread& thread : threads) {
+      if (thread.joinable()) thread.join();
+    }
+  }
+  void check_alive() {
+    const std::lock_guard lock(mutex);
+    if (is_dead && error) std::rethrow_exception(error);
+    if (is_dead) throw DeviceError("no device is left");
+  }
+
+  const Clock::time_point start = Clock::now();
+  const StreamOptions options;
+  const std::function<void(StreamResult&&)> deliver;
+  PairQueue queue;
+  LaneShare share;
+  std::atomic<size_t> delivered = 0;
+  mutable std::mutex mutex;
+  std::exception_ptr error;
+  bool is_dead = false;
+  size_t left = 0;
+  std::set<uint32_t> claimed;
+  std::vector<DeviceDescription> opened;
+  StreamTimes times;
+  std::vector<std::thread> threads;
+};
+
+PairStream::PairStream(StreamOptions options, std::function<void(StreamResult&&)> deliver)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(deliver))) {}
+PairStream::~PairStream() = default;
+
+bool PairStream::push(StreamPair pair) {
+  if (impl_->queue.put(std::move(pair))) return true;
+  impl_->check_alive();
+  return false;
+}
+
+void PairStream::finish() {
+  impl_->queue.end();
+  impl_->join();
+  impl_->check_alive();
+}
+
+void PairStream::cancel() { impl_->cancel(); }
+
+std::vector<DeviceDescription> PairStream::devices() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->opened;
+}
+
+StreamTimes PairStream::times() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->times;
+}
+
+}  // namespace vkh

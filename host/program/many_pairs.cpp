@@ -1,0 +1,128 @@
+#include "host/program/many_pairs.h"
+
+#include <cstdio>
+#include <iostream>
+#include <set>
+
+#include "host/base/error.h"
+#include "host/batch/batch.h"
+#include "host/record/merge.h"
+#include "host/record/tables.h"
+#include "host/system/output_file.h"
+
+namespace vkh {
+namespace {
+
+void note(const std::string& text) {
+  std::fprintf(stderr, "vkhausdorff: note: %s\n", printable(text).c_str());
+}
+
+/// CSV and JUnit's XML of results, looked at before the work.
+class Tables {
+ public:
+  Tables(const TablesAsked& asked, const std::vector<std::string>& inputs) {
+    if (asked.csv) csv_.emplace("--csv", *asked.csv, inputs);
+    if (asked.junit) junit_.emplace("--junit", *asked.junit, inputs);
+    if (asked.csv && asked.csv == asked.junit)
+      throw UsageError("two outputs would be written to '" + *asked.csv + "'");
+  }
+  bool is_any() const { return csv_ || junit_; }
+
+  void write(const Results& results, bool with_run) const {
+    std::string csv = csv_heading(with_run);
+    std::vector<JunitCase> cases;
+    results.for_each([&](const Record& record, const std::string&) {
+      if (csv_) csv += csv_row(record, with_run);
+      if (junit_) cases.push_back(junit_case(record, with_run));
+    });
+    if (csv_) csv_->write(csv);
+    if (junit_) junit_->write(to_junit(cases, "", ""));
+  }
+
+ private:
+  std::optional<OutputFile> csv_, junit_;
+};
+
+PairList list_of(const BatchAsked& asked) {
+  return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
+}
+
+/// What is named twice would be read while it is written.
+void check_outputs(const std::string& results, const TablesAsked& tables) {
+  for (const auto& other : {tables.csv, tables.junit}) {
+    if (other && *other == results)
+      throw UsageError("two outputs would be written to '" + results + "'");
+  }
+}
+
+BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
+  BatchJob batch;
+  batch.pair = job;
+  batch.pair.options.time_limit_s = asked.time_limit_s;
+  batch.shared = shared_files(list.entries);
+  for (Entry& entry : list.entries) {
+    if (asked.shard.has(entry.id)) batch.entries.push_back(std::move(entry));
+  }
+  batch.results = asked.results;
+  batch.resumes = asked.resumes;
+  batch.fails_fast = asked.fails_fast;
+  batch.devices = asked.devices;
+  batch.devices.devices = selectors_of(asked.device);
+  if (job.caches) batch.devices.cache_folder = user_cache_folder();
+  batch.devices.first = job.options;
+  batch.read_ahead_bytes = asked.read_ahead_bytes;
+  return batch;
+}
+
+}  // namespace
+
+ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
+  check_outputs(asked.results, asked.tables);
+  PairList list = list_of(asked);
+  for (const std::string& text : list.notes) note(text);
+  std::vector<std::string> inputs = {asked.list.empty() ? asked.against : asked.list};
+  const BatchJob batch = batch_of(job, asked, list);
+  for (const Entry& entry : batch.entries) {
+    inputs.push_back(entry.file_a);
+    inputs.push_back(entry.file_b);
+  }
+  const Tables tables(asked.tables, inputs);
+  const ExitCode code = run_batch(batch, std::cout);
+  if (tables.is_any()) {
+    Results results;
+    results.add(asked.results);
+    tables.write(results, true);
+  }
+  return code;
+}
+
+ExitCode run_merge_command(const MergeAsked& asked) {
+  check_outputs(asked.results, asked.tables);
+  std::vector<std::string> inputs = asked.files;
+  if (!asked.list.empty()) inputs.push_back(asked.list);
+  const OutputFile out("--out", asked.results, inputs);
+  const Tables tables(asked.tables, inputs);
+  Results results;
+  for (const std::string& file : asked.files) results.add(file);
+  std::string text;
+  Totals totals;
+  results.for_each([&](const Record& record, const std::string& line) {
+    text += (asked.reproducible ? without_run(line) : line) + '\n';
+    totals.add(record);
+  });
+  std::vector<std::string> missing;
+  if (!asked.list.empty()) {
+    const PairList list = read_list(asked.list);
+    for (const std::string& note_text : list.notes) note(note_text);
+    for (const Entry& entry : list.entries) {
+      if (!results.has(entry.id)) missing.push_back(entry.id);
+    }
+  }
+  out.write(text);
+  if (tables.is_any()) tables.write(results, !asked.reproducible);
+  for (const std::string& id : missing) note("no result: " + id);
+  totals.print_merged(std::cout, missing.size(), asked.results);
+  return missing.empty() ? totals.worst() : worse(totals.worst(), kExitNotClosed);
+}
+
+}  // namespace vkh

@@ -1,0 +1,26 @@
+// Comma-separated values (RFC 4180), as spreadsheets write them.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vkh {
+
+class CsvReader {
+ public:
+  explicit CsvReader(std::istream& text) : text_(text) {}
+  /// The next row that is not empty; none at the end. Cells in quotes may hold commas, quotes,
+  /// twice each, and ends of lines. Throws InputError for a quote that does not end.
+  std::optional<std::vector<std::string>> next();
+  uint64_t line() const { return line_; }  ///< where that row begins, from 1
+
+ private:
+  bool read_cell(std::string& cell);
+  std::istream& text_;
+  uint64_t line_ = 0, lines_read_ = 0;
+};
+
+}  // namespace vkh

@@ -1,0 +1,43 @@
+// Results of batches, from any number of files, as one: ordered by id, each once.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/record/record.h"
+
+namespace vkh {
+
+/// What files hold, of each id the line that counts, by its place. Of lines of one file the last
+/// one counts: a later run replaces what an earlier one said of other inputs or options. Of several
+/// files' lines with the same key the one with the better answer, else the first by its text.
+class Results {
+ public:
+  /// Adds a file's lines; a last one that is not whole is left out. Throws InputError that names
+  /// the file and the line: what is no result; an id that another file has with another key.
+  void add(const std::string& path);
+
+  size_t size() const { return places_.size(); }
+  bool has(const std::string& id) const { return places_.count(id) > 0; }
+  /// Calls `take` with each, by id.
+  void for_each(const std::function<void(const Record&, const std::string& line)>& take) const;
+
+ private:
+  struct Place {
+    size_t file = 0;
+    uint64_t begin = 0, size = 0;
+    std::string key;
+    ExitCode code = kExitClosed;
+    double width = 0;
+  };
+  void put(std::map<std::string, Place> of_file);
+  std::string text_of(const Place& place) const;
+  bool is_better(const Place& x, const Place& y) const;
+
+  std::vector<std::string> files_;
+  std::map<std::string, Place> places_;
+};
+
+}  // namespace vkh

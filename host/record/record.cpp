@@ -1,0 +1,135 @@
+#include "host/record/record.h"
+
+#include "host/answer/json_object.h"
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+constexpr const char* kSchema = "vkhausdorff.pair/1";
+constexpr const char* kRun = ",\"run\":{";
+
+void begin(JsonObject& json, const RecordName& name, ExitCode code) {
+  json.add("schema", kSchema);
+  json.add("version", program_version());
+  json.add("id", name.id);
+  json.add("key", name.key);
+  json.add("code", static_cast<int>(code));
+}
+
+double gpu_ms(const Answer& answer) {
+  double sum = 0;
+  for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (r != nullptr) sum += r->times.hierarchy_ms + r->times.solve_ms;
+  }
+  return sum;
+}
+
+void add_run(JsonObject& json, const Answer& answer) {
+  JsonObject run;
+  add_device(run, answer);
+  run.add("times", {{"read_ms", answer.waits.read},
+                    {"gpu_ms", gpu_ms(answer)},
+                    {"total_ms", answer.waits.total}});
+  run.add("host", answer.host);
+  run.add("started", answer.started);
+  json.add_text("run", run.text());
+}
+
+Json name_and_hash(const char* name, const Input& input) {
+  return {{"name", name}, {"path", input.path}, {"sha256", text_or_null(input.sha256)}};
+}
+
+// Members that are not there, or null, are as they are where nothing is known.
+const Json& member(const Json& json, const char* key) {
+  static const Json null;
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return found == json.end() ? null : *found;
+}
+std::string text_in(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+double number_in(const Json& json, const char* key, double otherwise) {
+  const Json& value = member(json, key);
+  return value.is_number() ? value.get<double>() : otherwise;
+}
+
+void read_answer(const Json& json, Record& record) {
+  const Json& interval = member(json, "interval");
+  record.status = text_in(json, "status");
+  record.verdict = text_in(json, "verdict");
+  record.lower = number_in(interval, "lower", 0);
+  record.upper = number_in(interval, "upper", record.upper);
+  record.gap = number_in(interval, "gap", 0);
+  record.unit = text_in(interval, "unit");
+  record.diagonal = number_in(member(json, "tolerance"), "diagonal", 0);
+  record.words = text_in(json, "words");
+}
+
+}  // namespace
+
+std::string to_record(const RecordName& name, const Answer& answer) {
+  JsonObject json;
+  begin(json, name, code_of(answer));
+  add_answer(json, answer, Detail::kBrief);
+  add_run(json, answer);
+  return json.text();
+}
+
+std::string to_record(const RecordName& name, const Failure& failure, const Answer& known) {
+  JsonObject json;
+  begin(json, name, static_cast<ExitCode>(failure.code));
+  json.add("error", {{"code", failure.code},
+                     {"message", failure.message},
+                     {"file", text_or_null(failure.file)},
+                     {"place", text_or_null(failure.place)}});
+  json.add("inputs",
+           Json::array({name_and_hash("a", known.inputs[0]), name_and_hash("b", known.inputs[1])}));
+  add_run(json, known);
+  return json.text();
+}
+
+// No text in the line has these characters in this order: quotes are escaped there.
+std::string without_run(const std::string& line) {
+  const size_t run = line.rfind(kRun);
+  return run == std::string::npos ? line : line.substr(0, run) + "}";
+}
+
+bool Record::is_final() const {
+  const bool is_read = !inputs[0].sha256.empty() && !inputs[1].sha256.empty();
+  return is_read && code != kExitDevice && code != kExitNotWritten && code != kExitInternal;
+}
+
+Record read_record(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw InputError("no JSON object");
+  if (text_in(json, "schema") != kSchema)
+    throw InputError(std::string("no result of a batch: expected the schema ") + kSchema);
+  Record record;
+  record.name = {text_in(json, "id"), text_in(json, "key")};
+  const Json& code = member(json, "code");
+  if (record.name.id.empty() || !code.is_number_integer())
+    throw InputError("a result without an id or a code");
+  record.code = static_cast<ExitCode>(code.get<int>());
+  const Json& error = member(json, "error");
+  if (error.is_object()) {
+    record.words = text_in(error, "message");
+  } else {
+    read_answer(json, record);
+  }
+  const Json& inputs = member(json, "inputs");
+  for (size_t i = 0; inputs.is_array() && i < std::min<size_t>(inputs.size(), 2); ++i) {
+    record.inputs[i] = {.path = text_in(inputs[i], "path"),
+                        .sha256 = text_in(inputs[i], "sha256"),
+                        .faces = static_cast<uint64_t>(number_in(inputs[i], "faces", 0))};
+  }
+  const Json &run = member(json, "run"), &times = member(run, "times");
+  record.total_ms = number_in(times, "total_ms", 0);
+  record.gpu_ms = number_in(times, "gpu_ms", 0);
+  record.host = text_in(run, "host");
+  record.started = text_in(run, "started");
+  return record;
+}
+
+}  // namespace vkh
