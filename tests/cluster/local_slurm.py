@@ -13,6 +13,7 @@ import subprocess
 import time
 
 NODES = ("one", "two")
+GPUS = 2  # of a node, pretended: a file each, of which slurmd asks no more than that it be there
 SECONDS = 30  # for a daemon to answer
 CONFIGURATION = """
 ClusterName=vkhausdorff
@@ -49,8 +50,9 @@ MinJobAge=15
 MaxArraySize={largest_array}
 ReturnToService=2
 MailProg=/bin/true
+GresTypes=gpu
 {nodes}
-PartitionName=night Nodes=ALL Default=YES MaxTime=60 PriorityTier=1
+PartitionName=gpu Nodes=ALL Default=YES MaxTime=60 PriorityTier=1
 PartitionName=day Nodes=ALL MaxTime=60 PriorityTier=9 PreemptMode=OFF
 """
 
@@ -108,9 +110,13 @@ class LocalSlurm:
         key.write_bytes(os.urandom(128))
         key.chmod(0o600)
         controller, *ports = free_ports(1 + len(NODES))
-        nodes = "\n".join(f"NodeName={name} NodeHostname=localhost NodeAddr=127.0.0.1 Port={port} CPUs=2 State=UNKNOWN"
+        nodes = "\n".join(f"NodeName={name} NodeHostname=localhost NodeAddr=127.0.0.1 Port={port} CPUs=4 Gres=gpu:{GPUS} State=UNKNOWN"
                           for name, port in zip(NODES, ports))
         (self.folder / "slurm.conf").write_text(CONFIGURATION.format(folder=self.folder, largest_array=self.largest_array, controller=controller, nodes=nodes))
+        (self.folder / "gres.conf").write_text(
+            "".join(f"NodeName={name} Name=gpu File={self.folder}/gpu[0-{GPUS - 1}]\n" for name in NODES))
+        for i in range(GPUS):
+            (self.folder / f"gpu{i}").touch()
         munge = {"key-file": key, **{f"{kind}-file": self.folder / "munge" / kind for kind in ("log", "pid", "seed")}}
         # By force: it wants a socket that everybody reaches, and a temporary folder is its owner's alone.
         self.daemon("munged", "--foreground", "--force", f"--socket={self.folder}/munge/socket",
@@ -120,7 +126,7 @@ class LocalSlurm:
         self.until(lambda: self.run("scontrol", "ping", check=False).returncode == 0, "slurmctld")
         for name in NODES:
             self.daemon("slurmd", "-D", "-N", name, as_name=f"slurmd-{name}")
-        self.until(lambda: self.run("sinfo", "--noheader", "--states=idle", "--format=%D", "--partition=night").stdout.strip()
+        self.until(lambda: self.run("sinfo", "--noheader", "--states=idle", "--format=%D", "--partition=gpu").stdout.strip()
                    == str(len(NODES)), "idle nodes")
 
     def daemon(self, *words: str, as_name: str = "") -> None:

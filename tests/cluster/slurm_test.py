@@ -16,44 +16,14 @@ import tempfile
 import time
 import unittest
 
-TESTS = pathlib.Path(__file__).resolve().parents[1]
-SLURM = TESTS.parent / "tools" / "slurm"
-sys.path.insert(0, str(TESTS / "platforms"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-import meshes  # noqa: E402
 from local_slurm import LocalSlurm, missing  # noqa: E402
+from spheres import FAIL, PAIRS, begun, lines, write_pairs  # noqa: E402
 
-PAIRS = 24
+SLURM = pathlib.Path(__file__).resolve().parents[2] / "tools" / "slurm"
 SHARDS, TASKS = 6, 4  # MaxArraySize is 4: tasks 0 and 1 have two shards
 OPTIONS = ["--tol", "1e-5", "--device", "cpu"]
-FAIL = 1
-
-
-def write_pairs(folder: pathlib.Path) -> pathlib.Path:
-    """LIST: spheres in spheres, of which one is too far away; a batch of all exits with FAIL."""
-    with open(folder / "list.jsonl", "w") as rows:
-        for i in range(PAIRS):
-            for side, n, radius in (("a", 60 + i, 1.0), ("b", 61 + i, 1.1)):
-                (folder / f"{side}{i}.ply").write_bytes(meshes.as_ply(*meshes.sphere(n, radius)))
-            limit = {7: {"max": "0.05abs"}, 8: {"max": "0.2abs"}}.get(i, {})
-            rows.write(json.dumps({"id": f"pair {i}", "a": f"a{i}.ply", "b": f"b{i}.ply", **limit}) + "\n")
-    return folder / "list.jsonl"
-
-
-def lines(path: pathlib.Path) -> list[bytes]:
-    return path.read_bytes().splitlines() if path.exists() else []
-
-
-def writer(results: pathlib.Path) -> int:
-    """The process that writes them, or 0."""
-    for entry in pathlib.Path("/proc").iterdir():
-        try:
-            words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
-        except OSError:
-            continue
-        if str(results).encode() in words and b"job.sh" not in b"".join(words[:3]):
-            return int(entry.name)
-    return 0
 
 
 class Slurm(unittest.TestCase):
@@ -112,7 +82,7 @@ class Slurm(unittest.TestCase):
 
     def begun(self, results: pathlib.Path) -> int:
         """The process that writes a shard, as soon as there is a line of it."""
-        return self.until(lambda: lines(results) and writer(results), f"a line of {results.name}")
+        return self.until(lambda: begun(results), f"a line of {results.name}")
 
     def whole(self, folder: pathlib.Path):
         """The merged file is that of a run without Slurm; each pair was done once."""
@@ -122,16 +92,32 @@ class Slurm(unittest.TestCase):
         for name in ("all.csv", "all.xml"):
             self.assertIn("pair 7", (folder / name).read_text())
 
+    def test_0_the_recipe(self):
+        folder = self.folder("recipe")
+        folder.mkdir()
+        (folder / "tools").symlink_to(SLURM.parent)
+        write_pairs(folder)
+        recipe = (SLURM.parents[1] / "docs" / "recipes" / "clusters" / "slurm.sh").read_text()
+        done = subprocess.run(["bash", "-c", recipe], cwd=folder, env={**self.slurm.environment, "VKH_PROGRAM": str(PROGRAM)},
+                              capture_output=True, text=True, timeout=120)
+        self.of = folder / "results"
+        self.assertEqual(done.returncode, FAIL, done.stderr + self.logs)
+        array = (folder / "results" / "jobs").read_text().split()[0]
+        job = self.slurm.run("scontrol", "show", "job", array).stdout
+        for setting in ("Partition=gpu", "TimeLimit=01:00:00", "gpu:1", "ArrayTaskId=0"):
+            self.assertIn(setting, job)
+        self.assertEqual(len(lines(folder / "results" / "all.jsonl")), PAIRS)
+
     def test_1_what_is_killed_or_near_its_limit_goes_on(self):
         folder = self.folder("out 100%a & more")  # %a would be the task's number in a log's name
-        waiting = self.submit(folder, "--wait")
+        waiting = self.submit(folder, "--wait", VKH_GRES="gpu:1")
         array = self.array(folder)
         os.kill(self.begun(folder / "results-2.jsonl"), signal.SIGKILL)
         self.begun(folder / "results-3.jsonl")
         self.slurm.run("scancel", "--batch", "--signal=USR1", f"{array}_3")
         self.ends(waiting, FAIL)
         self.whole(folder)
-        for task, why in ((2, "killed by signal 9"), (3, "near its time limit")):
+        for task, why in ((2, "killed by signal 9"), (3, "told that its time ends")):
             log = (folder / "logs" / f"task-{task}.log").read_text()
             had = re.search(rf"{why} after (\d+) lines: requeued", log)
             self.assertTrue(had, log)
@@ -141,11 +127,11 @@ class Slurm(unittest.TestCase):
     def test_2_what_is_cancelled_goes_on_where_it_was(self):
         folder = self.folder("cancelled")
         self.ends(self.submit(folder), 0)
-        array, merge = (folder / "jobs").read_text().split()
+        array, _ = (folder / "jobs").read_text().split()
         self.begun(folder / "results-0.jsonl")
         self.assertIn(f"job {array} still writes", self.ends(self.submit(folder), 2))
         self.slurm.run("scancel", array)
-        self.until(lambda: "ExitCode=3:0" in self.slurm.run("scontrol", "show", "job", merge).stdout, "a merge that misses pairs")
+        self.until(lambda: "no result: pair" in self.logs, "a merge that misses pairs")
         kept = lines(folder / "results-0.jsonl")
         self.assertTrue(kept)
         self.assertIn("another folder", self.ends(self.submit(folder, VKH_SHARDS="7"), 2))
@@ -155,7 +141,7 @@ class Slurm(unittest.TestCase):
 
     def test_3_what_is_preempted_goes_on(self):
         folder = self.folder("preempted")
-        waiting = self.submit(folder, "--wait", VKH_PARTITION="night", VKH_SBATCH_MERGE="--partition=day")
+        waiting = self.submit(folder, "--wait", VKH_PARTITION="gpu", VKH_SBATCH_MERGE="--partition=day")
         array = self.array(folder)
         self.begun(folder / "results-1.jsonl")
         self.slurm.run("sbatch", "--wait", "--partition=day", "--nodes=2", "--exclusive", f"--output={folder}/day.log", "--wrap", "sleep 1")

@@ -22,13 +22,13 @@ kLockSeconds=600  # so long a task waits for its former process
 
 say() { echo "$(date +%FT%T) $(hostname) ${task:+task $task: }$*"; }
 
-# The worst of a batch's codes is the first of 5 4 6 1 3 0 among them. What is none of these is worse.
+# The worst of a batch's codes is the first of 5 4 6 2 1 3 0 among them. What is none of these is worse.
 worst() {
   local code known
   for code; do
-    [[ $code == [013456] ]] || { echo "$code"; return; }
+    [[ $code == [0-6] ]] || { echo "$code"; return; }
   done
-  for known in 5 4 6 1 3 0; do
+  for known in 5 4 6 2 1 3 0; do
     for code; do
       [ "$code" != $known ] || { echo $known; return; }
     done
@@ -48,6 +48,16 @@ take_lock() {
   flock --wait $kLockSeconds --conflict-exit-code 75 9 || code=$?
   [ $code != 75 ] || { say "a former process of this task still lives after $kLockSeconds s"; exit 6; }
   [ $code = 0 ] || say "no locks on $folder: be sure that no former process of this task lives"
+}
+
+# Vulkan does not heed CUDA_VISIBLE_DEVICES: where a site's cgroups do not hide the others, each task would take the best.
+warn_of_other_gpus() {
+  local file open=0
+  for file in /dev/nvidia[0-9]*; do
+    if { : <"$file"; } 2>/dev/null; then open=$((open + 1)); fi
+  done
+  [ $open -le "${SLURM_GPUS_ON_NODE:-$open}" ] ||
+    say "$open GPUs are open to a task of $SLURM_GPUS_ON_NODE: docs/clusters.md says what to do"
 }
 
 # The lines that the task's shards have, of all attempts.
@@ -91,6 +101,8 @@ run_task() {
   trap 'stop limit' USR1
   trap 'stop ended' TERM
   [ -d "$folder" ] || { say "no $folder on this node: is it on a shared file system?"; exit 6; }
+  export LP_NUM_THREADS="${LP_NUM_THREADS:-$SLURM_CPUS_ON_NODE}"  # lavapipe takes what it sees, whosever it is
+  warn_of_other_gpus
   take_lock
   rm -f "$folder/code-$task"
   for ((shard = task; shard < shards; shard += tasks)); do
@@ -100,7 +112,7 @@ run_task() {
     [ $code -lt 128 ] || { killed=$((code - 128)); code=3; }  # what is not done is not closed
     codes+=("$code")
   done
-  [ "$stopped" != limit ] || requeue "near its time limit"
+  [ "$stopped" != limit ] || requeue "told that its time ends"
   { [ -n "$stopped" ] || [ -z "$killed" ]; } || requeue "killed by signal $killed"
   worst "${codes[@]}" >"$folder/code-$task.new"
   mv "$folder/code-$task.new" "$folder/code-$task"
