@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs/clusters.md: its recipes (docs/recipes/clusters) are run here, and come out as a batch of one piece.
 
-usage: clusters_test.py PROGRAM RECIPES PAGE. Slurm's recipe is slurm_test.py's. Of Kubernetes the container's command
+usage: clusters_test.py PROGRAM RECIPES PAGE. Slurm's and Dask's are other tests'. Of Kubernetes the container's command
 is run, once for each index. Tools that are not here are named, and their recipes left out.
 """
 
@@ -64,7 +64,7 @@ class Clusters(unittest.TestCase):
 
     def test_the_page_quotes_each_recipe_and_nothing_else(self):
         recipes = {path.name: path.read_text() for path in RECIPES.iterdir()}
-        self.assertEqual(sorted(recipes), ["Snakefile", "kubernetes.yml", "parallel.sh", "slurm.sh"])
+        self.assertEqual(sorted(recipes), ["Snakefile", "dask_example.py", "kubernetes.yml", "parallel.sh", "slurm.sh"])
         self.assertEqual(sorted(quoted(PAGE.read_text())), sorted(recipes.values()))
 
     def test_parallel_goes_on_after_a_kill(self):
