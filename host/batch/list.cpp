@@ -44,7 +44,7 @@ class Collected {
 
   void take(Entry entry, uint64_t line) {
     for (const auto& [name, text] :
-         {std::pair{"an id", &entry.id}, {"a file a", &entry.a}, {"a file b", &entry.b}}) {
+         {std::pair{"id", &entry.id}, {"a", &entry.a}, {"b", &entry.b}}) {
       if (text->empty()) refuse(line, std::string("no ") + name + "; expected " + kExpected);
     }
     const auto [known, is_new] = lines_.emplace(entry.id, line);

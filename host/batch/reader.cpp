@@ -144,12 +144,13 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   meshes.a = mesh_of(entry.job.file_a, entry.job.limits);
   meshes.b = meshes.shares_b ? shared_mesh_of(entry.job.file_b, entry.job.limits)
                              : mesh_of(entry.job.file_b, entry.job.limits);
-  const std::array<Input, 2> before = entry.known.inputs;
-  take_meshes(entry.job, *meshes.a, *meshes.b, entry.known);
-  for (size_t i = 0; i < before.size(); ++i) {
-    entry.known.inputs[i].path = before[i].path;
-    entry.known.inputs[i].sha256 = before[i].sha256;
+  Answer known = entry.known;  // which a length that is not resolved must not cost its hashes
+  take_meshes(entry.job, *meshes.a, *meshes.b, known);
+  for (size_t i = 0; i < known.inputs.size(); ++i) {
+    known.inputs[i].path = entry.known.inputs[i].path;
+    known.inputs[i].sha256 = entry.known.inputs[i].sha256;
   }
+  entry.known = std::move(known);
   entry.known.waits.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return meshes;
 }

@@ -9,11 +9,11 @@
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/check/verify.h"
+#include "host/field/face_gate.h"
 #include "host/job/face_limits.h"
 #include "host/job/progress_line.h"
 #include "host/job/reading.h"
 #include "host/run/cells.h"
-#include "host/solve/face_gate.h"
 #include "host/system/sha256.h"
 
 namespace vkh {

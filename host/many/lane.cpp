@@ -35,15 +35,19 @@ LaneShape shape_for(const StreamOptions& options, const DeviceDescription& devic
   return shape;
 }
 
-bool Lane::work() {
+void Lane::work() {
   for (;;) {
-    Group group = share_.queue.take(shape_.together, shape_.bytes);
-    if (group.empty()) return true;
+    Group group = share_.queue.take(device_.shape.together, device_.shape.bytes);
+    if (device_.is_lost) {  // what another lane gave back is for another life
+      share_.queue.put_back(std::move(group));
+      return;
+    }
+    if (group.empty()) return;
     const auto start = std::chrono::steady_clock::now();
     const bool goes_on = solve(std::move(group));
     const std::chrono::duration<double> busy = std::chrono::steady_clock::now() - start;
     share_.count(busy.count(), 0);
-    if (!goes_on) return false;
+    if (!goes_on) return;
   }
 }
 
@@ -53,7 +57,7 @@ void Lane::solve_all(const Group& group) {
   std::vector<PairView> views;
   options.reserve(group.size());  // views refer to them
   for (const WaitingPair& one : group) {
-    prepared.push_back(one.pair.shares_b ? prepared_.get(solver_, one.pair.b) : nullptr);
+    prepared.push_back(one.pair.shares_b ? device_.prepared.get(solver_, one.pair.b) : nullptr);
     options.push_back(one.pair.options);
     options.back().stage_times = false;
     options.back().progress = [this, &listen = one.pair.options.progress](const Progress& p) {
@@ -82,8 +86,11 @@ void Lane::solve_all(const Group& group) {
   }
 }
 
-bool Lane::is_lost() const {
-  return device_.vk().DeviceWaitIdle(device_.handle()) == VK_ERROR_DEVICE_LOST;
+bool Lane::find_lost() {
+  const Device& device = device_.device;
+  const std::lock_guard lock(device.queue_mutex());  // which waiting for the device touches
+  if (device.vk().DeviceWaitIdle(device.handle()) == VK_ERROR_DEVICE_LOST) device_.is_lost = true;
+  return device_.is_lost;
 }
 
 void Lane::give_up(const WaitingPair& one) {
@@ -113,7 +120,7 @@ bool Lane::solve(Group group) {
     share_.queue.done(group.size());
     return true;
   } catch (const DeviceError&) {
-    if (is_lost()) {
+    if (find_lost()) {
       const bool is_to_blame = group.size() == 1 && group[0].tries + 1 >= kMostTries;
       if (is_to_blame) {
         give_up(group[0]);

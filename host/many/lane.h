@@ -26,14 +26,20 @@ struct LaneShape {
 };
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device);
 
-/// A lane's work until nothing waits, or the device is lost: then what it had is back in the queue,
-/// and it returns false.
+/// What lanes of one device share: it is opened anew when all have ended.
+struct LaneDevice {
+  const Device& device;
+  PreparedMeshes prepared;
+  LaneShape shape;
+  std::atomic<bool> is_lost = false;
+};
+
+/// A lane's work until nothing waits, or the device is lost: then what it had is back in the queue.
 class Lane {
  public:
-  Lane(LaneShare& share, const Device& device, Solver& solver, PreparedMeshes& prepared,
-       const LaneShape& shape)
-      : share_(share), device_(device), solver_(solver), prepared_(prepared), shape_(shape) {}
-  bool work();
+  Lane(LaneShare& share, LaneDevice& device, Solver& solver)
+      : share_(share), device_(device), solver_(solver) {}
+  void work();
 
  private:
   using Group = std::vector<WaitingPair>;
@@ -41,13 +47,11 @@ class Lane {
   void solve_all(const Group& group);
   bool retry_apart(Group group);
   void give_up(const WaitingPair& one);
-  bool is_lost() const;
+  bool find_lost();
 
   LaneShare& share_;
-  const Device& device_;
+  LaneDevice& device_;
   Solver& solver_;
-  PreparedMeshes& prepared_;
-  LaneShape shape_;
 };
 
 }  // namespace vkh

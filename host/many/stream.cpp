@@ -96,23 +96,23 @@ struct PairStream::Impl {
   bool live(const std::string& selector, bool is_first) {
     Device device(DeviceRequest{.selector = selector});
     if (is_first) claim(device.description());
-    const LaneShape shape = shape_for(options, device.description());
-    PreparedMeshes prepared(device.description().memory_bytes / 8);
+    LaneDevice lanes{.device = device,
+                     .prepared = PreparedMeshes(device.description().memory_bytes / 8),
+                     .shape = shape_for(options, device.description())};
     std::vector<std::unique_ptr<Solver>> solvers;
     solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
     solvers[0]->make_ready(options.first);
     note_open(device.description());
-    std::atomic<bool> goes_on = true;
     const auto run = [&](Solver& solver) {
       const FloatEnvironment ours;
-      if (!Lane(share, device, solver, prepared, shape).work()) goes_on = false;
+      Lane(share, lanes, solver).work();
     };
     std::vector<std::thread> others;
     const auto join_all = [&] {
       for (std::thread& thread : others) thread.join();
     };
     try {
-      for (size_t i = 1; i < shape.lanes; ++i) {
+      for (size_t i = 1; i < lanes.shape.lanes; ++i) {
         solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
         others.emplace_back([&, solver = solvers.back().get()] { run(*solver); });
       }
@@ -120,7 +120,7 @@ struct PairStream::Impl {
     }
     run(*solvers[0]);
     join_all();
-    return goes_on;
+    return !lanes.is_lost;
   }
 
   // What was asked for and cannot be had ends all; what is lost later leaves the rest to others.

@@ -20,7 +20,7 @@ ROOMS = {
     "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "field",
              "prove", "answer", "demo", "check", "draw", "export", "page", "record", "job", "many", "batch", "cli",
              "program"],
-    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "draw", "page", "pairs", "check",
+    "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "draw", "page", "pairs", "check", "batch",
               "cli", "faults", "platforms", "cluster", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)

@@ -1,4 +1,4 @@
-#include "host/solve/face_gate.h"
+#include "host/field/face_gate.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,0 +1,370 @@
+"""The commands batch and merge as people run them: what is done stays done, whatever ends the program.
+
+usage: batch_test.py PROGRAM [--kills N] [TEST...]
+"""
+
+import csv
+import json
+import os
+import pathlib
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.path.abspath(sys.argv[1])
+WORDS = sys.argv[2:]
+KILLS = 6
+if WORDS[:1] == ["--kills"]:
+    KILLS, WORDS = int(WORDS[1]), WORDS[2:]
+FLOATS = ("lower_hex", "upper_hex")
+
+
+def write_mesh(path, lift, size=6, seed=0):
+    """A bumpy square of 2 size^2 faces, OBJ."""
+    random_bumps = random.Random(seed)
+    lines = [f"v {x} {y} {lift + random_bumps.random() / 8}" for y in range(size + 1) for x in range(size + 1)]
+    for y in range(size):
+        for x in range(size):
+            i = y * (size + 1) + x + 1
+            lines += [f"f {i} {i + 1} {i + size + 2}", f"f {i} {i + size + 2} {i + size + 1}"]
+    path.write_text("\n".join(lines) + "\n")
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def run_words(self, *words, env=None, timeout=300):
+        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=timeout,
+                              env={**os.environ, **(env or {})})
+
+    def make_pairs(self, count, size=6):
+        """Meshes and LIST.jsonl; returns the ids."""
+        rows = []
+        for i in range(count):
+            write_mesh(self.folder / f"{i}_a.obj", 0, size, i)
+            write_mesh(self.folder / f"{i}_b.obj", i + 1, size, 1000 + i)
+            rows.append({"id": f"pair {i}", "a": f"{i}_a.obj", "b": f"{i}_b.obj"})
+        self.write_list(rows)
+        return [row["id"] for row in rows]
+
+    def write_list(self, rows, name="list.jsonl"):
+        (self.folder / name).write_text("".join(json.dumps(row) + "\n" for row in rows))
+
+    def results(self, name="out.jsonl"):
+        return [json.loads(line) for line in (self.folder / name).read_text().splitlines()]
+
+    def merged(self, *files):
+        """What two runs have in common, as bytes."""
+        done = self.run_words("merge", *(files or ["out.jsonl"]), "--out", "merged.jsonl", "--reproducible")
+        self.assertIn(done.returncode, (0, 1, 3, 4), done.stderr)
+        return (self.folder / "merged.jsonl").read_bytes()
+
+
+class Answers(Folder):
+    def test_a_line_a_pair_as_distance_says(self):
+        ids = self.make_pairs(5)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("5 of 5 pairs", done.stdout.splitlines()[0])
+        results = {line["id"]: line for line in self.results()}
+        self.assertEqual(sorted(results), sorted(ids))
+        for i, name in enumerate(ids):
+            alone = json.loads(self.run_words("distance", f"{i}_a.obj", f"{i}_b.obj", "--json").stdout)
+            self.assertEqual([results[name]["interval"][key] for key in FLOATS], [alone["interval"][key] for key in FLOATS])
+            self.assertEqual(results[name]["directions"][0]["witness"], alone["directions"][0]["witness"])
+            self.assertEqual(list(results[name])[-1], "run")
+
+    def test_groups_and_lanes_change_no_bit(self):
+        self.make_pairs(12)
+        contents = set()
+        for i, words in enumerate((["--together", "1"], ["--together", "5"], ["--together", "3", "--lanes", "2"])):
+            done = self.run_words("batch", "list.jsonl", "--out", f"{i}.jsonl", "--symmetric", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            contents.add(self.merged(f"{i}.jsonl"))
+        self.assertEqual(len(contents), 1)
+
+    def test_limits_and_options_of_a_pair(self):
+        self.make_pairs(3)
+        self.write_list([{"id": "in", "a": "0_a.obj", "b": "0_b.obj", "max": "1.2abs"},
+                         {"id": "out", "a": "1_a.obj", "b": "1_b.obj", "max": "1.2abs", "symmetric": True},
+                         {"id": "percent", "a": "1_a.obj", "b": "1_b.obj", "max": "90%"},
+                         {"id": "no limit", "a": "2_a.obj", "b": "2_b.obj", "tol": 1e-3}])
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--csv=out.csv", "--junit=out.xml")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertTrue(done.stdout.startswith("FAIL"), done.stdout)
+        results = {line["id"]: line for line in self.results()}
+        self.assertEqual({name: line.get("verdict") for name, line in results.items()},
+                         {"in": "pass", "out": "fail", "percent": "pass", "no limit": None})
+        self.assertEqual(len(results["out"]["directions"]), 2)
+        rows = list(csv.DictReader((self.folder / "out.csv").open(newline="")))
+        self.assertEqual([row["id"] for row in rows], sorted(results))
+        for row in rows:
+            self.assertLessEqual(float(row["lower"]), float(row["upper"]))
+
+    def test_a_shared_b(self):
+        self.make_pairs(6)
+        done = self.run_words("batch", *(f"{i}_a.obj" for i in range(6)), "--against", "0_b.obj", "--out", "out.jsonl",
+                              "--together", "4")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for i, line in enumerate(sorted(self.results(), key=lambda line: line["id"])):
+            alone = json.loads(self.run_words("distance", f"{i}_a.obj", "0_b.obj", "--json").stdout)
+            self.assertLessEqual(line["interval"]["lower"], alone["interval"]["upper"])
+            self.assertLessEqual(alone["interval"]["lower"], line["interval"]["upper"])
+
+    def test_failures_are_lines_and_end_nothing(self):
+        self.make_pairs(3)
+        (self.folder / "bad.obj").write_text("v 0 0 zero\n")
+        self.write_list([{"id": "bad", "a": "bad.obj", "b": "0_b.obj"}, {"id": "good", "a": "1_a.obj", "b": "1_b.obj"},
+                         {"id": "missing", "a": "none.obj", "b": "0_b.obj"}, {"id": "unit", "a": "2_a.obj", "b": "2_b.obj", "max": "1mm"},
+                         {"id": "length", "a": "2_a.obj", "b": "2_b.obj", "tol": "much"}])
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        results = {line["id"]: line for line in self.results()}
+        self.assertEqual({name: line["code"] for name, line in results.items()},
+                         {"bad": 4, "good": 0, "missing": 4, "unit": 2, "length": 2})
+        self.assertEqual(results["bad"]["error"]["file"], "bad.obj")
+        self.assertIn("line 1", results["bad"]["error"]["place"])
+        # A file that was not there, or was mended, is tried again; the rest is not.
+        write_mesh(self.folder / "none.obj", 0)
+        write_mesh(self.folder / "bad.obj", 0)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        again = [line["id"] for line in self.results()[5:]]
+        self.assertEqual(sorted(again), ["bad", "length", "missing"])
+
+    def test_fail_fast(self):
+        self.make_pairs(20)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--max", "1.05abs", "--fail-fast", "--together", "1")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertLess(len(self.results()), 20)
+
+    def test_what_is_refused(self):
+        self.make_pairs(2)
+        before = (self.folder / "0_a.obj").read_bytes()
+        for words in (["--out", "0_a.obj"], ["--out", "list.jsonl"], ["--out", "."], ["--out", "none/out.jsonl"],
+                      ["--out", "out.jsonl", "--shard", "2/2"], ["--out", "out.jsonl", "--max", "0.1"],
+                      ["--out", "out.jsonl", "--device", "0,0"], ["--out", "out.jsonl", "--csv=out.jsonl"]):
+            done = self.run_words("batch", "list.jsonl", *words)
+            self.assertEqual(done.returncode, 2, (words, done.stderr))
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertEqual((self.folder / "0_a.obj").read_bytes(), before)
+        (self.folder / "list.jsonl").write_text('{"id":"x","a":"0_a.obj","b":"0_b.obj"}\n{"id":"x","a":"1_a.obj","b":"1_b.obj"}\n')
+        done = self.run_words("batch", "list.jsonl", "--out", "other.jsonl")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("list.jsonl: line 2: the id 'x'", done.stderr)
+
+
+class Interrupted(Folder):
+    def test_resumed_after_any_byte(self):
+        self.make_pairs(6)
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "out.jsonl").returncode, 0)
+        whole, truth = (self.folder / "out.jsonl").read_bytes(), self.merged()
+        refused = self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--resume", refused.stderr)
+        places = random.Random(3)
+        for cut in [0, 1, len(whole) - 1, len(whole)] + [places.randrange(len(whole)) for _ in range(4)]:
+            (self.folder / "out.jsonl").write_bytes(whole[:cut])
+            done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(self.merged(), truth)
+            self.assertEqual(len(self.results()), 6)
+
+    def test_killed_at_random_moments(self):
+        """Nothing that a line said is lost or done again."""
+        self.make_pairs(40, size=4)
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "truth.jsonl").returncode, 0)
+        truth = self.merged("truth.jsonl")
+        moments = random.Random(5)
+        kept = b""
+        for kill in range(KILLS):
+            running = subprocess.Popen([PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl", "--resume"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(moments.uniform(0.1, 1.5))
+            running.send_signal(moments.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT]))
+            running.wait(60)
+            if not (self.folder / "out.jsonl").exists():
+                continue
+            now = (self.folder / "out.jsonl").read_bytes()
+            self.assertTrue(now.startswith(kept[:kept.rfind(b"\n") + 1]))
+            kept = now
+            if now.count(b"\n") == 40:
+                self.assertEqual(self.merged(), truth)
+                (self.folder / "out.jsonl").unlink()
+                kept = b""
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume").returncode, 0)
+        self.assertEqual(self.merged(), truth)
+        self.assertEqual(len(self.results()), 40)
+
+    def test_stopped_with_a_word(self):
+        self.make_pairs(60, size=20)
+        running = subprocess.Popen([PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl"], cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not (self.folder / "out.jsonl").exists() or not (self.folder / "out.jsonl").read_bytes():
+            self.assertIsNone(running.poll())
+            time.sleep(0.01)
+        running.send_signal(signal.SIGTERM)
+        out, err = running.communicate(timeout=60)
+        self.assertEqual(running.returncode, 3, err)
+        done = len(self.results())
+        self.assertLess(done, 60)
+        self.assertIn(f"{done} of 60 pairs", out)
+        self.assertIn(f"{60 - done} left", out)
+
+    def test_one_process_at_a_time(self):
+        self.make_pairs(60, size=20)
+        running = subprocess.Popen([PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (self.folder / "out.jsonl").exists():
+            time.sleep(0.01)
+        time.sleep(0.05)
+        second = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")
+        running.kill()
+        running.wait(60)
+        self.assertEqual(second.returncode, 2)
+        self.assertIn("another process", second.stderr)
+
+    def test_other_options_are_done_again(self):
+        self.make_pairs(4)
+        self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
+        self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume", "--tol", "1e-3")
+        self.assertEqual(len(self.results()), 8)
+        write_mesh(self.folder / "2_a.obj", 0.5)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume", "--tol", "1e-3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([line["id"] for line in self.results()[8:]], ["pair 2"])
+        self.assertEqual(len(self.merged().splitlines()), 4)
+
+    def test_a_full_disk(self):
+        self.make_pairs(8)
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))
+
+        done = subprocess.run([PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl", "--no-cache"], cwd=self.folder,
+                              capture_output=True, text=True, preexec_fn=limit, timeout=120)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertIn("--out 'out.jsonl': cannot be written", done.stderr)
+        before = self.results()
+        self.assertTrue(0 < len(before) < 8)
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume").returncode, 0)
+        self.assertEqual(self.results()[:len(before)], before)
+        self.assertEqual(len(self.results()), 8)
+
+    def test_an_input_that_vanishes(self):
+        self.make_pairs(30, size=20)
+        running = subprocess.Popen([PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl", "--read-ahead", "100K"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while not (self.folder / "out.jsonl").exists() or not (self.folder / "out.jsonl").read_bytes():
+            time.sleep(0.01)
+        (self.folder / "29_b.obj").unlink()
+        running.communicate(timeout=120)
+        self.assertEqual(running.returncode, 4)
+        codes = {line["id"]: line["code"] for line in self.results()}
+        self.assertEqual(len(codes), 30)
+        self.assertEqual([name for name, code in codes.items() if code], ["pair 29"])
+
+
+LAYER = os.environ.get("VKH_LAYER_FOLDER")
+
+
+@unittest.skipIf(not LAYER, "no test layer")
+class Faults(Folder):
+    """A device that is lost (docs/test_layer.md)."""
+
+    def run_lost(self, fault, *words):
+        return self.run_words("batch", "list.jsonl", "--out", "out.jsonl", *words,
+                              env={"VK_LAYER_PATH": f"{LAYER}:/usr/share/vulkan/explicit_layer.d",
+                                   "VK_INSTANCE_LAYERS": "VK_LAYER_VKH_test", "NODEVICE_SELECT": "1", "VKH_LAYER_FAIL": fault})
+
+    def test_it_is_opened_anew(self):
+        self.make_pairs(12)
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "truth.jsonl").returncode, 0)
+        truth = self.merged("truth.jsonl")
+        for fault in ("vkQueueSubmit:1:VK_ERROR_DEVICE_LOST", "vkQueueSubmit:9:VK_ERROR_DEVICE_LOST",
+                      "vkWaitForFences:5:VK_ERROR_DEVICE_LOST", "vkAllocateMemory:4:VK_ERROR_OUT_OF_DEVICE_MEMORY"):
+            for words in ([], ["--together", "4", "--lanes", "2"]):
+                done = self.run_lost(fault, *words)
+                self.assertEqual(done.returncode, 0, (fault, done.stderr))
+                self.assertEqual(self.merged(), truth)
+                (self.folder / "out.jsonl").unlink()
+
+    def test_the_validation_layer_is_silent(self):
+        self.make_pairs(12)
+        self.write_list([{"id": str(i), "a": f"{i}_a.obj", "b": f"{i % 3}_b.obj", "symmetric": i % 2 == 0} for i in range(12)])
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--together", "4", "--lanes", "2",
+                              env={"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+                                   "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for text in (done.stdout, done.stderr):
+            self.assertNotIn("VUID", text)
+            self.assertNotIn("SYNC-HAZARD", text)
+            self.assertNotIn("Validation", text)
+
+    def test_one_that_is_always_lost_ends_the_batch(self):
+        self.make_pairs(6)
+        done = self.run_lost("vkQueueSubmit:7+:VK_ERROR_DEVICE_LOST", "--together", "1")
+        self.assertEqual(done.returncode, 5, done.stderr)
+        kept = [line for line in self.results() if line["code"] == 0]
+        self.assertGreater(len(kept), 0)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([line for line in self.results() if line["code"] == 0][:len(kept)], kept)
+        self.assertEqual(len(self.merged().splitlines()), 6)
+
+
+class Merged(Folder):
+    def test_shards_make_the_whole(self):
+        ids = self.make_pairs(20, size=3)
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "whole.jsonl").returncode, 0)
+        for i in range(3):
+            self.assertEqual(self.run_words("batch", "list.jsonl", "--out", f"{i}.jsonl", "--shard", f"{i}/3").returncode, 0)
+        parts = [self.results(f"{i}.jsonl") for i in range(3)]
+        self.assertEqual(sorted(line["id"] for part in parts for line in part), sorted(ids))
+        self.assertEqual(self.merged("0.jsonl", "1.jsonl", "2.jsonl"), self.merged("whole.jsonl"))
+        self.assertEqual(self.merged("2.jsonl", "whole.jsonl", "0.jsonl"), self.merged("whole.jsonl"))
+        done = self.run_words("merge", "0.jsonl", "2.jsonl", "--out", "some.jsonl", "--list", "list.jsonl")
+        self.assertEqual(done.returncode, 3)
+        named = [line for line in done.stderr.splitlines() if "no result" in line]
+        self.assertEqual(len(named), len(parts[1]))
+
+    def test_what_does_not_go_together(self):
+        self.make_pairs(2)
+        self.run_words("batch", "list.jsonl", "--out", "0.jsonl")
+        self.run_words("batch", "list.jsonl", "--out", "1.jsonl", "--tol", "1e-3")
+        done = self.run_words("merge", "0.jsonl", "1.jsonl", "--out", "out.jsonl")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("pair 0", done.stderr)
+        (self.folder / "2.jsonl").write_text('{"schema":"other"}\n')
+        done = self.run_words("merge", "0.jsonl", "2.jsonl", "--out", "out.jsonl")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("2.jsonl: line 1", done.stderr)
+        self.assertFalse((self.folder / "out.jsonl").exists())
+        done = self.run_words("merge", "0.jsonl", "--out", "0.jsonl")
+        self.assertEqual(done.returncode, 2)
+
+
+class Memory(Folder):
+    def test_it_is_bounded(self):
+        """A thousand pairs take no more than a hundred, and --read-ahead holds what is read."""
+        most = []
+        for count in (100, 1000):
+            self.make_pairs(count, size=2)
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+            done = self.run_words("batch", "list.jsonl", "--out", f"{count}.jsonl", "--together", "8")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            most.append(max(before, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss))
+        self.assertLess(most[1], most[0] + 30_000)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *WORDS], verbosity=2)

@@ -1,0 +1,159 @@
+// Lists of pairs, shards, and lines of results.
+#include "host/batch/list.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "host/base/error.h"
+#include "host/record/csv.h"
+#include "host/record/record.h"
+#include "host/record/tables.h"
+#include "tests/support/files.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+PairList read_text(const std::string& name, const std::string& text) {
+  const std::string path = folder() / name;
+  std::ofstream(path, std::ios::binary) << text;
+  return read_list(path);
+}
+
+std::string error_of(const std::string& name, const std::string& text) {
+  try {
+    read_text(name, text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<std::vector<std::string>> rows_of(const std::string& text) {
+  std::istringstream in(text);
+  CsvReader reader(in);
+  std::vector<std::vector<std::string>> rows;
+  while (const auto row = reader.next()) rows.push_back(*row);
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("CSV as spreadsheets write it") {
+  using Rows = std::vector<std::vector<std::string>>;
+  CHECK(rows_of("a,b\r\n1,2\r\n") == Rows{{"a", "b"}, {"1", "2"}});
+  CHECK(rows_of("a\n\n\nb") == Rows{{"a"}, {"b"}});
+  CHECK(rows_of("\"x,\"\"y\"\"\nz\",2\n,\n") == Rows{{"x,\"y\"\nz", "2"}, {"", ""}});
+  CHECK(rows_of("") == Rows{});
+  CHECK_THROWS_AS(rows_of("a,\"b\n"), InputError);
+}
+
+TEST_CASE("a list is the same as JSONL and as CSV") {
+  const PairList csv = read_text("l.CSV",
+                                 "\xef\xbb\xbfid,a,b,tol,max,unit,symmetric,note\r\n"
+                                 "\"x, y\",m/a.obj,/b.obj,1e-3,0.1mm,mm,true,good\r\n"
+                                 "z,a.obj,b.obj,,,,,\r\n");
+  const PairList jsonl = read_text(
+      "l.jsonl",
+      R"({"id":"x, y","a":"m/a.obj","b":"/b.obj","tol":1e-3,"max":"0.1mm","unit":"mm","symmetric":true,"note":"good"})"
+      "\n\n"
+      R"({"id":"z","a":"a.obj","b":"b.obj"})");
+  for (const PairList* list : {&csv, &jsonl}) {
+    REQUIRE(list->entries.size() == 2);
+    const Entry& first = list->entries[0];
+    CHECK(first.id == "x, y");
+    CHECK(first.a == "m/a.obj");
+    CHECK(first.file_a == folder() / "m/a.obj");
+    CHECK(first.file_b == "/b.obj");
+    CHECK((first.tolerance == "1e-3" || first.tolerance == "0.001"));
+    CHECK(first.max == "0.1mm");
+    CHECK(first.unit == "mm");
+    CHECK(first.symmetric == true);
+    CHECK(!list->entries[1].symmetric.has_value());
+    REQUIRE(list->notes.size() == 1);
+    CHECK(list->notes[0].find("'note'") != std::string::npos);
+  }
+}
+
+TEST_CASE("what is wrong with a list is said with its line") {
+  CHECK(error_of("e.csv", "id,a,b\nx,a.obj\n").find("line 2: 2 cells") != std::string::npos);
+  CHECK(error_of("e.csv", "id,a,b\nx,a.obj,\n").find("line 2: no b") != std::string::npos);
+  CHECK(error_of("e.csv", "id,a,b\n").find("no pair") != std::string::npos);
+  CHECK(error_of("e.csv", "id,a,b,symmetric\nx,a,b,perhaps\n").find("line 2: 'perhaps'") !=
+        std::string::npos);
+  CHECK(error_of("e.jsonl", "{}\n").find("line 1: no id") != std::string::npos);
+  CHECK(error_of("e.jsonl", "\n[1]\n").find("line 2: no JSON object") != std::string::npos);
+  CHECK(error_of("e.jsonl", R"({"id":"x","a":"a","b":"b"})"
+                            "\n"
+                            R"({"id":"x","a":"c","b":"d"})")
+            .find("line 2: the id 'x' is that of line 1") != std::string::npos);
+  CHECK_THROWS_AS(read_list("/no/such/list.csv"), InputError);
+}
+
+TEST_CASE("shards: each id in one, about as many in each, whatever else there is") {
+  for (const uint64_t count : {1u, 2u, 7u, 64u}) {
+    std::map<uint64_t, int> sizes;
+    for (int i = 0; i < 6400; ++i) {
+      const std::string id = "pair_" + std::to_string(i);
+      int in = 0;
+      for (uint64_t index = 0; index < count; ++index) {
+        if (!Shard{index, count}.has(id)) continue;
+        ++in;
+        ++sizes[index];
+      }
+      CHECK(in == 1);
+    }
+    const int even = 6400 / static_cast<int>(count);
+    for (const auto& [index, size] : sizes) CHECK(std::abs(size - even) < even / 2 + 30);
+  }
+  // Of every machine and version: a results file outlives them.
+  CHECK(Shard{3, 64}.has("pair_41") == Shard{3, 64}.has("pair_41"));
+  const Shard shard = parse_shard("3/64");
+  CHECK((shard.index == 3 && shard.count == 64));
+  for (const char* text : {"", "3", "/", "3/", "/4", "4/4", "-1/4", "1/0", "a/b", "1/4x"})
+    CHECK_THROWS_AS(parse_shard(text), UsageError);
+}
+
+TEST_CASE("a result's line is read back as what it says") {
+  Answer answer;
+  answer.command = "batch";
+  answer.inputs[0].path = "a,\"run\":{.obj";
+  answer.inputs[0].sha256 = "aa";
+  answer.inputs[1].path = "b\n.obj";
+  answer.inputs[1].sha256 = "bb";
+  answer.a_to_b.lower = 0x1.3333333333333p-3;
+  answer.a_to_b.upper = 0x1.3333333333335p-3;
+  answer.a_to_b.diagonal_a = 2;
+  answer.unit = "mm";
+  const std::string line = to_record({"an id, \"quoted\"", "key"}, answer);
+  CHECK(line.find('\n') == std::string::npos);
+  const Record record = read_record(line);
+  CHECK(record.name.id == "an id, \"quoted\"");
+  CHECK(record.lower == answer.a_to_b.lower);
+  CHECK(record.upper == answer.a_to_b.upper);
+  CHECK(record.inputs[1].path == "b\n.obj");
+  CHECK(record.is_final());
+  const std::string common = without_run(line);
+  CHECK(read_record(common).upper == record.upper);
+  CHECK(common.find("\"started\"") == std::string::npos);
+  CHECK(without_run(common) == common);
+  const Record failed = read_record(to_record(
+      {"x", ""}, Failure{.code = 4, .message = "a: bad", .file = "a", .place = ""}, Answer{}));
+  CHECK(failed.code == kExitBadInput);
+  CHECK(failed.words == "a: bad");
+  CHECK(!failed.is_final());
+  for (const char* text : {"", "{", "[]", "{}", R"({"schema":"vkhausdorff.pair/1"})"})
+    CHECK_THROWS_AS(read_record(text), InputError);
+}
+
+TEST_CASE("codes: the worst of a batch") {
+  CHECK(worse(kExitBeyond, kExitNotClosed) == kExitBeyond);
+  CHECK(worse(kExitClosed, kExitNotClosed) == kExitNotClosed);
+  CHECK(worse(kExitDevice, kExitBadInput) == kExitDevice);
+  CHECK(worse(kExitNotWritten, kExitBeyond) == kExitNotWritten);
+  CHECK(worse(kExitBadInput, kExitNotWritten) == kExitBadInput);
+}
