@@ -13,7 +13,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -152,16 +151,28 @@ class Slurm(unittest.TestCase):
     def test_4_by_hand_and_beside_a_former_process(self):
         folder = self.folder("by hand")
         folder.mkdir()
-        with open(folder / "lock-1", "w") as former:
+        with open(folder / "results-1.jsonl", "w") as former:
             fcntl.flock(former, fcntl.LOCK_EX)
             task = subprocess.Popen(["sbatch", "--wait", "--array=0-1", f"--output={folder}/%a.log", SLURM / "job.sh", "task", PROGRAM,
                                      self.list, folder, "2", "2", *OPTIONS], env=self.slurm.environment, stdout=subprocess.DEVNULL)
             self.addCleanup(task.kill)
             self.until(lambda: (folder / "code-0").exists(), "the other shard")
-            time.sleep(0.5)
-            self.assertFalse((folder / "results-1.jsonl").exists())
+            self.until(lambda: "waits for another process" in (folder / "1.log").read_text(), "the wait")
+            self.assertFalse(lines(folder / "results-1.jsonl"))
         self.assertEqual(task.wait(120), FAIL)
         self.assertIn(b"1\n", [(folder / f"code-{i}").read_bytes() for i in (0, 1)])
+
+    def test_5_what_fails_of_itself_is_no_verdict(self):
+        folder = self.folder("never")
+        self.ends(self.submit(folder, SLURM_CONF="/dev/null"), 5)  # not 1, which is FAIL
+        self.ends(self.submit(folder, VKH_PROGRAM="/nowhere"), 4)
+        self.ends(self.submit(folder, VKH_SHARDS="many"), 2)
+        self.assertFalse((folder / "jobs").exists())
+        task = ["task", PROGRAM, self.list, self.root / "nowhere", "1", "1"]
+        done = subprocess.run([SLURM / "job.sh", *task], env={**self.slurm.environment, "SLURM_ARRAY_TASK_ID": "0"}, capture_output=True)
+        self.assertEqual((done.returncode, b"shared file system" in done.stdout), (6, True), done)
+        done = subprocess.run([SLURM / "job.sh", *task], env=self.slurm.environment, capture_output=True)
+        self.assertEqual(done.returncode, 6, "a variable that is not set")
 
 
 if __name__ == "__main__":

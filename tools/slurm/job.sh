@@ -9,7 +9,7 @@
 #   time limit      USR1 comes two minutes before it: the batch ends, and the task is requeued
 #   preempted       TERM: the batch ends; Slurm requeues the task, where the partition's PreemptMode says so
 #   cancelled       TERM: the batch ends; submit again to go on
-#   lost node       Slurm requeues the task; it waits for the lock of a former process that lives on
+#   lost node       Slurm requeues the task; it waits for a former process that lives on
 #   exit codes      those of `vkhausdorff batch`, the worst of the task's shards; none of them is requeued
 #SBATCH --job-name=vkhausdorff
 #SBATCH --requeue
@@ -18,7 +18,7 @@
 set -euo pipefail
 
 kTries=3          # so often in a row a task is requeued that has written no new line
-kLockSeconds=600  # so long a task waits for its former process
+kLockSeconds=600  # about so long a task waits for a former process of its own
 
 say() { echo "$(date +%FT%T) $(hostname) ${task:+task $task: }$*"; }
 
@@ -42,12 +42,24 @@ stop() {
   [ -z "$child" ] || kill -TERM "$child" 2>/dev/null || true
 }
 
-take_lock() {
-  local code=0
-  exec 9>>"$folder/lock-$task"
-  flock --wait $kLockSeconds --conflict-exit-code 75 9 || code=$?
-  [ $code != 75 ] || { say "a former process of this task still lives after $kLockSeconds s"; exit 6; }
-  [ $code = 0 ] || say "no locks on $folder: be sure that no former process of this task lives"
+# Any other end is this script's own failure, such as a full disk. Bash would say 1, which is FAIL.
+trap 'exit 6' EXIT
+end() {
+  trap - EXIT
+  exit "$1"
+}
+
+# Until nobody writes a shard's results; `batch` would be refused. Each second it may hear of a signal.
+wait_for_former() {
+  local code=75 left=$kLockSeconds
+  while [ $code = 75 ] && [ -z "$stopped" ] && [ "$left" -gt 0 ]; do
+    code=0
+    flock --wait 1 --conflict-exit-code 75 "$1" true || code=$?
+    [ $code != 75 ] || [ "$left" != $kLockSeconds ] || say "waits for another process that writes $1"
+    left=$((left - 1))
+  done
+  [ $code != 75 ] || [ -n "$stopped" ] || say "another process still writes $1"
+  [ $code != 75 ] && [ -z "$stopped" ]
 }
 
 # Vulkan does not heed CUDA_VISIBLE_DEVICES: where a site's cgroups do not hide the others, each task would take the best.
@@ -72,7 +84,13 @@ lines() {
 # Runs one shard and leaves its exit code in `code`. Where a trap breaks off bash's wait, the next one may say -1 in place
 # of the code (bash 5.2.15: of one child in five that a signal ended together with this script). So it looks each second.
 run_shard() {
-  "$program" batch "$list" --out "$folder/results-$1.jsonl" --shard "$1/$shards" --resume "${@:2}" &
+  local results=$folder/results-$1.jsonl
+  if ! wait_for_former "$results"; then
+    code=6
+    [ -z "$stopped" ] || code=3
+    return
+  fi
+  "$program" batch "$list" --out "$results" --shard "$1/$shards" --resume "${@:2}" &
   child=$!
   [ -z "$stopped" ] || kill -TERM "$child" 2>/dev/null || true  # it came before there was a child
   while kill -0 "$child" 2>/dev/null; do { sleep 1 || true; } 2>/dev/null; done
@@ -91,7 +109,7 @@ requeue() {
   echo "$now $((times + 1))" >"$folder/tries-$task"
   say "$1 after $now lines: requeued"
   scontrol requeue "${SLURM_ARRAY_JOB_ID}_$task" || { say "Slurm does not requeue it"; return; }
-  exit 0  # Slurm ends it, if it has not yet
+  end 0  # Slurm ends it, if it has not yet
 }
 
 run_task() {
@@ -100,10 +118,9 @@ run_task() {
   task=$SLURM_ARRAY_TASK_ID child='' stopped=''
   trap 'stop limit' USR1
   trap 'stop ended' TERM
-  [ -d "$folder" ] || { say "no $folder on this node: is it on a shared file system?"; exit 6; }
+  [ -d "$folder" ] || { say "no $folder on this node: is it on a shared file system?"; end 6; }
   export LP_NUM_THREADS="${LP_NUM_THREADS:-$SLURM_CPUS_ON_NODE}"  # lavapipe takes what it sees, whosever it is
   warn_of_other_gpus
-  take_lock
   rm -f "$folder/code-$task"
   for ((shard = task; shard < shards; shard += tasks)); do
     [ -z "$stopped" ] || { codes+=(3); break; }
@@ -116,19 +133,19 @@ run_task() {
   { [ -n "$stopped" ] || [ -z "$killed" ]; } || requeue "killed by signal $killed"
   worst "${codes[@]}" >"$folder/code-$task.new"
   mv "$folder/code-$task.new" "$folder/code-$task"
-  exit "$(<"$folder/code-$task")"
+  end "$(<"$folder/code-$task")"
 }
 
 # Exits with the worst of the pairs and the tasks: a task without a device, say, has no line that tells of it.
 run_merge() {
   local code=0 file codes=() files=("$folder"/results-*.jsonl)
-  [ -e "${files[0]}" ] || { say "no task wrote anything: see $folder/logs"; exit 3; }
+  [ -e "${files[0]}" ] || { say "no task wrote anything: see $folder/logs"; end 3; }
   "$program" merge "${files[@]}" --list "$list" --out "$folder/all.jsonl" --csv="$folder/all.csv" --junit="$folder/all.xml" "$@" ||
     code=$?
   for file in "$folder"/code-*; do
     [ ! -e "$file" ] || codes+=("$(<"$file")")
   done
-  exit "$(worst "$code" "${codes[@]}")"
+  end "$(worst "$code" "${codes[@]}")"
 }
 
 mode=$1 program=$2 list=$3 folder=$4 task=''
@@ -136,5 +153,5 @@ shift 4
 case $mode in
   task) run_task "$@" ;;
   merge) run_merge "$@" ;;
-  *) echo "job.sh: task or merge, not $mode" >&2; exit 2 ;;
+  *) echo "job.sh: task or merge, not $mode" >&2; end 2 ;;
 esac
