@@ -1,5 +1,6 @@
 // A run into another workspace, where one with more room is to be had: what stands between two
 // waves, and nothing that a wave makes for itself.
+#include <bit>
 #include <cstddef>
 
 #include "engine/stages.h"
@@ -65,6 +66,8 @@ void record_move(Recorder& rec, const Problem& from, const Problem& to) {
   rec.fill(word_of(control, offsetof(gpu::Control, capacity)), to.ws.capacity);
   rec.fill(word_of(control, offsetof(gpu::Control, pauses)), to.pauses ? 1u : 0u,
            Order::kIndependent);
+  rec.fill(word_of(control, offsetof(gpu::Control, known_lower)),
+           std::bit_cast<uint32_t>(to.known_lower), Order::kIndependent);
   rec.stage("move");
 }
 

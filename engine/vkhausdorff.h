@@ -310,8 +310,8 @@ typedef struct VkhProblem {
   VkBool32 twoFloat;
   /* >= 0, in the coordinates' units; 0 where nothing is known. A value that the answer need not
    * resolve below, such as lower of h(b, a) when the larger of both directions is asked for:
-   * candidates within cullTolerance of it are closed, too. The report stays true; upper then gets
-   * no smaller than about knownLower + cullTolerance. */
+   * candidates within cullTolerance of it are closed, too. The report stays true; upper then is
+   * at least about knownLower + cullTolerance. Read by vkhCmdBegin and vkhCmdMoveRun. */
   float knownLower;
   /* Start from the run that `workspace` holds: its closest triangle of B for each vertex of A, and
    * its witness, moved along with A, as the first lower bound. For an A that has moved, with the
@@ -368,8 +368,8 @@ void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhP
 
 /* Between two waves: the run goes on in `workspace`, as a rule a larger one, at least as large as
  * its own and apart from it, and problem->workspace becomes that; or, where it is the run's own
- * range, in that. problem->pauseWhenFull holds from now on. Copies what the run holds: reads the
- * old workspace and writes the new one in transfers; once they have run, the old one is free. */
+ * range, in that. From now on problem->pauseWhenFull and knownLower hold. Reads the old workspace
+ * and writes the new one in transfers; once they have run, the old one is free. */
 void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
                    const VkhMemory* workspace, VkhProfile* profile);
 

@@ -47,6 +47,11 @@ struct Asked {
   std::string area_requested = {};  ///< as typed
 };
 
+/// Which part of A's faces an answer is of: `index` from 0. It never passes for the whole.
+struct PartOf {
+  uint64_t index = 0, count = 1;
+};
+
 /// What a user waited for, in milliseconds; parts that ran side by side overlap.
 struct Waits {
   double read = 0;   ///< files to meshes
@@ -64,6 +69,7 @@ struct Answer {
   std::string unit;                ///< of every length; empty: the files' own, whatever it is
   Length tolerance;                ///< a fraction is of A's diagonal in both directions
   std::optional<Asked> max;
+  std::optional<PartOf> part;  ///< a_to_b is of that alone
   Report a_to_b;
   std::optional<Report> b_to_a;                    ///< there for a symmetric run
   std::optional<SurveyResult> survey_a, survey_b;  ///< of A, and of B on the way back

@@ -51,6 +51,12 @@ Json device_json(const DeviceDescription& d) {
           {"memory_bytes", d.memory_bytes}};
 }
 
+Json devices_json(const std::vector<DeviceDescription>& devices) {
+  Json rows = Json::array();
+  for (const DeviceDescription& device : devices) rows.push_back(device_json(device));
+  return rows;
+}
+
 Json stages_json(const std::vector<StageStats>& stages) {
   Json rows = Json::array();
   for (const StageStats& s : stages) {
@@ -213,6 +219,7 @@ void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
     json.add("verdict", verdict_name(verdict_of(answer)));
     json.add_text("max", max_json(answer));
   }
+  if (answer.part) json.add("part", {{"index", answer.part->index}, {"count", answer.part->count}});
   json.add_text("interval", interval_json(whole.lower, whole.upper, whole.gap, answer.unit));
   std::string directions = direction_json(answer, answer.a_to_b, false, detail);
   if (answer.b_to_a) directions += "," + direction_json(answer, *answer.b_to_a, true, detail);
@@ -228,6 +235,8 @@ void add_device(JsonObject& json, const Answer& answer) {
   const DeviceDescription& device = answer.a_to_b.device;
   json.add("device", device_json(device));
   json.add("driver", text_or_null(device.driver));
+  if (!answer.a_to_b.more_devices.empty())
+    json.add("more_devices", devices_json(answer.a_to_b.more_devices));
 }
 
 void add_waits(JsonObject& json, const Waits& waits) {

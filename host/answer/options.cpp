@@ -117,4 +117,15 @@ double parse_share(const char* option, const std::string& text) {
   return share;
 }
 
+PartOf parse_part(const std::string& text) {
+  PartOf part;
+  const char* end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, part.index);
+  if (index.ec == std::errc() && index.ptr != end && *index.ptr == '/') {
+    const auto count = std::from_chars(index.ptr + 1, end, part.count);
+    if (count.ec == std::errc() && count.ptr == end && part.index < part.count) return part;
+  }
+  refuse("--part", text, "a part, from 0, and how many there are, such as 0/8 to 7/8");
+}
+
 }  // namespace vkh

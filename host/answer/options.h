@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "host/answer/answer.h"
+
 namespace vkh {
 
 /// "2GiB", "512M", "1.5GB", or a plain number of bytes; at least one byte. K, M, G and T are powers
@@ -20,5 +22,8 @@ double parse_time(const std::string& text);
 
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);
+
+/// "3/8": part 3, from 0, of 8. Throws UsageError.
+PartOf parse_part(const std::string& text);
 
 }  // namespace vkh

@@ -197,6 +197,14 @@ void print_names(std::ostream& out, const char* label, const std::vector<std::st
   row(out, label, text);
 }
 
+void print_part(std::ostream& out, const Answer& answer) {
+  row(out, "part",
+      printed("%llu of %llu, from 0: h(A,B) is the largest of all parts'",
+              static_cast<Count>(answer.part->index), static_cast<Count>(answer.part->count)));
+  const double known = answer.a_to_b.known_lower;
+  if (known > 0) row(out, "known", printed("%.9g ", known) + unit_text(answer));
+}
+
 void print_summary(std::ostream& out, const Answer& answer) {
   const Report& r = answer.a_to_b;
   const CertifiedInterval whole = interval_of(answer);
@@ -209,10 +217,12 @@ void print_summary(std::ostream& out, const Answer& answer) {
   if (answer.max)
     row(out, "max", length_text(answer, answer.max->length, answer.max->limit.within));
   row(out, "tolerance", length_text(answer, answer.tolerance, r.tolerance));
+  if (answer.part) print_part(out, answer);
   print_input(out, "A", answer.inputs[0]);
   print_input(out, "B", answer.inputs[1]);
   for (const std::string& note : answer.notes) row(out, "note", printable(note));
   if (!r.device.name.empty()) row(out, "device", device_text(r.device));
+  for (const DeviceDescription& device : r.more_devices) row(out, "and", device_text(device));
   if (r.preset != "default") row(out, "preset", r.preset);
 }
 

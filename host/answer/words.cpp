@@ -32,20 +32,26 @@ std::string share_of_diagonal(const Answer& answer, double upper) {
   return " (" + decimal(share, 3, Rounding::kUp) + " % of A's diagonal)";
 }
 
+std::string part_name(const PartOf& part) {
+  return "part " + std::to_string(part.index) + "/" + std::to_string(part.count);
+}
+
 std::string distance_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const bool both = answer.b_to_a.has_value();
-  const std::string all = both ? "every point of A and of B " : "every point of A ";
+  const std::string from = answer.part ? part_name(*answer.part) + " of A" : "A";
+  const std::string all = both ? "every point of A and of B " : "every point of " + from + " ";
   const std::string other = both ? "the other" : "B";
   if (whole.upper == 0) return all + "lies on " + other;
   std::string text = std::isfinite(whole.upper)
                          ? all + "is within " +
                                length_up(answer, whole.upper, whole.upper - whole.lower) + " of " +
                                other
-                         : "no bound was found yet";
+                         : "no bound " + (answer.part ? "of " + from + " " : "") + "was found yet";
   if (whole.lower > 0) {
-    text += ", and one point is at least " +
-            length_down(answer, whole.lower, whole.upper - whole.lower) + " away";
+    text +=
+        (answer.part ? ", and one of its points is at least " : ", and one point is at least ") +
+        length_down(answer, whole.lower, whole.upper - whole.lower) + " away";
   }
   return text + (std::isfinite(whole.upper) ? share_of_diagonal(answer, whole.upper) : "");
 }
@@ -193,7 +199,7 @@ const char* stop_reason(Status status) {
     case Status::kCancelled:
       return "it was interrupted";
     case Status::kPruned:
-      return "it exceeds the other direction's lower bound by no more than the tolerance";
+      return "it exceeds a lower bound that was known by no more than the tolerance";
     case Status::kLimit:
       return "the limit was decided, which was all that was asked";
   }

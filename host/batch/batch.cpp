@@ -20,7 +20,6 @@ double seconds_since(Clock::time_point start) {
 }
 
 constexpr uint64_t kReadAhead = uint64_t{2} << 30;
-constexpr uint64_t kBytesOfAByte = 3;  // of a file, while it is read and as a mesh, about
 
 /// What went wrong with a pair, its files as its list names them.
 Failure failure_of(const std::exception_ptr& error, const Entry& entry) {

@@ -17,9 +17,17 @@ namespace {
 
 constexpr const char* kExpected = "id, a, b and perhaps tol, max, unit, symmetric";
 
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// Spreadsheets write TRUE.
 bool truth_of(const std::string& text) {
-  if (text == "true" || text == "1" || text == "yes") return true;
-  if (text == "false" || text == "0" || text == "no") return false;
+  const std::string word = lowered(text);
+  if (word == "true" || word == "1" || word == "yes") return true;
+  if (word == "false" || word == "0" || word == "no") return false;
   throw InputError("'" + text + "': expected true or false for symmetric");
 }
 
@@ -36,6 +44,15 @@ bool put(Entry& entry, const std::string& name, const std::string& text) {
   return true;
 }
 
+bool is_utf8(const std::string& text) {
+  try {
+    (void)nlohmann::json(text).dump();
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
 /// What is collected while a list is read.
 class Collected {
  public:
@@ -47,6 +64,8 @@ class Collected {
          {std::pair{"id", &entry.id}, {"a", &entry.a}, {"b", &entry.b}}) {
       if (text->empty()) refuse(line, std::string("no ") + name + "; expected " + kExpected);
     }
+    // A result could not have it: two such ids might be one there.
+    if (!is_utf8(entry.id)) refuse(line, "the id '" + entry.id + "' is no UTF-8");
     const auto [known, is_new] = lines_.emplace(entry.id, line);
     if (!is_new)
       refuse(line, "the id '" + entry.id + "' is that of line " + std::to_string(known->second));
@@ -71,7 +90,23 @@ class Collected {
   std::set<std::string> strangers_;
 };
 
+// Of the three that there must be, each once.
+void check_heading(const std::vector<std::string>& heading, uint64_t line, const Collected& to) {
+  for (const char* name : {"id", "a", "b"}) {
+    const auto times = std::count(heading.begin(), heading.end(), name);
+    if (times == 1) continue;
+    to.refuse(line, std::string(times == 0 ? "no" : "more than one") + " column '" + name +
+                        "'; expected a heading with " + kExpected + ", between commas");
+  }
+}
+
+void skip_mark(std::istream& text) {  // spreadsheets' byte-order mark
+  if (text.peek() != 0xef) return;
+  for (int i = 0; i < 3; ++i) text.get();
+}
+
 void read_csv(std::istream& text, Collected& to) {
+  skip_mark(text);
   CsvReader rows(text);
   std::optional<std::vector<std::string>> heading;
   const auto next = [&] {
@@ -83,7 +118,7 @@ void read_csv(std::istream& text, Collected& to) {
   };
   heading = next();
   if (!heading) return;
-  if ((*heading)[0].starts_with("\xef\xbb\xbf")) (*heading)[0].erase(0, 3);  // spreadsheets' mark
+  check_heading(*heading, rows.line(), to);
   while (const auto row = next()) {
     if (row->size() != heading->size())
       to.refuse(rows.line(), std::to_string(row->size()) + " cells; expected " +
@@ -136,10 +171,7 @@ PairList read_list(const std::string& path) {
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw InputError(path + ": cannot be read; expected a list of pairs");
   Collected collected(path);
-  std::string ending = path.substr(std::min(path.size(), path.find_last_of('.')));
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".csv") {
+  if (lowered(path).ends_with(".csv")) {
     read_csv(file, collected);
   } else {
     read_jsonl(file, collected);
@@ -155,6 +187,8 @@ PairList list_against(const std::string& b, const std::vector<std::string>& part
   std::set<std::string> ids;
   for (const std::string& part : parts) {
     if (!ids.insert(part).second) throw UsageError("'" + part + "' is named twice");
+    if (!is_utf8(part))
+      throw UsageError("'" + part + "' is no UTF-8, as an id must be: name it in a list");
     list.entries.push_back({.id = part,
                             .a = part,
                             .b = b,

@@ -106,11 +106,16 @@ EntryReader::MeshPointer EntryReader::mesh_of(const std::string& file,
 
 // Those used last, so that a list that goes back and forth between two B's reads each once.
 void EntryReader::drop_old() {
-  constexpr size_t kMost = 8;
-  while (meshes_.size() > kMost) {
-    meshes_.erase(std::min_element(
+  constexpr size_t kMost = 256;  // as many as are kept prepared
+  constexpr uint64_t kMostBytes = uint64_t{1} << 29;
+  uint64_t bytes = 0;
+  for (const auto& [file, kept] : meshes_) bytes += kept.bytes;
+  while (meshes_.size() > 1 && (meshes_.size() > kMost || bytes > kMostBytes)) {
+    const auto oldest = std::min_element(
         meshes_.begin(), meshes_.end(),
-        [](const auto& x, const auto& y) { return x.second.last_use < y.second.last_use; }));
+        [](const auto& x, const auto& y) { return x.second.last_use < y.second.last_use; });
+    bytes -= oldest->second.bytes;
+    meshes_.erase(oldest);
   }
 }
 
@@ -123,8 +128,9 @@ EntryReader::MeshPointer EntryReader::shared_mesh_of(const std::string& file,
     const auto [known, is_new] = meshes_.try_emplace(file);
     known->second.last_use = ++uses_;
     if (is_new) known->second.mesh = mine.get_future().share();
+    if (is_new) known->second.bytes = kBytesOfAByte * size_of(file);
     if (!is_new) theirs = known->second.mesh;
-    drop_old();
+    if (is_new) drop_old();
   }
   if (theirs.valid()) return theirs.get();
   try {

@@ -14,6 +14,9 @@
 
 namespace vkh {
 
+/// Of a file, while it is read and as a mesh, about.
+constexpr uint64_t kBytesOfAByte = 3;
+
 /// An entry with what is known of it before its meshes are read.
 struct NamedEntry {
   const Entry* entry = nullptr;
@@ -48,7 +51,7 @@ class EntryReader {
   using MeshPointer = std::shared_ptr<const Mesh>;
   struct Kept {
     std::shared_future<MeshPointer> mesh;
-    uint64_t last_use = 0;
+    uint64_t last_use = 0, bytes = 0;
   };
   std::string hash_of(const std::string& file, bool is_shared);
   MeshPointer mesh_of(const std::string& file, const ReadLimits& limits) const;

@@ -36,6 +36,7 @@ struct Program {
     add_pair(*command, distance);
     add_tolerance(*command, distance, "1e-6");
     add_symmetric(*command, distance);
+    add_part(*command, distance);
     add_survey_options(*command, distance);
     add_picture_options(*command, distance.pictures);
     add_certificate_option(*command, distance.pictures);

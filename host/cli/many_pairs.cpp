@@ -52,7 +52,7 @@ void add_batch(CLI::App& command, TypedMany& typed) {
   command.footer(
       "LIST has id, a, b and perhaps tol, max, unit and symmetric: JSONL, or CSV with a heading. "
       "Its files' names are of its own folder. The exit code is the worst of the pairs': 5, 4, 6, "
-      "1, 3, 0 in this order.");
+      "2, 1, 3, 0 in this order.");
   command
       .add_option("LIST", typed.files,
                   "A list of pairs; with --against, meshes to start from, each a pair")
@@ -84,7 +84,10 @@ void add_batch(CLI::App& command, TypedMany& typed) {
 }
 
 void add_merge(CLI::App& command, TypedMany& typed) {
-  command.add_option("RESULTS", typed.files, "Results of batches")->required();
+  command
+      .add_option("RESULTS", typed.files,
+                  "Results of batches; or the answers of all parts of one pair")
+      ->required();
   add_tables(command, typed);
   command
       .add_option("--list", typed.list,

@@ -22,6 +22,10 @@ struct TypedPictures {
   std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;
+
+  bool any() const {
+    return !field.empty() || !image.empty() || !report.empty() || !certificate.empty();
+  }
 };
 void add_picture_options(CLI::App& command, TypedPictures& typed);
 void add_certificate_option(CLI::App& command, TypedPictures& typed);

@@ -60,6 +60,17 @@ void check_together(const Typed& typed) {
     throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
 }
 
+void check_part(const Typed& typed) {
+  if (typed.known_lower && !typed.part)
+    throw UsageError("--known-lower: is what other parts have shown: ask for a --part");
+  const bool asks_more = typed.symmetric || typed.statistics || !typed.bands.empty() ||
+                         !typed.field_tolerance.empty() || typed.pictures.any();
+  if (typed.part && asks_more)
+    throw UsageError(
+        "--part: one direction's interval is all that is to be had of a part: no --symmetric, "
+        "--stats, --bands, --field-tol, --field, --image, --report or --certificate");
+}
+
 }  // namespace
 
 const char* const kLengths =
@@ -80,6 +91,11 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
   job.face_max_b = typed.face_max_b;
   job.proof = !typed.pictures.certificate.empty();
   check_together(typed);
+  check_part(typed);
+  if (typed.part) job.part = parse_part(*typed.part);
+  if (typed.known_lower)
+    job.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
+  job.several_devices = job.command == "distance";
   job.symmetric = typed.symmetric;
   job.survey = survey_of(typed);
   job.verify = typed.verify;
@@ -102,9 +118,11 @@ Outputs outputs_of(const Typed& typed) {
 }
 
 void add_device_option(CLI::App& command, Typed& typed) {
+  const bool several = command.get_name() == "distance";
   command.add_option("--device", typed.device,
-                     "An index from 'doctor', gpu, cpu, or part of a name [best: discrete, "
-                     "integrated, virtual, CPU]");
+                     std::string("An index from 'doctor', gpu, cpu, or part of a name") +
+                         (several ? "; several, 0,1, or all GPUs, each for a part of A" : "") +
+                         " [best: discrete, integrated, virtual, CPU]");
 }
 
 void add_time_option(CLI::App& command, Typed& typed) {
@@ -192,6 +210,17 @@ void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {
                       ", or a number alone, which is a fraction of the diagonal")
       ->type_name("LENGTH")
       ->default_str(by_default);
+}
+
+void add_part(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--part", typed.part,
+                  "Of A's faces part I alone, from 0, of N; 'merge' joins the answers of all parts")
+      ->type_name("I/N");
+  command
+      .add_option("--known-lower", typed.known_lower,
+                  "What another part has shown: what is within the tolerance of it is not refined")
+      ->type_name("LENGTH");
 }
 
 void add_symmetric(CLI::App& command, Typed& typed) {

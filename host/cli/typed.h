@@ -18,7 +18,7 @@ namespace vkh {
 struct Typed {
   std::string file_a, file_b;
   std::string tolerance, max, face_max_a, face_max_b, unit, device;
-  std::optional<std::string> memory, time, waves, max_input;
+  std::optional<std::string> memory, time, waves, max_input, part, known_lower;
   std::vector<std::string> enabled, disabled;
   std::string preset;
   std::string json, junit, area, field_tolerance;
@@ -36,6 +36,7 @@ void add_pair(CLI::App& command, Typed& typed);
 void add_unit_and_input(CLI::App& command, Typed& typed);
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default);
 void add_symmetric(CLI::App& command, Typed& typed);
+void add_part(CLI::App& command, Typed& typed);
 void add_device_option(CLI::App& command, Typed& typed);
 void add_time_option(CLI::App& command, Typed& typed);
 void add_engine_options(CLI::App& command, Typed& typed);  ///< memory, waves, switches, cache

@@ -162,7 +162,8 @@ void prove_all(Progressing& at, const MeshPair& pair, Solver& solver, const Solv
   if (answer.b_to_a) answer.proof_b = one(pair.b, pair.a, *answer.b_to_a);
 }
 
-void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer) {
+void solve(Progressing& at, const MeshPair& pair, const Session& session, Answer& answer) {
+  Solver& solver = *session.solver;
   SolveOptions options = options_for(at, answer);
   // With the pipelines that a survey needs, so that it needs no others.
   if (at.job.asks_for_cells()) options.survey = no_survey;
@@ -170,11 +171,13 @@ void solve(Progressing& at, const MeshPair& pair, Solver& solver, Answer& answer
   if (by_face) {
     solve_by_face(at, pair, solver, options, answer);
   } else if (at.job.symmetric) {
+    if (!session.more.empty())
+      throw UsageError("--symmetric: over several devices ask for each direction by itself");
     SymmetricReport both = solver.symmetric(pair.a, pair.b, options);
     answer.a_to_b = std::move(both.a_to_b);
     answer.b_to_a = std::move(both.b_to_a);
   } else {
-    answer.a_to_b = solver.distance(pair.a, pair.b, options);
+    solve_directed(session, pair, options, answer);
   }
   add_memory_notes(options.memory_bytes, answer);
   if (at.job.survey.is_any()) {
@@ -219,9 +222,9 @@ Done work(const std::shared_ptr<Progressing>& shared) {
   const bool apart =
       job.max && !job.survey.area;  // else pipelines for cells are made with the rest
   if (job.asks_for_cells() && !apart) options.survey = no_survey;
-  auto opening = begin_now([selector = job.device, options,
+  auto opening = begin_now([selector = job.device, several = job.several_devices, options,
                             cache = job.caches ? user_cache_folder() : std::filesystem::path()] {
-    return open_session(selector, options, cache);
+    return open_session(selector, several, options, cache);
   });
   const auto start = Clock::now();
   const std::shared_ptr<const Reading> reading(shared, &at.reading);  // keeps all of it
@@ -232,7 +235,7 @@ Done work(const std::shared_ptr<Progressing>& shared) {
   done.session = opening.get();
   at.open(done.session.device->description(), done.session.setup_ms);
   done.answer = at.known();
-  solve(at, done.pair, *done.session.solver, done.answer);
+  solve(at, done.pair, done.session, done.answer);
   hashes.fill(done.answer);
   return done;
 }

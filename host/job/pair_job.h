@@ -25,11 +25,14 @@ struct PairJob {
   Length tolerance;
   std::optional<Length> max;           ///< gate
   std::string face_max_a, face_max_b;  ///< files of limits of faces; empty: none
+  std::optional<PartOf> part;          ///< of A, alone
+  std::optional<Length> known_lower;   ///< what other parts have shown
   bool symmetric = false, verify = false;
-  bool hashes = false;  ///< Input::sha256 is wanted
-  bool proof = false;   ///< Answer::proof_a is
-  std::string device;   ///< DeviceRequest::selector
-  bool caches = true;   ///< compiled pipelines, in the user's folder
+  bool hashes = false;           ///< Input::sha256 is wanted
+  bool proof = false;            ///< Answer::proof_a is
+  std::string device;            ///< DeviceRequest::selector
+  bool several_devices = false;  ///< or of several, as open_session() has it
+  bool caches = true;            ///< compiled pipelines, in the user's folder
   SurveyWish survey;
   bool asks_for_cells() const { return proof || survey.is_any(); }
   SolveOptions options;  ///< but for tolerance, limit, time and progress

@@ -95,6 +95,7 @@ Answer unread_answer(const PairJob& job) {
   known.words = job.words;
   known.started = utc_now();
   known.host = host_name();
+  known.part = job.part;
   known.inputs[0].path = job.file_a;
   known.inputs[1].path = job.file_b;
   known.tolerance = job.tolerance;
@@ -138,6 +139,9 @@ SolveOptions asked_options(const PairJob& job, const Answer& known) {
   // What is asked of its area is decided by the survey.
   if (known.max && !known.max->area) options.limit = known.max->limit;
   options.coverage = job.verify;
+  if (job.known_lower)
+    options.known_lower =
+        in_files(*job.known_lower, "--known-lower", known.unit, known.a_to_b.diagonal_a).within;
   return options;
 }
 

@@ -6,7 +6,10 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
+#include "host/answer/answer.h"
+#include "host/demo/default_pair.h"
 #include "host/gpu/device.h"
 #include "host/solve/solver.h"
 
@@ -26,14 +29,30 @@ auto begin_now(Work work) {
   return result;
 }
 
+struct Opened {
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Solver> solver;
+};
+
 struct Session {
   std::unique_ptr<Device> device;
   std::unique_ptr<Solver> solver;
-  double setup_ms = 0;  ///< what making it took
+  std::vector<Opened> more;  ///< devices, where several were asked for
+  double setup_ms = 0;       ///< what making it took
 };
 
-/// Throws what Device and Solver throw. `cache_folder`: see Solver.
-Session open_session(const std::string& selector, const SolveOptions& options,
+/// "all", every GPU, or the CPU device where there is none; else names that DeviceRequest takes,
+/// between commas. Throws UsageError for an empty one.
+std::vector<std::string> selectors_of(const std::string& text);
+
+/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector; or, where `several`
+/// may be asked for and it names no device, what selectors_of() takes. `cache_folder`: see Solver.
+Session open_session(const std::string& selector, bool several, const SolveOptions& options,
                      const std::filesystem::path& cache_folder);
+
+/// h(A,B), or a part's, on every device of the session, with notes on those that were lost. Throws
+/// UsageError for a part that A has too few faces for.
+void solve_directed(const Session& session, const MeshPair& pair, const SolveOptions& options,
+                    Answer& answer);
 
 }  // namespace vkh

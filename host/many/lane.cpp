@@ -82,8 +82,9 @@ void Lane::solve_all(const Group& group) {
   share_.count(0, gpu_s(results));
   for (size_t i = 0; i < group.size(); ++i) {
     results[i].number = group[i].pair.number;
-    share_.deliver(std::move(results[i]));
+    if (group[i].pair.beside) group[i].pair.beside(solver_, results[i]);
   }
+  for (StreamResult& result : results) share_.deliver(std::move(result));
 }
 
 bool Lane::find_lost() {

@@ -7,15 +7,20 @@
 namespace vkh {
 namespace {
 
-// A hierarchy takes 200 to 258 bytes a face.
-uint64_t device_bytes(const Mesh& b) { return 260 * b.faces.size(); }
+// A hierarchy takes 200 to 258 bytes a face; a small one what an allocation costs.
+uint64_t device_bytes(const Mesh& b) {
+  return std::max<uint64_t>(260 * b.faces.size(), uint64_t{1} << 20);
+}
+
+// Each is an allocation or more, of which some drivers give out 4096 in all.
+constexpr size_t kMost = 256;
 
 }  // namespace
 
 void PreparedMeshes::drop_until(uint64_t bytes) {
   uint64_t taken = 0;
   for (const Kept& kept : kept_) taken += device_bytes(*kept.mesh);
-  while (!kept_.empty() && taken > bytes) {
+  while (!kept_.empty() && (taken > bytes || kept_.size() >= kMost)) {
     taken -= device_bytes(*kept_.front().mesh);
     kept_.erase(kept_.begin());
   }

@@ -22,27 +22,6 @@ constexpr int kMostReopened = 3;
 
 }  // namespace
 
-std::vector<std::string> selectors_of(const std::string& text) {
-  std::vector<std::string> selectors;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (word.empty() && !text.empty())
-      throw UsageError("--device '" + text + "': expected names between commas, or all");
-    if (word == "all") {
-      const std::vector<DeviceDescription> all = list_devices();
-      for (const DeviceDescription& d : all) {
-        if (d.usable && d.type != "cpu") selectors.push_back(std::to_string(d.index));
-      }
-      if (selectors.empty()) selectors.emplace_back("");
-    } else {
-      selectors.push_back(word);
-    }
-    begin = end + 1;
-  }
-  return selectors;
-}
-
 struct PairStream::Impl {
   Impl(StreamOptions given, std::function<void(StreamResult&&)> to)
       : options(std::move(given)),

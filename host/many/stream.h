@@ -15,6 +15,14 @@
 
 namespace vkh {
 
+/// What came of a pair.
+struct StreamResult {
+  size_t number = 0;
+  Report a_to_b;
+  std::optional<Report> b_to_a;  ///< there for a symmetric pair
+  std::exception_ptr error;      ///< instead: what Solver threw
+};
+
 /// A pair, and what is asked about it.
 struct StreamPair {
   size_t number = 0;  ///< the caller's own
@@ -24,18 +32,13 @@ struct StreamPair {
   bool shares_b = false;
   bool symmetric = false;
   SolveOptions options;  ///< `progress` is asked on the threads that run
-};
-
-/// What came of it.
-struct StreamResult {
-  size_t number = 0;
-  Report a_to_b;
-  std::optional<Report> b_to_a;  ///< there for a symmetric pair
-  std::exception_ptr error;      ///< instead: what Solver threw
+  /// Called after the pair's own run, with the solver that ran it, before it is delivered: for
+  /// surveys and certificates. What it throws is the pair's error.
+  std::function<void(Solver&, StreamResult&)> beside = {};
 };
 
 struct StreamOptions {
-  /// DeviceRequest::selector of each; see selectors_of().
+  /// DeviceRequest::selector of each; see host/job/session.h.
   std::vector<std::string> devices = {""};
   std::filesystem::path cache_folder;  ///< see Solver
   SolveOptions first;                  ///< whose pipelines are made while the first pairs are read
@@ -50,10 +53,6 @@ struct StreamTimes {
   double lanes_s = 0;  ///< lanes with pairs, each for itself
   double gpu_s = 0;    ///< timestamps around what they submitted; 0 where a queue has none
 };
-
-/// "all", every GPU, or the CPU device where there is none; else names that DeviceRequest takes,
-/// between commas. Throws UsageError for an empty one.
-std::vector<std::string> selectors_of(const std::string& text);
 
 class PairStream {
  public:

@@ -1,14 +1,18 @@
 #include "host/program/many_pairs.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <set>
 
 #include "host/base/error.h"
 #include "host/batch/batch.h"
+#include "host/job/session.h"
+#include "host/parts/merge_parts.h"
 #include "host/record/merge.h"
 #include "host/record/tables.h"
 #include "host/system/output_file.h"
+#include "host/system/system.h"
 
 namespace vkh {
 namespace {
@@ -23,8 +27,6 @@ class Tables {
   Tables(const TablesAsked& asked, const std::vector<std::string>& inputs) {
     if (asked.csv) csv_.emplace("--csv", *asked.csv, inputs);
     if (asked.junit) junit_.emplace("--junit", *asked.junit, inputs);
-    if (asked.csv && asked.csv == asked.junit)
-      throw UsageError("two outputs would be written to '" + *asked.csv + "'");
   }
   bool is_any() const { return csv_ || junit_; }
 
@@ -47,11 +49,20 @@ PairList list_of(const BatchAsked& asked) {
   return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
 }
 
+// A relative name of a file that is not there yet stays relative without absolute().
+std::filesystem::path place_of(const std::string& file) {
+  std::error_code none;
+  const std::filesystem::path whole = std::filesystem::absolute(path_of(file), none);
+  const std::filesystem::path place = std::filesystem::weakly_canonical(whole, none);
+  return none ? whole.lexically_normal() : place;
+}
+
 /// What is named twice would be read while it is written.
 void check_outputs(const std::string& results, const TablesAsked& tables) {
+  std::set<std::filesystem::path> places{place_of(results)};
   for (const auto& other : {tables.csv, tables.junit}) {
-    if (other && *other == results)
-      throw UsageError("two outputs would be written to '" + results + "'");
+    if (other && !places.insert(place_of(*other)).second)
+      throw UsageError("two outputs would be written to '" + *other + "'");
   }
 }
 
@@ -78,6 +89,11 @@ BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
 
 ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
   check_outputs(asked.results, asked.tables);
+  // Lines would be added to it, and a last one without an end would be cut off.
+  std::error_code none;
+  if (std::filesystem::equivalent(path_of(asked.list), path_of(asked.results), none))
+    throw UsageError("--out '" + asked.results + "': would overwrite the input '" + asked.list +
+                     "'");
   PairList list = list_of(asked);
   for (const std::string& text : list.notes) note(text);
   std::vector<std::string> inputs = {asked.list.empty() ? asked.against : asked.list};
@@ -96,8 +112,29 @@ ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
   return code;
 }
 
+namespace {
+
+/// Of one pair, whose parts were measured apart. The answer is one line, as of `distance --json`.
+ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswer>& parts) {
+  if (!asked.list.empty() || asked.reproducible || asked.tables.csv || asked.tables.junit)
+    throw UsageError(
+        "merge: the parts of one pair make one answer: no --list, --reproducible, "
+        "--csv or --junit");
+  const OutputFile out("--out", asked.results, asked.files);
+  const std::string text = merge_parts(parts);
+  out.write(text + '\n');
+  const Json json = Json::parse(text);
+  std::cout << json.at("words").get<std::string>() << "\n  parts      " << parts.size() << ": "
+            << json.at("stop_reason").get<std::string>() << '\n';
+  return json.at("status") == status_name(Status::kClosed) ? kExitClosed : kExitNotClosed;
+}
+
+}  // namespace
+
 ExitCode run_merge_command(const MergeAsked& asked) {
   check_outputs(asked.results, asked.tables);
+  if (const auto parts = read_parts(asked.files); !parts.empty())
+    return merge_all_parts(asked, parts);
   std::vector<std::string> inputs = asked.files;
   if (!asked.list.empty()) inputs.push_back(asked.list);
   const OutputFile out("--out", asked.results, inputs);

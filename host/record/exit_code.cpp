@@ -9,8 +9,11 @@
 namespace vkh {
 
 ExitCode code_of(const Answer& answer) {
-  if (!answer.max)
-    return interval_of(answer).status == Status::kClosed ? kExitClosed : kExitNotClosed;
+  if (!answer.max) {
+    const Status status = interval_of(answer).status;
+    const bool is_pruned = answer.part && status == Status::kPruned;  // all that was asked of it
+    return status == Status::kClosed || is_pruned ? kExitClosed : kExitNotClosed;
+  }
   switch (verdict_of(answer)) {
     case Verdict::kWithin:
       return kExitClosed;

@@ -14,9 +14,10 @@ namespace vkh {
 namespace {
 
 // Waves of the first submission, the begin's among them: enough for most pairs on a GPU; on a CPU
-// one wave can take seconds, and so can the hierarchy, which is then a submission of its own.
+// one wave can take seconds, and so can the hierarchy, which is then a submission of its own. Who
+// shares what is known has something to tell after one wave.
 constexpr uint32_t kFirstWaves = 8;
-constexpr uint32_t kFirstWavesOnCpu = 1;
+constexpr uint32_t kFewFirstWaves = 1;
 // Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
 // H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
 // get longer ones.
@@ -281,7 +282,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
               .uploads = true,
               .builds = true,
               .begins = true,
-              .waves = on_cpu ? kFirstWavesOnCpu : kFirstWaves};
+              .waves = on_cpu || inputs[0].known_since ? kFewFirstWaves : kFirstWaves};
   for (size_t i = 0; i < inputs.size(); ++i) round.running.push_back(i);
   if (on_cpu && inputs.size() == 1 && seats_[0]->mesh_b() != nullptr) {
     const uint32_t waves = std::exchange(round.waves, 0);
@@ -301,7 +302,10 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
     round.waves = next_waves(++submissions, round.waves, ms);
     round.uploads = round.builds = round.begins = false;
     std::erase_if(round.running, is_over);
-    for (const size_t i : round.running) seats_[i]->make_room(context_, outputs[i]);
+    for (const size_t i : round.running) {
+      seats_[i]->make_room(context_, outputs[i]);
+      if (inputs[i].known_since) seats_[i]->raise_known(inputs[i].known_since());
+    }
   }
   for (size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].survey)

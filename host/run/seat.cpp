@@ -276,6 +276,12 @@ void Seat::make_room(VkhContext context, RunOutput& out) {
   if (leaves) out.host_memory_bytes -= bytes_in_host(workspace_);
 }
 
+void Seat::raise_known(float known_lower) {
+  if (!(known_lower > problem_.knownLower)) return;
+  problem_.knownLower = known_lower;
+  if (!next_) next_ = problem_.workspace;
+}
+
 void Seat::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile) {
   if (!next_) return;
   vkhCmdMoveRun(context, commands, &problem_, &*next_, profile);

@@ -67,6 +67,9 @@ struct RunInput {
   std::function<void(const VkhReport&, const BoundCells&)> survey;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
+  /// Asked before each submission but the first, which is then short: `known_lower` from there on,
+  /// where it is larger. Empty: it stays.
+  std::function<float()> known_since;
 };
 
 struct StageTime {
@@ -107,6 +110,8 @@ class Seat {
   /// Where the run pauses for want of room: takes the memory for it, or has it go on with what
   /// there is, from the next record_move() on.
   void make_room(VkhContext context, RunOutput& output);
+  /// What is known has become more: so it is for the run, from the next record_move() on.
+  void raise_known(float known_lower);
   void record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile);
   /// Copies the report, and the areas if there are any, back; barriers around it are the caller's.
   void record_readback(VkCommandBuffer commands, const RunOutput& output) const;

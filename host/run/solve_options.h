@@ -65,6 +65,10 @@ struct SolveOptions {
   /// In the files' units; 0: nothing. A distance that the answer need not resolve below: candidates
   /// within the tolerance of it are closed, and a run that this decides ends as Status::kPruned.
   double known_lower = 0;
+  /// Asked between submissions, on the thread that runs: a known_lower that has risen since, such
+  /// as what other devices found (host/parts/together.h). How much is pruned then depends on when
+  /// it rises. Empty: none.
+  std::function<double()> known_since;
   /// Whether the distance is within it is all that is asked: candidates within it are closed, and
   /// the run ends as soon as either is proven, as Status::kLimit (verdict_of). Neither is where the
   /// distance is within the tolerance of it, which is used where a coarser one does not decide.

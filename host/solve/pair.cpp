@@ -43,6 +43,18 @@ float limit_up_in_frame(const Pair& pair, double beyond) {
   return std::max(most, 2 * std::numeric_limits<float>::min());
 }
 
+// Rounded down: what is known must not become more.
+float known_in_frame(const Pair& pair, double known_lower) {
+  const double known = std::clamp(pair.frame.to_frame(known_lower), 0.0, 1e30);
+  return known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f;
+}
+
+// `pair` and `options` live as long as the run.
+std::function<float()> known_since(const Pair& pair, const SolveOptions& options) {
+  if (!options.known_since) return {};
+  return [&pair, &options] { return known_in_frame(pair, options.known_since()); };
+}
+
 }  // namespace
 
 FileInterval to_files(const VkhReport& r, const Pair& pair) {
@@ -64,7 +76,6 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
   const double weights = std::min(kRoundedPosition * size, kMostForWeights * tolerance);
   const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
                        (two_float ? floor + weights : kRoundedPosition * size);
-  const double known = std::clamp(pair.frame.to_frame(options.known_lower), 0.0, 1e30);
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
           .resident = pair.resident,
@@ -75,14 +86,15 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
           .multiwave = (switches & kSwitchMultiwave) != 0,
           .sort_from = options.sort_from,
           .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
-          .known_lower = known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f,
+          .known_lower = known_in_frame(pair, options.known_lower),
           .limit = limit_in_frame(pair, options.limit.within),
           .limit_up = limit_up_in_frame(pair, options.limit.beyond),
           .two_float = two_float,
           .stage_times = options.stage_times,
           .coverage = options.coverage,
           .survey = {},
-          .advanced = {}};
+          .advanced = {},
+          .known_since = known_since(pair, options)};
 }
 
 namespace {

@@ -90,6 +90,12 @@ struct MeshPlace {
   std::string unit = {};
 };
 
+/// One of several devices that a run did without.
+struct LeftOut {
+  size_t device = 0;  ///< of those that were given
+  std::string why;
+};
+
 struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
@@ -102,6 +108,8 @@ struct Report {
   MeshCounts mesh_a, mesh_b;
   MeshPlace place_a, place_b;
   DeviceDescription device;
+  std::vector<DeviceDescription> more_devices;  ///< that took part, of a run over several
+  std::vector<LeftOut> left_out;                ///< likewise: that were lost, or had no memory
   uint64_t workspace_bytes = 0;
   uint64_t host_memory_bytes = 0;  ///< what the device had no room for, and reads from the host
   uint32_t waves = 0;

@@ -190,10 +190,9 @@ LineFile::LineFile(std::string option, std::string path, const std::vector<std::
     throw UsageError(option_ + " '" + path_ + "': " + why);
   };
   const std::optional<struct stat> older = status_of(path_);
-  for (const std::string& input : inputs) {
+  for (const std::string& input : older ? inputs : std::vector<std::string>()) {
     const std::optional<struct stat> read = status_of(input);
-    if (older && read && is_same(*older, *read))
-      refuse("would overwrite the input '" + input + "'");
+    if (read && is_same(*older, *read)) refuse("would overwrite the input '" + input + "'");
   }
   if (older && !S_ISREG(older->st_mode)) refuse("is no file that lines can be added to");
   const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);

@@ -236,10 +236,9 @@ LineFile::LineFile(std::string option, std::string path, const std::vector<std::
   };
   const std::optional<FileId> older =
       is_pipe(path_) ? std::nullopt : id_of(look_at(path_).handle());
-  for (const std::string& input : inputs) {
+  for (const std::string& input : older ? inputs : std::vector<std::string>()) {
     const std::optional<FileId> read = id_of(look_at(input).handle());
-    if (older && read && is_same(*older, *read))
-      refuse("would overwrite the input '" + input + "'");
+    if (read && is_same(*older, *read)) refuse("would overwrite the input '" + input + "'");
   }
   File file(CreateFileW(path_of(path_).c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ,
                         nullptr, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr));

@@ -12,7 +12,7 @@ import sys
 import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-COMMANDS = ("distance", "gate", "demo", "doctor")
+COMMANDS = ("distance", "gate", "batch", "merge", "demo", "doctor")
 OPTION = r"--[a-z]+(?:-[a-z]+)*"
 
 

@@ -232,3 +232,23 @@ TEST_CASE("a moved run keeps its subroots") {
     vkhDestroyContext(context);
   }
 }
+
+TEST_CASE("a move to where the run is tells it what has become known") {
+  Pairs all;
+  for (const auto& pair : all.pairs) {
+    Mover mover(*pair, least_bytes(*pair));
+    const VkhReport start = mover.start();
+    REQUIRE(start.status == VKH_STATUS_RUNNING);
+    const VkhMemory own = mover.problem().workspace;
+    const VkhReport same = to_the_end(mover, mover.move(own));
+    mover.start();
+    CHECK(is_same(to_the_end(mover, mover.advance(1)), same));  // nothing new changes no bit
+    mover.start();
+    mover.problem().knownLower = 10;  // farther than anything is
+    const VkhReport pruned = to_the_end(mover, mover.move(own));
+    CHECK(pruned.status == VKH_STATUS_DECIDED);
+    CHECK(pruned.waves < same.waves);
+    CHECK(interval(pruned).meets(interval(same)));
+    mover.problem().knownLower = 0;
+  }
+}

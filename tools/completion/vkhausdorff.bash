@@ -1,8 +1,9 @@
 # Completion of vkhausdorff for bash.
 _vkhausdorff() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
-  local commands="distance gate demo doctor help"
-  local search="--device --time --memory --waves --preset --enable --disable --no-cache --help"
+  local commands="distance gate batch merge demo doctor help"
+  local engine="--memory --waves --preset --enable --disable --no-cache --help" search tables="--out --csv --junit"
+  search="--device --time $engine"
   local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol"
   outputs+=" --field --image --report --view --up --size --map --range --steps"
   local options="--help --version"
@@ -12,18 +13,23 @@ _vkhausdorff() {
     return
   fi
   case $previous in
-    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu" -- "$current"); return ;;
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu all" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-    --area | --bands | --field-tol | --size | --range | --steps) return ;;
+      --area | --bands | --field-tol | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
+      --part | --known-lower) return ;;
   esac
   case $command in
-    distance) options="$search $outputs --unit --max-input --certificate" ;;
+    distance) options="$search $outputs --unit --max-input --certificate --part --known-lower" ;;
     gate) options="$search $outputs --unit --max-input --certificate --max --area --face-max --face-max-b --junit --github" ;;
+    batch)
+      options="$search $tables --against --resume --shard --fail-fast --max --tol --symmetric --unit --max-input"
+      options+=" --together --lanes --read-ahead" ;;
+    merge) options="$tables --list --reproducible --help" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help" ;;
     help) options="$commands" ;;

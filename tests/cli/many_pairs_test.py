@@ -1,0 +1,98 @@
+"""batch and merge as newcomers type them: lists of spreadsheets, outputs in the wrong place, an interrupted batch, shards.
+
+usage: many_pairs_test.py PROGRAM
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+SQUARE = "v 0 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
+MESHES = 12
+
+
+class ManyPairs(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        for i in range(MESHES):
+            (self.folder / f"{i}.obj").write_text(SQUARE.format(z=i / 8))
+
+    def run_program(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, timeout=120)
+        self.assertEqual(done.returncode, code, (words, done.stderr))
+        return done.stderr.decode(errors="replace")
+
+    def results(self, name):
+        return {line["id"]: line for line in map(json.loads, (self.folder / name).read_text().splitlines())}
+
+    def write_list(self, name="list.csv", pairs=MESHES):
+        (self.folder / name).write_text("id,a,b\n" + "".join(f"{i},{i}.obj,{(5 * i + 1) % MESHES}.obj\n" for i in range(pairs)))
+        return name
+
+    def test_lists_of_spreadsheets(self):
+        for text in (b"\xef\xbb\xbfid,a,b,symmetric\r\nx,0.obj,1.obj,TRUE\r\n", b'\xef\xbb\xbf"id","a","b","symmetric"\n"x","0.obj","1.obj","yes"',
+                     b'symmetric,b,a,id\n1,1.obj,0.obj,x\n\n'):
+            with self.subTest(text):
+                (self.folder / "list.CSV").write_bytes(text)
+                self.run_program("batch", "list.CSV", "--out", "out.jsonl")
+                line = self.results("out.jsonl")["x"]
+                self.assertEqual(([side["path"] for side in line["inputs"]], line["options"]["symmetric"]), (["0.obj", "1.obj"], True))
+                (self.folder / "out.jsonl").unlink()
+
+    def test_what_is_wrong_with_a_list_is_said(self):
+        for text, said in ((b"", "line 1: no pair"), (b"x,0.obj,1.obj\n", "line 1: no column 'id'"), (b"id;a;b\nx;0.obj;1.obj\n", "line 1: no column 'id'"),
+                           (b"id,a\nx,0.obj\n", "line 1: no column 'b'"), (b"id,a,a,b\n", "line 1: more than one column 'a'"), (b"id,a,b\n,0.obj,1.obj\n", "line 2: no id;"),
+                           (b"id,a,b\nx,0.obj\n", "line 2: 2 cells; expected 3"), (b'id,a,b\nx,0.obj,"1.obj\n', "line 2: a quote does not end"),
+                           (b"id,a,b\nx,0.obj,1.obj\nx,1.obj,2.obj\n", "line 3: the id 'x' is that of line 2"), (b"id,a,b\n\xe9,0.obj,1.obj\n", "line 2: the id"),
+                           (b"id,a,b,symmetric\nx,0.obj,1.obj,perhaps\n", "line 2: 'perhaps': expected true or false")):
+            with self.subTest(text):
+                (self.folder / "list.csv").write_bytes(text)
+                self.assertIn("list.csv: " + said, self.run_program("batch", "list.csv", "--out", "out.jsonl", code=4))
+                self.assertFalse((self.folder / "out.jsonl").exists())
+
+    def test_outputs_in_the_wrong_place(self):
+        self.write_list()
+        (self.folder / "one.jsonl").write_text('{"id": "x", "a": "0.obj", "b": "1.obj"}')  # which adding lines would cut off
+        before = {path: path.read_bytes() for path in self.folder.iterdir()}
+        for words in (("--out", "0.obj"), ("--out", "list.csv"), ("--out", "./list.csv", "--resume"), ("--out", "."), ("--out", "none/out.jsonl"),
+                      ("--out", "/dev/null"), ("--out", "out.jsonl", "--csv", "./out.jsonl"), ("--out", "out.jsonl", "--csv", "t", "--junit", "./t"),
+                      ("--out", "out.jsonl", "--csv", "0.obj"), ("--out", "out.jsonl", "--junit", "list.csv")):
+            with self.subTest(words):
+                self.run_program("batch", "list.csv", *words, code=2)
+        self.run_program("batch", "one.jsonl", "--out", "one.jsonl", "--resume", code=2)
+        self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_what_was_begun_goes_on(self):
+        self.write_list()
+        self.run_program("batch", "list.csv", "--out", "whole.jsonl")
+        self.run_program("merge", "whole.jsonl", "--out", "whole", "--reproducible")
+        self.assertIn("has results: add --resume", self.run_program("batch", "list.csv", "--out", "whole.jsonl", code=2))
+        begun = (self.folder / "whole.jsonl").read_bytes()
+        for size in (1, begun.index(b"\n"), len(begun) // 2, len(begun) - 1):
+            with self.subTest(size=size):
+                (self.folder / "begun.jsonl").write_bytes(begun[:size])
+                self.run_program("batch", "list.csv", "--out", "begun.jsonl", "--resume")
+                self.run_program("merge", "begun.jsonl", "--out", "begun", "--reproducible")
+                self.assertEqual((self.folder / "begun").read_bytes(), (self.folder / "whole").read_bytes())
+
+    def test_shards_are_the_whole(self):
+        self.write_list()
+        self.run_program("batch", "list.csv", "--out", "whole.jsonl")
+        self.run_program("merge", "whole.jsonl", "--out", "whole", "--reproducible")
+        shards = [f"shard-{i}.jsonl" for i in range(3)]
+        for i, shard in enumerate(shards):
+            self.run_program("batch", "list.csv", "--shard", f"{i}/3", "--out", shard)
+        missing = self.run_program("merge", *shards[1:], "--list", "list.csv", "--out", "some", code=3)
+        self.assertEqual({line.split(": ")[-1] for line in missing.splitlines()}, set(self.results(shards[0])))
+        self.run_program("merge", *reversed(shards), "--list", "list.csv", "--out", "merged", "--reproducible")
+        self.assertEqual((self.folder / "merged").read_bytes(), (self.folder / "whole").read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,182 @@
+// Answers of parts as one: which are taken, and what comes of them, to the last bit.
+#include "host/parts/merge_parts.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/base/error.h"
+
+namespace {
+
+using namespace vkh;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Answer answer_of(uint64_t index, uint64_t count, double lower, double upper) {
+  Answer answer;
+  answer.command = "distance";
+  answer.words = {"distance", "a.ply", "b.ply", "--part", std::to_string(index) + "/3", "--json"};
+  answer.started = "2026-01-0" + std::to_string(9 - index) + "T00:00:00Z";
+  answer.host = "host" + std::to_string(index);
+  for (size_t i = 0; i < 2; ++i) {
+    answer.inputs[i].path = i == 0 ? "a.ply" : "b.ply";
+    answer.inputs[i].is_read = true;
+    answer.inputs[i].sha256 = std::string(64, i == 0 ? 'a' : 'b');
+  }
+  answer.unit = "mm";
+  answer.tolerance = {.requested = "0.01mm", .number = 0.01, .of = Length::Of::kUnit, .unit = "mm"};
+  answer.part = PartOf{index, count};
+  Report& r = answer.a_to_b;
+  r.lower = lower;
+  r.upper = upper;
+  r.diagonal_a = 10;
+  r.tolerance = 0x1p-6;
+  r.has_witness = lower > 0;
+  r.witness_a.face = 100 * index;
+  r.candidates = 10;
+  r.workspace_bytes = 7;
+  r.culled = {{"exact", 3}, {"u1", 4}};
+  r.device.name = "device " + std::to_string(index);
+  answer.notes = {"a note of all"};
+  return answer;
+}
+
+WrittenAnswer written(const Answer& answer) {
+  return {"parts.jsonl", "line " + std::to_string(answer.part ? answer.part->index + 1 : 9),
+          Json::parse(to_json(answer))};
+}
+
+/// Closed together: [1, 1 + 2^-6], neither end of one part.
+std::vector<WrittenAnswer> three() {
+  return {written(answer_of(2, 3, 0.25, 1 + 0x1p-6)), written(answer_of(0, 3, 1, 1 + 0x1p-7)),
+          written(answer_of(1, 3, 0.5, 0.5))};
+}
+
+Json merged(const std::vector<WrittenAnswer>& parts) { return Json::parse(merge_parts(parts)); }
+
+void check_refused(const std::vector<WrittenAnswer>& parts, const std::string& why) {
+  CAPTURE(why);
+  try {
+    merge_parts(parts);
+    CHECK(false);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    CAPTURE(text);
+    CHECK(text.starts_with("parts.jsonl: line "));
+    CHECK(text.find(why) != std::string::npos);
+    CHECK(text.find("; expected ") != std::string::npos);
+    CHECK(text.find('\n') == std::string::npos);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the largest lower with its witness, the largest upper, bit by bit") {
+  const Json all = merged(three());
+  CHECK(all["interval"]["lower_hex"] == "0x1p+0");
+  CHECK(all["interval"]["upper_hex"] == "0x1.04p+0");
+  CHECK(all["status"] == "closed");
+  CHECK(all["directions"][0]["status"] == "closed");
+  CHECK(all["directions"][0]["witness"]["from"]["face"] == 0);
+  CHECK(all["directions"][0]["counts"]["candidates"] == 30);
+  CHECK(all["directions"][0]["counts"]["workspace_bytes"] == 7);
+  CHECK(all["directions"][0]["culled"] == Json({{"exact", 9}, {"u1", 12}}));
+  CHECK(all["parts"] == 3);
+  CHECK(!all.contains("part"));
+  CHECK(all["words"] ==
+        "every point of A is within 1.0157 mm of B, and one point is at least 1 mm away (10.2 % "
+        "of A's diagonal)");
+  CHECK(all["device"]["name"] == "device 0");
+  CHECK(all["more_devices"].size() == 2);
+  CHECK(all["notes"] == Json({"a note of all"}));
+  CHECK(all["arguments"] == Json({"distance", "a.ply", "b.ply", "--json"}));
+  CHECK(all["started"] == "2026-01-07T00:00:00Z");
+  CHECK(merge_parts({written(answer_of(0, 1, 1, 1))}).find("\"parts\":1") != std::string::npos);
+}
+
+TEST_CASE("the order of the answers does not matter") {
+  std::vector<WrittenAnswer> parts = three();
+  const std::string one = merge_parts(parts);
+  std::swap(parts[0], parts[2]);
+  CHECK(merge_parts(parts) == one);
+}
+
+TEST_CASE("closed is decided by the exact width, whatever became of the parts") {
+  std::vector<WrittenAnswer> parts = three();
+  Answer wide = answer_of(2, 3, 0.25, std::nextafter(1 + 0x1p-6, 2.0));
+  wide.a_to_b.status = Status::kPruned;
+  wide.a_to_b.known_lower = 1 + 0x1p-20;
+  parts[0] = written(wide);
+  CHECK(merged(parts)["status"] == "pruned");  // by what no part here has shown
+  wide.a_to_b.upper = 1 + 0x1p-6;
+  parts[0] = written(wide);
+  CHECK(merged(parts)["status"] == "closed");
+  wide.a_to_b.upper = kInfinity;
+  wide.a_to_b.status = Status::kTime;
+  parts[0] = written(wide);
+  const Json open = merged(parts);
+  CHECK(open["status"] == "time");
+  CHECK(open["interval"]["upper"].is_null());
+  CHECK(open["interval"]["upper_hex"] == "inf");
+  CHECK(open["words"].get<std::string>().starts_with("no bound was found yet"));
+}
+
+TEST_CASE("what was verified of all parts is verified of A") {
+  std::vector<WrittenAnswer> parts;
+  for (uint64_t i = 0; i < 2; ++i) {
+    Answer answer = answer_of(i, 2, 1.0 + static_cast<double>(i), 2.01);
+    answer.a_to_b.witness_check = WitnessCheck{1.5, 2, true};
+    answer.a_to_b.coverage_check = CoverageCheck{.whole = 5, .closed = 1, .holds = i == 0};
+    parts.push_back(written(answer));
+  }
+  const Json verified = merged(parts)["directions"][0]["verified"];
+  CHECK(verified["witness"] == true);
+  CHECK(verified["distance_lower_hex"] == "0x1.8p+0");
+  CHECK(verified["coverage"] == false);
+  CHECK(verified["faces"]["whole"] == 10);
+  parts[0] = written(answer_of(0, 2, 1, 2.01));
+  CHECK(!merged(parts)["directions"][0].contains("verified"));
+}
+
+TEST_CASE("all parts, each once, of one question") {
+  std::vector<WrittenAnswer> parts = three();
+  parts.pop_back();
+  check_refused(parts, "without part 1");
+  parts.push_back(parts[0]);
+  check_refused(parts, "part 2 once more");
+  check_refused({written(answer_of(1, 1000000000, 1, 1))}, "without part 0, 2, 3, 4, 5..");
+  const auto spoilt = [&](const char* pointer, const Json& value) {
+    std::vector<WrittenAnswer> all = three();
+    all[2].json[Json::json_pointer(pointer)] = value;
+    return all;
+  };
+  check_refused(spoilt("/inputs/0/sha256", std::string(64, 'c')), "another A");
+  check_refused(spoilt("/inputs/1/sha256", std::string(64, 'c')), "another B");
+  check_refused(spoilt("/inputs/1/sha256", nullptr), "no SHA-256");
+  check_refused(spoilt("/tolerance/absolute", 0.5), "another tolerance");
+  check_refused(spoilt("/tolerance/unit", nullptr), "another unit");
+  check_refused(spoilt("/version", "9.9"), "another version");
+  check_refused(spoilt("/part/count", 4), "another number of parts");
+  check_refused(spoilt("/part/index", 7), "a part that cannot be");
+  check_refused(spoilt("/part/index", "x"), "expected an answer of 'distance --part'");
+  check_refused(spoilt("/directions/0/interval/upper_hex", "0x1.zp+0"), "upper_hex");
+  check_refused(spoilt("/directions/0/interval/upper_hex", "-0x1p+0"), "upper_hex");
+  check_refused(spoilt("/directions/0/interval/upper_hex", "0x1p-9"), "lower end is above");
+  check_refused(spoilt("/directions/0/status", "happy"), "status");
+  check_refused(spoilt("/directions/0/witness", nullptr), "without a witness");
+  check_refused(spoilt("/directions", Json::array()), "expected an answer");
+  check_refused(spoilt("/part", 3), "expected an answer");
+}
+
+TEST_CASE("what is no part is none") {
+  Answer whole = answer_of(0, 1, 1, 1);
+  whole.part.reset();
+  CHECK(!is_part(Json::parse(to_json(whole))));
+  CHECK(is_part(written(answer_of(0, 1, 1, 1)).json));
+  check_refused({written(whole)}, "no answer of a part");
+  CHECK(!is_part(Json::array()));
+}
