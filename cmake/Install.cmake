@@ -75,6 +75,7 @@ if(NOT WIN32)
   endif()
   install(FILES tools/completion/vkhausdorff.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vkhausdorff
           COMPONENT program)
+  install(PROGRAMS tools/slurm/submit tools/slurm/job.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/vkhausdorff/slurm COMPONENT program)
   install(FILES tools/completion/_vkhausdorff DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
 endif()
 install(FILES cmake/VkHausdorffGate.cmake DESTINATION ${VKH_PACKAGE_DIR} COMPONENT program)

@@ -21,7 +21,7 @@ ROOMS = {
              "prove", "answer", "parts", "demo", "check", "draw", "export", "page", "record", "job", "many", "batch", "cli",
              "program"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "parts", "draw", "page", "pairs", "check", "batch",
-              "cli", "faults", "platforms", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
+              "cli", "faults", "platforms", "cluster", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)
 OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room

@@ -1,0 +1,11 @@
+import json
+
+import distributed
+from vkhausdorff.dask import distances
+
+with open("list.jsonl") as file:
+    rows = [json.loads(line) for line in file]
+client = distributed.Client(scheduler_file="scheduler.json")
+pairs = [(row["a"], row["b"]) for row in rows]
+for row, r in zip(rows, distances(client, pairs, shard=1000, tol=1e-6)):
+    print(row["id"], r.lower, r.upper)

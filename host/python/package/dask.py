@@ -1,0 +1,106 @@
+"""Many pairs by the workers of a Dask cluster: vkhausdorff.distances() over shards, on a distributed.Client that there is."""
+
+import itertools
+import os
+import pathlib
+import tempfile
+import threading
+import zlib
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
+
+__all__ = ["distances"]
+
+
+def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: int = 2, retries: int = 3,
+              devices: Sequence[str] = (), **options: Any) -> Iterator[Any]:
+    """Yields what vkhausdorff.distances(pairs, **options) yields, in the order of pairs, as the workers end.
+
+    client: a distributed.Client, not an asynchronous one. Its workers have this package, and see the files that pairs
+    name; names are taken from this process's folder. shard: pairs of a task; take from 100 to 10,000, as a task costs Dask
+    longer than a pair takes. ahead: shards submitted for each worker; of what has ended so many wait, at most, for a slower
+    one before them. retries: so often a shard is done again after an error, besides what Dask does again because a worker
+    was lost. devices: of each machine, by index or name as distances() takes one; each worker's process there takes one
+    that no other has. Without them every worker takes the best. Arrays travel with their task; names of files are quicker.
+    """
+    if getattr(client, "asynchronous", False):
+        raise TypeError("client: expected one that is not asynchronous")
+    if isinstance(devices, str) or "device" in options:
+        raise TypeError("devices: expected a sequence of devices, such as ('0', '1'), in place of device")
+    if shard < 1 or ahead < 1:
+        raise ValueError("shard, ahead: expected whole numbers from 1")
+    return _in_order(client, _dealt(pairs, shard), ahead, retries, (tuple(devices), options))
+
+
+def _in_order(client: Any, shards: Iterator[list[Any]], ahead: int, retries: int, how: tuple[Any, ...]) -> Iterator[Any]:
+    running: deque[Any] = deque()
+
+    def submit() -> None:
+        most = ahead * max(1, len(client.scheduler_info()["workers"]))  # now: workers come and go
+        for pairs in itertools.islice(shards, max(0, most - len(running))):
+            running.append(client.submit(_do, pairs, *how, retries=retries, pure=False))
+
+    try:
+        submit()
+        while running:
+            results = running[0].result()
+            running.popleft().release()
+            submit()
+            yield from results
+    finally:
+        client.cancel(list(running))
+
+
+def _dealt(pairs: Iterable[Any], size: int) -> Iterator[list[Any]]:
+    rest = iter(pairs)
+    while some := list(itertools.islice(rest, size)):
+        yield [(_absolute(a), _absolute(b)) for a, b in some]
+
+
+def _absolute(mesh: Any) -> Any:
+    return os.path.abspath(mesh) if isinstance(mesh, (str, os.PathLike)) else mesh
+
+
+# What follows runs in workers.
+_one_at_a_time = threading.Lock()  # distances() takes all cores, and a worker may have many threads
+_mine: dict[tuple[str, ...], tuple[str, Any]] = {}
+
+
+def _do(pairs: list[Any], devices: tuple[str, ...], options: dict[str, Any]) -> list[Any]:
+    import vkhausdorff
+
+    with _one_at_a_time:
+        return list(vkhausdorff.distances(pairs, device=_device_of(devices), **options))
+
+
+def _device_of(devices: tuple[str, ...]) -> str:
+    """One of this machine's that no other worker's process has; it is free again when the process ends, however it does."""
+    if not devices:
+        return ""
+    if devices not in _mine:
+        shared = zlib.crc32(b"%d" % os.getpid()) % len(devices)
+        _mine[devices] = next(filter(None, map(_claimed, devices)), (devices[shared], None))
+    return _mine[devices][0]
+
+
+def _claimed(device: str) -> Any:
+    """The device and the lock on it, or None where another process has it."""
+    if fcntl is None:
+        return None
+    folder = pathlib.Path(tempfile.gettempdir()) / f"vkhausdorff-{os.getuid()}"
+    folder.mkdir(mode=0o700, exist_ok=True)
+    if folder.lstat().st_uid != os.getuid():
+        return None  # somebody else has made it
+    lock = open(folder / f"device-{device.encode().hex()}", "ab")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        lock.close()
+        return None
+    return device, lock

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""vkhausdorff.dask on a scheduler and two workers: what comes is what one process finds, also where a worker is killed.
+
+usage: dask_test.py RECIPE. Exit code 77: Dask's distributed is not here.
+"""
+
+import logging
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+import numpy as np  # noqa: E402
+from spheres import meshes, write_pairs  # noqa: E402
+
+RECIPE = pathlib.Path(sys.argv[1]).resolve()
+PAIRS, SHARD = 20, 4
+OPTIONS = {"tol": 1e-5}
+
+
+def pair(i: int):
+    return tuple(tuple(np.array(part) for part in meshes.sphere(n, radius)) for n, radius in ((50 + i, 1.0), (51 + i, 1.1)))
+
+
+def claimed(devices):
+    """In a worker."""
+    import vkhausdorff.dask
+
+    return vkhausdorff.dask._device_of(devices)
+
+
+class Dask(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory(prefix="vkh-dask-"))
+        os.environ["TMPDIR"] = folder  # the workers' locks, too
+        cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=2, processes=True, dashboard_address=None,
+                                           local_directory=folder, silence_logs=logging.CRITICAL)
+        cls.client = cls.enterClassContext(distributed.Client(cls.enterClassContext(cluster)))
+        cls.pairs = [pair(i) for i in range(PAIRS)]
+        cls.expected = list(vkh.distances(cls.pairs, **OPTIONS))
+
+    def test_in_order_and_as_one_process_finds_it(self):
+        found = list(distances(self.client, iter(self.pairs), shard=SHARD, **OPTIONS))
+        self.assertEqual(found, self.expected)
+        self.assertEqual(list(distances(self.client, [])), [])
+
+    def test_a_killed_workers_shard_is_done_again(self):
+        found = distances(self.client, self.pairs, shard=SHARD, **OPTIONS)
+        first = next(found)
+        busy = self.until(lambda: [address for address, keys in self.client.processing().items() if keys])
+        process = self.client.run(os.getpid, workers=busy[:1])[busy[0]]
+        os.kill(process, signal.SIGKILL)
+        self.assertEqual([first, *found], self.expected)
+        self.until(lambda: len(self.pids()) == 2 and process not in self.pids())
+
+    def pids(self):
+        return list(self.client.run(os.getpid).values())
+
+    def until(self, true, seconds=30):
+        end = time.monotonic() + seconds
+        while not (found := true()):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+        return found
+
+    def test_each_worker_takes_a_device_of_its_own(self):
+        self.assertEqual(sorted(self.client.run(claimed, ("0", "1")).values()), ["0", "1"])
+        self.assertEqual(list(self.client.run(claimed, ("cpu",)).values()), ["cpu", "cpu"])  # there is but one
+        self.assertEqual(list(self.client.run(claimed, ()).values()), ["", ""])
+        found = list(distances(self.client, self.pairs[:2], devices=["cpu"], **OPTIONS))
+        self.assertEqual(found, self.expected[:2])
+
+    def test_the_recipe(self):
+        with tempfile.TemporaryDirectory() as folder:
+            write_pairs(pathlib.Path(folder))
+            self.client.write_scheduler_file(f"{folder}/scheduler.json")
+            said = subprocess.run([sys.executable, RECIPE], cwd=folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        lines = [line.rsplit(" ", 2) for line in said.stdout.splitlines()]
+        self.assertEqual([name for name, _, _ in lines], [f"pair {i}" for i in range(24)])
+        self.assertTrue(all(0.1 < float(lower) <= float(upper) < 0.11 for _, lower, upper in lines), said.stdout)
+
+    def test_what_is_wrong_is_said(self):
+        for wrong in ({"device": "0"}, {"devices": "0"}):
+            with self.assertRaisesRegex(TypeError, "a sequence of devices"):
+                distances(self.client, self.pairs, **wrong)
+        with self.assertRaisesRegex(ValueError, "from 1"):
+            distances(self.client, self.pairs, shard=0)
+        with self.assertRaises(TypeError):
+            list(distances(self.client, self.pairs, shard=SHARD, retries=0, no_such_option=1))
+        self.until(lambda: not any(self.client.processing().values()))  # and nothing goes on
+
+
+if __name__ == "__main__":
+    try:
+        import distributed
+    except ImportError:
+        print("no distributed here (Debian: python3-distributed)")
+        sys.exit(77)
+    import vkhausdorff as vkh
+
+    if not hasattr(vkh, "distances"):
+        print("this vkhausdorff has no distances() yet")
+        sys.exit(77)
+    from vkhausdorff.dask import distances
+
+    unittest.main(argv=sys.argv[:1], verbosity=2)
