@@ -237,6 +237,18 @@ class Ahead(unittest.TestCase):
         self.assertTrue(all(count <= yielded + 96 for yielded, count in enumerate(self.taken())))
         self.assertTrue(all(count <= yielded + 8 for yielded, count in enumerate(self.taken(lanes=2, together=2))))
 
+    def test_large_files_come_one_by_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "large.stl"
+            with open(file, "wb") as out:
+                out.truncate(1 << 30)  # no mesh, and nothing on the disk
+            taken = []
+            pairs = (taken.append(i) or (file, file) for i in itertools.count())
+            with vkh.distances(pairs) as stream:
+                for yielded in range(6):
+                    self.assertIsInstance(next(stream).error, ValueError)
+                    self.assertLessEqual(len(taken), yielded + 1)
+
     def test_what_is_there_does_not_wait_for_slow_pairs(self):
         def pairs():
             for i in itertools.count():
@@ -456,6 +468,15 @@ class Meshes(unittest.TestCase):
             for path, kind, said in cases:
                 with self.assertRaisesRegex(kind, said or ""):
                     vkh.read(path)
+        with tempfile.TemporaryDirectory() as folder:
+            file = obj(folder, "a.obj", PAIRS[0][0])
+            self.assertEqual(len(vkh.read(file, max_input="1M").faces), len(PAIRS[0][0][1]))
+            with self.assertRaisesRegex(ValueError, "a.obj"):
+                vkh.read(file, max_input=100)
+            self.assertIsInstance(next(vkh.distances([(file, B)], max_input="0.1K")).error, ValueError)
+            for wrong, kind in ((0, ValueError), ("x", ValueError), (1.5, TypeError)):
+                with self.assertRaisesRegex(kind, "^max_input.*expected "):
+                    vkh.read(file, max_input=wrong)
         with self.assertRaisesRegex(TypeError, "No constructor"):
             vkh.Mesh()
         with self.assertRaisesRegex(TypeError, "was never made"):
