@@ -175,6 +175,8 @@ void PairStream::finish() {
   impl_->check_alive();
 }
 
+void PairStream::check() const { impl_->check_alive(); }
+
 void PairStream::cancel() { impl_->cancel(); }
 
 std::vector<DeviceDescription> PairStream::devices() const {

@@ -72,6 +72,9 @@ class PairStream {
   /// Waits until all that was pushed is delivered. A device that is lost gives its pairs to the
   /// others, and is opened anew. Throws DeviceError when none was left.
   void finish();
+  /// Throws DeviceError when no device is left, as finish() does: pairs that were pushed may have
+  /// been dropped. Any thread, without waiting.
+  void check() const;
   /// Pairs that wait are dropped; those that run end with a true interval, as Status::kCancelled,
   /// and are delivered.
   void cancel();

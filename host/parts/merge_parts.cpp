@@ -344,7 +344,7 @@ std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files) {
       const std::string place = "line " + std::to_string(++number);
       Json json = Json::parse(line, nullptr, false);
       if (parts.empty() && !is_part(json)) return {};
-      if (json.is_discarded()) reject(path, place, quoted(line), "a JSON object a line");
+      if (json.is_discarded()) reject(path, place, vkh::quoted(line), "a JSON object a line");
       parts.push_back({path, place, std::move(json)});
     }
     if (file.bad()) throw InputError(path + ": cannot be read");

@@ -20,6 +20,9 @@ struct Answer {
   SurfacePoint witness_a, witness_b;
   pybind11::dict stats;
   pybind11::object survey = pybind11::none(), survey_back = pybind11::none();  ///< of A, of B
+  std::optional<size_t> index = {};           ///< of a pair of distances()
+  pybind11::object id = pybind11::none();     ///< likewise, where the pair has one
+  pybind11::object error = pybind11::none();  ///< instead of an answer: the exception
 
   bool closed() const { return status == Status::kClosed; }
   /// "pass", "fail", "undecided"; null without a limit.

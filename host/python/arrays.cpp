@@ -125,14 +125,21 @@ std::vector<glm::uvec3> faces_from(const std::string& name, const py::object& ob
 
 }  // namespace
 
-Mesh mesh_from(const std::string& name, const py::object& vertices, const py::object& faces) {
+RawMesh raw_mesh_from(const std::string& name, const py::object& vertices,
+                      const py::object& faces) {
   const FloatEnvironment ours;  // float32 to float64, too, may flush
   std::vector<glm::dvec3> points = vertices_from(name, vertices);
   if (points.size() >= std::numeric_limits<uint32_t>::max())
     refuse(name + "'s vertices", std::to_string(points.size()) + " of them", "fewer than 2^32 - 1");
   std::vector<glm::uvec3> corners = faces_from(name, faces, points.size());
+  return {name, std::move(points), std::move(corners)};
+}
+
+Mesh mesh_from(const std::string& name, const py::object& vertices, const py::object& faces) {
+  const FloatEnvironment ours;
+  RawMesh raw = raw_mesh_from(name, vertices, faces);
   const WithoutGil outside;  // cleaning a large mesh takes a while
-  return make_mesh(name, std::move(points), std::move(corners));
+  return make_mesh(name, std::move(raw.vertices), std::move(raw.faces));
 }
 
 }  // namespace vkh::python

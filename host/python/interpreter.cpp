@@ -96,7 +96,7 @@ void watch_interpreter() {
   py::register_exception_translator(translate);
 }
 
-void end_interpreter(const std::function<void()>& free) {
+void end_interpreter(const std::function<void()>& end, const std::function<void()>& free) {
   if (g_forked) {
     on_exit(leave_at_once, nullptr);  // the last one registered is the first one called
     return;
@@ -116,6 +116,8 @@ void end_interpreter(const std::function<void()>& free) {
       s.changed.wait_for(lock, kStep);
     s.is_over = true;
     all_came = s.inside == 0;
+    lock.unlock();
+    end();
   }
   std::signal(SIGINT, interrupt);
   if (all_came) free();

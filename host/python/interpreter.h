@@ -16,9 +16,10 @@ struct Raised {};
 /// Called once, when the module is made.
 void watch_interpreter();
 /// Called when the interpreter begins to end, with the GIL: ends all runs, waits for their threads,
-/// and then calls `free` if they all came. A thread that stays in a callback of Python's is left
-/// there; it never comes back to us.
-void end_interpreter(const std::function<void()>& free);
+/// calls `end`, which ends threads that are not Python's, without the GIL, and then `free`, with
+/// it, if all came. A thread that stays in a callback of Python's is left there; it never comes
+/// back to us.
+void end_interpreter(const std::function<void()>& end, const std::function<void()>& free);
 bool is_ending();
 
 /// A device does not survive a fork: from `mark_used` on, forked processes are told apart.

@@ -4,7 +4,9 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/base/error.h"
+#include "host/python/flow.h"
 #include "host/python/interpreter.h"
+#include "host/python/many.h"
 #include "host/python/solver.h"
 
 namespace vkh::python {
@@ -19,7 +21,8 @@ void define_distance(py::module_& m) {
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
       "         statistics=False, bands=(), survey_time=10.0)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
-      "max(h(A,B), h(B,A)), in a certified interval.\n\n"
+      "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
+      "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
       "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: a\n"
       "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
       "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as '0' or\n"
@@ -39,7 +42,7 @@ void define_distance(py::module_& m) {
 
 void define_gate(py::module_& m) {
   m.def("gate", gate,
-        "gate(va, fa, vb, fb, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
+        "gate(a, b, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
         "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
         "     field=False, statistics=False, bands=(), area=None, survey_time=10.0)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
@@ -48,7 +51,8 @@ void define_gate(py::module_& m) {
 void define_solver(py::module_& m) {
   py::class_<PythonSolver>(m, "Solver",
                            "Mesh B on the device, its hierarchy built once, for many A's:\n"
-                           "with Solver(vb, fb) as s: r = s.distance(va, fa)")
+                           "with Solver(vb, fb) as s: r = s.distance(va, fa)\n"
+                           "Solver(b) and s.distance(a) take meshes, as vkhausdorff.distance.")
       .def(py::init<const py::args&, const py::kwargs&>(),
            "__init__(self, vb, fb, device='')\n--\n\n")
       .def(
@@ -94,6 +98,8 @@ PYBIND11_MODULE(_core, m) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const vkh::UsageError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const FileFault& fault) {
+      raise(fault);
     }
   });
   py::options quiet;
@@ -103,8 +109,10 @@ PYBIND11_MODULE(_core, m) {
   define_distance(m);
   define_gate(m);
   define_solver(m);
+  define_mesh(m);
+  define_many(m);
   m.attr("__name__") = own_name;
   watch_interpreter();
   py::module_::import("atexit").attr("register")(
-      py::cpp_function([] { end_interpreter(free_devices); }));
+      py::cpp_function([] { end_interpreter(Flow::end_all, free_devices); }));
 }

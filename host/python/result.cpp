@@ -1,5 +1,6 @@
 // The class Result of the package.
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
@@ -13,6 +14,9 @@ namespace py = pybind11;
 using py::literals::operator""_a;
 
 std::string text_of(const Answer& r) {
+  if (!r.error.is_none())
+    return std::string("<vkhausdorff.Result without an answer: ") +
+           Py_TYPE(r.error.ptr())->tp_name + ": " + py::cast<std::string>(py::str(r.error)) + ">";
   const FloatEnvironment ours;
   std::string text = "<vkhausdorff.Result [";
   text += decimal(r.lower, 9, Rounding::kDown) + ", ";
@@ -61,6 +65,9 @@ Answer read_state(const py::tuple& state) {
   r.survey = state[6];
   r.survey_back = state[7];
   r.stats = py::cast<py::dict>(state[8]);
+  if (!state[9].is_none()) r.index = py::cast<size_t>(state[9]);
+  r.id = state[10];
+  r.error = state[11];
   return r;
 }
 
@@ -75,9 +82,23 @@ Answer from_state(const py::tuple& state) {
   }
 }
 
+// Whether there is an answer or not.
+template <class Get>
+auto of_any(Get get) {
+  return [get](const py::object& self) { return get(made<Answer>(self, "Result")); };
+}
+
+/// Raises the exception that is there instead of an answer.
+const Answer& answered(const py::object& self) {
+  const auto& r = made<Answer>(self, "Result");
+  if (r.error.is_none()) return r;
+  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(r.error.ptr())), r.error.ptr());
+  throw py::error_already_set();
+}
+
 template <class Get>
 auto of_result(Get get) {
-  return [get](const py::object& self) { return get(made<Answer>(self, "Result")); };
+  return [get](const py::object& self) { return get(answered(self)); };
 }
 
 // Of A's survey; None without one.
@@ -89,7 +110,7 @@ auto of_survey(const char* name) {
 
 py::object area_within(const py::object& self, const py::object& distance) {
   const Call call;
-  const Answer& r = made<Answer>(self, "Result");
+  const Answer& r = answered(self);
   if (r.survey.is_none())
     throw py::value_error("area_within(): ask for it with statistics=True or bands=(...)");
   return r.survey.attr("area_within")(distance);
@@ -109,9 +130,20 @@ py::tuple proven(const Answer& r) {
                         state_of(r.witness_a), state_of(r.witness_b), r.survey, r.survey_back);
 }
 
-py::dict dict_of(const py::object& self) {
+// Exceptions are equal to themselves alone: of two, what they say is compared.
+bool same_errors(const py::object& x, const py::object& y) {
+  if (x.is_none() || y.is_none()) return x.is(y);
+  return py::type::of(x).is(py::type::of(y)) && py::str(x).equal(py::str(y));
+}
+
+py::object equal(const py::object& self, const py::object& other) {
+  if (!py::isinstance<Answer>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
   const Call call;
-  const Answer& r = made<Answer>(self, "Result");
+  const auto &x = made<Answer>(self, "Result"), &y = made<Answer>(other, "Result");
+  return py::bool_(proven(x).equal(proven(y)) && same_errors(x.error, y.error));
+}
+
+py::dict dict_of_answer(const Answer& r) {
   const auto plain = [](const py::object& survey) {
     return survey.is_none() ? py::object(survey) : py::object(survey.attr("to_dict")());
   };
@@ -121,6 +153,20 @@ py::dict dict_of(const py::object& self) {
                   "face_a"_a = r.witness_a.face, "face_b"_a = r.witness_b.face,
                   "survey"_a = plain(r.survey), "survey_back"_a = plain(r.survey_back),
                   "stats"_a = r.stats);
+}
+
+py::dict dict_of(const py::object& self) {
+  const Call call;
+  const Answer& r = made<Answer>(self, "Result");
+  py::dict values;
+  if (r.index) values = py::dict("index"_a = *r.index, "id"_a = r.id);
+  if (!r.error.is_none()) {
+    values["error"] =
+        py::dict("type"_a = Py_TYPE(r.error.ptr())->tp_name, "message"_a = py::str(r.error));
+    return values;
+  }
+  values.attr("update")(dict_of_answer(r));
+  return values;
 }
 
 void define_surveys(py::class_<Answer>& result) {
@@ -166,23 +212,29 @@ void define_values(py::class_<Answer>& result) {
       .def("to_dict", dict_of,
            "to_dict(self)\n--\n\n"
            "All of it as plain values, which json.dumps takes.")
-      .def("__repr__", of_result(text_of))
-      .def("__eq__",
-           [](const py::object& self, const py::object& other) -> py::object {
-             if (!py::isinstance<Answer>(other))
-               return py::reinterpret_borrow<py::object>(Py_NotImplemented);
-             const Call call;
-             return py::bool_(
-                 proven(made<Answer>(self, "Result")).equal(proven(made<Answer>(other, "Result"))));
-           })
+      .def("__repr__", of_any(text_of))
+      .def("__eq__", equal)
       .def("__hash__",
-           of_result([](const Answer& r) { return py::hash(py::make_tuple(r.lower, r.upper)); }))
+           of_any([](const Answer& r) { return py::hash(py::make_tuple(r.lower, r.upper)); }))
       .def(py::pickle(
           [](const py::object& self) {
             const Answer& r = made<Answer>(self, "Result");
-            return py::tuple(proven(r) + py::make_tuple(r.stats));
+            return py::tuple(proven(r) + py::make_tuple(r.stats, r.index, r.id, r.error));
           },
           [](const py::tuple& state) { return from_state(state); }));
+}
+
+// What distances() says of a pair besides.
+void define_place(py::class_<Answer>& result) {
+  result
+      .def_property_readonly("index", of_any([](const Answer& r) { return r.index; }),
+                             "of distances(): the pair's place in the iterable, from 0; else None")
+      .def_property_readonly("id", of_any([](const Answer& r) { return r.id; }),
+                             "of distances(): what the pair was called, as it was given; else None")
+      .def_property_readonly(
+          "error", of_any([](const Answer& r) { return r.error; }),
+          "of distances(): the exception that the pair ended with, else None. Where it is one,\n"
+          "whatever else is asked of the result raises it");
 }
 
 }  // namespace
@@ -216,6 +268,7 @@ void define_result(py::module_& m) {
                              "row of fb with its partner")
       .def_property_readonly("stats", of_result([](const Answer& r) { return r.stats; }),
                              "what the run was asked, did and cost");
+  define_place(result);
   define_surveys(result);
   define_values(result);
 }

@@ -1,16 +1,15 @@
 #include "host/python/solver.h"
 
-#include <cmath>
-#include <limits>
+#include <pybind11/numpy.h>
+
 #include <map>
 
-#include "host/answer/options.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/python/arrays.h"
 #include "host/python/interpreter.h"
+#include "host/python/mesh.h"
+#include "host/python/options.h"
 #include "host/python/survey.h"
-#include "host/run/frame.h"
 
 namespace vkh::python {
 namespace {
@@ -19,34 +18,6 @@ namespace py = pybind11;
 
 constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as '0' or part of a name";
 
-// The program's rules, in the words of Python: tol, not --tol.
-template <class Parse>
-auto parsed(Parse parse, const std::string& text) {
-  try {
-    return parse(text);
-  } catch (const UsageError& error) {
-    const std::string message = error.what();
-    throw UsageError(message.starts_with("--") ? message.substr(2) : message);
-  }
-}
-
-void read_tolerance(const Arguments& given, SolveOptions& options) {
-  constexpr const char* kExpected =
-      "a positive number, a fraction of A's diagonal, or a string such as '0.1%' or '0.01abs'";
-  const py::object* tol = given.find("tol");
-  if (tol == nullptr) return;
-  if (py::isinstance<py::str>(*tol)) {
-    const Length length = length_from("tol", kExpected, *tol, PlainNumber::kFraction);
-    options.tolerance = length.number;
-    options.tolerance_is_absolute = length.of == Length::Of::kFiles;
-    return;
-  }
-  const std::optional<double> value = given.number("tol", kExpected);
-  if (!value) refuse_type("tol", kExpected, *tol);
-  if (!(*value > 0) || std::isinf(*value)) refuse_value("tol", kExpected, *tol);
-  options.tolerance = *value;
-}
-
 /// The limit of gate(): one for all, or of each face.
 struct Asked {
   Limit limit;
@@ -54,69 +25,28 @@ struct Asked {
 };
 
 /// In A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for A's faces.
-Asked read_max(const Arguments& given, const Mesh& a) {
+Asked read_asked(const Arguments& given, const Mesh& a) {
   constexpr const char* kExpected =
       "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or a "
       "number for each face of A";
   const FloatEnvironment ours;
   const py::object& max = given.at("max");
-  if (py::isinstance<py::str>(max)) {
-    const Length length = length_from("max", kExpected, max, PlainNumber::kRefused);
-    return {in_files(length, "max", "", diagonal(bounding_box(a))), std::nullopt};
-  }
+  if (py::isinstance<py::str>(max)) return {limit_for(read_max(given, kExpected), a), std::nullopt};
   const auto array = py::array::ensure(max);
-  if (array && array.ndim() == 1) {
-    const auto numbers =
-        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max);
-    if (!numbers) PyErr_Clear();
-    if (!numbers) refuse_type("max", kExpected, max);
-    std::vector<Limit> of_faces;
-    for (py::ssize_t i = 0; i < numbers.shape(0); ++i)
-      of_faces.push_back({numbers.at(i), numbers.at(i)});
-    return {{}, std::move(of_faces)};
-  }
-  const std::optional<double> value = given.number("max", kExpected);
-  if (!value) refuse_type("max", kExpected, max);
-  if (!(*value > 0) || std::isinf(*value)) refuse_value("max", kExpected, max);
-  return {{*value, *value}, std::nullopt};
+  if (!array || array.ndim() != 1) return {limit_for(read_max(given, kExpected), a), std::nullopt};
+  const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max);
+  if (!numbers) PyErr_Clear();
+  if (!numbers) refuse_type("max", kExpected, max);
+  std::vector<Limit> of_faces;
+  for (py::ssize_t i = 0; i < numbers.shape(0); ++i)
+    of_faces.push_back({numbers.at(i), numbers.at(i)});
+  return {{}, std::move(of_faces)};
 }
 
-void read_memory(const Arguments& given, SolveOptions& options) {
-  constexpr const char* kExpected = "a number of bytes above 0, a string such as '2GiB', or None";
-  const py::object* memory = given.find("memory");
-  if (memory != nullptr && py::isinstance<py::str>(*memory)) {
-    options.memory_bytes = parsed(parse_memory, given.text("memory", kExpected));
-  } else if (const std::optional<uint64_t> bytes = given.whole("memory", kExpected)) {
-    if (*bytes == 0) refuse_value("memory", kExpected, *memory);
-    options.memory_bytes = *bytes;
-  }
-}
-
-void read_limits(const Arguments& given, SolveOptions& options) {
-  constexpr const char* kTime = "a number of seconds, 0 or more, or None";
-  constexpr const char* kWaves = "a whole number from 0 to 4294967295, or None";
-  if (const std::optional<double> time = given.number("time", kTime)) {
-    if (*time < 0) refuse_value("time", kTime, given.at("time"));
-    options.time_limit_s = *time;
-  }
-  if (const std::optional<uint64_t> waves = given.whole("waves", kWaves)) {
-    if (*waves > std::numeric_limits<uint32_t>::max())
-      refuse_value("waves", kWaves, given.at("waves"));
-    options.wave_limit = static_cast<uint32_t>(*waves);
-  }
-}
-
-/// What a run may cost and how narrow it has to be; the keywords of both functions.
-SolveOptions options_of(const Arguments& given) {
+/// What both functions and a Solver's run are asked with.
+SolveOptions heard_options(const Arguments& given) {
   static const py::object* none = new py::none();
-  const FloatEnvironment ours;
-  SolveOptions options;
-  read_tolerance(given, options);
-  read_limits(given, options);
-  read_memory(given, options);
-  options.preset = given.text("preset", "'default', 'paper' or 'baseline-gpu'");
-  options.enabled = given.texts("enable");
-  options.disabled = given.texts("disable");
+  SolveOptions options = options_of(given);
   const py::object* progress = given.find("progress");
   if (progress != nullptr && !progress->is_none() && PyCallable_Check(progress->ptr()) == 0)
     refuse_type("progress", "a function of wave, lower and upper, or None", *progress);
@@ -150,31 +80,33 @@ struct Given {
   SolveOptions options;
   bool is_symmetric;
   std::string device;
-  Mesh a, b;
+  MeshPointer a, b;
   SurveyAsked survey;
 
-  explicit Given(const Arguments& given)
-      : options(options_of(given)),
+  Given(const Arguments& given, MeshPointer mesh_a, MeshPointer mesh_b)
+      : options(heard_options(given)),
         is_symmetric(given.flag("symmetric")),
         device(given.text("device", kDevice)),
-        a(mesh_from("A", given.at("va"), given.at("fa"))),
-        b(mesh_from("B", given.at("vb"), given.at("fb"))),
-        survey(read_survey(given, a)) {}
+        a(std::move(mesh_a)),
+        b(std::move(mesh_b)),
+        survey(read_survey(given, *a)) {
+    if (a == b) b = std::make_shared<const Mesh>(*a);  // SurveyRun tells them apart by their place
+  }
 };
 
 Answer solve(const Given& given) {
   SymmetricReport both;  // its way there, where that is all that is asked
   Surveys surveys;
   session_for(given.device).use([&](Solver& s) {
-    SurveyRun run(given.survey, given.options, given.a, surveys);
+    SurveyRun run(given.survey, given.options, *given.a, surveys);
     if (given.is_symmetric) {
-      both = s.symmetric(given.a, given.b, run.options());
+      both = s.symmetric(*given.a, *given.b, run.options());
     } else {
-      both.a_to_b = s.distance(given.a, given.b, run.options());
+      both.a_to_b = s.distance(*given.a, *given.b, run.options());
     }
-    run.beside([&](const SolveOptions& options) { s.distance(given.a, given.b, options); });
+    run.beside([&](const SolveOptions& options) { s.distance(*given.a, *given.b, options); });
     if (given.is_symmetric)
-      run.beside([&](const SolveOptions& options) { s.distance(given.b, given.a, options); });
+      run.beside([&](const SolveOptions& options) { s.distance(*given.b, *given.a, options); });
   });
   if (given.survey.is_any) narrow(given.survey, both.a_to_b, surveys.a);
   if (given.survey.is_any && given.is_symmetric) narrow(given.survey, both.b_to_a, surveys.b);
@@ -192,9 +124,9 @@ Answer solve_by_face(const Given& given, const std::vector<Limit>& limits) {
   FaceGate found;
   Surveys surveys;
   session_for(given.device).use([&](Solver& s) {
-    SurveyRun run(given.survey, given.options, given.a, surveys, true);
-    found = gate_faces(s, given.a, given.b, limits, run.options());
-    run.beside([&](const SolveOptions& options) { s.distance(given.a, given.b, options); });
+    SurveyRun run(given.survey, given.options, *given.a, surveys, true);
+    found = gate_faces(s, *given.a, *given.b, limits, run.options());
+    run.beside([&](const SolveOptions& options) { s.distance(*given.a, *given.b, options); });
   });
   if (given.survey.is_any) narrow(given.survey, found.report, surveys.a);
   Answer answer = answered(found);
@@ -212,23 +144,25 @@ Answer distance(const py::args& positional, const py::kwargs& named) {
       4,
       6};
   const Call call;
-  const Arguments arguments(*signature, positional, named);
-  return solve(Given(arguments));
+  const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
+  const Arguments given(*signature, all, named);
+  return solve(Given(given, mesh_of("A", given.at("va"), given.at("fa")),
+                     mesh_of("B", given.at("vb"), given.at("fb"))));
 }
 
 Answer gate(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "gate",
-      {"va",     "fa",    "vb",         "fb",     "max",     "tol",        "symmetric",
-       "device", "time",  "waves",      "memory", "disable", "progress",   "enable",
-       "preset", "field", "statistics", "bands",  "area",    "survey_time"},
-      5,
-      5};
+      {"a", "b", "max", "tol", "symmetric", "device", "time", "waves", "memory", "disable",
+       "progress", "enable", "preset", "field", "statistics", "bands", "area", "survey_time"},
+      3,
+      3};
   constexpr double kTolerance = 1e-7;
   const Call call;
   const Arguments arguments(*signature, positional, named);
-  Given given(arguments);
-  const Asked asked = read_max(arguments, given.a);
+  Given given(arguments, mesh_of("a", "A", arguments.at("a")),
+              mesh_of("b", "B", arguments.at("b")));
+  const Asked asked = read_asked(arguments, *given.a);
   if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
   read_area(arguments, asked.limit, given.survey);
   if (asked.of_faces) return solve_by_face(given, *asked.of_faces);
@@ -242,11 +176,12 @@ void free_devices() { Session::free_all(); }
 PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{"Solver", {"vb", "fb", "device"}, 2, 3};
   const Call call;
-  const Arguments given(*signature, positional, named);
+  const py::args all = spread(positional, named, {"vb", "fb"});
+  const Arguments given(*signature, all, named);
   const std::string device = given.text("device", kDevice);
-  Mesh b = mesh_from("B", given.at("vb"), given.at("fb"));
+  const MeshPointer b = mesh_of("B", given.at("vb"), given.at("fb"));
   session_ = std::make_shared<Session>(device);
-  session_->prepare(std::move(b));
+  session_->prepare(*b);
 }
 
 Answer PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
@@ -259,9 +194,11 @@ Answer PythonSolver::distance(const py::args& positional, const py::kwargs& name
   const Call call;
   const std::shared_ptr<Session> session = session_;
   if (session == nullptr) throw py::value_error("this Solver is closed");
-  const Arguments given(*signature, positional, named);
-  const SolveOptions options = options_of(given);
-  const Mesh a = mesh_from("A", given.at("va"), given.at("fa"));
+  const py::args all = spread(positional, named, {"va", "fa"});
+  const Arguments given(*signature, all, named);
+  const SolveOptions options = heard_options(given);
+  const MeshPointer mesh = mesh_of("A", given.at("va"), given.at("fa"));
+  const Mesh& a = *mesh;
   const SurveyAsked asked = read_survey(given, a);
   Report report;
   Surveys surveys;

@@ -1,40 +1,29 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
 from vkhausdorff import _core
-from vkhausdorff._core import DeviceError, Result, Solver, __version__, distance
+from vkhausdorff._core import DeviceError, Mesh, Result, Solver, __version__, distance, read
+from vkhausdorff._many import distances
 from vkhausdorff._survey import Field, Interval, Survey
 
-__all__ = ["DeviceError", "Field", "Interval", "Result", "Solver", "Survey", "__version__", "assert_within", "distance",
-           "gate"]
-
-
-def _arrays(mesh, name):
-    """(vertices, faces) of a pair of arrays, or of what has them as attributes."""
-    if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
-        return tuple(mesh)
-    vertices = getattr(mesh, "vertices", None)
-    faces = getattr(mesh, "faces", getattr(mesh, "triangles", None))
-    if vertices is None or faces is None:
-        raise TypeError(f"{name}: expected (vertices, faces), or an object that has .vertices and .faces, "
-                        f"not {type(mesh).__name__}")
-    return vertices, faces
+__all__ = ["DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "__version__", "assert_within",
+           "distance", "distances", "gate", "read"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
          progress=None, enable=(), preset="", field=False, statistics=False, bands=(), area=None, survey_time=10.0):
     """Whether every point of A is within max of B, proven either way: see the result's verdict.
 
-    a, b: (vertices, faces), as distance() takes them, or objects with .vertices and .faces (or .triangles). max: a
-    positive number in the coordinates' own unit, a string such as '0.1%' of A's diagonal, or a number for each face of A.
-    symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail' (lower > max; the witness shows where) or
-    'undecided': h is within tol, a fraction of A's diagonal, of max, or time, waves or memory ended. The run ends as soon
-    as either is proven. area: the share of A's area that is to be within max, such as 0.995 or '99.5%', instead of all of
-    it; in a symmetric run of B's, too. With field, each face is to be proven within max or beyond, too. The rest is as in
-    distance().
+    a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
+    returns, or paths of files. max: a positive number in the coordinates' own unit, a string such as '0.1%' of A's
+    diagonal, or a number for each face of A. symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail'
+    (lower > max; the witness shows where) or 'undecided': h is within tol, a fraction of A's diagonal, of max, or time,
+    waves or memory ended. The run ends as soon as either is proven. area: the share of A's area that is to be within max,
+    such as 0.995 or '99.5%', instead of all of it; in a symmetric run of B's, too. With field, each face is to be proven
+    within max or beyond, too. The rest is as in distance().
     """
-    return _core.gate(*_arrays(a, "a"), *_arrays(b, "b"), max, tol=tol, symmetric=symmetric, device=device, time=time,
-                      waves=waves, memory=memory, disable=disable, progress=progress, enable=enable, preset=preset, field=field,
-                      statistics=statistics, bands=bands, area=area, survey_time=survey_time)
+    return _core.gate(a, b, max, tol=tol, symmetric=symmetric, device=device, time=time, waves=waves, memory=memory,
+                      disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
+                      bands=bands, area=area, survey_time=survey_time)
 
 
 def _say_area(r, max):

@@ -1,14 +1,16 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from os import PathLike
 from types import TracebackType
-from typing import Any, Literal, NamedTuple, Protocol, SupportsFloat, SupportsIndex, Union
+from typing import Any, Literal, NamedTuple, Protocol, SupportsFloat, SupportsIndex, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "DeviceError", "Field", "Interval", "Result", "Solver", "Survey", "__version__", "assert_within", "distance", "gate",
+    "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "__version__", "assert_within", "distance",
+    "distances", "gate", "read",
 ]
 __version__: str
 
@@ -33,7 +35,7 @@ class _WithTriangles(Protocol):
     @property
     def triangles(self) -> Any: ...
 
-_Mesh = Union[tuple[npt.ArrayLike, npt.ArrayLike], _WithFaces, _WithTriangles]
+_Mesh = Union[tuple[npt.ArrayLike, npt.ArrayLike], _WithFaces, _WithTriangles, "Mesh", str, PathLike[str]]
 
 class DeviceError(RuntimeError): ...
 
@@ -67,6 +69,24 @@ class Survey:
     stats: dict[str, Any]
     def area_within(self, distance: _Number | str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
+
+class Mesh:
+    """A mesh file as it was read."""
+
+    @property
+    def vertices(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def path(self) -> str: ...
+    @property
+    def unit(self) -> str | None: ...
+    @property
+    def delta(self) -> float: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    @property
+    def notes(self) -> list[str]: ...
 
 class Result:
     """A certified interval and what proves its lower end."""
@@ -108,12 +128,41 @@ class Result:
     def survey(self) -> Survey | None: ...
     @property
     def survey_back(self) -> Survey | None: ...
+    @property
+    def index(self) -> int | None: ...
+    @property
+    def id(self) -> Any: ...
+    @property
+    def error(self) -> Exception | None: ...
     def to_dict(self) -> dict[str, Any]: ...
 
 class Solver:
     """Mesh B on the device, its hierarchy built once, for many A's."""
 
+    @overload
+    def __init__(self, b: _Mesh, /, *, device: str = "") -> None: ...
+    @overload
     def __init__(self, vb: npt.ArrayLike, fb: npt.ArrayLike, device: str = "") -> None: ...
+    @overload
+    def distance(
+        self,
+        a: _Mesh,
+        /,
+        *,
+        tol: _Number | str = 1e-6,
+        time: _Number | None = None,
+        waves: SupportsIndex | None = None,
+        memory: SupportsIndex | str | None = None,
+        disable: _Names = (),
+        progress: _Progress | None = None,
+        enable: _Names = (),
+        preset: _Preset = "",
+        field: bool | _Number | str = False,
+        statistics: bool = False,
+        bands: _Bands = (),
+        survey_time: _Number | None = 10.0,
+    ) -> Result: ...
+    @overload
     def distance(
         self,
         va: npt.ArrayLike,
@@ -139,6 +188,28 @@ class Solver:
         *error: type[BaseException] | BaseException | TracebackType | None,
     ) -> None: ...
 
+@overload
+def distance(
+    a: _Mesh,
+    b: _Mesh,
+    /,
+    *,
+    tol: _Number | str = 1e-6,
+    symmetric: bool = False,
+    device: str = "",
+    time: _Number | None = None,
+    waves: SupportsIndex | None = None,
+    memory: SupportsIndex | str | None = None,
+    disable: _Names = (),
+    progress: _Progress | None = None,
+    enable: _Names = (),
+    preset: _Preset = "",
+    field: bool | _Number | str = False,
+    statistics: bool = False,
+    bands: _Bands = (),
+    survey_time: _Number | None = 10.0,
+) -> Result: ...
+@overload
 def distance(
     va: npt.ArrayLike,
     fa: npt.ArrayLike,
@@ -160,6 +231,33 @@ def distance(
     bands: _Bands = (),
     survey_time: _Number | None = 10.0,
 ) -> Result: ...
+class _Results(Iterator[Result]):
+    def __next__(self) -> Result: ...
+    def close(self) -> None: ...
+    def __enter__(self) -> _Results: ...
+    def __exit__(
+        self,
+        *error: type[BaseException] | BaseException | TracebackType | None,
+    ) -> None: ...
+
+def distances(
+    pairs: Iterable[tuple[_Mesh, _Mesh] | tuple[Any, _Mesh, _Mesh] | _Mesh | tuple[str | int, _Mesh]],
+    *,
+    against: _Mesh | None = None,
+    tol: _Number | str | None = None,
+    symmetric: bool = False,
+    max: _Number | str | None = None,
+    device: str = "",
+    time: _Number | None = None,
+    waves: SupportsIndex | None = None,
+    memory: SupportsIndex | str | None = None,
+    disable: _Names = (),
+    enable: _Names = (),
+    preset: _Preset = "",
+    together: SupportsIndex | None = None,
+    lanes: SupportsIndex | None = None,
+    ahead: SupportsIndex | None = None,
+) -> _Results: ...
 def gate(
     a: _Mesh,
     b: _Mesh,
@@ -182,3 +280,4 @@ def gate(
     survey_time: _Number | None = 10.0,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
+def read(path: str | PathLike[str]) -> Mesh: ...

@@ -1,0 +1,184 @@
+#include "host/python/many.h"
+
+#include "host/base/error.h"
+#include "host/python/arguments.h"
+#include "host/python/flow.h"
+#include "host/python/interpreter.h"
+#include "host/python/session.h"
+
+namespace vkh::python {
+namespace {
+
+namespace py = pybind11;
+
+// By way of a call, which all translators of exceptions stand behind.
+py::object exception_of(const std::exception_ptr& error) {
+  try {
+    py::cpp_function([&] { std::rethrow_exception(error); })();
+  } catch (const py::error_already_set& raised) {
+    return raised.value();
+  }
+  return py::none();
+}
+
+Answer answer_of(StreamResult&& result, bool is_symmetric) {
+  Answer answer;
+  if (result.error) {
+    answer.error = exception_of(result.error);
+  } else if (is_symmetric && result.b_to_a) {
+    answer =
+        python::answer_of(SymmetricReport{std::move(result.a_to_b), std::move(*result.b_to_a)});
+  } else {
+    answer = python::answer_of(result.a_to_b);
+  }
+  answer.index = result.number;
+  return answer;
+}
+
+size_t count_of(const Arguments& given, const char* name) {
+  constexpr const char* kExpected = "a whole number from 1 to 65536, or None";
+  constexpr uint64_t kMost = 65536;
+  const std::optional<uint64_t> count = given.whole(name, kExpected);
+  if (!count) return 0;
+  if (*count == 0 || *count > kMost) refuse_value(name, kExpected, given.at(name));
+  return static_cast<size_t>(*count);
+}
+
+StreamOptions devices_of(const Arguments& given) {
+  constexpr const char* kDevice =
+      "'', 'gpu', 'cpu', an index such as '0', part of a name, several of these between commas, or "
+      "'all'";
+  StreamOptions devices;
+  const std::string text = given.text("device", kDevice);
+  devices.together = count_of(given, "together");
+  devices.lanes = count_of(given, "lanes");
+  const WithoutGil outside;
+  try {
+    devices.devices = selectors_of(text);
+  } catch (const UsageError&) {
+    throw UsageError("device: expected names between commas, or 'all', not '" + text + "'");
+  }
+  return devices;
+}
+
+bool is_given(const Arguments& given, const char* name) {
+  const py::object* value = given.find(name);
+  return value != nullptr && !value->is_none();
+}
+
+FlowAsked asked_from(const Arguments& given) {
+  constexpr const char* kMax =
+      "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or None";
+  constexpr double kGateTolerance = 1e-7;
+  FlowAsked asked;
+  asked.options = options_of(given);
+  if (is_given(given, "max")) asked.max = read_max(given, kMax);
+  if (asked.max && !is_given(given, "tol")) asked.options.tolerance = kGateTolerance;
+  asked.symmetric = given.flag("symmetric");
+  asked.ahead = count_of(given, "ahead");
+  asked.devices = devices_of(given);
+  if (is_given(given, "against")) asked.against = mesh_of("against", "B", given.at("against"));
+  return asked;
+}
+
+py::object failed(size_t index, const py::object& id, const py::object& error) {
+  Answer answer;
+  answer.index = index;
+  answer.id = id;
+  answer.error = error;
+  return py::cast(std::move(answer));
+}
+
+}  // namespace
+
+PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature =
+      new Signature{"distances",
+                    {"against", "tol", "symmetric", "max", "device", "time", "waves", "memory",
+                     "disable", "enable", "preset", "together", "lanes", "ahead"},
+                    0,
+                    0};
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  mark_used();
+  FlowAsked asked = asked_from(given);
+  is_symmetric_ = asked.symmetric;
+  const WithoutGil outside;
+  flow_ = std::make_shared<Flow>(std::move(asked));
+}
+
+bool PythonStream::has_room() const {
+  const Call call;
+  return flow_ != nullptr && flow_->has_room();
+}
+
+void PythonStream::put(size_t index, const py::object& id, const py::object& a,
+                       const py::object& b) {
+  const Call call;
+  const std::shared_ptr<Flow> flow = flow_;
+  if (flow == nullptr) return;
+  FlowPair pair{.number = index, .a = mesh_given("a", "A", a), .b = {}};
+  if (!b.is_none()) pair.b = mesh_given("b", "B", b);
+  if (!id.is_none()) ids_[index] = id;
+  std::optional<WithoutGil> outside;
+  if (!pair.a.file.empty() || !pair.b.file.empty()) outside.emplace();  // disks may be slow
+  flow->put(std::move(pair));
+}
+
+py::object PythonStream::take(bool waits) {
+  const Call call;
+  const std::shared_ptr<Flow> flow = flow_;
+  if (flow == nullptr) return py::none();
+  std::optional<StreamResult> result = flow->take();
+  if (!result && waits) {
+    try {
+      const WithoutGil outside;
+      result = flow->wait();
+    } catch (const Raised&) {
+      throw py::error_already_set();
+    }
+  }
+  if (!result) return py::none();
+  Answer answer = answer_of(std::move(*result), is_symmetric_);
+  const auto id = ids_.extract(*answer.index);
+  if (id) answer.id = id.mapped();
+  return py::cast(std::move(answer));
+}
+
+// After a fork the parent's threads and devices are not there, and nothing of them may be touched.
+void PythonStream::close() {
+  std::shared_ptr<Flow> flow = std::move(flow_);
+  flow_ = nullptr;
+  ids_.clear();
+  if (flow == nullptr) return;
+  if (is_forked()) {
+    static_cast<void>(new std::shared_ptr<Flow>(std::move(flow)));
+    return;
+  }
+  try {
+    const Call call;
+    const WithoutGil outside;
+    flow->end();
+    flow.reset();
+  } catch (const Ended&) {  // end_all() has been there, or will be
+  }
+}
+
+PythonStream::~PythonStream() { close(); }
+
+void define_many(py::module_& m) {
+  constexpr const char* kName = "_Stream";
+  py::class_<PythonStream>(m, kName, "What stands behind distances().")
+      .def(py::init<const py::args&, const py::kwargs&>())
+      .def("has_room",
+           [](const py::object& self) { return made<PythonStream>(self, kName).has_room(); })
+      .def("put",
+           [](const py::object& self, size_t index, const py::object& id, const py::object& a,
+              const py::object& b) { made<PythonStream>(self, kName).put(index, id, a, b); })
+      .def("take", [](const py::object& self,
+                      bool waits) { return made<PythonStream>(self, kName).take(waits); })
+      .def("close", [](const py::object& self) { made<PythonStream>(self, kName).close(); });
+  m.def("_failed", failed);
+}
+
+}  // namespace vkh::python

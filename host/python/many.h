@@ -1,0 +1,41 @@
+// What stands behind distances(): the package's generator puts pairs in and takes results out.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <map>
+#include <memory>
+
+#include "host/python/answer.h"
+
+namespace vkh::python {
+
+class Flow;
+
+/// Used by one thread of Python at a time, as the generator that has it sees to.
+class PythonStream {
+ public:
+  PythonStream(const pybind11::args& positional, const pybind11::kwargs& named);
+  ~PythonStream();
+  PythonStream(const PythonStream&) = delete;
+  PythonStream& operator=(const PythonStream&) = delete;
+
+  bool has_room() const;
+  /// Without waiting. Throws what is wrong with the arrays; `b`: None with against=.
+  void put(size_t index, const pybind11::object& id, const pybind11::object& a,
+           const pybind11::object& b);
+  /// A Result, or None: if none is there yet, or with `waits` if none will be.
+  pybind11::object take(bool waits);
+  /// Waits until nothing runs. Silent wherever there is nothing to close.
+  void close();
+
+ private:
+  std::shared_ptr<Flow> flow_;
+  bool is_symmetric_ = false;
+  std::map<size_t, pybind11::object> ids_;  // of pairs that are put and not taken
+};
+
+/// The class _Stream of _core, and _failed().
+void define_many(pybind11::module_& m);
+
+}  // namespace vkh::python

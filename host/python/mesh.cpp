@@ -1,0 +1,290 @@
+#include "host/python/mesh.h"
+
+#include <pybind11/stl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <future>
+
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/python/answer.h"
+#include "host/python/interpreter.h"
+#include "host/python/session.h"
+#include "host/read/mesh_io.h"
+#include "host/system/system.h"
+
+namespace vkh::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The class Mesh.
+struct FileMesh {
+  MeshPointer mesh;
+};
+
+uint64_t file_size(const std::string& file) {
+  struct stat about {};
+  return stat(file.c_str(), &about) == 0 ? static_cast<uint64_t>(about.st_size) : 0;
+}
+
+// Why a file could not be opened, as the system says it; 0: it can be.
+int fault_of(const std::string& file) {
+  struct stat about {};
+  if (stat(file.c_str(), &about) != 0) return errno;
+  if (S_ISDIR(about.st_mode)) return EISDIR;
+  return access(file.c_str(), R_OK) == 0 ? 0 : errno;
+}
+
+Mesh read_file(const std::string& file, const std::function<bool()>& keep_going) {
+  constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones gain little from more threads
+  const size_t threads = file_size(file) < kLarge ? 1 : 0;
+  try {
+    return read_mesh(path_of(file), {.keep_going = keep_going, .threads = threads});
+  } catch (const InputError&) {
+    const int code = fault_of(file);
+    if (code != 0) throw FileFault{code, file};
+    throw;
+  }
+}
+
+// Ctrl-C is heard by this thread alone, so that another one reads.
+MeshPointer read_now(const std::string& file) {
+  constexpr std::chrono::milliseconds kStep(20);
+  try {
+    const WithoutGil outside;
+    std::atomic<bool> goes_on = true;
+    auto reading = std::async(std::launch::async, [&] {
+      const FloatEnvironment ours;
+      return std::make_shared<const Mesh>(read_file(file, [&] { return goes_on.load(); }));
+    });
+    try {
+      while (reading.wait_for(kStep) == std::future_status::timeout) hear_signals();
+    } catch (...) {
+      goes_on = false;
+      reading.wait();
+      throw;
+    }
+    return reading.get();
+  } catch (const Raised&) {
+    throw py::error_already_set();
+  }
+}
+
+bool is_path(const py::object& object) {
+  return py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__");
+}
+
+// The bytes that the system knows it by.
+std::string file_from(const char* argument, const py::object& object) {
+  const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(object.ptr()));
+  if (!path) throw py::error_already_set();
+  const auto bytes = PyUnicode_Check(path.ptr())
+                         ? py::reinterpret_steal<py::object>(PyUnicode_EncodeFSDefault(path.ptr()))
+                         : path;
+  if (!bytes) throw py::error_already_set();
+  std::string file = py::cast<std::string>(py::reinterpret_borrow<py::bytes>(bytes));
+  if (file.empty() || file.find('\0') != std::string::npos)
+    refuse_value(argument, "the path of a file", object);
+  return file;
+}
+
+bool is_pair(const py::object& object) {
+  return (py::isinstance<py::tuple>(object) || py::isinstance<py::list>(object)) &&
+         py::len(object) == 2;
+}
+
+// None where there is none. What else is wrong with it is raised.
+py::object attribute(const py::object& object, const char* name) {
+  auto value = py::reinterpret_steal<py::object>(PyObject_GetAttrString(object.ptr(), name));
+  if (value) return value;
+  if (PyErr_ExceptionMatches(PyExc_AttributeError) == 0) throw py::error_already_set();
+  PyErr_Clear();
+  return py::none();
+}
+
+// (vertices, faces); None of both for an object that has none.
+py::tuple arrays_of(const py::object& object) {
+  if (is_pair(object)) return py::tuple(object);
+  py::object faces = attribute(object, "faces");
+  if (faces.is_none()) faces = attribute(object, "triangles");
+  return py::make_tuple(attribute(object, "vertices"), faces);
+}
+
+bool has_arrays(const py::tuple& arrays) { return !arrays[0].is_none() && !arrays[1].is_none(); }
+
+bool is_mesh(const py::object& object) {
+  return py::isinstance<FileMesh>(object) || is_path(object) || has_arrays(arrays_of(object));
+}
+
+py::tuple checked_arrays(const char* argument, const py::object& object) {
+  py::tuple arrays = arrays_of(object);
+  if (!has_arrays(arrays))
+    throw py::type_error(std::string(argument) +
+                         ": expected (vertices, faces), an object that has .vertices and .faces, "
+                         "or the path of a file, not a value of type " +
+                         Py_TYPE(object.ptr())->tp_name);
+  return arrays;
+}
+
+template <class T, class Row>
+py::array view_of(const std::vector<Row>& rows, const py::object& owner) {
+  static_assert(sizeof(Row) == 3 * sizeof(T));
+  py::array_t<T> array({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}},
+                       reinterpret_cast<const T*>(rows.data()), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+const Mesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
+
+py::dict counts_of(const MeshCounts& c) {
+  using py::literals::operator""_a;
+  return py::dict("vertices"_a = c.vertices, "faces"_a = c.faces, "unreferenced"_a = c.unreferenced,
+                  "degenerate"_a = c.degenerate, "duplicate"_a = c.duplicate,
+                  "polygons"_a = c.polygons);
+}
+
+py::object path_in(const Mesh& mesh) {
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
+      mesh.name.data(), static_cast<py::ssize_t>(mesh.name.size())));
+}
+
+py::tuple state_of(const py::object& self) {
+  const Mesh& mesh = mesh_in(self);
+  return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
+                        mesh.unit, mesh.notes, mesh.counts.unreferenced, mesh.counts.polygons);
+}
+
+FileMesh from_state(const py::tuple& state) {
+  const Call call;
+  if (state.size() != 8) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  Mesh mesh = mesh_from("a pickled Mesh", state[1], state[2]);
+  mesh.name = py::cast<std::string>(state[0]);
+  mesh.delta = py::cast<double>(state[3]);
+  mesh.unit = py::cast<std::string>(state[4]);
+  mesh.notes = py::cast<std::vector<std::string>>(state[5]);
+  mesh.counts.unreferenced = py::cast<uint64_t>(state[6]);
+  mesh.counts.polygons = py::cast<uint64_t>(state[7]);
+  return {std::make_shared<const Mesh>(std::move(mesh))};
+}
+
+FileMesh read(const py::object& path) {
+  const Call call;
+  if (!is_path(path)) refuse_type("path", "the path of a mesh file", path);
+  return {read_now(file_from("path", path))};
+}
+
+template <class Get>
+auto of_mesh(Get get) {
+  return [get](const py::object& self) { return get(mesh_in(self)); };
+}
+
+}  // namespace
+
+void define_mesh(py::module_& m) {
+  py::class_<FileMesh>(m, "Mesh",
+                       "A mesh file as it was read. It goes wherever a mesh is expected, and is "
+                       "not\ncopied there. Never changes: its arrays are read-only.")
+      .def_property_readonly(
+          "vertices",
+          [](const py::object& self) { return view_of<double>(mesh_in(self).vertices, self); },
+          "(n, 3) float64, those that a face uses; read-only")
+      .def_property_readonly(
+          "faces",
+          [](const py::object& self) { return view_of<uint32_t>(mesh_in(self).faces, self); },
+          "(m, 3) uint32, polygons fanned into triangles, in the file's order; read-only")
+      .def_property_readonly("path", of_mesh(path_in), "as it was given")
+      .def_property_readonly("unit", of_mesh([](const Mesh& mesh) {
+                               return mesh.unit.empty() ? std::optional<std::string>() : mesh.unit;
+                             }),
+                             "of the coordinates, where the file says it: 'mm', 'm', 'in'; else "
+                             "None.\nLengths are never converted")
+      .def_property_readonly("delta", of_mesh([](const Mesh& mesh) { return mesh.delta; }),
+                             "no vertex is farther from its exact place: what transforms of a "
+                             "scene round.\nIntervals are wider by it")
+      .def_property_readonly("counts",
+                             of_mesh([](const Mesh& mesh) { return counts_of(mesh.counts); }),
+                             "what was counted: vertices, faces, unreferenced, degenerate, "
+                             "duplicate, polygons")
+      .def_property_readonly("notes", of_mesh([](const Mesh& mesh) { return mesh.notes; }),
+                             "a line each, for people: what was left out, fanned or rounded")
+      .def("__repr__", of_mesh([](const Mesh& mesh) {
+             return "<vkhausdorff.Mesh " + py::cast<std::string>(py::repr(path_in(mesh))) + ", " +
+                    std::to_string(mesh.faces.size()) + " faces>";
+           }))
+      .def(py::pickle([](const py::object& self) { return state_of(self); },
+                      [](const py::tuple& state) { return from_state(state); }));
+  m.def("read", read, py::arg("path"),
+        "read(path)\n--\n\n"
+        "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
+        "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
+        "a file never passes for the whole.");
+}
+
+void raise(const FileFault& fault) {
+  const auto path = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
+      fault.path.data(), static_cast<py::ssize_t>(fault.path.size())));
+  errno = fault.code;
+  PyErr_SetFromErrnoWithFilenameObject(PyExc_OSError, path.ptr());
+}
+
+uint64_t MeshGiven::bytes() const {
+  constexpr uint64_t kBytesOfAByte = 3;  // of a file, while it is read and as a mesh, about
+  if (mesh != nullptr) return 0;
+  if (!file.empty()) return kBytesOfAByte * file_size(file);
+  return mesh_bytes(arrays.vertices.size(), arrays.faces.size());
+}
+
+MeshGiven mesh_given(const char* argument, const std::string& name, const py::object& object) {
+  if (py::isinstance<FileMesh>(object))
+    return {.mesh = made<FileMesh>(object, "Mesh").mesh, .file = {}, .arrays = {}};
+  if (is_path(object)) return {.mesh = {}, .file = file_from(argument, object), .arrays = {}};
+  const py::tuple arrays = checked_arrays(argument, object);
+  return {.mesh = {}, .file = {}, .arrays = raw_mesh_from(name, arrays[0], arrays[1])};
+}
+
+MeshPointer made_mesh(MeshGiven given, const std::function<bool()>& keep_going) {
+  if (given.mesh != nullptr) return given.mesh;
+  if (!given.file.empty()) return std::make_shared<const Mesh>(read_file(given.file, keep_going));
+  RawMesh& raw = given.arrays;
+  return std::make_shared<const Mesh>(
+      make_mesh(raw.name, std::move(raw.vertices), std::move(raw.faces)));
+}
+
+MeshPointer mesh_of(const char* argument, const std::string& name, const py::object& object) {
+  if (py::isinstance<FileMesh>(object)) return made<FileMesh>(object, "Mesh").mesh;
+  if (is_path(object)) return read_now(file_from(argument, object));
+  const py::tuple arrays = checked_arrays(argument, object);
+  return std::make_shared<const Mesh>(mesh_from(name, arrays[0], arrays[1]));
+}
+
+py::args spread(const py::args& positional, const py::kwargs& named,
+                const std::vector<const char*>& apart) {
+  bool are_meshes = positional.size() == apart.size() / 2;
+  for (size_t i = 0; i < apart.size(); ++i) are_meshes = are_meshes && !named.contains(apart[i]);
+  for (size_t i = 0; are_meshes && i < positional.size(); ++i) are_meshes = is_mesh(positional[i]);
+  if (!are_meshes) return positional;
+  py::list values;
+  for (const py::handle given : positional) {
+    py::object object = py::reinterpret_borrow<py::object>(given);
+    if (is_path(object)) object = py::cast(FileMesh{read_now(file_from("path", object))});
+    const bool is_whole = py::isinstance<FileMesh>(object);
+    const py::tuple arrays = is_whole ? py::make_tuple(object, py::none()) : arrays_of(object);
+    values.append(arrays[0]);
+    values.append(arrays[1]);
+  }
+  return py::args(py::tuple(values));
+}
+
+MeshPointer mesh_of(const std::string& name, const py::object& vertices, const py::object& faces) {
+  if (faces.is_none() && py::isinstance<FileMesh>(vertices))
+    return made<FileMesh>(vertices, "Mesh").mesh;
+  return std::make_shared<const Mesh>(mesh_from(name, vertices, faces));
+}
+
+}  // namespace vkh::python

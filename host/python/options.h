@@ -1,0 +1,22 @@
+// Keywords that all functions share: what a run may cost, how narrow it has to be, its limit.
+#pragma once
+
+#include <variant>
+
+#include "host/answer/length.h"
+#include "host/mesh/mesh.h"
+#include "host/python/arguments.h"
+
+namespace vkh::python {
+
+/// tol, time, waves, memory, preset, enable and disable. Nobody listens to the run.
+SolveOptions options_of(const Arguments& given);
+
+/// A limit of the whole mesh, as a number in the coordinates' unit or of A's diagonal.
+using MaxAsked = std::variant<Limit, Length>;
+/// `max`, which is there: a number, or a string such as '0.1%'.
+MaxAsked read_max(const Arguments& given, const char* expected);
+/// In A's own coordinates. Touches nothing of Python.
+Limit limit_for(const MaxAsked& max, const Mesh& a);
+
+}  // namespace vkh::python

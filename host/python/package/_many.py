@@ -1,0 +1,120 @@
+"""distances(): pairs in, results out, as they end. The threads and devices are those of vkhausdorff._core."""
+
+from vkhausdorff import _core
+
+
+def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, device="", time=None, waves=None, memory=None,
+              disable=(), enable=(), preset="", together=None, lanes=None, ahead=None):
+    """The distance of each of many pairs: an iterator of results, in the order in which pairs end.
+
+    pairs: an iterable, which may be endless, of (a, b) or (id, a, b). Each of a and b is a mesh: what read() returns, the
+    path of a file, (vertices, faces), or an object with .vertices and .faces (or .triangles). Files are read by threads.
+    against: the B of all pairs; pairs then has meshes a, or (id, a), where id is a string or an int. B is prepared once on
+    each device, and answers are those of Solver(b).distance(a); otherwise they are those of distance(a, b).
+
+    A result has index, the pair's place in pairs, from 0, and id, or None. A pair that fails (a bad file, a wrong array)
+    ends nothing: its result has error, the exception, and whatever else is asked of it raises that. error is None else.
+    max: the limit of gate(), a number in the coordinates' unit or a string such as '0.1%' of A's diagonal; results then
+    have verdict, and tol is 1e-7. tol is 1e-6 else; it, symmetric, memory, waves, disable, enable and preset are those of
+    distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
+    as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
+    pays there.
+
+    Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or
+    one that was not asked for. That is 2 * lanes * together of a GPU (96) a device if None. No pair is taken while meshes
+    of those are above 2 GiB. An exception that pairs raises is raised after the results of what was taken before. To end
+    early, leave the loop and drop the iterator, use it in a with statement, or call its close(), on any thread: what runs is
+    cancelled and no device is left open. Ctrl-C does so, too. DeviceError if no device is left.
+    """
+    try:
+        items = iter(pairs)
+    except TypeError:
+        raise TypeError(f"pairs: expected an iterable of (a, b) or (id, a, b), not {type(pairs).__name__}") from None
+    named = {} if tol is None else {"tol": tol}
+    stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
+                          disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead, **named)
+    return _Results(stream, _results(stream, items, _with_one if against is not None else _with_two))
+
+
+class _Results:
+    """What distances() returns: an iterator, and a context manager that closes itself."""
+
+    def __init__(self, stream, results):
+        self._stream, self._results = stream, results
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        return next(self._results)
+
+    def close(self):
+        """Cancels what runs. Any thread: one that waits for a result gets StopIteration."""
+        self._stream.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
+
+def _with_two(item):
+    """(id, a, b) of an item of pairs."""
+    if isinstance(item, (tuple, list)) and len(item) in (2, 3):
+        return (None, *item) if len(item) == 2 else tuple(item)
+    raise TypeError(f"pairs: expected (a, b) or (id, a, b), not {_shown(item)}")
+
+
+def _with_one(item):
+    """Likewise where all have the same B."""
+    if isinstance(item, (tuple, list)) and len(item) == 2 and isinstance(item[0], (str, int)):
+        return item[0], item[1], None
+    return None, item, None
+
+
+def _shown(item):
+    kind = type(item).__name__
+    return f"{kind} of {len(item)}" if isinstance(item, (tuple, list)) else kind
+
+
+def _put(stream, index, item, split):
+    """None, or the result of a pair that is wrong."""
+    id = None
+    try:
+        id, a, b = split(item)
+        stream.put(index, id, a, b)
+    except Exception as error:
+        return _core._failed(index, id, error.with_traceback(None))
+    return None
+
+
+def _results(stream, items, split):
+    failure, index = None, 0
+    try:
+        while True:
+            result = None
+            while result is None and items is not None and stream.has_room():
+                try:
+                    item = next(items)
+                except StopIteration:
+                    items = None
+                except Exception as error:
+                    items, failure = None, error
+                else:
+                    result = _put(stream, index, item, split) or stream.take(False)
+                    index += 1
+            item = None  # arrays are the caller's to drop
+            if result is None:
+                result = stream.take(True)
+            if result is None:
+                break
+            yield result
+        if failure is not None:
+            raise failure
+    finally:
+        failure = None  # whose traceback has this frame
+        stream.close()
+
+
+distances.__module__ = "vkhausdorff"

@@ -1,0 +1,487 @@
+#!/usr/bin/env python3
+"""distances(), read() and meshes of the Python module. Run through ctest."""
+import collections
+import gc
+import inspect
+import itertools
+import os
+import pathlib
+import pickle
+import signal
+import tempfile
+import threading
+import time
+import types
+import unittest
+
+import numpy as np
+import vkhausdorff as vkh
+
+
+def grid(cells, height=0.0):
+    t = np.linspace(-1, 1, cells + 1)
+    x, y = np.meshgrid(t, t, indexing="ij")
+    vertices = np.stack([x, y, 0.1 * np.sin(5 * x) * np.cos(4 * y) + height], axis=-1).reshape(-1, 3)
+    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)[:-1, :-1].ravel()
+    right, above = corner + 1, corner + cells + 1
+    return vertices, np.concatenate([np.stack([corner, right, above], 1), np.stack([right, above + 1, above], 1)])
+
+
+def obj(folder, name, mesh):
+    file = pathlib.Path(folder) / name
+    vertices, faces = mesh
+    file.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()) +
+                    "".join(f"f {a} {b} {c}\n" for a, b, c in (faces + 1).tolist()))
+    return file
+
+
+def by_index(results):
+    results = sorted(results, key=lambda r: r.index)
+    assert [r.index for r in results] == list(range(len(results))), results
+    return results
+
+
+PAIRS = [(grid(n, 0.01 * n), grid(3 + n % 4)) for n in range(2, 26)]
+B = grid(6)
+
+
+class Many(unittest.TestCase):
+    def test_each_is_what_distance_says(self):
+        for options in ({}, dict(symmetric=True), dict(tol="0.1%", waves=5, disable=["u3"]), dict(together=3, lanes=2)):
+            with self.subTest(**options):
+                alone = {key: value for key, value in options.items() if key not in ("together", "lanes")}
+                for r, (a, b) in zip(by_index(vkh.distances(PAIRS, **options)), PAIRS, strict=True):
+                    self.assertEqual(r, vkh.distance(a, b, **alone))
+                    self.assertIsNone(r.error)
+                    self.assertIsNone(r.id)
+
+    def test_a_shared_b_is_prepared(self):
+        meshes = [a for a, _ in PAIRS]
+        with vkh.Solver(B) as solver:
+            expected = [solver.distance(a) for a in meshes]
+        self.assertEqual(by_index(vkh.distances(meshes, against=B)), expected)
+        named = by_index(vkh.distances({f"part {i}": mesh for i, mesh in enumerate(meshes)}.items(), against=B))
+        self.assertEqual(named, expected)
+        self.assertEqual([r.id for r in named], [f"part {i}" for i in range(len(meshes))])
+        self.assertTrue(all(r.stats["hierarchy_ms"] == 0 for r in named))
+
+    def test_a_limit(self):
+        for limit in (0.1, "5%"):
+            for symmetric in (False, True):
+                for r, pair in zip(by_index(vkh.distances(PAIRS[:8], max=limit, symmetric=symmetric)), PAIRS):
+                    self.assertEqual(r, vkh.gate(*pair, limit, symmetric=symmetric))
+                    self.assertIn(r.verdict, ("pass", "fail"))
+
+    def test_ids_and_forms_of_meshes(self):
+        (va, fa), b = PAIRS[0]
+        ids = [("a", 1), 7, "seven", None, ["list"]]
+        forms = [(va, fa), [va.tolist(), fa.tolist()], types.SimpleNamespace(vertices=va, faces=fa),
+                 types.SimpleNamespace(vertices=va, triangles=fa), (va.astype(">f8"), fa.astype(np.int16))]
+        results = by_index(vkh.distances((id, a, b) for id, a in zip(ids, forms)))
+        self.assertEqual([r.id for r in results], ids)
+        self.assertEqual(results, 5 * [vkh.distance(va, fa, *b)])
+
+    def test_nothing(self):
+        self.assertEqual(list(vkh.distances([])), [])
+        self.assertEqual(list(vkh.distances([], against=B)), [])
+
+    def test_arguments(self):
+        for wrong, kind, said in (
+                (dict(tol=0), ValueError, "^tol: expected"), (dict(max=-1), ValueError, "^max: expected"),
+                (dict(max=[1.0]), TypeError, "^max: expected"), (dict(max="0.1mm"), ValueError, "^max: expected"),
+                (dict(ahead=0), ValueError, "^ahead: expected a whole number"), (dict(lanes="x"), TypeError, "^lanes: expected"),
+                (dict(together=1.5), TypeError, "^together"), (dict(device=3), TypeError, "^device: expected"),
+                (dict(device="0,,1"), ValueError, "^device: expected names between commas"),
+                (dict(against=5), TypeError, "^against: expected .vertices, faces."), (dict(symmetric=1), TypeError, "^symmetric"),
+                (dict(against="/nonesuch.ply"), FileNotFoundError, "nonesuch"), (dict(stranger=1), TypeError, "stranger")):
+            with self.subTest(**wrong), self.assertRaisesRegex(kind, said):
+                vkh.distances([], **wrong)
+        with self.assertRaisesRegex(TypeError, "^pairs: expected an iterable of"):
+            vkh.distances(5)
+        for wrong, kind, said in ((dict(device="nonesuch"), vkh.DeviceError, "no usable Vulkan device matches 'nonesuch'"),
+                                  (dict(device="cpu,cpu"), ValueError, "named more than once"),
+                                  (dict(preset="pape"), ValueError, "no preset is called 'pape'"),
+                                  (dict(disable=["u9"]), ValueError, "'u9'")):
+            with self.subTest(**wrong), self.assertRaisesRegex(kind, said):
+                list(vkh.distances(PAIRS, **wrong))
+        self.assertTrue(str(inspect.signature(vkh.distances)).startswith("(pairs, *, against=None, tol=None, symmetric=False"))
+
+    def test_two_threads(self):
+        ends = {}
+
+        def work(name):
+            ends[name] = by_index(vkh.distances(PAIRS))
+
+        threads = [threading.Thread(target=work, args=(name,)) for name in "ab"]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(ends["a"], ends["b"])
+        self.assertEqual(len(ends["a"]), len(PAIRS))
+
+    def test_one_iterator_is_for_one_thread_at_a_time(self):
+        results, errors = [], []
+        stream = vkh.distances(itertools.islice(itertools.cycle(PAIRS), 100))
+
+        def work():
+            try:
+                results.extend(stream)
+            except ValueError as error:
+                errors.append(str(error))
+
+        threads = [threading.Thread(target=work) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertLessEqual(set(errors), {"generator already executing"})
+        self.assertEqual(len(results), 100)
+
+
+class Failures(unittest.TestCase):
+    def test_a_pair_that_fails_ends_nothing(self):
+        (va, fa), b = PAIRS[0]
+
+        class Torn:
+            faces = fa
+
+            @property
+            def vertices(self):
+                raise LookupError("torn")
+
+        with tempfile.TemporaryDirectory() as folder:
+            bad = pathlib.Path(folder) / "bad.obj"
+            bad.write_text("v 0 0\nf 1 2 3\n")
+            wrong = [
+                ((va, fa), "not there", FileNotFoundError, "not there"), ((va, fa), folder, IsADirectoryError, "."),
+                (bad, b, ValueError, r"bad\.obj: line 1"), (5, TypeError, r"^pairs: expected \(a, b\) or \(id, a, b\), not int$"),
+                ("id", (va, fa + 1000), b, ValueError, "A's faces: face 0 has index 1000"),
+                ("id", (va * np.nan, fa), b, ValueError, "A: vertex 0: .* is not finite"),
+                (b, (va, fa[:0]), ValueError, "B: face 0: there is no face"), (Torn(), b, LookupError, "torn"),
+                (b, 3, TypeError, "^b: expected .vertices, faces."), ("", b, ValueError, "^a: expected the path")]
+            given = []
+            for *pair, _, _ in wrong:
+                given += [PAIRS[1], tuple(pair) if len(pair) > 1 else pair[0]]
+            results = by_index(vkh.distances(given))
+        expected = vkh.distance(*PAIRS[1])
+        self.assertEqual(results[::2], len(wrong) * [expected])
+        for r, (*pair, kind, said) in zip(results[1::2], wrong, strict=True):
+            self.assertIs(type(r.error), kind, r)
+            self.assertRegex(str(r.error), said)
+            self.assertEqual(r.id, "id" if len(pair) == 3 else None)
+            self.check_failed(r, kind)
+
+    def check_failed(self, r, kind):
+        for name in ("lower", "upper", "closed", "status", "verdict", "witness_a", "face_b", "stats", "field", "mean", "survey_met"):
+            with self.assertRaises(kind) as raised:
+                getattr(r, name)
+            self.assertIs(raised.exception, r.error)
+        with self.assertRaises(kind):
+            r.area_within(1)
+        self.assertIn(kind.__name__, repr(r))
+        again = pickle.loads(pickle.dumps(r))
+        self.assertEqual((again, again.index, again.id, type(again.error)), (r, r.index, r.id, kind))
+        self.assertEqual(r.to_dict()["error"], {"type": kind.__name__, "message": str(r.error)})
+        self.assertNotEqual(r, vkh.distance(*PAIRS[0]))
+        self.assertIsInstance(hash(r), int)
+
+    def test_results_keep_their_place(self):
+        r = next(vkh.distances([("name", *PAIRS[0])]))
+        again = pickle.loads(pickle.dumps(r))
+        self.assertEqual((again, again.index, again.id, again.error), (r, 0, "name", None))
+        self.assertEqual((r.to_dict()["index"], r.to_dict()["id"]), (0, "name"))
+        alone = vkh.distance(*PAIRS[0])
+        self.assertEqual((alone, alone.index, alone.id, alone.error), (r, None, None, None))
+
+    def test_pairs_that_raise(self):
+        def pairs(many):
+            yield from PAIRS[:many]
+            raise LookupError("no more")
+
+        for many in (0, 1, 10):
+            results = []
+            with self.assertRaisesRegex(LookupError, "no more"):
+                for r in vkh.distances(pairs(many)):
+                    results.append(r)
+            self.assertEqual(len(by_index(results)), many)
+
+        def interrupted():
+            yield PAIRS[0]
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            list(vkh.distances(interrupted()))
+
+
+class Ahead(unittest.TestCase):
+    def taken(self, **options):
+        """How many were taken when so many were yielded, from an endless iterable."""
+        taken = []
+
+        def pairs():
+            for i in itertools.count():
+                taken.append(i)
+                yield PAIRS[i % len(PAIRS)]
+
+        stream = vkh.distances(pairs(), **options)
+        counts = []
+        for _, r in zip(range(20), stream):
+            counts.append(len(taken))
+        stream.close()
+        return counts
+
+    def test_no_more_than_was_said(self):
+        for ahead in (1, 2, 7):
+            self.assertTrue(all(count <= yielded + ahead for yielded, count in enumerate(self.taken(ahead=ahead))))
+        self.assertTrue(all(count <= yielded + 96 for yielded, count in enumerate(self.taken())))
+        self.assertTrue(all(count <= yielded + 8 for yielded, count in enumerate(self.taken(lanes=2, together=2))))
+
+    def test_what_is_there_does_not_wait_for_slow_pairs(self):
+        def pairs():
+            for i in itertools.count():
+                yield PAIRS[0]
+                time.sleep(0.2)
+
+        stream = vkh.distances(pairs())
+        next(stream)
+        started = time.monotonic()
+        for _, r in zip(range(3), stream):
+            pass
+        self.assertLess(time.monotonic() - started, 10)
+        stream.close()
+
+    def test_taken_on_the_thread_that_asks(self):
+        threads = set()
+        list(vkh.distances((threads.add(threading.get_ident()) or pair for pair in PAIRS[:5])))
+        self.assertEqual(threads, {threading.get_ident()})
+
+
+def threads_now():
+    return len(os.listdir("/proc/self/task"))
+
+
+def files_now():
+    return len(os.listdir("/proc/self/fd"))
+
+
+def resident():
+    return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+class Endings(unittest.TestCase):
+    def setUp(self):
+        list(vkh.distances(PAIRS[:3]))  # what libraries keep
+        gc.collect()
+
+    def settle(self, threads):
+        end = time.monotonic() + 10
+        while threads_now() > threads and time.monotonic() < end:
+            time.sleep(0.01)
+        self.assertLessEqual(threads_now(), threads)
+
+    def test_early(self):
+        threads, files = threads_now(), files_now()
+
+        def leave():
+            for r in vkh.distances(itertools.cycle(PAIRS)):
+                if r.index > 3:
+                    break
+
+        def close():
+            stream = vkh.distances(itertools.cycle(PAIRS))
+            next(stream)
+            stream.close()
+            stream.close()
+            self.assertEqual(list(stream), [])
+
+        def drop():
+            vkh.distances(itertools.cycle(PAIRS))
+            stream = vkh.distances(itertools.cycle(PAIRS))
+            next(stream)
+            ring = [stream]
+            ring.append(ring)
+            del stream, ring
+            gc.collect()
+
+        def fail():
+            with self.assertRaisesRegex(LookupError, "enough"):
+                for r in vkh.distances(itertools.cycle(PAIRS)):
+                    raise LookupError("enough")
+
+        def by_another():
+            stream = vkh.distances([(grid(80), grid(7))] * 3, tol=1e-7, memory=1 << 18, disable=["centroid", "parent_samples", "u3"],
+                                   ahead=3)
+            threading.Timer(0.5, stream.close).start()
+            self.assertLess(len(list(stream)), 3)
+
+        def within():
+            with vkh.distances(itertools.cycle(PAIRS)) as stream:
+                self.assertIs(iter(stream), stream)
+                next(stream)
+            self.assertEqual(list(stream), [])
+
+        for end in (leave, close, drop, fail, by_another, within):
+            with self.subTest(end.__name__):
+                started = time.monotonic()
+                end()
+                self.settle(threads)
+                self.assertLessEqual(files_now(), files)
+                self.assertLess(time.monotonic() - started, 30)
+        self.assertTrue(vkh.distance(*PAIRS[0]).closed)  # as good as new
+
+    def test_keyboard_interrupt(self):
+        threads = threads_now()
+        timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+        started = time.monotonic()
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            for r in vkh.distances(itertools.cycle([(grid(80), grid(7))]), tol=1e-7, memory=1 << 18,
+                                   disable=["centroid", "parent_samples", "u3"]):
+                pass
+        self.assertLess(time.monotonic() - started, 30)
+        timer.join()
+        self.settle(threads)
+
+    def test_other_threads_run_meanwhile(self):
+        ticks, stop = [], threading.Event()
+
+        def tick():
+            while not stop.wait(0.001):
+                ticks.append(time.monotonic())
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        started = time.monotonic()
+        list(vkh.distances([(grid(80), grid(7))], tol=1e-7, waves=2))
+        ended = time.monotonic()
+        stop.set()
+        thread.join()
+        self.assertGreater(sum(started < t < ended for t in ticks), (ended - started) / 0.05)
+
+    def test_many_take_no_more_memory(self):
+        small = [(grid(2, 0.1 * i), grid(1)) for i in range(5)]
+        seen, size = 0, {}
+        with tempfile.TemporaryDirectory() as folder:
+            files = obj(folder, "a.obj", small[0][0]), obj(folder, "b.obj", small[0][1])
+            pairs = (files if i % 2 else small[i % 5] for i in range(2000))
+            kinds = collections.Counter()
+            for r in vkh.distances(pairs, tol=1e-3):
+                kinds[r.status] += 1
+                seen += 1
+                if seen in (500, 2000):
+                    size[seen] = resident()
+        self.assertEqual(seen, 2000)
+        self.assertEqual(set(kinds), {"closed"})
+        slack = (64 if "asan" in os.environ.get("LD_PRELOAD", "") else 16) << 20
+        self.assertLess(size[2000], size[500] + slack, size)
+
+
+class Meshes(unittest.TestCase):
+    def test_read(self):
+        a, b = PAIRS[3]
+        with tempfile.TemporaryDirectory() as folder:
+            file = obj(folder, "ü a.obj", a)
+            file.write_text(file.read_text() + "v 9 9 9\nf 1 2 3 4\n")
+            mesh = vkh.read(file)
+            self.assertEqual(repr(vkh.read(str(file))), repr(mesh))
+        self.assertEqual((mesh.vertices.dtype, mesh.faces.dtype), (np.float64, np.uint32))
+        self.assertTrue((mesh.vertices == a[0]).all())
+        self.assertEqual(len(mesh.faces), len(a[1]) + 2)
+        self.assertEqual((mesh.path, mesh.unit, mesh.delta), (str(file), None, 0))
+        self.assertEqual((mesh.counts["unreferenced"], mesh.counts["polygons"], mesh.counts["faces"]), (1, 1, len(a[1]) + 2))
+        self.assertTrue(any("fanned" in note for note in mesh.notes), mesh.notes)
+        for array in (mesh.vertices, mesh.faces):
+            with self.assertRaises(ValueError):
+                array[0] = 1
+            with self.assertRaises(ValueError):
+                array.setflags(write=True)
+        vertices = mesh.vertices
+        again = pickle.loads(pickle.dumps(mesh))
+        for name in ("path", "unit", "delta", "counts", "notes"):
+            self.assertEqual(getattr(again, name), getattr(mesh, name))
+        expected = vkh.distance(mesh.vertices, mesh.faces, *b)
+        for other in (mesh, again):
+            self.assertEqual(vkh.distance(other, b), expected)
+        del mesh
+        gc.collect()
+        self.assertTrue((vertices == a[0]).all())  # which has kept it
+
+    def test_wherever_a_mesh_goes(self):
+        a, b = PAIRS[4]
+        expected, gated = vkh.distance(*a, *b), vkh.gate(a, b, 0.1)
+        with vkh.Solver(*b) as solver:
+            prepared = solver.distance(*a)
+        with tempfile.TemporaryDirectory() as folder:
+            files = obj(folder, "a.obj", a), str(obj(folder, "b.obj", b))
+            meshes = tuple(map(vkh.read, files))
+            objects = types.SimpleNamespace(vertices=a[0], faces=a[1]), types.SimpleNamespace(vertices=b[0], triangles=b[1])
+            for x, y in (files, meshes, objects, (a, b), (files[0], b)):
+                self.assertEqual(vkh.distance(x, y), expected)
+                self.assertEqual(vkh.distance(x, y, symmetric=True).lower, vkh.distance(*a, *b, symmetric=True).lower)
+                self.assertEqual(vkh.gate(x, y, 0.1), gated)
+                self.assertEqual(next(vkh.distances([(x, y)])), expected)
+                self.assertEqual(next(vkh.distances([x], against=y)), prepared)
+                with vkh.Solver(y, device="cpu") as solver:
+                    self.assertEqual(solver.distance(x), prepared)
+            vkh.assert_within(*files, 10)
+        both = vkh.distance(meshes[0], meshes[0], symmetric=True, field=True)
+        self.assertEqual((len(both.field), len(both.field_back)), 2 * (len(a[1]),))
+
+    def test_delta_is_in_the_interval(self):
+        # A rotation of a scene is rounded: arrays do not know it, a Mesh does.
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "turned.gltf"
+            file.write_text(gltf(*PAIRS[0][0]))
+            mesh = vkh.read(file)
+        self.assertEqual(mesh.unit, "m")
+        self.assertGreater(mesh.delta, 0)
+        self.assertEqual(pickle.loads(pickle.dumps(mesh)).delta, mesh.delta)
+        known, bare = vkh.distance(mesh, B), vkh.distance((mesh.vertices, mesh.faces), B)
+        self.assertLess(known.lower, bare.lower)
+        self.assertGreater(known.upper, bare.upper)
+
+    def test_refusals(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bad = pathlib.Path(folder) / "bad.stl"
+            bad.write_text("solid x\n facet\n")
+            locked = pathlib.Path(folder) / "locked.stl"
+            locked.write_text("")
+            locked.chmod(0)
+            cases = [(bad, ValueError, "bad.stl"), ("nonesuch.stl", FileNotFoundError, "nonesuch"),
+                     (folder, IsADirectoryError, None), ("a\0b", ValueError, "^path: expected"), ("", ValueError, "^path: expected"),
+                     (5, TypeError, "^path: expected"), (None, TypeError, "^path: expected")]
+            if os.getuid() != 0:
+                cases.append((locked, PermissionError, "locked"))
+            for path, kind, said in cases:
+                with self.assertRaisesRegex(kind, said or ""):
+                    vkh.read(path)
+        with self.assertRaisesRegex(TypeError, "No constructor"):
+            vkh.Mesh()
+        with self.assertRaisesRegex(TypeError, "was never made"):
+            vkh.Mesh.__new__(vkh.Mesh).vertices
+        with self.assertRaisesRegex(TypeError, "'vb' is missing"):
+            vkh.distance(B[0], B[1])
+        with self.assertRaises(ValueError):
+            vkh.Mesh.__new__(vkh.Mesh).__setstate__((1, 2))
+
+
+def gltf(vertices, faces):
+    import base64
+    import json
+    points, corners = vertices.astype("<f4").tobytes(), faces.astype("<u4").tobytes()
+    uri = "data:application/octet-stream;base64," + base64.b64encode(points + corners).decode()
+    low, high = vertices.astype("<f4").min(0).tolist(), vertices.astype("<f4").max(0).tolist()
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "rotation": [0.1, 0.2, 0.3, 0.9273618495495703]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": len(points) + len(corners), "uri": uri}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(points)},
+                        {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(vertices), "type": "VEC3", "min": low, "max": high},
+                      {"bufferView": 1, "componentType": 5125, "count": 3 * len(faces), "type": "SCALAR"}]})
+
+
+if __name__ == "__main__":
+    unittest.main()
