@@ -6,6 +6,6 @@ from vkhausdorff.dask import distances
 with open("list.jsonl") as file:
     rows = [json.loads(line) for line in file]
 client = distributed.Client(scheduler_file="scheduler.json")
-pairs = [(row["a"], row["b"]) for row in rows]
-for row, r in zip(rows, distances(client, pairs, shard=1000, tol=1e-6)):
-    print(row["id"], r.lower, r.upper)
+pairs = [(row["id"], row["a"], row["b"]) for row in rows]
+for r in distances(client, pairs, shard=1000, tol=1e-6):
+    print(r.id, r.error or (r.lower, r.upper))

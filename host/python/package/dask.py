@@ -6,7 +6,6 @@ import pathlib
 import tempfile
 import threading
 import zlib
-from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -20,14 +19,14 @@ __all__ = ["distances"]
 
 def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: int = 2, retries: int = 3,
               devices: Sequence[str] = (), **options: Any) -> Iterator[Any]:
-    """Yields what vkhausdorff.distances(pairs, **options) yields, in the order of pairs, as the workers end.
+    """What vkhausdorff.distances(pairs, **options) gives, in the order in which shards end: see a result's index and id.
 
     client: a distributed.Client, not an asynchronous one. Its workers have this package, and see the files that pairs
-    name; names are taken from this process's folder. shard: pairs of a task; take from 100 to 10,000, as a task costs Dask
-    longer than a pair takes. ahead: shards submitted for each worker; of what has ended so many wait, at most, for a slower
-    one before them. retries: so often a shard is done again after an error, besides what Dask does again because a worker
-    was lost. devices: of each machine, by index or name as distances() takes one; each worker's process there takes one
-    that no other has. Without them every worker takes the best. Arrays travel with their task; names of files are quicker.
+    name; names are of this process's folder. shard: pairs of a task; take from 100 to 10,000, as a task costs Dask longer
+    than a pair takes. ahead: shards submitted for each worker. retries: so often a shard is done again after an error,
+    besides what Dask does again because a worker was lost; a pair's own error is in its result. devices: of each machine,
+    as distances() takes one; each worker's process there takes one that no other has. Without them every worker takes the
+    best. Arrays travel with their task; names of files are quicker.
     """
     if getattr(client, "asynchronous", False):
         raise TypeError("client: expected one that is not asynchronous")
@@ -35,32 +34,58 @@ def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: in
         raise TypeError("devices: expected a sequence of devices, such as ('0', '1'), in place of device")
     if shard < 1 or ahead < 1:
         raise ValueError("shard, ahead: expected whole numbers from 1")
-    return _in_order(client, _dealt(pairs, shard), ahead, retries, (tuple(devices), options))
+    if options.get("against") is not None:
+        options["against"] = _absolute(options["against"])
+    shards = _dealt(pairs, shard, "against" in options)
+    return _as_they_end(client, shards, ahead, retries, (tuple(devices), options))
 
 
-def _in_order(client: Any, shards: Iterator[list[Any]], ahead: int, retries: int, how: tuple[Any, ...]) -> Iterator[Any]:
-    running: deque[Any] = deque()
+def _as_they_end(client: Any, shards: Iterator["_Shard"], ahead: int, retries: int, how: tuple[Any, ...]) -> Iterator[Any]:
+    from distributed import as_completed
+
+    ending: Any = as_completed(loop=client.loop)
+    running: set[Any] = set()
 
     def submit() -> None:
         most = ahead * max(1, len(client.scheduler_info()["workers"]))  # now: workers come and go
         for pairs in itertools.islice(shards, max(0, most - len(running))):
-            running.append(client.submit(_do, pairs, *how, retries=retries, pure=False))
+            running.add(future := client.submit(_do, pairs, *how, retries=retries, pure=False))
+            ending.add(future)
 
     try:
         submit()
-        while running:
-            results = running[0].result()
-            running.popleft().release()
+        for future in ending:
+            running.remove(future)
+            results = future.result()
+            future.release()
             submit()
             yield from results
     finally:
         client.cancel(list(running))
 
 
-def _dealt(pairs: Iterable[Any], size: int) -> Iterator[list[Any]]:
-    rest = iter(pairs)
-    while some := list(itertools.islice(rest, size)):
-        yield [(_absolute(a), _absolute(b)) for a, b in some]
+class _Shard(list[Any]):
+    """Pairs, of which the first is not the first of all."""
+
+    first_index = 0
+
+
+def _dealt(pairs: Iterable[Any], size: int, has_one: bool) -> Iterator[_Shard]:
+    rest, first = iter(pairs), 0
+    while some := _Shard(_there(pair, has_one) for pair in itertools.islice(rest, size)):
+        some.first_index = first
+        first += len(some)
+        yield some
+
+
+def _there(pair: Any, has_one: bool) -> Any:
+    """A pair as a worker understands it, whose folder may be another. What is wrong is left to its result."""
+    if has_one:
+        named = isinstance(pair, (tuple, list)) and len(pair) == 2 and isinstance(pair[0], (str, int))
+        return (pair[0], _absolute(pair[1])) if named else _absolute(pair)
+    if not isinstance(pair, (tuple, list)) or len(pair) not in (2, 3):
+        return pair
+    return (*pair[:-2], _absolute(pair[-2]), _absolute(pair[-1]))
 
 
 def _absolute(mesh: Any) -> Any:
@@ -72,7 +97,7 @@ _one_at_a_time = threading.Lock()  # distances() takes all cores, and a worker m
 _mine: dict[tuple[str, ...], tuple[str, Any]] = {}
 
 
-def _do(pairs: list[Any], devices: tuple[str, ...], options: dict[str, Any]) -> list[Any]:
+def _do(pairs: _Shard, devices: tuple[str, ...], options: dict[str, Any]) -> list[Any]:
     import vkhausdorff
 
     with _one_at_a_time:
