@@ -139,7 +139,7 @@ struct PairStream::Impl {
       leave(std::current_exception(), lives == 0);
     }
   }
-  void leave(std::exception_ptr why, bool ends_all) {
+  void leave(const std::exception_ptr& why, bool ends_all) {
     const std::lock_guard lock(mutex);
     if (why && !error) error = why;
     if (--left > 0 && !ends_all) return;
