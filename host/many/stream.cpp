@@ -149,7 +149,7 @@ struct PairStream::Impl {
       leave(std::current_exception(), !was_open);
     }
   }
-  void leave(std::exception_ptr why, bool ends_all) {
+  void leave(const std::exception_ptr& why, bool ends_all) {
     const std::lock_guard lock(mutex);
     if (why && !error) error = why;
     if (ends_all) --unopened;
