@@ -107,6 +107,7 @@ class Prover {
   // Where an edge of B crosses a face in its plane, no part of it is proven to 0: so many parts
   // that are so small may take more and more.
   static constexpr uint8_t kVerySmall = 24, kSearchAgain = 8;
+  static constexpr double kDoubt = 1 + 0x1p-20;         // eight ulp of a float
   static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
 
@@ -200,14 +201,21 @@ class Prover {
     if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
   }
 
-  // Parts that are too small to ask the device about: the nearest faces of B to each, by the host,
-  // and again when the part is that much smaller. In plain floats many faces are as near as the
-  // nearest one.
+  // Whether the device may have taken a face for the nearest of B that only is in plain floats.
+  bool is_doubtful(const Open& one) const {
+    if (one.depth < kSmall || one.depth % kSearchAgain != 0) return false;
+    return nearest_of(one.part, b_, one.hints).upper <= upper_ * kDoubt;
+  }
+
+  // Parts that are too small to ask the device about, or where it may be mistaken: the nearest
+  // faces of B to each, by the host, and again when the part is that much smaller. In plain floats
+  // many faces are as near as the nearest one.
   void search(std::vector<Open>& open) {
     std::vector<Open*> sought;
     for (Open& one : open) {
       const bool is_new = one.searched == 0 || one.depth - one.searched >= kSearchAgain;
-      if (one.has_cell || !is_new || seen_ > kMostSeen) continue;
+      if (!is_new || seen_ > (one.has_cell ? kMostSeen / 2 : kMostSeen)) continue;
+      if (one.has_cell && !is_doubtful(one)) continue;
       seen_ += b_.face_count();
       sought.push_back(&one);
     }
