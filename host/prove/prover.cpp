@@ -13,6 +13,7 @@
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
 #include "host/prove/proof_tree.h"
+#include "host/run/cells.h"
 #include "shaders/math/dyadic.h"
 
 namespace vkh {

@@ -23,6 +23,7 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64), np.array
 
 # Right and wrong uses, for a type checker: the wrong lines, and no others, are errors.
 USES = """\
+import pathlib
 import numpy as np
 import vkhausdorff as vkh
 v, f = np.zeros((3, 3)), np.array([[0, 1, 2]])
@@ -38,7 +39,9 @@ if found.mean is not None and found.field is not None:
     least, most = found.mean
     share: float = found.area_within("1%").lower + float(found.field.upper.max())
 area: bool = vkh.gate((v, f), (v, f), 0.1, area="99%", survey_time=None).survey_met is True
+vkh.distance(v, f, v, f, certificate=pathlib.Path("out.vhc"))
 vkh.distance(v, f, v, f, field=[1])  # wrong
+vkh.gate((v, f), (v, f), 0.1, certificate=1)  # wrong
 vkh.gate(v, 1, 0.1)  # wrong
 vkh.distance(v, f, v)  # wrong
 vkh.distance(v, f, v, f, tolerance=1)  # wrong

@@ -1,6 +1,7 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
 from collections.abc import Callable
+from os import PathLike
 from types import TracebackType
 from typing import Any, Literal, NamedTuple, Protocol, SupportsFloat, SupportsIndex, Union
 
@@ -14,6 +15,7 @@ __version__: str
 
 _Names = Union[list[str], tuple[str, ...], set[str], frozenset[str]]
 _Number = Union[SupportsFloat, SupportsIndex]
+_Path = Union[str, PathLike[str]]
 _Bands = Union[list[Any], tuple[_Number | str, ...], npt.NDArray[Any]]
 _Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled", "limit", "pruned"]
 _Verdict = Literal["pass", "fail", "undecided"]
@@ -131,6 +133,7 @@ class Solver:
         statistics: bool = False,
         bands: _Bands = (),
         survey_time: _Number | None = 10.0,
+        certificate: _Path | None = None,
     ) -> Result: ...
     def close(self) -> None: ...
     def __enter__(self) -> Solver: ...
@@ -159,6 +162,7 @@ def distance(
     statistics: bool = False,
     bands: _Bands = (),
     survey_time: _Number | None = 10.0,
+    certificate: _Path | None = None,
 ) -> Result: ...
 def gate(
     a: _Mesh,
@@ -180,5 +184,6 @@ def gate(
     bands: _Bands = (),
     area: _Number | str | None = None,
     survey_time: _Number | None = 10.0,
+    certificate: _Path | None = None,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
