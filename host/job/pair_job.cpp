@@ -257,11 +257,13 @@ bool wait_for(const std::future<Done>& result, const Progressing& at) {
   constexpr double kGraceful = 0.06;  // in which a run on a GPU ends by itself, with more to say
   constexpr double kToAddUp = 3;      // a survey has files to write, which somebody asked for
   const Stop& stop = at.stop;
+  // A certificate is of what the search says when it has ended, so that is waited for, too.
+  const auto patience = [&] { return at.is_final() || at.job.proof ? kToAddUp : kGraceful; };
   double asked_at = std::numeric_limits<double>::infinity();
   while (result.wait_for(kLook) == std::future_status::timeout) {
     if (!stop.is_asked()) continue;
     asked_at = std::min(asked_at, stop.elapsed_s());
-    if (stop.elapsed_s() - asked_at > (at.is_final() ? kToAddUp : kGraceful)) return false;
+    if (stop.elapsed_s() - asked_at > patience()) return false;
   }
   return true;
 }

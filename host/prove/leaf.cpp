@@ -182,12 +182,15 @@ void Hints::add(uint32_t one) {
   if (count < kMostHints && std::find(face.begin(), end, one) == end) face[count++] = one;
 }
 
+double middle_distance_up(const Part& part, const std::array<glm::dvec3, 3>& t) {
+  return distance_up({.hi = (part[0].hi + part[1].hi + part[2].hi) / 3.0, .lo = {}}, t);
+}
+
 Hints nearest_faces(const Part& part, const ScaledMesh& b) {
-  const glm::dvec3 middle = (part[0].hi + part[1].hi + part[2].hi) / 3.0;
   using Found = std::pair<double, uint32_t>;
   std::vector<Found> nearest;  // a heap, the farthest of them first
   for (uint32_t face = 0; face < b.face_count(); ++face) {
-    const Found found{distance_up({.hi = middle, .lo = {}}, b.corners(face)), face};
+    const Found found{middle_distance_up(part, b.corners(face)), face};
     if (nearest.size() == kMostHints && found >= nearest.front()) continue;
     if (nearest.size() == kMostHints) {
       std::pop_heap(nearest.begin(), nearest.end());

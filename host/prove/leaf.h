@@ -55,7 +55,10 @@ struct Hints {
   void add(uint32_t one);
 };
 
-/// Of all faces, those nearest to the part's middle; the part is small.
+/// As distance_up, of the part's middle.
+double middle_distance_up(const Part& part, const std::array<glm::dvec3, 3>& t);
+
+/// Of all faces, those nearest to the part's middle, the nearest first; the part is small.
 Hints nearest_faces(const Part& part, const ScaledMesh& b);
 
 /// Which of them proves that the part is within `upper` of B, or none does.

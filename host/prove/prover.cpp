@@ -13,6 +13,7 @@
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
 #include "host/prove/proof_tree.h"
+#include "host/run/cells.h"
 #include "shaders/math/dyadic.h"
 
 namespace vkh {
@@ -94,6 +95,7 @@ class Prover {
     double most = 0;
     for (size_t first = 0; first < a_.face_count(); first += kFacesAtOnce)
       most = std::max(most, prove(first, std::min(kFacesAtOnce, a_.face_count() - first)));
+    most = std::max(most, raised_);
     result_.upper = most > 0 ? std::max(report_.upper, given(most)) : report_.upper;
     result_.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   }
@@ -107,6 +109,7 @@ class Prover {
   // Where an edge of B crosses a face in its plane, no part of it is proven to 0: so many parts
   // that are so small may take more and more.
   static constexpr uint8_t kVerySmall = 24, kSearchAgain = 8;
+  static constexpr double kDoubt = 1 + 0x1p-20;         // eight ulp of a float
   static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
 
@@ -200,21 +203,47 @@ class Prover {
     if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
   }
 
-  // Parts that are too small to ask the device about: the nearest faces of B to each, by the host,
-  // and again when the part is that much smaller. In plain floats many faces are as near as the
-  // nearest one.
-  void search(std::vector<Open>& open) {
+  // What all of B is searched for: parts that are too small to ask the device about, and those
+  // whose face is the nearest but for what a float rounds, as the device may have named the wrong
+  // one. And the farthest of the others: if it is too far, halving helps none of them.
+  std::vector<Open*> to_search(std::vector<Open>& open) {
     std::vector<Open*> sought;
+    Open* farthest = nullptr;
+    double most = upper_ * kDoubt;
     for (Open& one : open) {
       const bool is_new = one.searched == 0 || one.depth - one.searched >= kSearchAgain;
-      if (one.has_cell || !is_new || seen_ > kMostSeen) continue;
-      seen_ += b_.face_count();
-      sought.push_back(&one);
+      if (!is_new || seen_ > (one.has_cell ? kMostSeen / 2 : kMostSeen)) continue;
+      if (one.has_cell && (one.depth < kSmall || one.depth % kSearchAgain != 0)) continue;
+      const double least = one.has_cell ? nearest_of(one.part, b_, one.hints).upper : 0;
+      if (least > most) {
+        most = least;
+        farthest = &one;
+      } else if (least <= upper_ * kDoubt) {
+        seen_ += b_.face_count();
+        sought.push_back(&one);
+      }
     }
+    if (farthest != nullptr) sought.push_back(farthest);
+    return sought;
+  }
+
+  // The nearest faces of B to each, by the host, and again when the part is that much smaller.
+  void search(std::vector<Open>& open) {
+    const std::vector<Open*> sought = to_search(open);
     for_each_index(sought.size(), [&](size_t i) {
       sought[i]->hints = nearest_faces(sought[i]->part, b_);
       sought[i]->searched = sought[i]->depth;
     });
+    for (const Open* one : sought) heed(*one);
+  }
+
+  // A middle that is farther from all of B refutes the run. What is left is proven to what this
+  // part can be: halving would go on for millions of parts.
+  void heed(const Open& searched) {
+    const double from_b = middle_distance_up(searched.part, b_.corners(searched.hints.face[0]));
+    if (from_b <= upper_ + kMore) return;
+    upper_ = std::max(upper_, nearest_of(searched.part, b_, searched.hints).upper);
+    raised_ = upper_;
   }
 
   // The device, which faces of B are near. Parts that are too small for it keep what they have.
@@ -297,6 +326,7 @@ class Prover {
   double upper_;                // of the scaled meshes
   std::vector<uint32_t> same_;  // where that is 0: of each face, one of B
   double more_ = kMore;
+  double raised_ = 0;  // upper_, where the run's was refuted
   size_t seen_ = 0;
   size_t batch_;
   bool ended_ = false;

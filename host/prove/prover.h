@@ -6,7 +6,6 @@
 #include <functional>
 #include <string>
 
-#include "host/run/cells.h"
 #include "host/solve/solver.h"
 
 namespace vkh {

@@ -19,7 +19,7 @@ void define_distance(py::module_& m) {
       "distance", distance,
       "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
-      "         statistics=False, bands=(), survey_time=10.0)\n--\n\n"
+      "         statistics=False, bands=(), survey_time=10.0, certificate=None)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
@@ -37,14 +37,18 @@ void define_distance(py::module_& m) {
       "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
       "each.\n"
       "survey_time: the seconds that these may take of each mesh, besides time; None for no "
-      "limit.");
+      "limit.\n\n"
+      "certificate: a path that ends in .vhc: also write a proof of the interval, which vkh_check\n"
+      "checks for files that have the arrays' faces, in their order. What it proves is in\n"
+      "stats['certificate']; None, and no file, where the run ended before it had an upper bound.");
 }
 
 void define_gate(py::module_& m) {
   m.def("gate", gate,
         "gate(a, b, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
         "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
-        "     field=False, statistics=False, bands=(), area=None, survey_time=10.0)\n--\n\n"
+        "     field=False, statistics=False, bands=(), area=None, survey_time=10.0,\n"
+        "     certificate=None)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
@@ -62,7 +66,7 @@ void define_solver(py::module_& m) {
           },
           "distance(self, va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
-          "         bands=(), survey_time=10.0)\n--\n\n"
+          "         bands=(), survey_time=10.0, certificate=None)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "close", [](const py::object& self) { made<PythonSolver>(self, "Solver").close(); },
@@ -100,6 +104,8 @@ PYBIND11_MODULE(_core, m) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const FileFault& fault) {
       raise(fault);
+    } catch (const vkh::OutputError& error) {
+      PyErr_SetString(PyExc_OSError, error.what());
     }
   });
   py::options quiet;

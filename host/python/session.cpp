@@ -108,6 +108,10 @@ void Session::distance(const std::function<void(const ToPrepared&)>& work) {
   });
 }
 
+void Session::with_prepared(const std::function<void(Solver&, const Mesh&)>& work) {
+  use([&](Solver& solver) { work(solver, parts_->b->mesh()); });
+}
+
 void Session::close() {
   const WithoutGil outside;
   const std::thread::id me = std::this_thread::get_id();

@@ -31,6 +31,8 @@ class Session {
   /// From a mesh to what was prepared.
   using ToPrepared = std::function<Report(const Mesh&, const SolveOptions&)>;
   void distance(const std::function<void(const ToPrepared&)>& work);  ///< likewise
+  /// And with the mesh that was prepared.
+  void with_prepared(const std::function<void(Solver&, const Mesh&)>& work);
 
   /// Waits for the run of another thread. In a callback of its own run it waits for nothing: that
   /// run goes on, and is the last.

@@ -9,6 +9,7 @@
 #include "host/python/interpreter.h"
 #include "host/python/mesh.h"
 #include "host/python/options.h"
+#include "host/python/proof.h"
 #include "host/python/survey.h"
 
 namespace vkh::python {
@@ -82,6 +83,7 @@ struct Given {
   std::string device;
   MeshPointer a, b;
   SurveyAsked survey;
+  Certificate certificate;
 
   Given(const Arguments& given, MeshPointer mesh_a, MeshPointer mesh_b)
       : options(heard_options(given)),
@@ -89,12 +91,13 @@ struct Given {
         device(given.text("device", kDevice)),
         a(std::move(mesh_a)),
         b(std::move(mesh_b)),
-        survey(read_survey(given, *a)) {
+        survey(read_survey(given, *a)),
+        certificate(given, options) {
     if (a == b) b = std::make_shared<const Mesh>(*a);  // SurveyRun tells them apart by their place
   }
 };
 
-Answer solve(const Given& given) {
+Answer solve(Given& given) {
   SymmetricReport both;  // its way there, where that is all that is asked
   Surveys surveys;
   session_for(given.device).use([&](Solver& s) {
@@ -110,8 +113,14 @@ Answer solve(const Given& given) {
   });
   if (given.survey.is_any) narrow(given.survey, both.a_to_b, surveys.a);
   if (given.survey.is_any && given.is_symmetric) narrow(given.survey, both.b_to_a, surveys.b);
+  if (given.certificate.is_asked())
+    session_for(given.device).use([&](Solver& s) {
+      given.certificate.make(s, {*given.a, *given.b}, both.a_to_b,
+                             given.is_symmetric ? &both.b_to_a : nullptr);
+    });
   Answer answer = given.is_symmetric ? answered(both) : answered(both.a_to_b);
   add_surveys(given.survey, surveys.a, given.is_symmetric ? &surveys.b : nullptr, answer);
+  given.certificate.tell(answer);
   return answer;
 }
 
@@ -137,26 +146,29 @@ Answer solve_by_face(const Given& given, const std::vector<Limit>& limits) {
 }  // namespace
 
 Answer distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "distance",
-      {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves", "memory", "disable",
-       "progress", "enable", "preset", "field", "statistics", "bands", "survey_time"},
-      4,
-      6};
+  static const auto* signature =
+      new Signature{"distance",
+                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
+                     "memory", "disable", "progress", "enable", "preset", "field", "statistics",
+                     "bands", "survey_time", "certificate"},
+                    4,
+                    6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments given(*signature, all, named);
-  return solve(Given(given, mesh_of("A", given.at("va"), given.at("fa")),
-                     mesh_of("B", given.at("vb"), given.at("fb"))));
+  Given asked(given, mesh_of("A", given.at("va"), given.at("fa")),
+              mesh_of("B", given.at("vb"), given.at("fb")));
+  return solve(asked);
 }
 
 Answer gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "gate",
-      {"a", "b", "max", "tol", "symmetric", "device", "time", "waves", "memory", "disable",
-       "progress", "enable", "preset", "field", "statistics", "bands", "area", "survey_time"},
-      3,
-      3};
+  static const auto* signature =
+      new Signature{"gate",
+                    {"a", "b", "max", "tol", "symmetric", "device", "time", "waves", "memory",
+                     "disable", "progress", "enable", "preset", "field", "statistics", "bands",
+                     "area", "survey_time", "certificate"},
+                    3,
+                    3};
   constexpr double kTolerance = 1e-7;
   const Call call;
   const Arguments arguments(*signature, positional, named);
@@ -165,6 +177,9 @@ Answer gate(const py::args& positional, const py::kwargs& named) {
   const Asked asked = read_asked(arguments, *given.a);
   if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
   read_area(arguments, asked.limit, given.survey);
+  if (given.certificate.is_asked() && (asked.of_faces || given.survey.area))
+    throw UsageError(
+        "certificate: is of the interval, not to be had with area or limits of A's faces");
   if (asked.of_faces) return solve_by_face(given, *asked.of_faces);
   // What is asked of its area is decided by the survey.
   if (!given.survey.area) given.options.limit = asked.limit;
@@ -188,7 +203,7 @@ Answer PythonSolver::distance(const py::args& positional, const py::kwargs& name
   static const auto* signature =
       new Signature{"Solver.distance",
                     {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable",
-                     "preset", "field", "statistics", "bands", "survey_time"},
+                     "preset", "field", "statistics", "bands", "survey_time", "certificate"},
                     2,
                     3};
   const Call call;
@@ -200,6 +215,7 @@ Answer PythonSolver::distance(const py::args& positional, const py::kwargs& name
   const MeshPointer mesh = mesh_of("A", given.at("va"), given.at("fa"));
   const Mesh& a = *mesh;
   const SurveyAsked asked = read_survey(given, a);
+  Certificate certificate(given, options);
   Report report;
   Surveys surveys;
   session->distance([&](const Session::ToPrepared& to_b) {  // it may have been closed meanwhile
@@ -207,8 +223,13 @@ Answer PythonSolver::distance(const py::args& positional, const py::kwargs& name
     report = to_b(a, run.options());
   });
   if (asked.is_any) narrow(asked, report, surveys.a);
+  if (certificate.is_asked())
+    session->with_prepared([&](Solver& solver, const Mesh& b) {
+      certificate.make(solver, {a, b}, report, nullptr);
+    });
   Answer answer = answered(report);
   add_surveys(asked, surveys.a, nullptr, answer);
+  certificate.tell(answer);
   return answer;
 }
 

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "host/base/error.h"
+#include "host/job/session.h"
 #include "host/many/budget.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"

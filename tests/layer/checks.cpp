@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tests/layer/limits.h"
+#include "tests/layer/regroup.h"
 #include "tests/layer/rules.h"
 #include "tests/layer/settings.h"
 #include "tests/layer/spirv.h"
@@ -221,6 +222,22 @@ std::optional<VkResult> refusal(fn::CreatePipelineLayout, Table&, VkDevice,
       count += known().layouts[number_of(layout)];
   }
   return unless(at_most(count, "maxPerStageDescriptorStorageBuffers", where) && fits);
+}
+
+// The driver gets another module, which rounds otherwise.
+std::optional<VkResult> refusal(fn::CreateShaderModule tag, Table& table, VkDevice device,
+                                const VkShaderModuleCreateInfo* info, Allocator allocator,
+                                VkShaderModule* out) {
+  if (!settings().regroups) return std::nullopt;
+  const Regrouped module = regrouped({info->pCode, info->codeSize / 4});
+  for (uint32_t i = 0; i < module.sums; ++i) count_call("regrouped_sums");
+  VkShaderModuleCreateInfo other = *info;
+  other.codeSize = 4 * module.words.size();
+  other.pCode = module.words.data();
+  const VkShaderModuleCreateInfo* const of_driver = &other;
+  const VkResult result = table.CreateShaderModule(device, of_driver, allocator, out);
+  if (result == VK_SUCCESS) made(tag, table, device, of_driver, allocator, out);
+  return result;
 }
 
 std::optional<VkResult> refusal(fn::CreateComputePipelines, Table&, VkDevice, VkPipelineCache,

@@ -130,6 +130,9 @@ std::optional<VkResult> refusal(fn::CreatePipelineLayout, Table&, VkDevice,
 std::optional<VkResult> refusal(fn::CreateComputePipelines, Table&, VkDevice, VkPipelineCache,
                                 uint32_t count, const VkComputePipelineCreateInfo* infos, Allocator,
                                 VkPipeline*);
+std::optional<VkResult> refusal(fn::CreateShaderModule, Table& table, VkDevice device,
+                                const VkShaderModuleCreateInfo* info, Allocator allocator,
+                                VkShaderModule* out);
 void made(fn::GetBufferMemoryRequirements, Table& table, VkDevice, VkBuffer,
           VkMemoryRequirements* requirements);
 bool allowed(fn::UpdateDescriptorSets, Table&, VkDevice, uint32_t count,

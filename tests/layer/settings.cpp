@@ -77,6 +77,7 @@ Settings read() {
   s.log = variable("VKH_LAYER_LOG");
   s.count = variable("VKH_LAYER_COUNT");
   s.keeps_going = !variable("VKH_LAYER_KEEP_GOING").empty();
+  s.regroups = !variable("VKH_LAYER_REGROUP").empty();
   return s;
 }
 

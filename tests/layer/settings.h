@@ -29,6 +29,7 @@ struct Settings {
   uint64_t dropped_plain_barrier = 0;      ///< VKH_LAYER_DROP_PLAIN_BARRIER: vkCmdPipelineBarrier
   std::string log, count;                  ///< VKH_LAYER_LOG, VKH_LAYER_COUNT: files
   bool keeps_going = false;                ///< VKH_LAYER_KEEP_GOING: violations do not abort
+  bool regroups = false;                   ///< VKH_LAYER_REGROUP: sums of shaders
 
   std::optional<uint64_t> limit(const std::string& name) const {
     const auto found = limits.find(name);

@@ -26,13 +26,17 @@ nm -g --undefined-only "$package/lib/libvkhausdorff.a" | grep -E ' vk[A-Z]' && f
 printf 'OFF\n3 1 0\n0 0 0.25\n1 0 0.25\n0 1 0.25\n3 0 1 2\n' >"$folder/a.off"
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$folder/b.off"
 expected="0.25 <= h($folder/a.off, B) <= 0.25"
-# check_consumers FOLDER: the two programs there.
+# check_consumers FOLDER: the programs there.
 check_consumers() {
   "$1/engine" | grep -qE '^[0-9]+\.[0-9]+\.[0-9]+$' || fail "$1/engine printed something else"
   local line
   line=$("$1/host" "$folder/b.off" "$folder/a.off") || fail "$1/host failed"
   awk '{exit !($1 <= 0.25 && $6 >= 0.25 && $6 - $1 < 1e-5 && $7 == "closed")}' <<<"${line/:/}" ||
     fail "$1/host printed '$line', not about '$expected'"
+  "$1/prove" "$folder/a.off" "$folder/b.off" "$folder/ab.vhc" >"$folder/log" || fail "$1/prove failed"
+  if [ -x "$package/bin/vkh_check" ]; then
+    "$package/bin/vkh_check" "$folder/ab.vhc" "$folder/a.off" "$folder/b.off" >"$folder/log" || fail "$1/prove's certificate"
+  fi
 }
 
 cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$package" -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
@@ -62,6 +66,9 @@ ${CC:-cc} -std=c11 -pedantic -Wall -Werror "$consumer/engine.c" -o "$folder/pc/e
   $(pkg_config --cflags --libs vkhausdorff)
 # shellcheck disable=SC2046
 ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror "$consumer/host.cpp" -o "$folder/pc/host" \
+  $(pkg_config --cflags --libs vkhausdorff-host)
+# shellcheck disable=SC2046
+${CXX:-c++} -std=c++20 -Wall -Wextra -Werror "$consumer/prove.cpp" -o "$folder/pc/prove" \
   $(pkg_config --cflags --libs vkhausdorff-host)
 check_consumers "$folder/pc"
 

@@ -23,6 +23,7 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64), np.array
 
 # Right and wrong uses, for a type checker: the wrong lines, and no others, are errors.
 USES = """\
+import pathlib
 import numpy as np
 import vkhausdorff as vkh
 v, f = np.zeros((3, 3)), np.array([[0, 1, 2]])
@@ -43,7 +44,9 @@ for found in vkh.distances([(mesh, "b.ply"), ("id", (v, f), mesh)], max="1%", de
 vkh.distance(mesh, (v, f), tol=1e-3, field=True)
 vkh.Solver(mesh, device="cpu").distance(mesh)
 area: bool = vkh.gate((v, f), (v, f), 0.1, area="99%", survey_time=None).survey_met is True
+vkh.distance(v, f, v, f, certificate=pathlib.Path("out.vhc"))
 vkh.distance(v, f, v, f, field=[1])  # wrong
+vkh.gate((v, f), (v, f), 0.1, certificate=1)  # wrong
 vkh.gate(v, 1, 0.1)  # wrong
 vkh.distance(v, f, v)  # wrong
 vkh.distances([1])  # wrong

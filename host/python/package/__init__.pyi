@@ -16,6 +16,7 @@ __version__: str
 
 _Names = Union[list[str], tuple[str, ...], set[str], frozenset[str]]
 _Number = Union[SupportsFloat, SupportsIndex]
+_Path = Union[str, PathLike[str]]
 _Bands = Union[list[Any], tuple[_Number | str, ...], npt.NDArray[Any]]
 _Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled", "limit", "pruned"]
 _Verdict = Literal["pass", "fail", "undecided"]
@@ -180,6 +181,7 @@ class Solver:
         statistics: bool = False,
         bands: _Bands = (),
         survey_time: _Number | None = 10.0,
+        certificate: _Path | None = None,
     ) -> Result: ...
     def close(self) -> None: ...
     def __enter__(self) -> Solver: ...
@@ -230,6 +232,7 @@ def distance(
     statistics: bool = False,
     bands: _Bands = (),
     survey_time: _Number | None = 10.0,
+    certificate: _Path | None = None,
 ) -> Result: ...
 class _Results(Iterator[Result]):
     def __next__(self) -> Result: ...
@@ -279,6 +282,7 @@ def gate(
     bands: _Bands = (),
     area: _Number | str | None = None,
     survey_time: _Number | None = 10.0,
+    certificate: _Path | None = None,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str], *, max_input: SupportsIndex | str | None = None) -> Mesh: ...
