@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <map>
+#include <optional>
 #include <thread>
 #include <unordered_map>
 
@@ -51,35 +52,37 @@ class Batch {
         budget_(job.read_ahead_bytes != 0 ? job.read_ahead_bytes : kReadAhead),
         reader_(job.pair, job.shared, [this] { return goes_on(); }) {
     keep_older_lines();
+    stream_ = std::make_unique<PairStream>(
+        job_.devices, [this](StreamResult&& result) { take(std::move(result)); });
   }
 
-  ExitCode run(std::ostream& out) {
-    PairStream stream(job_.devices, [this](StreamResult&& result) { take(std::move(result)); });
-    std::exception_ptr error;
-    auto working = std::async(std::launch::async, [&] {
+  /// None: it was to stop, and something in it does not: threads of it are left behind.
+  std::optional<ExitCode> run(std::ostream& out) {
+    constexpr double kGrace = 10;  // s: a submission on a slow device
+    PairStream& stream = *stream_;
+    auto working = begin_now([this, &stream] {
       for_each_index(thread_count(), [&](size_t) { read_some(stream); });
       stream.finish();
     });
+    std::optional<Clock::time_point> asked;
     while (working.wait_for(std::chrono::milliseconds(20)) == std::future_status::timeout) {
       if (goes_on()) continue;
+      if (!asked) asked = Clock::now();
       budget_.close();
       stream.cancel();
+      if (seconds_since(*asked) < kGrace) continue;
+      print(out);
+      return std::nullopt;
     }
+    std::exception_ptr error;
     try {
       working.get();
     } catch (...) {
       error = std::current_exception();
     }
-    line_.end();
     if (error_) error = error_;
     if (!error) file_.sync();
-    totals_.print(out, {.left = job_.entries.size() - totals_.pairs(),
-                        .wall_s = seconds_since(start_),
-                        .read_s = read_s_,
-                        .device = stream.times(),
-                        .devices = stream.devices(),
-                        .results = job_.results,
-                        .has_limit = job_.pair.max.has_value()});
+    print(out);
     if (error) std::rethrow_exception(error);
     const bool is_whole = totals_.pairs() == job_.entries.size();
     return is_whole ? totals_.worst() : worse(totals_.worst(), kExitNotClosed);
@@ -102,6 +105,8 @@ class Batch {
   }
 
   void keep_older_lines() {
+    if (file_.size() > 0 && !file_.begins_with(kRecordStart))
+      throw UsageError("--out '" + job_.results + "': is a file, and no batch's results");
     if (file_.size() > 0 && !job_.resumes)
       throw UsageError("--out '" + job_.results +
                        "': has results: add --resume to go on, or name another file");
@@ -116,6 +121,19 @@ class Batch {
         throw InputError(job_.results + ": line " + std::to_string(number) + ": " + error.what());
       }
     });
+  }
+
+  void print(std::ostream& out) {
+    line_.end();
+    const std::lock_guard lock(mutex_);
+    totals_.print(out, {.left = job_.entries.size() - totals_.pairs(),
+                        .wall_s = seconds_since(start_),
+                        .read_s = read_s_,
+                        .device = stream_->times(),
+                        .devices = stream_->devices(),
+                        .results = job_.results,
+                        .has_limit = job_.pair.max.has_value()});
+    out.flush();
   }
 
   bool goes_on() const { return !stopped_ && !is_interrupted(); }
@@ -263,12 +281,15 @@ class Batch {
 
   void show() {
     const size_t done = totals_.pairs(), all = job_.entries.size();
-    const double each = seconds_since(start_) / static_cast<double>(std::max<size_t>(done, 1));
+    const size_t now = done - kept_.size();  // by this run
+    if (now == 1) first_ = Clock::now();
+    const double each = now < 2 ? 0 : seconds_since(first_) / static_cast<double>(now - 1);
     line_.show_batch(done, all, totals_.failed(), each * static_cast<double>(all - done));
   }
 
-  const BatchJob& job_;
+  const BatchJob job_;
   const Clock::time_point start_ = Clock::now();
+  Clock::time_point first_ = start_;  // when the first pair of this run was done
   LineFile file_;
   Budget budget_;
   EntryReader reader_;
@@ -282,10 +303,17 @@ class Batch {
   std::map<size_t, Running> running_;
   std::set<std::string> kept_;
   Totals totals_;
+  std::unique_ptr<PairStream> stream_;  // ends before what it delivers to
 };
 
 }  // namespace
 
-ExitCode run_batch(const BatchJob& job, std::ostream& out) { return Batch(job).run(out); }
+ExitCode run_batch(const BatchJob& job, std::ostream& out) {
+  auto batch = std::make_unique<Batch>(job);
+  const std::optional<ExitCode> code = batch->run(out);
+  if (code) return *code;
+  (void)batch.release();  // threads still look at it
+  return kExitNotClosed;
+}
 
 }  // namespace vkh

@@ -31,7 +31,7 @@ void row(std::ostream& out, const char* label, const std::string& text) {
 void Totals::add(const Record& record) {
   worst_ = worse(worst_, record.code);
   if (record.status.empty()) {
-    ++failed_;
+    if (++failed_ <= kTop) failures_.push_back(record.name.id + ": " + record.words);
     return;
   }
   const bool has_verdict = !record.verdict.empty();
@@ -55,6 +55,7 @@ void Totals::add_kept(const Record& record) {
 }
 
 std::string Totals::in_words(const Run& run) const {
+  if (pairs() + run.left == 0) return "no pairs";
   const std::string all = count_of(pairs() + run.left, "pairs");
   std::string rest;
   const auto add = [&](size_t count, const char* what) {
@@ -99,6 +100,13 @@ void Totals::print_worst(std::ostream& out) const {
   }
 }
 
+void Totals::print_failures(std::ostream& out) const {
+  for (const std::string& failure : failures_)
+    row(out, &failure == failures_.data() ? "failed" : "", printable(failure));
+  if (failed_ > failures_.size())
+    row(out, "", "and " + std::to_string(failed_ - failures_.size()) + " more");
+}
+
 void Totals::print(std::ostream& out, const Run& run) const {
   out << in_words(run) << '\n';
   const size_t done = pairs() - kept_;
@@ -114,6 +122,7 @@ void Totals::print(std::ostream& out, const Run& run) const {
           number("%.2f s", run.device.gpu_s));
   print_percentiles(out);
   print_worst(out);
+  print_failures(out);
   for (const DeviceDescription& device : run.devices)
     row(out, &device == run.devices.data() ? "devices" : "",
         std::to_string(device.index) + " " + device.name + ", driver " + device.driver);
@@ -126,6 +135,7 @@ void Totals::print_merged(std::ostream& out, size_t missing, const std::string& 
   out << in_words(run) << '\n';
   print_percentiles(out);
   print_worst(out);
+  print_failures(out);
   row(out, "results", printable(results));
 }
 

@@ -39,13 +39,15 @@ class Totals {
     std::string id, unit;
   };
   void print_worst(std::ostream& out) const;
+  void print_failures(std::ostream& out) const;
   void print_percentiles(std::ostream& out) const;
   std::string in_words(const Run& run) const;
 
   ExitCode worst_ = kExitClosed;
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
-  std::vector<Place> top_;      // the farthest, in order
-  std::vector<double> ratios_;  // upper / diag(A)
+  std::vector<Place> top_;             // the farthest, in order
+  std::vector<double> ratios_;         // upper / diag(A)
+  std::vector<std::string> failures_;  // the first ones
 };
 
 }  // namespace vkh

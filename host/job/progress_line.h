@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <mutex>
@@ -54,7 +55,7 @@ class ProgressLine {
   void show_batch(size_t done, size_t all, size_t failed, double seconds_left) {
     const std::lock_guard lock(mutex_);
     if (!is_time()) return;
-    const auto left = static_cast<unsigned long long>(seconds_left + 0.5);
+    const auto left = static_cast<unsigned long long>(std::llround(seconds_left));
     std::array<char, 48> eta{};
     std::array<char, 160> line{};
     if (left < 3600) {

@@ -40,6 +40,7 @@ void PairQueue::put_back(std::vector<WaitingPair> pairs) {
     for (WaitingPair& pair : pairs) waiting_.push_front(std::move(pair));
   }
   work_.notify_all();
+  done_.notify_all();
 }
 
 std::vector<WaitingPair> PairQueue::take(size_t most, uint64_t bytes) {
@@ -71,6 +72,12 @@ void PairQueue::done(size_t pairs) {
   const std::lock_guard lock(mutex_);
   taken_ -= pairs;
   work_.notify_all();
+  done_.notify_all();
+}
+
+void PairQueue::wait() {
+  std::unique_lock lock(mutex_);
+  done_.wait(lock, [&] { return taken_ == 0 && (is_closed_ || waiting_.empty()); });
 }
 
 void PairQueue::end() {
@@ -85,6 +92,7 @@ void PairQueue::close() {
   waiting_.clear();
   room_.notify_all();
   work_.notify_all();
+  done_.notify_all();
 }
 
 bool PairQueue::is_closed() const {

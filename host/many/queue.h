@@ -30,6 +30,9 @@ class PairQueue {
   std::vector<WaitingPair> take(size_t most, uint64_t bytes);
   void done(size_t pairs);
 
+  /// Waits until all that was put is done, or, once it is closed, what was taken.
+  void wait();
+
   void end();    ///< no more will be put
   void close();  ///< what waits is dropped; nothing is taken any more
   bool is_closed() const;
@@ -37,7 +40,7 @@ class PairQueue {
 
  private:
   mutable std::mutex mutex_;
-  std::condition_variable room_, work_;
+  std::condition_variable room_, work_, done_;
   std::deque<WaitingPair> waiting_;
   size_t most_, taken_ = 0;
   bool is_ended_ = false, is_closed_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <set>
 #include <thread>
 
@@ -17,6 +18,31 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Devices are opened and taken apart one at a time: drivers share state that is theirs.
+std::mutex& opening() {
+  static auto* mutex = new std::mutex;
+  return *mutex;
+}
+
+/// Of a device's life: opened, and taken apart again, in turn with others.
+class OpenDevice {
+ public:
+  explicit OpenDevice(const std::string& selector) {
+    const std::lock_guard lock(opening());
+    device_ = std::make_unique<Device>(DeviceRequest{.selector = selector});
+  }
+  ~OpenDevice() {
+    const std::lock_guard lock(opening());
+    device_.reset();
+  }
+  OpenDevice(const OpenDevice&) = delete;
+  OpenDevice& operator=(const OpenDevice&) = delete;
+  Device& operator*() { return *device_; }
+
+ private:
+  std::unique_ptr<Device> device_;
+};
+
 // A device that is lost again and again without an answer between is not opened any more.
 constexpr int kMostReopened = 3;
 
@@ -31,7 +57,7 @@ struct PairStream::Impl {
               .queue = queue,
               .deliver = [this](StreamResult&& result) { hand_out(std::move(result)); },
               .count = [this](double busy, double gpu) { count(busy, gpu); }} {
-    left = options.devices.size();
+    left = unopened = options.devices.size();
     for (const std::string& selector : options.devices)
       threads.emplace_back([this, selector] { serve(selector); });
   }
@@ -56,8 +82,10 @@ struct PairStream::Impl {
     times.lanes_s += busy;
     times.gpu_s += gpu;
   }
-  void note_open(const DeviceDescription& device) {
+  void note_open(const DeviceDescription& device, bool is_first) {
     const std::lock_guard lock(mutex);
+    if (is_first) --unopened;
+    all_tried.notify_all();
     if (opened.empty()) times.start_s = seconds_since(start);
     const bool is_taken = std::any_of(opened.begin(), opened.end(), [&](const auto& other) {
       return other.index == device.index && other.name == device.name;
@@ -72,16 +100,18 @@ struct PairStream::Impl {
   }
 
   // One life of a device: until nothing waits (true), or it is lost.
-  bool live(const std::string& selector, bool is_first) {
-    Device device(DeviceRequest{.selector = selector});
-    if (is_first) claim(device.description());
+  bool live(const std::string& selector, bool& was_open) {
+    OpenDevice open(selector);
+    Device& device = *open;
+    if (!was_open) claim(device.description());
     LaneDevice lanes{.device = device,
                      .prepared = PreparedMeshes(device.description().memory_bytes / 8),
                      .shape = shape_for(options, device.description())};
     std::vector<std::unique_ptr<Solver>> solvers;
     solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
     solvers[0]->make_ready(options.first);
-    note_open(device.description());
+    note_open(device.description(), !was_open);
+    was_open = true;
     const auto run = [&](Solver& solver) {
       const FloatEnvironment ours;
       Lane(share, lanes, solver).work();
@@ -107,20 +137,23 @@ struct PairStream::Impl {
     const FloatEnvironment ours;
     size_t before = 0;
     int lives = 0;
+    bool was_open = false;
     try {
-      while (!live(selector, lives == 0)) {
+      while (!live(selector, was_open)) {
         lives = delivered > before ? 1 : lives + 1;
         before = delivered;
         if (lives > kMostReopened) throw DeviceError("the device was lost again and again");
       }
       leave(nullptr, false);
     } catch (...) {
-      leave(std::current_exception(), lives == 0);
+      leave(std::current_exception(), !was_open);
     }
   }
   void leave(std::exception_ptr why, bool ends_all) {
     const std::lock_guard lock(mutex);
     if (why && !error) error = why;
+    if (ends_all) --unopened;
+    all_tried.notify_all();
     if (--left > 0 && !ends_all) return;
     if (!ends_all && queue.is_empty() && why == nullptr) return;
     is_dead = true;
@@ -137,6 +170,10 @@ struct PairStream::Impl {
       if (thread.joinable()) thread.join();
     }
   }
+  void wait_for_devices() {
+    std::unique_lock lock(mutex);
+    all_tried.wait(lock, [&] { return unopened == 0; });
+  }
   void check_alive() {
     const std::lock_guard lock(mutex);
     if (is_dead && error) std::rethrow_exception(error);
@@ -152,7 +189,8 @@ struct PairStream::Impl {
   mutable std::mutex mutex;
   std::exception_ptr error;
   bool is_dead = false;
-  size_t left = 0;
+  size_t left = 0, unopened = 0;
+  std::condition_variable all_tried;
   std::set<uint32_t> claimed;
   std::vector<DeviceDescription> opened;
   StreamTimes times;
@@ -169,9 +207,11 @@ bool PairStream::push(StreamPair pair) {
   return false;
 }
 
+// Devices are taken apart later: what was delivered need not wait for that.
 void PairStream::finish() {
   impl_->queue.end();
-  impl_->join();
+  impl_->queue.wait();
+  impl_->wait_for_devices();
   impl_->check_alive();
 }
 

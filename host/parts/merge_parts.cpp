@@ -132,6 +132,7 @@ void check_complete(const std::vector<Part>& parts) {
 /// In their order.
 std::vector<Part> checked(const std::vector<WrittenAnswer>& written) {
   std::vector<Part> parts;
+  parts.reserve(written.size());
   for (const WrittenAnswer& one : written) parts.push_back(parsed(one));
   for (const Part& part : parts) check_alike(part, parts[0]);
   std::stable_sort(parts.begin(), parts.end(),
@@ -151,6 +152,7 @@ const Part& farthest(const std::vector<Part>& parts) {
 
 Report whole_of(const std::vector<Part>& parts) {
   std::vector<Report> reports;
+  reports.reserve(parts.size());
   for (const Part& part : parts) reports.push_back(part.report);
   Report whole = joined_report(reports);
   for (const Report& r : reports) whole.known_lower = std::max(whole.known_lower, r.known_lower);
@@ -300,6 +302,7 @@ Json arguments_of(const Json& typed) {
 
 Json waits_of(const std::vector<Part>& parts) {
   std::vector<const Json*> all;
+  all.reserve(parts.size());
   for (const Part& part : parts) all.push_back(&part.written->json.at("times"));
   return largest_of(all);
 }

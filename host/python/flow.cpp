@@ -100,17 +100,18 @@ void Flow::work() {
 }
 
 void Flow::solve(FlowPair pair) {
-  const auto goes_on = [this] {
+  ReadLimits limits = asked_.limits;
+  limits.keep_going = [this] {
     const std::lock_guard lock(mutex_);
     return !is_ended_;
   };
   StreamPair whole{.number = pair.number,
-                   .a = made_mesh(std::move(pair.a), goes_on),
+                   .a = made_mesh(std::move(pair.a), limits),
                    .b = asked_.against,
                    .shares_b = asked_.against != nullptr,
                    .symmetric = asked_.symmetric,
                    .options = asked_.options};
-  if (!asked_.against) whole.b = made_mesh(std::move(pair.b), goes_on);
+  if (!asked_.against) whole.b = made_mesh(std::move(pair.b), limits);
   if (asked_.max) whole.options.limit = limit_for(*asked_.max, *whole.a);
   try {
     stream_->push(std::move(whole));

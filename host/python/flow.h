@@ -21,6 +21,7 @@ struct FlowAsked {
   SolveOptions options;
   std::optional<MaxAsked> max;
   bool symmetric = false;
+  ReadLimits limits;    ///< of files
   MeshPointer against;  ///< the B of all; null: each has its own
   StreamOptions devices;
   size_t ahead = 0;  ///< pairs that are put and not taken, at most; 0: twice what devices hold

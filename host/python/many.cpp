@@ -78,7 +78,9 @@ FlowAsked asked_from(const Arguments& given) {
   asked.symmetric = given.flag("symmetric");
   asked.ahead = count_of(given, "ahead");
   asked.devices = devices_of(given);
-  if (is_given(given, "against")) asked.against = mesh_of("against", "B", given.at("against"));
+  asked.limits = limits_of(given);
+  if (is_given(given, "against"))
+    asked.against = mesh_of("against", "B", given.at("against"), asked.limits);
   return asked;
 }
 
@@ -96,7 +98,7 @@ PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) 
   static const auto* signature =
       new Signature{"distances",
                     {"against", "tol", "symmetric", "max", "device", "time", "waves", "memory",
-                     "disable", "enable", "preset", "together", "lanes", "ahead"},
+                     "disable", "enable", "preset", "together", "lanes", "ahead", "max_input"},
                     0,
                     0};
   const Call call;

@@ -13,6 +13,7 @@
 #include "host/base/float_environment.h"
 #include "host/python/answer.h"
 #include "host/python/interpreter.h"
+#include "host/python/options.h"
 #include "host/python/session.h"
 #include "host/read/mesh_io.h"
 #include "host/system/system.h"
@@ -40,11 +41,11 @@ int fault_of(const std::string& file) {
   return access(file.c_str(), R_OK) == 0 ? 0 : errno;
 }
 
-Mesh read_file(const std::string& file, const std::function<bool()>& keep_going) {
+Mesh read_file(const std::string& file, ReadLimits limits) {
   constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones gain little from more threads
-  const size_t threads = file_size(file) < kLarge ? 1 : 0;
+  limits.threads = file_size(file) < kLarge ? 1 : 0;
   try {
-    return read_mesh(path_of(file), {.keep_going = keep_going, .threads = threads});
+    return read_mesh(path_of(file), limits);
   } catch (const InputError&) {
     const int code = fault_of(file);
     if (code != 0) throw FileFault{code, file};
@@ -53,14 +54,15 @@ Mesh read_file(const std::string& file, const std::function<bool()>& keep_going)
 }
 
 // Ctrl-C is heard by this thread alone, so that another one reads.
-MeshPointer read_now(const std::string& file) {
+MeshPointer read_now(const std::string& file, ReadLimits limits = {}) {
   constexpr std::chrono::milliseconds kStep(20);
   try {
     const WithoutGil outside;
     std::atomic<bool> goes_on = true;
+    limits.keep_going = [&] { return goes_on.load(); };
     auto reading = std::async(std::launch::async, [&] {
       const FloatEnvironment ours;
-      return std::make_shared<const Mesh>(read_file(file, [&] { return goes_on.load(); }));
+      return std::make_shared<const Mesh>(read_file(file, limits));
     });
     try {
       while (reading.wait_for(kStep) == std::future_status::timeout) hear_signals();
@@ -173,10 +175,13 @@ FileMesh from_state(const py::tuple& state) {
   return {std::make_shared<const Mesh>(std::move(mesh))};
 }
 
-FileMesh read(const py::object& path) {
+FileMesh read(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{"read", {"path", "max_input"}, 1, 1};
   const Call call;
+  const Arguments given(*signature, positional, named);
+  const py::object& path = given.at("path");
   if (!is_path(path)) refuse_type("path", "the path of a mesh file", path);
-  return {read_now(file_from("path", path))};
+  return {read_now(file_from("path", path), limits_of(given))};
 }
 
 template <class Get>
@@ -219,11 +224,13 @@ void define_mesh(py::module_& m) {
            }))
       .def(py::pickle([](const py::object& self) { return state_of(self); },
                       [](const py::tuple& state) { return from_state(state); }));
-  m.def("read", read, py::arg("path"),
-        "read(path)\n--\n\n"
-        "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
-        "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
-        "a file never passes for the whole.");
+  m.def(
+      "read", read,
+      "read(path, *, max_input=None)\n--\n\n"
+      "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
+      "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
+      "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
+      "and one whose mesh takes more, 24 bytes a vertex and 12 a face.");
 }
 
 void raise(const FileFault& fault) {
@@ -248,17 +255,25 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const py::ob
   return {.mesh = {}, .file = {}, .arrays = raw_mesh_from(name, arrays[0], arrays[1])};
 }
 
-MeshPointer made_mesh(MeshGiven given, const std::function<bool()>& keep_going) {
+ReadLimits limits_of(const Arguments& given) {
+  ReadLimits limits;
+  limits.max_input_bytes = size_of(given, "max_input").value_or(limits.max_input_bytes);
+  return limits;
+}
+
+MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
   if (given.mesh != nullptr) return given.mesh;
-  if (!given.file.empty()) return std::make_shared<const Mesh>(read_file(given.file, keep_going));
+  if (!given.file.empty())
+    return std::make_shared<const Mesh>(read_file(given.file, std::move(limits)));
   RawMesh& raw = given.arrays;
   return std::make_shared<const Mesh>(
       make_mesh(raw.name, std::move(raw.vertices), std::move(raw.faces)));
 }
 
-MeshPointer mesh_of(const char* argument, const std::string& name, const py::object& object) {
+MeshPointer mesh_of(const char* argument, const std::string& name, const py::object& object,
+                    ReadLimits limits) {
   if (py::isinstance<FileMesh>(object)) return made<FileMesh>(object, "Mesh").mesh;
-  if (is_path(object)) return read_now(file_from(argument, object));
+  if (is_path(object)) return read_now(file_from(argument, object), std::move(limits));
   const py::tuple arrays = checked_arrays(argument, object);
   return std::make_shared<const Mesh>(mesh_from(name, arrays[0], arrays[1]));
 }

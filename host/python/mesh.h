@@ -4,12 +4,12 @@
 
 #include <pybind11/pybind11.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
+#include "host/source/read_limits.h"
 
 namespace vkh::python {
 
@@ -37,12 +37,14 @@ struct MeshGiven {
 /// A Mesh, a path, (vertices, faces), or an object that has them. A TypeError or ValueError for
 /// what is none. `argument` is what the caller calls it, `name` is "A" or "B".
 MeshGiven mesh_given(const char* argument, const std::string& name, const pybind11::object& object);
-/// Anywhere. Throws FileFault, what read_mesh and make_mesh throw; `keep_going`: false ends it with
-/// Interrupted.
-MeshPointer made_mesh(MeshGiven given, const std::function<bool()>& keep_going);
+/// The keyword max_input.
+ReadLimits limits_of(const Arguments& given);
+/// Anywhere. Throws FileFault, what read_mesh and make_mesh throw.
+MeshPointer made_mesh(MeshGiven given, ReadLimits limits);
 
 /// Within a Call: the mesh of such an argument, now. Ctrl-C is heard while a file is read.
-MeshPointer mesh_of(const char* argument, const std::string& name, const pybind11::object& object);
+MeshPointer mesh_of(const char* argument, const std::string& name, const pybind11::object& object,
+                    ReadLimits limits = {});
 
 /// Where only so many values were given by position, and each is a mesh: what they are as
 /// (vertices, faces), for signatures that have these apart. `apart`: their names.

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "host/answer/options.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/python/survey.h"
 #include "host/run/frame.h"
@@ -13,17 +12,6 @@ namespace vkh::python {
 namespace {
 
 namespace py = pybind11;
-
-// The program's rules, in the words of Python: tol, not --tol.
-template <class Parse>
-auto parsed(Parse parse, const std::string& text) {
-  try {
-    return parse(text);
-  } catch (const UsageError& error) {
-    const std::string message = error.what();
-    throw UsageError(message.starts_with("--") ? message.substr(2) : message);
-  }
-}
 
 void read_tolerance(const Arguments& given, SolveOptions& options) {
   constexpr const char* kExpected =
@@ -42,17 +30,6 @@ void read_tolerance(const Arguments& given, SolveOptions& options) {
   options.tolerance = *value;
 }
 
-void read_memory(const Arguments& given, SolveOptions& options) {
-  constexpr const char* kExpected = "a number of bytes above 0, a string such as '2GiB', or None";
-  const py::object* memory = given.find("memory");
-  if (memory != nullptr && py::isinstance<py::str>(*memory)) {
-    options.memory_bytes = parsed(parse_memory, given.text("memory", kExpected));
-  } else if (const std::optional<uint64_t> bytes = given.whole("memory", kExpected)) {
-    if (*bytes == 0) refuse_value("memory", kExpected, *memory);
-    options.memory_bytes = *bytes;
-  }
-}
-
 void read_limits(const Arguments& given, SolveOptions& options) {
   constexpr const char* kTime = "a number of seconds, 0 or more, or None";
   constexpr const char* kWaves = "a whole number from 0 to 4294967295, or None";
@@ -69,12 +46,23 @@ void read_limits(const Arguments& given, SolveOptions& options) {
 
 }  // namespace
 
+std::optional<uint64_t> size_of(const Arguments& given, const char* name) {
+  constexpr const char* kExpected = "a number of bytes above 0, a string such as '2GiB', or None";
+  const FloatEnvironment ours;
+  const py::object* size = given.find(name);
+  if (size != nullptr && py::isinstance<py::str>(*size))
+    return parse_size(name, text_from(name, kExpected, *size));
+  const std::optional<uint64_t> bytes = given.whole(name, kExpected);
+  if (bytes && *bytes == 0) refuse_value(name, kExpected, *size);
+  return bytes;
+}
+
 SolveOptions options_of(const Arguments& given) {
   const FloatEnvironment ours;
   SolveOptions options;
   read_tolerance(given, options);
   read_limits(given, options);
-  read_memory(given, options);
+  options.memory_bytes = size_of(given, "memory").value_or(0);
   options.preset = given.text("preset", "'default', 'paper' or 'baseline-gpu'");
   options.enabled = given.texts("enable");
   options.disabled = given.texts("disable");

@@ -1,6 +1,7 @@
 // Keywords that all functions share: what a run may cost, how narrow it has to be, its limit.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "host/answer/length.h"
@@ -11,6 +12,9 @@ namespace vkh::python {
 
 /// tol, time, waves, memory, preset, enable and disable. Nobody listens to the run.
 SolveOptions options_of(const Arguments& given);
+
+/// A number of bytes, or a string such as '2GiB'.
+std::optional<uint64_t> size_of(const Arguments& given, const char* name);
 
 /// A limit of the whole mesh, as a number in the coordinates' unit or of A's diagonal.
 using MaxAsked = std::variant<Limit, Length>;

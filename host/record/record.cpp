@@ -111,8 +111,13 @@ Record read_record(std::string_view line) {
   const Json& code = member(json, "code");
   if (record.name.id.empty() || !code.is_number_integer())
     throw InputError("a result without an id or a code");
-  record.code = static_cast<ExitCode>(code.get<int>());
+  const auto number = code.get<int64_t>();
+  const bool is_known = (number >= 0 && number <= kExitNotWritten) || number == kExitInternal;
+  if (!is_known) throw InputError("a result with the code " + std::to_string(number));
+  record.code = static_cast<ExitCode>(number);
   const Json& error = member(json, "error");
+  if (!error.is_object() && text_in(json, "status").empty())
+    throw InputError("a result with neither a status nor an error");
   if (error.is_object()) {
     record.words = text_in(error, "message");
   } else {

@@ -19,6 +19,9 @@ struct RecordName {
   std::string id, key;
 };
 
+/// How each line begins.
+inline constexpr std::string_view kRecordStart = "{\"schema\":\"vkhausdorff.pair/";
+
 /// Without a newline. What one run or machine alone has comes last, in `run`.
 std::string to_record(const RecordName& name, const Answer& answer);
 std::string to_record(const RecordName& name, const Failure& failure, const Answer& known);

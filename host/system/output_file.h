@@ -51,6 +51,8 @@ class LineFile {
   LineFile& operator=(const LineFile&) = delete;
 
   uint64_t size() const { return size_; }
+  /// Whether its first bytes are those, or all of it is the beginning of them.
+  bool begins_with(std::string_view text);
   /// Hands out each line that is whole, without its end; what comes after the last is cut off: a
   /// process ended while it wrote it. Throws OutputError.
   void read(const std::function<void(std::string_view)>& take);

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -207,6 +208,12 @@ LineFile::LineFile(std::string option, std::string path, const std::vector<std::
 }
 
 LineFile::~LineFile() { close(static_cast<int>(file_)); }
+
+bool LineFile::begins_with(std::string_view text) {
+  std::string start(std::min<uint64_t>(text.size(), size_), '\0');
+  const ssize_t bytes = pread(static_cast<int>(file_), start.data(), start.size(), 0);
+  return bytes == static_cast<ssize_t>(start.size()) && text.starts_with(start);
+}
 
 void LineFile::read(const std::function<void(std::string_view)>& take) {
   const int file = static_cast<int>(file_);

@@ -263,6 +263,16 @@ bool go_to(HANDLE file, uint64_t place) {
 
 }  // namespace
 
+bool LineFile::begins_with(std::string_view text) {
+  std::string start(static_cast<size_t>(std::min<uint64_t>(text.size(), size_)), '\0');
+  const HANDLE file = handle_of(file_);
+  DWORD bytes = 0;
+  const bool is_read =
+      go_to(file, 0) &&
+      ReadFile(file, start.data(), static_cast<DWORD>(start.size()), &bytes, nullptr) != 0;
+  return is_read && bytes == start.size() && text.starts_with(start);
+}
+
 void LineFile::read(const std::function<void(std::string_view)>& take) {
   const HANDLE file = handle_of(file_);
   std::string text;  // what is there of a line

@@ -113,7 +113,8 @@ class Types(unittest.TestCase):
     def test_the_module_takes_what_its_signatures_say(self):
         """The signatures are texts: the parser's own list is in what it says to a stranger."""
         with vkh.Solver(*SQUARE) as solver:
-            for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance)):
+            for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance),
+                                   (vkh.read, vkh.read)):
                 with self.assertRaises(TypeError) as refused:
                     function(stranger=1)
                 taken = re.search(r"it takes (.*)$", str(refused.exception))[1].split(", ")

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""read() of the Python module, and whatever else is taken for a mesh. Run through ctest."""
+import base64
+import gc
+import json
+import os
+import pathlib
+import pickle
+import tempfile
+import types
+import unittest
+
+import numpy as np
+import vkhausdorff as vkh
+
+from python_distances_test import B, PAIRS, obj
+
+
+class Meshes(unittest.TestCase):
+    def test_read(self):
+        a, b = PAIRS[3]
+        with tempfile.TemporaryDirectory() as folder:
+            file = obj(folder, "ü a.obj", a)
+            file.write_text(file.read_text() + "v 9 9 9\nf 1 2 3 4\n")
+            mesh = vkh.read(file)
+            self.assertEqual(repr(vkh.read(str(file))), repr(mesh))
+        self.assertEqual((mesh.vertices.dtype, mesh.faces.dtype), (np.float64, np.uint32))
+        self.assertTrue((mesh.vertices == a[0]).all())
+        self.assertEqual(len(mesh.faces), len(a[1]) + 2)
+        self.assertEqual((mesh.path, mesh.unit, mesh.delta), (str(file), None, 0))
+        self.assertEqual((mesh.counts["unreferenced"], mesh.counts["polygons"], mesh.counts["faces"]), (1, 1, len(a[1]) + 2))
+        self.assertTrue(any("fanned" in note for note in mesh.notes), mesh.notes)
+        for array in (mesh.vertices, mesh.faces):
+            with self.assertRaises(ValueError):
+                array[0] = 1
+            with self.assertRaises(ValueError):
+                array.setflags(write=True)
+        vertices = mesh.vertices
+        again = pickle.loads(pickle.dumps(mesh))
+        for name in ("path", "unit", "delta", "counts", "notes"):
+            self.assertEqual(getattr(again, name), getattr(mesh, name))
+        expected = vkh.distance(mesh.vertices, mesh.faces, *b)
+        for other in (mesh, again):
+            self.assertEqual(vkh.distance(other, b), expected)
+        del mesh
+        gc.collect()
+        self.assertTrue((vertices == a[0]).all())  # which has kept it
+
+    def test_wherever_a_mesh_goes(self):
+        a, b = PAIRS[4]
+        expected, gated = vkh.distance(*a, *b), vkh.gate(a, b, 0.1)
+        with vkh.Solver(*b) as solver:
+            prepared = solver.distance(*a)
+        with tempfile.TemporaryDirectory() as folder:
+            files = obj(folder, "a.obj", a), str(obj(folder, "b.obj", b))
+            meshes = tuple(map(vkh.read, files))
+            objects = types.SimpleNamespace(vertices=a[0], faces=a[1]), types.SimpleNamespace(vertices=b[0], triangles=b[1])
+            for x, y in (files, meshes, objects, (a, b), (files[0], b)):
+                self.assertEqual(vkh.distance(x, y), expected)
+                self.assertEqual(vkh.distance(x, y, symmetric=True).lower, vkh.distance(*a, *b, symmetric=True).lower)
+                self.assertEqual(vkh.gate(x, y, 0.1), gated)
+                self.assertEqual(next(vkh.distances([(x, y)])), expected)
+                self.assertEqual(next(vkh.distances([x], against=y)), prepared)
+                with vkh.Solver(y, device="cpu") as solver:
+                    self.assertEqual(solver.distance(x), prepared)
+            vkh.assert_within(*files, 10)
+        both = vkh.distance(meshes[0], meshes[0], symmetric=True, field=True)
+        self.assertEqual((len(both.field), len(both.field_back)), 2 * (len(a[1]),))
+
+    def test_delta_is_in_the_interval(self):
+        # A rotation of a scene is rounded: arrays do not know it, a Mesh does.
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "turned.gltf"
+            file.write_text(gltf(*PAIRS[0][0]))
+            mesh = vkh.read(file)
+        self.assertEqual(mesh.unit, "m")
+        self.assertGreater(mesh.delta, 0)
+        self.assertEqual(pickle.loads(pickle.dumps(mesh)).delta, mesh.delta)
+        known, bare = vkh.distance(mesh, B), vkh.distance((mesh.vertices, mesh.faces), B)
+        self.assertLess(known.lower, bare.lower)
+        self.assertGreater(known.upper, bare.upper)
+
+    def test_refusals(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bad = pathlib.Path(folder) / "bad.stl"
+            bad.write_text("solid x\n facet\n")
+            locked = pathlib.Path(folder) / "locked.stl"
+            locked.write_text("")
+            locked.chmod(0)
+            cases = [(bad, ValueError, "bad.stl"), ("nonesuch.stl", FileNotFoundError, "nonesuch"),
+                     (folder, IsADirectoryError, None), ("a\0b", ValueError, "^path: expected"), ("", ValueError, "^path: expected"),
+                     (5, TypeError, "^path: expected"), (None, TypeError, "^path: expected")]
+            if os.getuid() != 0:
+                cases.append((locked, PermissionError, "locked"))
+            for path, kind, said in cases:
+                with self.assertRaisesRegex(kind, said or ""):
+                    vkh.read(path)
+        with tempfile.TemporaryDirectory() as folder:
+            file = obj(folder, "a.obj", PAIRS[0][0])
+            self.assertEqual(len(vkh.read(file, max_input="1M").faces), len(PAIRS[0][0][1]))
+            with self.assertRaisesRegex(ValueError, "a.obj"):
+                vkh.read(file, max_input=100)
+            self.assertIsInstance(next(vkh.distances([(file, B)], max_input="0.1K")).error, ValueError)
+            for wrong, kind in ((0, ValueError), ("x", ValueError), (1.5, TypeError)):
+                with self.assertRaisesRegex(kind, "^max_input.*expected "):
+                    vkh.read(file, max_input=wrong)
+        with self.assertRaisesRegex(TypeError, "No constructor"):
+            vkh.Mesh()
+        with self.assertRaisesRegex(TypeError, "was never made"):
+            vkh.Mesh.__new__(vkh.Mesh).vertices
+        with self.assertRaisesRegex(TypeError, "'vb' is missing"):
+            vkh.distance(B[0], B[1])
+        with self.assertRaises(ValueError):
+            vkh.Mesh.__new__(vkh.Mesh).__setstate__((1, 2))
+
+
+def gltf(vertices, faces):
+    points, corners = vertices.astype("<f4").tobytes(), faces.astype("<u4").tobytes()
+    uri = "data:application/octet-stream;base64," + base64.b64encode(points + corners).decode()
+    low, high = vertices.astype("<f4").min(0).tolist(), vertices.astype("<f4").max(0).tolist()
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "rotation": [0.1, 0.2, 0.3, 0.9273618495495703]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": len(points) + len(corners), "uri": uri}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(points)},
+                        {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(vertices), "type": "VEC3", "min": low, "max": high},
+                      {"bufferView": 1, "componentType": 5125, "count": 3 * len(faces), "type": "SCALAR"}]})
+
+
+if __name__ == "__main__":
+    unittest.main()
