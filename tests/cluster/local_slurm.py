@@ -4,6 +4,7 @@ Of the machine's own Slurm, if there is one, nothing is used but the programs. N
 """
 
 import contextlib
+import ctypes
 import os
 import pathlib
 import shutil
@@ -66,6 +67,12 @@ def missing() -> str:
         if not shutil.which(program, path=PATH):
             return f"no {program} here (Debian: slurm-wlm, munge)"
     return "" if os.geteuid() == 0 else "munged and slurmd are started as root, and this is not root"
+
+
+def end_with_parent() -> None:
+    """In a child: SIGTERM to it when this process ends, also where it is killed, as ctest does after a time."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
 
 
 def free_ports(count: int) -> list[int]:
@@ -133,7 +140,7 @@ class LocalSlurm:
         name = as_name or words[0]
         with open(self.folder / f"{name}.said", "wb") as said:
             self.daemons[name] = subprocess.Popen(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=said,
-                                                  stderr=said, start_new_session=True)
+                                                  stderr=said, start_new_session=True, preexec_fn=end_with_parent)
 
     def until(self, true, what: str, seconds: float = SECONDS) -> None:
         """Waits until `true()`; a daemon that has ended is said at once."""

@@ -33,7 +33,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     named = {} if tol is None else {"tol": tol}
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
-                          max_input=max_input, **named)
+                           max_input=max_input, **named)
     first = getattr(pairs, "first_index", 0)  # of vkhausdorff.dask's shards
     return _Results(stream, _results(stream, items, _with_one if against is not None else _with_two, first))
 
