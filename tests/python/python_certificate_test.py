@@ -125,7 +125,7 @@ class Certificates(unittest.TestCase):
             vkh.distance(*A, *B, certificate=self.path)
 
     def test_the_guides_example(self):
-        example = pathlib.Path(__file__).resolve().parent / "certificate_example.py"
+        example = pathlib.Path(__file__).resolve().parents[1] / "package/certificate_example.py"
         before = os.getcwd()
         os.chdir(self.folder)
         self.addCleanup(os.chdir, before)

@@ -84,7 +84,7 @@ class Many(unittest.TestCase):
         self.assertEqual(results, 5 * [vkh.distance(va, fa, *b)])
 
     def test_the_example(self):
-        done = subprocess.run([sys.executable, pathlib.Path(__file__).with_name("distances_example.py")], capture_output=True, text=True)
+        done = subprocess.run([sys.executable, pathlib.Path(__file__).resolve().parents[1] / "package/distances_example.py"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout.count("<= h <="), 5)
         self.assertIn("No such file or directory: 'gone.stl'", done.stdout)
@@ -326,10 +326,10 @@ class Endings(unittest.TestCase):
                     raise LookupError("enough")
 
         def by_another():
-            stream = vkh.distances([(grid(80), grid(7))] * 3, tol=1e-7, memory=1 << 18, disable=["centroid", "parent_samples", "u3"],
+            stream = vkh.distances([(grid(80), grid(7))] * 300, tol=1e-7, memory=1 << 18, disable=["centroid", "parent_samples", "u3"],
                                    ahead=3)
             threading.Timer(0.5, stream.close).start()
-            self.assertLess(len(list(stream)), 3)
+            self.assertLess(len(list(stream)), 300)
 
         def within():
             with vkh.distances(itertools.cycle(PAIRS)) as stream:
