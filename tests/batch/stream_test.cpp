@@ -58,7 +58,8 @@ struct Sink {
 
 TEST_CASE("a stream's answers are those of each pair alone, whatever runs beside it") {
   Solver solver(test_device());
-  for (const auto& [together, lanes] : {std::pair<size_t, size_t>{1, 1}, {5, 1}, {4, 3}}) {
+  for (const auto& shape : {std::pair<size_t, size_t>{1, 1}, {5, 1}, {4, 3}}) {
+    const size_t together = shape.first, lanes = shape.second;
     CAPTURE(together);
     CAPTURE(lanes);
     Sink sink;
