@@ -138,7 +138,7 @@ class Batch {
 
   bool goes_on() const { return !stopped_ && !is_interrupted(); }
 
-  void stop(std::exception_ptr error) {
+  void stop(const std::exception_ptr& error) {
     const std::lock_guard lock(mutex_);
     if (error && !error_) error_ = error;
     stopped_ = true;

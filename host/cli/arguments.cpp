@@ -43,37 +43,7 @@ struct Program {
     add_output_options(*command, distance);
     add_search_options(*command, distance);
 
-    command = app.add_subcommand("gate", "Is the distance of two mesh files within a limit?");
-    add_pair(*command, gate);
-    command->add_option("--max", gate.max, std::string("The limit: ") + kLengths)
-        ->type_name("LENGTH")
-        ->required();
-    command
-        ->add_option(
-            "--face-max", gate.face_max_a,
-            "A CSV of face, max: limits of A's faces, counted from 0; a number alone is in "
-            "the files' unit. Others have --max")
-        ->type_name("FILE");
-    command->add_option("--face-max-b", gate.face_max_b, "The same for B's faces, the way back")
-        ->type_name("FILE");
-    add_tolerance(*command, gate, "1e-7");
-    add_symmetric(*command, gate);
-    command
-        ->add_option("--area", gate.area,
-                     "Ask that so much of A's area is within the limit, such as 99.5%, in place of "
-                     "every point")
-        ->type_name("SHARE");
-    add_survey_options(*command, gate);
-    add_picture_options(*command, gate.pictures);
-    add_certificate_option(*command, gate.pictures);
-    command->add_option("--junit", gate.junit, "Write a test suite of one test case: JUnit's XML")
-        ->type_name("FILE");
-    command->add_flag("--github", gate.github,
-                      "Print a workflow annotation for GitHub Actions, and add to the summary of "
-                      "the run ($GITHUB_STEP_SUMMARY)");
-    add_output_options(*command, gate);
-    add_search_options(*command, gate);
-
+    add_gate(*app.add_subcommand("gate", "Is the distance of two mesh files within a limit?"));
     add_batch(*app.add_subcommand("batch", "Distances or verdicts of many pairs"), batch);
     add_merge(*app.add_subcommand("merge", "Results of several batches as one, by id"), merge);
 
@@ -87,6 +57,37 @@ struct Program {
 
     command = app.add_subcommand("doctor", "Devices, drivers and a self-check");
     add_device_option(*command, doctor);
+  }
+
+  void add_gate(CLI::App& command) {
+    add_pair(command, gate);
+    command.add_option("--max", gate.max, std::string("The limit: ") + kLengths)
+        ->type_name("LENGTH")
+        ->required();
+    command
+        .add_option("--face-max", gate.face_max_a,
+                    "A CSV of face, max: limits of A's faces, counted from 0; a number alone is in "
+                    "the files' unit. Others have --max")
+        ->type_name("FILE");
+    command.add_option("--face-max-b", gate.face_max_b, "The same for B's faces, the way back")
+        ->type_name("FILE");
+    add_tolerance(command, gate, "1e-7");
+    add_symmetric(command, gate);
+    command
+        .add_option("--area", gate.area,
+                    "Ask that so much of A's area is within the limit, such as 99.5%, in place of "
+                    "every point")
+        ->type_name("SHARE");
+    add_survey_options(command, gate);
+    add_picture_options(command, gate.pictures);
+    add_certificate_option(command, gate.pictures);
+    command.add_option("--junit", gate.junit, "Write a test suite of one test case: JUnit's XML")
+        ->type_name("FILE");
+    command.add_flag("--github", gate.github,
+                     "Print a workflow annotation for GitHub Actions, and add to the summary of "
+                     "the run ($GITHUB_STEP_SUMMARY)");
+    add_output_options(command, gate);
+    add_search_options(command, gate);
   }
 
   /// The command that `words` name, or the program itself.

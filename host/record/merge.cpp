@@ -33,11 +33,11 @@ void Results::add(const std::string& path) {
   }
   if (file.bad()) throw InputError(path + ": cannot be read");
   files_.push_back(path);
-  put(std::move(of_file));
+  put(of_file);
 }
 
-void Results::put(std::map<std::string, Place> of_file) {
-  for (auto& [id, place] : of_file) {
+void Results::put(const std::map<std::string, Place>& of_file) {
+  for (const auto& [id, place] : of_file) {
     const auto [known, is_new] = places_.try_emplace(id, place);
     if (is_new) continue;
     Place& older = known->second;

@@ -32,7 +32,7 @@ class Results {
     ExitCode code = kExitClosed;
     double width = 0;
   };
-  void put(std::map<std::string, Place> of_file);
+  void put(const std::map<std::string, Place>& of_file);
   std::string text_of(const Place& place) const;
   bool is_better(const Place& x, const Place& y) const;
 
