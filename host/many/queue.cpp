@@ -95,11 +95,6 @@ void PairQueue::close() {
   done_.notify_all();
 }
 
-bool PairQueue::is_closed() const {
-  const std::lock_guard lock(mutex_);
-  return is_closed_;
-}
-
 bool PairQueue::is_empty() const {
   const std::lock_guard lock(mutex_);
   return waiting_.empty() && taken_ == 0;

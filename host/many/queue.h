@@ -33,9 +33,8 @@ class PairQueue {
   /// Waits until all that was put is done, or, once it is closed, what was taken.
   void wait();
 
-  void end();    ///< no more will be put
-  void close();  ///< what waits is dropped; nothing is taken any more
-  bool is_closed() const;
+  void end();             ///< no more will be put
+  void close();           ///< what waits is dropped; nothing is taken any more
   bool is_empty() const;  ///< all that was put is done
 
  private:
