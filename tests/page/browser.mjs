@@ -11,7 +11,12 @@ const browser = await puppeteer.launch({ executablePath: chromium, args, headles
 const seen = { console: [], errors: [], requests: [] };
 
 const text = (page, selector) => page.$eval(selector, (element) => element.textContent);
-const settle = (page) => page.evaluate(() => new Promise((done) => setTimeout(done, 900)));
+// Until a flight of the view is over and drawn, however slow a frame is: it ends with the first frame after its 500 ms,
+// the frame after that draws it, and one more may hold a time from before.
+const settle = (page) => page.evaluate(() => new Promise((done) => {
+  const frames = (left) => (left ? requestAnimationFrame(() => frames(left - 1)) : done());
+  setTimeout(() => frames(4), 600);
+}));
 
 async function canvas(page) {
   const picture = await (await page.$('#canvas')).screenshot();
