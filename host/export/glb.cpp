@@ -1,4 +1,5 @@
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr uint32_t kFloat = 5126, kUnsignedByte = 5121;  // of glTF 2.0, section 3.6.2
+constexpr uint32_t kFloat = 5126, kUnsignedShort = 5123;  // of glTF 2.0, section 3.6.2
 constexpr uint32_t kArrayBuffer = 34962;
 
 // One binary chunk with its views and accessors.
@@ -48,9 +49,17 @@ glm::dvec3 middle_of(const Mesh& mesh) {
   return 0.5 * lo + 0.5 * hi;
 }
 
+// glTF's vertex colours are linear (3.9.2): sRGB's transfer function, IEC 61966-2-1, undone. A byte
+// would make one of a dozen dark colours.
+uint16_t linear(uint8_t srgb) {
+  const double s = srgb / 255.0;
+  const double light = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  return static_cast<uint16_t>(std::lround(65535 * light));
+}
+
 struct Corners {
   std::vector<float> positions, lower, upper;
-  std::vector<uint8_t> colours;
+  std::vector<uint16_t> colours;
   glm::vec3 lo{3e38f}, hi{-3e38f};
 };
 
@@ -68,7 +77,7 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
     out.lower.push_back(float_down(file.field.lower[f]));
     out.upper.push_back(float_up(file.field.upper[f]));
     for (const uint8_t part : {colour.red, colour.green, colour.blue, uint8_t{255}})
-      out.colours.push_back(part);
+      out.colours.push_back(linear(part));
   }
 }
 
@@ -82,7 +91,7 @@ Json document(const FieldFile& file, const Corners& corners, const glm::dvec3& m
   Json position = scalar(kFloat, "VEC3");
   position["min"] = {corners.lo.x, corners.lo.y, corners.lo.z};
   position["max"] = {corners.hi.x, corners.hi.y, corners.hi.z};
-  Json colour = scalar(kUnsignedByte, "VEC4");
+  Json colour = scalar(kUnsignedShort, "VEC4");
   colour["normalized"] = true;
   const Json attributes = {{"POSITION", binary.add(corners.positions, position)},
                            {"COLOR_0", binary.add(corners.colours, colour)},

@@ -43,7 +43,7 @@ def glb(path):
     tree = json.loads(data[20:20 + length])
     length, kind = struct.unpack("<I4s", data[20 + length:28 + length])
     binary = data[len(data) - length:]
-    forms = {("SCALAR", 5126): "<f", ("VEC3", 5126): "<fff", ("VEC4", 5121): "<BBBB"}
+    forms = {("SCALAR", 5126): "<f", ("VEC3", 5126): "<fff", ("VEC4", 5123): "<HHHH"}
     named = {}
     for name, index in tree["meshes"][0]["primitives"][0]["attributes"].items():
         accessor = tree["accessors"][index]
@@ -52,6 +52,12 @@ def glb(path):
         named[name] = list(form.iter_unpack(binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]))
         assert len(named[name]) == accessor["count"]
     return tree, named
+
+
+def srgb(light):
+    """The byte of a linear colour of 16 bits: glTF's, as screens show it (IEC 61966-2-1)."""
+    part = light / 65535
+    return round(255 * (12.92 * part if part <= 0.0031308 else 1.055 * part ** (1 / 2.4) - 0.055))
 
 
 def png(path):
@@ -102,7 +108,8 @@ class See(unittest.TestCase):
         tree, named = glb(self.folder / "out.glb")
         self.assertEqual([u for (u,) in named["_UPPER"]], [f[5] for f in faces for _ in range(3)])
         self.assertEqual([u for (u,) in named["_LOWER"]], [f[4] for f in faces for _ in range(3)])
-        self.assertEqual([c[:3] for c in named["COLOR_0"]], [f[7:10] for f in faces for _ in range(3)])
+        self.assertEqual({c[3] for c in named["COLOR_0"]}, {65535})
+        self.assertEqual([tuple(map(srgb, c[:3])) for c in named["COLOR_0"]], [f[7:10] for f in faces for _ in range(3)])
         shift = tree["nodes"][0]["translation"]
         placed = [tuple(x + s for x, s in zip(p, shift)) for p in named["POSITION"]]
         self.assertEqual(placed, [vertices[v][:3] for f in faces for v in f[1:4]])
