@@ -139,6 +139,7 @@ std::string to_junit(const Failure& failure);
 
 /// A line that GitHub's runner makes an annotation of, and what it shows on the run's page.
 std::string github_annotation(const Answer& answer);
+std::string github_annotation(const Failure& failure);
 std::string github_summary(const Answer& answer);
 
 }  // namespace vkh

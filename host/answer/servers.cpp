@@ -187,6 +187,13 @@ std::string github_annotation(const Answer& answer) {
          ",title=vkhausdorff " + answer.command + "::" + github(in_words(answer), false) + "\n";
 }
 
+std::string github_annotation(const Failure& failure) {
+  const std::string file =
+      failure.file.empty() ? "" : "file=" + github(printable(failure.file), true) + ",";
+  return "::error " + file + "title=vkhausdorff::" + github(printable(failure.message), false) +
+         "\n";
+}
+
 std::string github_summary(const Answer& answer) {
   const char* mark = is_failed(answer)      ? ":x:"
                      : is_undecided(answer) ? ":grey_question:"

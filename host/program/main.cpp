@@ -79,13 +79,32 @@ void check_distinct(const Outputs& outputs) {
   }
 }
 
-int run_pair(const CommandLine& line, const Stop& stop) {
+struct Places {
+  Destinations destinations;
+  Pictures pictures;
+};
+
+Places places_of(const CommandLine& line) {
   check_distinct(line.outputs);
-  Destinations destinations(
-      line.outputs, {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
-  const Pictures pictures(
-      line.outputs.pictures, line.job.symmetric,
-      {line.job.file_a, line.job.file_b, line.job.face_max_a, line.job.face_max_b});
+  const std::vector<std::string> inputs = {line.job.file_a, line.job.file_b, line.job.face_max_a,
+                                           line.job.face_max_b};
+  return {.destinations = Destinations(line.outputs, inputs),
+          .pictures = Pictures(line.outputs.pictures, line.job.symmetric, inputs)};
+}
+
+/// Of words that say no place for an answer, or not yet: programs that wait for one are told.
+template <class F>
+auto or_tell(const Words& words, const F& work) {
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    tell_misuse(words, error.what());
+    throw;
+  }
+}
+
+int run_pair(const CommandLine& line, const Words& words, const Stop& stop) {
+  auto [destinations, pictures] = or_tell(words, [&] { return places_of(line); });
   const Done done = answer_for(line, stop, destinations);  // taken apart after the answer is out
   std::string not_written = destinations.write(done.answer);
   const std::string not_drawn = pictures.write(done);
@@ -109,7 +128,7 @@ int run_doctor(const std::string& device) {
 }
 
 int run(const Words& words, Clock::time_point start) {
-  const CommandLine line = understand(words);
+  const CommandLine line = or_tell(words, [&] { return understand(words); });
   switch (line.command) {
     case Command::kHelp:
       std::cout << line.help;
@@ -124,7 +143,7 @@ int run(const Words& words, Clock::time_point start) {
       return printed(run_merge_command(line.merge));
     default:
       note_interrupts();
-      return run_pair(line, Stop(start, line.time_limit_s));
+      return run_pair(line, words, Stop(start, line.time_limit_s));
   }
 }
 

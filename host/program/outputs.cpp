@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "host/base/error.h"
+#include "host/record/exit_code.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -18,6 +19,29 @@ void append_summary(const Answer& answer) {
   out << github_summary(answer);
   if (!out.flush())
     throw OutputError(std::string("$GITHUB_STEP_SUMMARY '") + file + "': cannot be written");
+}
+
+/// Where words that may be misspelt ask for an answer, and what else they name.
+Outputs outputs_in(const Words& words, Words& others) {
+  Outputs outputs;
+  for (size_t i = 1; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--json") {
+      outputs.json = true;
+    } else if (word == "--github") {
+      outputs.github = true;
+    } else if (word.starts_with("--json=")) {
+      outputs.json_file = word.substr(7);
+    } else if (word.starts_with("--junit=")) {
+      outputs.junit_file = word.substr(8);
+    } else if (word == "--junit" && i + 1 < words.size()) {
+      outputs.junit_file = words[++i];
+    } else {
+      others.push_back(word.starts_with("--") ? word.substr(word.find('=') + 1) : word);
+    }
+  }
+  if (outputs.junit_file == outputs.json_file) outputs.junit_file.reset();
+  return outputs;
 }
 
 }  // namespace
@@ -56,11 +80,23 @@ std::string Destinations::write(const Answer& answer) {
 }
 
 void Destinations::write(const Failure& failure) {
+  if (outputs_.github)
+    (outputs_.json ? std::cerr : std::cout) << github_annotation(failure) << std::flush;
   if (outputs_.json) std::cout << to_json(failure) << std::endl;
   try {
     if (json_) json_->write(to_json(failure) + '\n');
     if (junit_) junit_->write(to_junit(failure));
   } catch (const OutputError&) {
+  }
+}
+
+void tell_misuse(const Words& words, const std::string& message) {
+  if (words.empty() || (words[0] != "distance" && words[0] != "gate" && words[0] != "demo")) return;
+  Words others;
+  const Outputs outputs = outputs_in(words, others);
+  try {
+    Destinations(outputs, others).write(failure_of(message, kExitUsage, {}));
+  } catch (const UsageError&) {  // it is told in words
   }
 }
 

@@ -29,6 +29,10 @@ class Destinations {
   std::optional<OutputFile> json_, junit_;
 };
 
+/// Of words that are not understood, or cannot be done: what is wrong, where they ask for JSON,
+/// JUnit's XML or an annotation. No file that another word names is written to.
+void tell_misuse(const Words& words, const std::string& message);
+
 /// Of an error's one line, which begins with its file.
 Failure failure_of(const std::string& message, int code, const PairJob& job);
 

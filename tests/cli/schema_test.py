@@ -59,6 +59,7 @@ class Outputs(unittest.TestCase):
                             (["gate", "a.obj", "b.obj", "--max", "0.3abs", "--area", "99%"], 0),
                             (["gate", "wide.obj", "a.obj", "--max", "0.5abs", "--area", "0.7"], 0),
                             (["gate", "wide.obj", "a.obj", "--max", "0.5abs", "--area", "80%", "--field-tol", "0.1abs"], 1), (["gate", "a.obj", "b.obj", "--max", "1mm"], 2),
+                            (["gate", "a.obj", "b.obj"], 2), (["distance", "a.obj", "b.obj", "--tll=1e-3"], 2), (["distance", "--device"], 2),
                             (["distance", "missing.obj", "b.obj"], 4), (["distance", "a.obj", "bad.obj"], 4),
                             (["distance", "a.obj", "b.obj", "--device", "none such"], 5)):
             with self.subTest(words):
@@ -69,6 +70,17 @@ class Outputs(unittest.TestCase):
                 self.assertEqual("error" in answer, done.returncode in (2, 4, 5))
         for spoilt in ({"lower": -1}, {"stranger": 1}, {"upper_hex": "1.5"}):
             self.assertFalse(validator.is_valid(answer | spoilt), f"{spoilt} passes")
+
+    def test_what_is_misspelt_is_told_where_answers_go(self):
+        before = (self.folder / "b.obj").read_text()
+        done = run("gate", "a.obj", "b.obj", "--mx=1abs", "--github", "--json=out.json", "--junit", "out.xml", folder=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(json.loads((self.folder / "out.json").read_text())["error"]["code"], 2)
+        self.assertIn(b"did you mean --max?", (self.folder / "out.xml").read_bytes())
+        self.assertTrue(done.stdout.startswith(b"::error title=vkhausdorff::"), done.stdout)
+        for word in ("--json=b.obj", "--junit=b.obj"):  # which is B: nothing is written over it
+            self.assertEqual(run("gate", "a.obj", "b.obj", "--mx=1abs", word, folder=self.folder).returncode, 2)
+            self.assertEqual((self.folder / "b.obj").read_text(), before)
 
     @unittest.skipIf(junitparser is None, "no junitparser here")
     def test_every_suite_is_read_by_another(self):
