@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/mesh/face_checks.h"
+#include "host/mesh/make_mesh.h"
 
 namespace vkh {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 #include <atomic>
 
-#include "host/mesh/face_checks.h"
+#include "host/mesh/make_mesh.h"
 #include "host/mesh/position_index.h"
 
 namespace vkh {

@@ -8,7 +8,6 @@
 
 #include "host/base/float_environment.h"
 #include "host/base/text_scanner.h"
-#include "host/mesh/face_checks.h"
 #include "host/mesh/make_mesh.h"
 
 namespace vkh {

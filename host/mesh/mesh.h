@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/mesh/file_faces.h"
+
 namespace vkh {
 
 /// What was counted while a mesh was accepted; all of it is reported, none of it changes the
@@ -22,12 +24,12 @@ struct MeshCounts {
 };
 
 /// Coordinates are float64, so that float32 and float64 input are both held exactly. Face i is the
-/// i-th triangle of the input (polygons fanned in place); degenerate and duplicate faces stay, so
-/// that indices match the input.
+/// i-th triangle of the input (polygons fanned in place); degenerate and duplicate faces stay.
 struct Mesh {
   std::string name;  ///< the file's path, or what a caller named it; starts every error line
   std::vector<glm::dvec3> vertices;
   std::vector<glm::uvec3> faces;
+  FileFaces file_faces = {};  ///< which face of the file each of them is of, for people
   MeshCounts counts;
   /// No vertex is farther than this from its exact place: what a reader rounded beyond "as given",
   /// such as a scene's transforms. h is 1-Lipschitz in it, and the certified interval is wider by

@@ -77,7 +77,7 @@ class BlockReader {
       last = &element;
     }
     MeshBuilder builder(source_, std::move(vertices_), std::move(faces_));
-    builder.count_faces(polygons_, short_faces_);
+    builder.count_faces(polygons_, short_faces_, file_faces_, 0);
     constexpr uint64_t kMostRest = uint64_t{1} << 20;
     const uint64_t size = source_.size();
     if (size - at > kMostRest) refuse(source_);
@@ -237,17 +237,22 @@ class BlockReader {
       resize_together(crew_, faces_, triangles);
     }
     polygons_ = short_faces_ = 0;
+    std::vector<FileFaces> of_blocks(blocks.size() - 1);
     crew_.for_each(blocks.size() - 1, [&](size_t i) {
       Windows::Window window(windows_);
       FaceRows rows(*this, window.read(blocks[i].at, blocks[i + 1].at));
-      rows.out = faces_.data() + blocks[i].triangle;
+      rows.begin = rows.out = faces_.data() + blocks[i].triangle;
       rows.end = faces_.data() + blocks[i + 1].triangle;
       for (uint64_t row = blocks[i].row; row < blocks[i + 1].row; ++row) rows.read_row();
       rows.check_end();
       count_read(source_, blocks[i + 1].at - blocks[i].at);
       polygons_ += rows.polygons;
       short_faces_ += rows.short_faces;
+      of_blocks[i] = std::move(rows.file_faces);
     });
+    file_faces_ = {};
+    for (size_t i = 0; i < of_blocks.size(); ++i)
+      file_faces_.append(of_blocks[i], blocks[i].triangle);
     return blocks.back().at;
   }
 
@@ -286,9 +291,14 @@ class BlockReader {
     void read_polygon(Scalar type, uint64_t count) {
       if (count == 0 || (count > 2 && count - 2 > static_cast<uint64_t>(end - out)))
         refuse(reader.source_);
-      polygons += count > 3 ? 1 : 0;
-      short_faces += count < 3 ? 1 : 0;
+      if (count != 3) note_other(count);
       with_type(type, [&](auto t) { fan<decltype(t)>(count); });
+    }
+
+    // Than a triangle.
+    void note_other(uint64_t count) {
+      ++(count > 3 ? polygons : short_faces);
+      file_faces.add(static_cast<size_t>(out - begin), count > 3 ? count - 2 : 0);
     }
 
     template <class Index>
@@ -308,9 +318,11 @@ class BlockReader {
     const BlockReader& reader;
     const char* at;
     const char* stop;
+    const glm::uvec3* begin = nullptr;
     glm::uvec3* out = nullptr;
     glm::uvec3* end = nullptr;
     uint64_t polygons = 0, short_faces = 0;
+    FileFaces file_faces;
   };
 
   const Header& header_;
@@ -322,6 +334,7 @@ class BlockReader {
   std::vector<glm::dvec3> vertices_;
   std::vector<glm::uvec3> faces_;
   std::atomic<uint64_t> polygons_ = 0, short_faces_ = 0;
+  FileFaces file_faces_;
 };
 
 }  // namespace

@@ -44,10 +44,14 @@ void MeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const 
 void MeshBuilder::add_face(std::span<const uint32_t> corners) {
   if (corners.size() < 3) {
     ++short_faces_;
+    file_faces_.add(faces_.size(), 0);
     return;
   }
-  if (corners.size() > 3) ++polygons_;
   const size_t count = corners.size() - 2;
+  if (count > 1) {
+    ++polygons_;
+    file_faces_.add(faces_.size(), count);
+  }
   make_room(0, count);
   // A large polygon by what it takes, not by twice what there was.
   if (faces_.capacity() - faces_.size() < count && count > faces_.size())
@@ -87,7 +91,10 @@ MeshBuilder MeshBuilder::joined(const MeshSource& source, std::vector<MeshBuilde
     blocks[i].vertices_ = {};
     blocks[i].faces_ = {};
   });
-  for (const MeshBuilder& block : blocks) all.count_faces(block.polygons_, block.short_faces_);
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const MeshBuilder& block = blocks[i];
+    all.count_faces(block.polygons_, block.short_faces_, block.file_faces_, faces[i]);
+  }
   return all;
 }
 
@@ -98,8 +105,11 @@ Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
                              : "the file ends without a face of three corners",
            "at least one face: a distance between no surfaces is undefined");
   }
+  if (faces_.size() + short_faces_ >= UINT32_MAX)
+    reject(name_, place, "too many faces", "fewer than 2^32 - 1");
   Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_),
                         crew_of({.name = name_, .bytes = {}, .limits = limits_}), positions);
+  mesh.file_faces = std::move(file_faces_);
   mesh.counts.polygons = polygons_;
   mesh.notes = std::move(notes);
   if (polygons_ > 0) {

@@ -48,10 +48,11 @@ class MeshBuilder {
   }
   /// Fans a polygon from its first corner; one of fewer than three corners is ignored and noted.
   void add_face(std::span<const uint32_t> corners);
-  /// Those that were added by other means.
-  void count_faces(uint64_t polygons, uint64_t short_faces) {
+  /// Those that were added by other means, from the triangle `first` on.
+  void count_faces(uint64_t polygons, uint64_t short_faces, const FileFaces& faces, size_t first) {
     polygons_ += polygons;
     short_faces_ += short_faces;
+    file_faces_.append(faces, first);
   }
   /// `place` is where the file ended, for the error if no face was there.
   Mesh finish(const std::string& place, Positions positions = Positions::kAny) &&;
@@ -72,6 +73,7 @@ class MeshBuilder {
   const ReadLimits& limits_;
   std::vector<glm::dvec3> vertices_;
   std::vector<glm::uvec3> faces_;
+  FileFaces file_faces_;
   uint64_t rows_ = 0;
   uint64_t polygons_ = 0;
   uint64_t short_faces_ = 0;

@@ -134,7 +134,8 @@ bool same(const Mesh& a, const Mesh& b) {
   };
   return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
                     same_bits) &&
-         a.faces == b.faces && a.notes == b.notes && counts(a.counts) == counts(b.counts);
+         a.faces == b.faces && a.file_faces.runs() == b.file_faces.runs() && a.notes == b.notes &&
+         counts(a.counts) == counts(b.counts);
 }
 
 /// The mesh, or the error line.

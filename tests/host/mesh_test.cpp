@@ -5,12 +5,15 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "host/base/error.h"
 
 namespace {
 
+using vkh::FileFaces;
 using vkh::InputError;
 using vkh::Mesh;
 using Vertices = std::vector<glm::dvec3>;
@@ -20,7 +23,84 @@ uint64_t degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
   return vkh::make_mesh("m", {a, b, c}, {{0, 1, 2}}).counts.degenerate;
 }
 
+/// Of each triangle of faces of so many triangles the face's number, one by one.
+std::vector<uint32_t> numbered(const std::vector<uint32_t>& triangles_of_faces) {
+  std::vector<uint32_t> numbers;
+  for (uint32_t face = 0; face < triangles_of_faces.size(); ++face)
+    numbers.insert(numbers.end(), triangles_of_faces[face], face);
+  return numbers;
+}
+
+/// As a reader names them: only those that are not one triangle.
+FileFaces file_faces(const std::vector<uint32_t>& triangles_of_faces) {
+  FileFaces faces;
+  size_t first = 0;
+  for (const uint32_t count : triangles_of_faces) {
+    if (count != 1) faces.add(first, count);
+    first += count;
+  }
+  return faces;
+}
+
+/// Runs of like faces, for there are long ones in files.
+std::vector<uint32_t> random_faces(std::mt19937& random) {
+  std::vector<uint32_t> counts;
+  for (size_t runs = random() % 8; runs > 0; --runs)
+    counts.insert(counts.end(), random() % 5, static_cast<uint32_t>(random() % 4));
+  return counts;
+}
+
 }  // namespace
+
+TEST_CASE("a file of triangles takes no map, and one of quads takes one run") {
+  CHECK(FileFaces().are_triangles());
+  CHECK(FileFaces().of(7) == 7);
+  CHECK(FileFaces().count(7) == 7);
+  CHECK(file_faces({1, 1, 1}).are_triangles());
+  const FileFaces quads = file_faces(std::vector<uint32_t>(1000, 2));
+  CHECK(quads.runs() == std::vector<FileFaces::Run>{{2000, 1000}});
+  CHECK(quads.of(0) == 0);
+  CHECK(quads.of(1001) == 500);
+  CHECK(quads.count(2003) == 1003);
+}
+
+TEST_CASE("a triangle has its face's number, whatever stands before it") {
+  std::mt19937 random(23);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::vector<uint32_t> counts = random_faces(random);
+    const std::vector<uint32_t> numbers = numbered(counts);
+    const FileFaces faces = file_faces(counts);
+    CHECK(faces.count(numbers.size()) == counts.size());
+    CHECK(faces.of_all(numbers.size()) == numbers);
+    CHECK(faces.is_valid(numbers.size()));
+    for (size_t i = 0; i < numbers.size(); ++i) CHECK(faces.of(i) == numbers[i]);
+  }
+}
+
+TEST_CASE("blocks of a file, one after another, give the map of the file") {
+  std::mt19937 random(24);
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<uint32_t> all;
+    FileFaces joined;
+    size_t first = 0;
+    for (int block = 0; block < 4; ++block) {
+      const std::vector<uint32_t> counts = random_faces(random);
+      joined.append(file_faces(counts), first);
+      first += std::accumulate(counts.begin(), counts.end(), size_t{0});
+      all.insert(all.end(), counts.begin(), counts.end());
+    }
+    CHECK(joined.runs() == file_faces(all).runs());
+  }
+}
+
+TEST_CASE("a map that no file has is told") {
+  using Runs = std::vector<FileFaces::Run>;
+  const Runs good = {{2, 2}, {6, 4}, {6, 7}};
+  CHECK(FileFaces(good).is_valid(6));
+  CHECK_FALSE(FileFaces(good).is_valid(5));
+  for (const Runs& wrong : {Runs{{2, 0}}, Runs{{2, 1}, {1, 2}}, Runs{{2, 1}, {4, 1}}, Runs{{3, 2}}})
+    CHECK_FALSE(FileFaces(wrong).is_valid(100));
+}
 
 TEST_CASE("make_mesh drops what no face uses, in order, and only that must be finite") {
   const double nan = std::nan("");

@@ -111,6 +111,8 @@ std::vector<File> ply_files(size_t size) {
           {"short_faces.ply", ply_header(kLittle, "uchar", 3, "uchar uchar", size / 2) + three +
                                   repeated(std::string("\1\0", 2), size / 2 - 2) +
                                   std::string("\3\0\1\2", 4)},
+          {"alternating.ply", ply_header(kLittle, "uchar", 3, "uchar uchar", size / 6 * 2) + three +
+                                  repeated(std::string("\1\0\3\0\1\2", 6), size / 6)},
           {"text_polygon.ply", ply_header("ascii", "float", 3, "uint int", 1) +
                                    "0 0 0\n1 0 0\n0 1 0\n" + std::to_string(3 * (size / 6)) +
                                    repeated(" 0 1 2", size / 6) + "\n"},
@@ -144,6 +146,7 @@ std::vector<File> obj_files(size_t size) {
           {"continued.obj", three + "f" + repeated(" 1 2 3\\\n", size / 8) + " 1\n"},
           {"triangles.obj", three + repeated(face, size / face.size())},
           {"points.obj", repeated("v 0 1 2\n", size / 8) + face},
+          {"alternating.obj", three + repeated("f\n" + face, size / 10)},
           {"none.obj", three + repeated("f\n", size / 2) + face},
           {"groups.obj", three + "g" + repeated(" a\\\n", size / 4) + " b\n" + face},
           {"parameters.obj", three + "parm" + repeated(" 1 \\\n2", size / 5) + "\n" + face},
@@ -212,7 +215,8 @@ Cost cost_of(const File& file) {
   const double start = cpu_seconds();
   try {
     const Mesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes});
-    cost.mesh = mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces);
+    cost.mesh = mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces) +
+                mesh.file_faces.runs().size() * sizeof(FileFaces::Run);
   } catch (const InputError&) {
   }
   cost.seconds = cpu_seconds() - start;

@@ -42,7 +42,8 @@ std::string outcome_of(const MeshSource& source) {
     const MeshCounts& c = mesh.counts;
     const std::array counts = {c.vertices,   c.faces,     c.unreferenced,
                                c.degenerate, c.duplicate, c.polygons};
-    std::string all = "mesh " + bytes(mesh.vertices) + bytes(mesh.faces) + bytes(counts);
+    std::string all = "mesh " + bytes(mesh.vertices) + bytes(mesh.faces) + bytes(counts) +
+                      bytes(mesh.file_faces.runs());
     for (const std::string& note : mesh.notes) all += "\n" + note;
     return all;
   } catch (const InputError& error) {
@@ -120,6 +121,88 @@ void check(const File& file, const Case& how, uint64_t most = UINT64_MAX) {
   CHECK(outcome_of(file, limits) == outcome_of(file, whole(most)));
 }
 
+using Rows = std::vector<std::vector<uint32_t>>;
+
+/// Corners of a file's faces: runs of triangles, quads and others, and some of fewer than three.
+Rows mixed_faces(uint32_t vertex_count) {
+  std::mt19937 random(31);
+  Rows faces;
+  for (int run = 0; run < 60; ++run) {
+    const size_t corners = 1 + random() % 6;
+    for (size_t i = random() % 9; i > 0; --i) {
+      faces.emplace_back();
+      for (size_t k = 0; k < corners; ++k)
+        faces.back().push_back(static_cast<uint32_t>(random()) % vertex_count);
+    }
+  }
+  return faces;
+}
+
+std::string text_rows(const Rows& faces) {
+  std::string rows;
+  for (const auto& face : faces) {
+    rows += std::to_string(face.size());
+    for (const uint32_t corner : face) rows += " " + std::to_string(corner);
+    rows += "\n";
+  }
+  return rows;
+}
+
+std::string obj_rows(const Rows& faces) {
+  std::string rows;
+  for (const auto& face : faces) {
+    rows += "f";
+    for (const uint32_t corner : face) rows += " " + std::to_string(corner + 1);
+    rows += "\n";
+  }
+  return rows;
+}
+
+template <class T>
+void add_bytes(std::string& out, T value, bool is_big) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  if (is_big) std::reverse(bytes.begin(), bytes.end());
+  out.append(bytes.data(), bytes.size());
+}
+
+File binary_ply(const std::vector<std::array<float, 3>>& vertices, const Rows& faces,
+                const std::string& head, bool is_big) {
+  File file{is_big ? "big.ply" : "little.ply", head};
+  for (const auto& vertex : vertices)
+    for (const float x : vertex) add_bytes(file.bytes, x, is_big);
+  for (const auto& face : faces) {
+    file.bytes += static_cast<char>(face.size());
+    for (const uint32_t corner : face) add_bytes(file.bytes, corner, is_big);
+  }
+  return file;
+}
+
+/// The same faces in every format that has others than triangles.
+std::vector<File> files_of(const Rows& faces, uint32_t vertex_count) {
+  std::vector<std::array<float, 3>> vertices;
+  std::string points, obj;
+  for (uint32_t v = 0; v < vertex_count; ++v) {
+    vertices.push_back({static_cast<float>(v), static_cast<float>(v * v % 17), 1});
+    const std::string point = std::to_string(v) + " " + std::to_string(v * v % 17) + " 1\n";
+    points += point;
+    obj += "v " + point;
+  }
+  const std::string count = std::to_string(vertex_count);
+  const std::string face_count = std::to_string(faces.size());
+  const auto head = [&](const std::string& encoding) {
+    return "ply\nformat " + encoding + " 1.0\nelement vertex " + count +
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + face_count +
+           "\nproperty list uchar uint vertex_indices\nend_header\n";
+  };
+  const std::string rows = points + text_rows(faces);
+  return {{"a.obj", obj + obj_rows(faces)},
+          {"a.off", "OFF\n" + count + " " + face_count + " 0\n" + rows},
+          {"ascii.ply", head("ascii") + rows},
+          binary_ply(vertices, faces, head("binary_little_endian"), false),
+          binary_ply(vertices, faces, head("binary_big_endian"), true)};
+}
+
 struct TemporaryFile {
   std::filesystem::path path;
 
@@ -147,6 +230,37 @@ TEST_CASE("good files of every format are read by blocks, and as in one") {
       const ReadLimits limits{.threads = how.threads, .block_bytes = how.block_bytes};
       CHECK(outcome_of(file, limits, &by_blocks) == expected);
       CHECK(by_blocks);
+    }
+  }
+}
+
+TEST_CASE("each triangle has the number that its face has in the file") {
+  const Rows faces = mixed_faces(20);
+  std::vector<uint32_t> numbers;
+  for (uint32_t face = 0; face < faces.size(); ++face)
+    for (size_t k = 2; k < faces[face].size(); ++k) numbers.push_back(face);
+  for (const File& file : files_of(faces, 20)) {
+    CAPTURE(file.name);
+    for (const Case& how : kCases) {
+      const ReadLimits limits{.threads = how.threads, .block_bytes = how.block_bytes};
+      bool by_blocks = false;
+      const Mesh mesh = parse_mesh(
+          {.name = file.name, .bytes = file.bytes, .limits = limits, .by_blocks = &by_blocks});
+      CHECK(by_blocks);
+      CHECK(mesh.file_faces.of_all(mesh.faces.size()) == numbers);
+      CHECK(mesh.file_faces.count(mesh.faces.size()) == faces.size());
+    }
+  }
+}
+
+TEST_CASE("triangles alone take no map") {
+  const Rows faces(40, {0, 1, 2});
+  for (const File& file : files_of(faces, 3)) {
+    CAPTURE(file.name);
+    for (const size_t block : {size_t{50}, SIZE_MAX}) {
+      const ReadLimits limits{.threads = 2, .block_bytes = block};
+      const Mesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes, .limits = limits});
+      CHECK(mesh.file_faces.are_triangles());
     }
   }
 }
