@@ -17,10 +17,10 @@ Json vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json witness_json(const Report& r) {
   if (!r.has_witness) return nullptr;
   return {{"from",
-           {{"face", r.witness_a.face},
+           {{"face", r.witness_a.file_face},
             {"barycentric", vector_json(r.witness_a.barycentric)},
             {"point", vector_json(r.witness_a.point)}}},
-          {"to", {{"face", r.witness_b.face}, {"point", vector_json(r.witness_b.point)}}}};
+          {"to", {{"face", r.witness_b.file_face}, {"point", vector_json(r.witness_b.point)}}}};
 }
 
 // Before a mesh is read, its counts are null. The delta is written so that it is read back as the

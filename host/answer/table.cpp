@@ -47,7 +47,7 @@ std::string ending(Status status) {
 }
 
 std::string at(const SurfacePoint& p) {
-  return printed("face %llu at (%.9g, %.9g, %.9g)", static_cast<Count>(p.face), p.point.x,
+  return printed("face %llu at (%.9g, %.9g, %.9g)", static_cast<Count>(p.file_face), p.point.x,
                  p.point.y, p.point.z);
 }
 

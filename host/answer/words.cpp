@@ -20,7 +20,7 @@ std::string with_unit(std::string number, const Answer& answer) {
 std::string point_text(const SurfacePoint& p) {
   char text[160];
   std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g) on face %llu", p.point.x, p.point.y,
-                p.point.z, static_cast<unsigned long long>(p.face));
+                p.point.z, static_cast<unsigned long long>(p.file_face));
   return text;
 }
 
@@ -90,8 +90,10 @@ std::string failure_in_words(const Answer& answer, bool back) {
   return text + ", and its face's limit is " + with_unit(of_face.data(), answer);
 }
 
-std::string faces_in_words(const FaceLimits& faces) {
-  return std::to_string(faces.within) + " of " + std::to_string(faces.faces) + " faces";
+// Of what was counted: a polygon's triangles are more than it.
+std::string faces_in_words(const FaceLimits& faces, const Input& of) {
+  return std::to_string(faces.within) + " of " + std::to_string(faces.faces) +
+         (of.counts.polygons > 0 ? " triangles" : " faces");
 }
 
 // In percent, outward; with so many digits that it is not printed on the other side of `asked`.
@@ -136,7 +138,8 @@ std::string gate_in_words(const Answer& answer) {
     return failure_in_words(answer, verdict_of(answer, false) != Verdict::kBeyond);
   if (by_face) {
     const FaceLimits& faces = max.faces_a ? *max.faces_a : *max.faces_b;
-    const std::string proven = faces_in_words(faces) + " of " + (max.faces_a ? "A" : "B") +
+    const std::string proven = faces_in_words(faces, answer.inputs[max.faces_a ? 0 : 1]) + " of " +
+                               (max.faces_a ? "A" : "B") +
                                " are proven to be within their own limits";
     return verdict == Verdict::kWithin ? "PASS  " + proven
                                        : "UNDECIDED  " + proven + hint(answer, whole.status);

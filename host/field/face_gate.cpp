@@ -145,7 +145,7 @@ class Search {
     options.time_limit_s = std::max(left_s(), 1e-3);
     Report r = solver_.distance(part_of(a_, group), b_, options);
     ++out_.runs;
-    r.witness_a.face = group[std::min<uint64_t>(r.witness_a.face, group.size() - 1)];
+    r.witness_a.set_face(a_, group[std::min<uint64_t>(r.witness_a.face, group.size() - 1)]);
     const double lower = r.lower, upper = r.upper;
     const Status status = r.status;
     // A run that ended in its first submission has asked nobody.

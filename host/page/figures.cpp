@@ -124,7 +124,7 @@ WorstPlace place_of_face(const Mesh& mesh, const Field& field, uint32_t face) {
   const glm::dvec3 a = mesh.vertices[f.x], b = mesh.vertices[f.y], c = mesh.vertices[f.z];
   const glm::dvec3 across = cross(b - a, c - a);
   const double area = length(across);
-  return {face, field.of(face), a / 3.0 + b / 3.0 + c / 3.0,
+  return {face, mesh.file_faces.of(face), field.of(face), a / 3.0 + b / 3.0 + c / 3.0,
           area > 0 ? across / area : glm::dvec3(0)};
 }
 

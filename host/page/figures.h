@@ -43,10 +43,11 @@ struct Tally {
 Tally tally(const Mesh& mesh, const Field& field, const std::vector<Step>& steps);
 
 struct WorstPlace {
-  uint64_t face = 0;
-  Enclosure distance;   ///< the face's
-  glm::dvec3 centre{};  ///< the mean of its corners
-  glm::dvec3 normal{};  ///< of unit length; 0 of a degenerate face
+  uint64_t face = 0;       ///< of Mesh::faces
+  uint64_t file_face = 0;  ///< the file's number of it
+  Enclosure distance;      ///< the face's
+  glm::dvec3 centre{};     ///< the mean of its corners
+  glm::dvec3 normal{};     ///< of unit length; 0 of a degenerate face
 };
 
 /// Faces of the largest upper first, each at least `apart` from those before it. Faces of equal

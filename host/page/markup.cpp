@@ -110,7 +110,7 @@ std::string witness_html(const PageText& page, const Report& r) {
   const std::string least =
       "at least " +
       length_down(page.answer, r.lower, gap_as_printed(page.answer, r.lower, r.upper));
-  return place_html({"W", "witness, face " + std::to_string(r.witness_a.face), least,
+  return place_html({"W", "witness, face " + std::to_string(r.witness_a.file_face), least,
                      "witness: " + least, r.witness_a.point, glm::dvec3(0)});
 }
 
@@ -184,7 +184,7 @@ std::string places_html(const PageText& page, bool back, const std::vector<Worst
   for (size_t i = 0; i < places.size(); ++i) {
     const std::string length = range_text(page.answer, places[i].distance);
     const std::string key = std::to_string(i + 1);
-    const std::string name = "face " + std::to_string(places[i].face);
+    const std::string name = "face " + std::to_string(places[i].file_face);
     std::string label = key;
     label.append(": ").append(length);
     out += place_html({key, name, length, label, places[i].centre, places[i].normal});

@@ -145,7 +145,7 @@ Report distance_of_part(const Distance& distance, const Mesh& a, const FaceRange
   Report r = distance(part_of(a, ranges), b, options_of_part(options, diagonal_a));
   r.diagonal_a = diagonal_a;
   r.mesh_a = a.counts;
-  if (r.has_witness) r.witness_a.face = face_of_whole(ranges, r.witness_a.face);
+  if (r.has_witness) r.witness_a.set_face(a, face_of_whole(ranges, r.witness_a.face));
   return r;
 }
 

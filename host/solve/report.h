@@ -36,9 +36,15 @@ const char* verdict_name(Verdict verdict);  ///< "pass", "fail", "undecided"
 
 /// A point on a face, in the files' own coordinates.
 struct SurfacePoint {
-  uint64_t face = 0;
+  uint64_t face = 0;  ///< of Mesh::faces: a triangle
   glm::dvec3 barycentric{};
   glm::dvec3 point{};
+  uint64_t file_face = 0;  ///< the file's number of the face that this is of, for people
+
+  void set_face(const Mesh& mesh, uint64_t triangle) {
+    face = triangle;
+    file_face = mesh.file_faces.of(triangle);
+  }
 };
 
 /// GPU time and counts of one stage, summed over the run.

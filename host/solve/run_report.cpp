@@ -44,10 +44,12 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
   const double v = coordinate(0), w = coordinate(1);
   const glm::uvec3 fa = a.faces[r.witnessFaceA];
   const glm::dvec3 p = (1 - v - w) * a.vertices[fa.x] + v * a.vertices[fa.y] + w * a.vertices[fa.z];
-  out.witness_a = {r.witnessFaceA, {1 - v - w, v, w}, p};
+  out.witness_a = {.barycentric = {1 - v - w, v, w}, .point = p};
+  out.witness_a.set_face(a, r.witnessFaceA);
   const glm::uvec3 fb = b.faces[r.witnessFaceB];
   const ClosestPoint q = closest_point(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
-  out.witness_b = {r.witnessFaceB, q.barycentric, q.point};
+  out.witness_b = {.barycentric = q.barycentric, .point = q.point};
+  out.witness_b.set_face(b, r.witnessFaceB);
   out.has_witness = true;
 }
 
