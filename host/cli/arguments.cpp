@@ -66,8 +66,9 @@ struct Program {
         ->required();
     command
         .add_option("--face-max", gate.face_max_a,
-                    "A CSV of face, max: limits of A's faces, counted from 0; a number alone is in "
-                    "the files' unit. Others have --max")
+                    "Limits of A's faces: a CSV of face, max, counted from 0 as in A's file; a "
+                    "number alone is in the files' unit, others have --max. Or a PLY, such as A, "
+                    "whose faces have a property max")
         ->type_name("FILE");
     command.add_option("--face-max-b", gate.face_max_b, "The same for B's faces, the way back")
         ->type_name("FILE");

@@ -1,10 +1,12 @@
 #include "host/job/face_limits.h"
 
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 
 #include "host/base/error.h"
 #include "host/base/text_scanner.h"
+#include "host/read/mesh_io.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -22,13 +24,42 @@ Limit limit_of(const std::string& word, const std::string& file_unit, double dia
   return in_files(parse_length("max", text, PlainNumber::kRefused), "max", file_unit, diagonal_a);
 }
 
+/// The faces' property `max`: a length in the files' unit, as it stands there.
+std::vector<Limit> limits_in_ply(const std::string& path, uint64_t face_count) {
+  const std::vector<double> values = read_face_property(path_of(path), "max");
+  if (values.size() != face_count)
+    reject(path, "element face", std::to_string(values.size()) + " faces",
+           "those of the mesh, " + std::to_string(face_count));
+  std::vector<Limit> limits;
+  limits.reserve(values.size());
+  for (const double value : values) {
+    if (!(value > 0 && std::isfinite(value)))
+      reject(path, "face " + std::to_string(limits.size()), "max is not positive and finite",
+             "a length");
+    limits.push_back({value, value});
+  }
+  return limits;
+}
+
+/// From one for each of the file's faces.
+std::vector<Limit> limits_of_triangles(const Mesh& mesh, std::vector<Limit> limits) {
+  if (mesh.file_faces.are_triangles()) return limits;
+  std::vector<Limit> out;
+  out.reserve(mesh.faces.size());
+  for (const uint32_t face : mesh.file_faces.of_all(mesh.faces.size())) out.push_back(limits[face]);
+  return out;
+}
+
 }  // namespace
 
-std::vector<Limit> read_face_limits(const std::string& path, size_t face_count,
+std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
                                     const Limit& otherwise, const std::string& file_unit,
                                     double diagonal_a) {
+  const uint64_t face_count = mesh.file_faces.count(mesh.faces.size());
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw InputError(path + ": byte 0: cannot be read; expected a CSV of face, max");
+  // No CSV begins so. It is not opened twice: it may be a pipe.
+  if (file.peek() == 'p') return limits_of_triangles(mesh, limits_in_ply(path, face_count));
   std::vector<Limit> limits(face_count, otherwise);
   std::vector<bool> named(face_count);
   uint64_t number = 0;
@@ -53,7 +84,7 @@ std::vector<Limit> read_face_limits(const std::string& path, size_t face_count,
     }
   }
   if (file.bad()) throw InputError(path + ": line " + std::to_string(number) + ": cannot be read");
-  return limits;
+  return limits_of_triangles(mesh, std::move(limits));
 }
 
 }  // namespace vkh

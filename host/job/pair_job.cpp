@@ -103,12 +103,8 @@ struct Side {
 
 Report gate(const Side& side, const SolveOptions& options, Solver& solver, const Answer& answer) {
   if (side.file.empty()) return solver.distance(side.from, side.to, options);
-  if (side.from.counts.polygons > 0) {  // its rows would be those of other faces than the file's
-    throw UsageError("--face-max: " + side.from.name +
-                     " has polygons, which were fanned: limits are for files of triangles");
-  }
-  const std::vector<Limit> limits = read_face_limits(
-      side.file, side.from.faces.size(), answer.max->limit, answer.unit, answer.a_to_b.diagonal_a);
+  const std::vector<Limit> limits = read_face_limits(side.file, side.from, answer.max->limit,
+                                                     answer.unit, answer.a_to_b.diagonal_a);
   FaceGate found = gate_faces(solver, side.from, side.to, limits, options);
   side.limits = FaceLimits{.path = side.file,
                            .within = found.within,

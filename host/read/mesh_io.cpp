@@ -158,6 +158,13 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   return parse_mesh({.name = name, .bytes = {}, .limits = limits, .file = &file, .folder = folder});
 }
 
+std::vector<double> read_face_property(const std::filesystem::path& path, std::string_view name) {
+  const FloatEnvironment ours;
+  const InputFile file(path);
+  if (!file.is_open()) reject(name_of(path), "byte 0", "no file to be read", "a PLY file");
+  return parse_face_property({.name = name_of(path), .bytes = {}, .file = &file}, name);
+}
+
 void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
   std::string first;
   while (scanner.next_full_line()) {

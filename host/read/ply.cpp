@@ -43,12 +43,13 @@ class AsciiBody {
     return value;
   }
   // A float column is kept as written. What its type cannot hold at all contradicts the header.
-  double real(Scalar type) {
+  double real(Scalar type, const char* what) {
     constexpr double kBeyondFloat = 0x1.ffffffp127;  // rounds to infinity
     if (is_integer(type)) return static_cast<double>(integer(type));
-    const auto value = scanner_.number<double>("coordinate");
+    const auto value = scanner_.number<double>(what);
     if (type == Scalar::kFloat && std::abs(value) >= kBeyondFloat) {
-      fail("a coordinate beyond its column's type, float", "less than 3.5e38, or type double");
+      fail(std::string("a ") + what + " beyond its column's type, float",
+           "less than 3.5e38, or type double");
     }
     return value;
   }
@@ -83,7 +84,7 @@ class BinaryBody {
   }
   void end_row() const {}
   int64_t integer(Scalar type) { return value<int64_t>(type); }
-  double real(Scalar type) { return value<double>(type); }
+  double real(Scalar type, const char*) { return value<double>(type); }
   void skip(Scalar type, uint64_t count) {
     if (count > room(type)) fail_end();
     at_ += count * size_of(type);
@@ -198,7 +199,7 @@ class BodyReader {
       const auto& axes = layout_.axes;
       const auto axis = std::find(axes.begin(), axes.end(), i) - axes.begin();
       if (axis < 3) {
-        p[static_cast<int>(axis)] = body_.real(properties[i].type);
+        p[static_cast<int>(axis)] = body_.real(properties[i].type, "coordinate");
       } else {
         skip_property(body_, properties[i]);
       }
@@ -242,6 +243,30 @@ class BodyReader {
   MeshBuilder& builder_;
   std::vector<uint32_t> corners_;
 };
+
+/// A scalar of each face; all else is passed over.
+template <class Body>
+std::vector<double> read_scalar(const Header& header, const Layout& layout, size_t scalar,
+                                Body body) {
+  std::vector<double> values;
+  values.reserve(layout.face->count);
+  for (const Element& element : header.elements) {
+    const bool is_face = &element == layout.face;
+    for (uint64_t row = 0; row < element.count; ++row) {
+      body.begin_row(element, row);
+      for (size_t i = 0; i < element.properties.size(); ++i) {
+        if (is_face && i == scalar) {
+          values.push_back(body.real(element.properties[i].type, "number"));
+        } else {
+          skip_property(body, element.properties[i]);
+        }
+      }
+      body.end_row();
+    }
+    if (is_face) break;
+  }
+  return values;
+}
 
 template <class Body>
 Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
@@ -301,6 +326,21 @@ Mesh read_by_blocks(const MeshSource& source) {
 
 Mesh parse_ply(const MeshSource& source) {
   return by_blocks_or_whole(source, read_by_blocks, read_whole);
+}
+
+std::vector<double> parse_face_property(const MeshSource& source, std::string_view name) {
+  return in_memory(source, [&](const MeshSource& whole) {
+    TextScanner scanner(whole.bytes, whole.name);
+    const Header header = read_header(scanner, whole);
+    const Layout layout = layout_of(header, whole);
+    const auto read = [&](auto body) {
+      return read_scalar(header, layout, face_scalar(layout, whole, name), body);
+    };
+    if (header.encoding == Encoding::kAscii) return read(AsciiBody(scanner, whole));
+    if (header.encoding == Encoding::kBig)
+      return read(BinaryBody<std::endian::big>(scanner, whole));
+    return read(BinaryBody<std::endian::little>(scanner, whole));
+  });
 }
 
 }  // namespace vkh

@@ -222,6 +222,10 @@ Layout layout_of(const Header& header, const MeshSource& source) {
   return layout;
 }
 
+size_t face_scalar(const Layout& layout, const MeshSource& source, std::string_view name) {
+  return only_property(*layout.face, source, {&name, 1}, false);
+}
+
 std::string row_place(const Element& element, uint64_t row) {
   if (element.name == "vertex" || element.name == "face") {
     return std::string(element.name) + " " + std::to_string(row);

@@ -74,6 +74,9 @@ struct Layout {
 /// Rejects a header that has not one of each, or of the wrong kind.
 Layout layout_of(const Header& header, const MeshSource& source);
 
+/// The property of `layout.face` of that name; rejects none, several and a list.
+size_t face_scalar(const Layout& layout, const MeshSource& source, std::string_view name);
+
 /// A row's place for errors, such as "face 11", or "row 11 of 'camera'".
 std::string row_place(const Element& element, uint64_t row);
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/source/mesh_builder.h"
 #include "host/source/source.h"
@@ -26,6 +27,9 @@ Mesh parse_ply(const MeshSource& source);
 Mesh parse_off(const MeshSource& source);
 Mesh parse_gltf(const MeshSource& source);  ///< host/gltf; GLB, too
 Mesh parse_3mf(const MeshSource& source);   ///< host/threemf
+
+/// Of a PLY: see read_face_property.
+std::vector<double> parse_face_property(const MeshSource& source, std::string_view name);
 
 /// True if a file of that beginning is exactly as long as the triangle count at byte 80 says. No
 /// text passes: its bytes there would announce more than 6 GB.

@@ -115,37 +115,6 @@ TEST_CASE("the object says what was asked, the verdict and the words") {
   CHECK(json::parse(gate("0.25abs", {"--json"}).out)["verdict"] == "undecided");
 }
 
-TEST_CASE("--face-max: each face its own limit") {
-  const auto ask = [&](const std::string& rows, const std::string& max, const Words& more = {}) {
-    return gate(max, Words{"--face-max", write_file("limits.csv", rows)} + more);
-  };
-  CHECK(ask("face,max\n0,0.3\n1,0.26abs\n", "0.1abs").exit_code == 0);
-  const Outcome pass = ask("# wide\n0,0.3\n", "0.26abs");
-  CHECK(starts_with(pass.out, "PASS  2 of 2 faces of A are proven to be within their own limits"));
-  const Outcome fail = ask("1,0.2\n", "0.3abs", {"--json"});
-  CHECK(fail.exit_code == 1);
-  const json r = json::parse(fail.out);
-  CHECK(r["verdict"] == "fail");
-  CHECK(r["max"]["faces_a"]["faces"] == 2);
-  CHECK(r["directions"][0]["witness"]["from"]["face"] == 1);
-  CHECK(r["words"].get<std::string>().find("face's limit is 0.2") != std::string::npos);
-  CHECK(ask("0,8mm\n1,7mm\n", "1mm", {"--unit", "in"}).exit_code == 0);
-  CHECK(ask("1,0.25\n", "0.3abs").exit_code == 3);
-  CHECK(ask("1,0.3\n", "0.3abs", {"--symmetric"}).exit_code == 0);
-  CHECK(ask("1,0.3\n", "0.2abs", {"--symmetric"}).exit_code == 1);
-  const Words back = {"--symmetric", "--face-max-b", write_file("back.csv", "0,0.1\n")};
-  CHECK(gate("0.3abs", back).out.find(" of B is at least 0.2") != std::string::npos);
-  for (const char* wrong : {"2,0.3\n", "-1,0.3\n", "0\n", "0,\n", "0,0\n", "0,-1\n", "0,0.3,1\n",
-                            "0,0.3\n0,0.3\n", "x,0.3\n", "0,0.3mm\n"}) {
-    CAPTURE(wrong);
-    const Outcome refused = ask(wrong, "0.3abs");
-    CHECK(refused.exit_code == 4);
-    CHECK(refused.err.find("limits.csv: line ") != std::string::npos);
-  }
-  CHECK(gate("0.3abs", {"--face-max", "missing.csv"}).exit_code == 4);
-  CHECK(gate("0.3abs", {"--face-max-b", "back.csv"}).exit_code == 2);
-}
-
 TEST_CASE("an answer that is given early forgets no limit, and verifies no witness that is not") {
   const Words narrow = {"--face-max", write_file("narrow.csv", "0,0.01\n1,0.01\n")};
   for (const char* time : {"1ms", "40ms", "100ms", "200ms"}) {
@@ -157,15 +126,6 @@ TEST_CASE("an answer that is given early forgets no limit, and verifies no witne
       run({"distance", square_a(), square_b(), "--waves", "0", "--verify", "--json"});
   CHECK((none.exit_code == 0 || none.exit_code == 3));
   CHECK(json::accept(none.out));
-}
-
-TEST_CASE("limits of faces are for files of triangles") {
-  const std::string quads =
-      write_file("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
-  const Words more = {"--max", "1abs", "--face-max", write_file("q.csv", "0,1\n")};
-  const Outcome outcome = run(Words{"gate", quads, square_b()} + more);
-  CHECK(outcome.exit_code == 2);
-  CHECK(outcome.err.find("has polygons") != std::string::npos);
 }
 
 TEST_CASE("no printed end of an interval is on the other side of the limit") {

@@ -1,0 +1,186 @@
+// Faces by the file's own numbers, and their limits: --face-max. Runs the real program,
+// $VKH_PROGRAM.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/program.h"
+
+namespace {
+
+using nlohmann::json;
+using namespace vkh::test;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// Of two triangles, at a height.
+std::string square(const std::string& name, double z) {
+  std::ostringstream obj;
+  obj << "v 0 0 " << z << "\nv 1 0 " << z << "\nv 1 1 " << z << "\nv 0 1 " << z
+      << "\nf 1 2 3\nf 1 3 4\n";
+  return write_file(name, obj.str());
+}
+std::string square_b() { return square("faces_b.obj", 0.25); }
+
+Outcome gate(const std::string& max, const Words& more) {
+  return run(Words{"gate", square("faces_a.obj", 0), square_b(), "--max", max} + more);
+}
+
+/// Faces 0, 3 and 4 of the file are a quad 0.25 from square_b(), a triangle 1.5 from it, and one at
+/// 0.25. Those between have two corners: triangles 0 and 1, 2 and 3 are left.
+std::string mixed() {
+  return write_file("mixed.obj",
+                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1.75\nv 1 0 1.75\nv 1 1 1.75\n"
+                    "f 1 2 3 4\nf 1 2\nf 2 3\nf 5 6 7\nf 1 2 3\n");
+}
+
+/// A quad 0.25 from square_b(), and a triangle 1.5 from it, each with its max.
+std::string ply_head(const std::string& encoding, const std::string& type) {
+  return "ply\nformat " + encoding +
+         " 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 2\nproperty uchar kind\nproperty list uchar uchar "
+         "vertex_indices\nproperty " +
+         type + " max\nend_header\n";
+}
+std::string ascii_ply(const std::string& quad, const std::string& triangle) {
+  return ply_head("ascii", "float") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1.75\n1 0 1.75\n1 1 1.75\n" +
+         "7 4 0 1 2 3 " + quad + "\n7 3 4 5 6 " + triangle + "\n";
+}
+std::string binary_ply(std::endian order, double quad, double triangle) {
+  const bool is_big = order == std::endian::big;
+  std::string bytes = ply_head(is_big ? "binary_big_endian" : "binary_little_endian", "double");
+  const auto add = [&](auto value) {
+    std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
+    if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
+    bytes += raw;
+  };
+  constexpr std::array<float, 21> kPoints = {0, 0, 0, 1,     0, 0, 1,     1, 0, 0,    1,
+                                             0, 0, 0, 1.75f, 1, 0, 1.75f, 1, 1, 1.75f};
+  for (const float x : kPoints) add(x);
+  bytes += std::string("\7\4\0\1\2\3", 6);
+  add(quad);
+  bytes += "\7\3\4\5\6";
+  add(triangle);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("--face-max: each face its own limit") {
+  const auto ask = [&](const std::string& rows, const std::string& max, const Words& more = {}) {
+    return gate(max, Words{"--face-max", write_file("limits.csv", rows)} + more);
+  };
+  CHECK(ask("face,max\n0,0.3\n1,0.26abs\n", "0.1abs").exit_code == 0);
+  const Outcome pass = ask("# wide\n0,0.3\n", "0.26abs");
+  CHECK(pass.out.starts_with("PASS  2 of 2 faces of A are proven to be within their own limits"));
+  const Outcome fail = ask("1,0.2\n", "0.3abs", {"--json"});
+  CHECK(fail.exit_code == 1);
+  const json r = json::parse(fail.out);
+  CHECK(r["verdict"] == "fail");
+  CHECK(r["max"]["faces_a"]["faces"] == 2);
+  CHECK(r["directions"][0]["witness"]["from"]["face"] == 1);
+  CHECK(r["words"].get<std::string>().find("face's limit is 0.2") != std::string::npos);
+  CHECK(ask("0,8mm\n1,7mm\n", "1mm", {"--unit", "in"}).exit_code == 0);
+  CHECK(ask("1,0.25\n", "0.3abs").exit_code == 3);
+  CHECK(ask("1,0.3\n", "0.3abs", {"--symmetric"}).exit_code == 0);
+  CHECK(ask("1,0.3\n", "0.2abs", {"--symmetric"}).exit_code == 1);
+  const Words back = {"--symmetric", "--face-max-b", write_file("back.csv", "0,0.1\n")};
+  CHECK(gate("0.3abs", back).out.find(" of B is at least 0.2") != std::string::npos);
+  for (const char* wrong : {"2,0.3\n", "-1,0.3\n", "0\n", "0,\n", "0,0\n", "0,-1\n", "0,0.3,1\n",
+                            "0,0.3\n0,0.3\n", "x,0.3\n", "0,0.3mm\n"}) {
+    CAPTURE(wrong);
+    const Outcome refused = ask(wrong, "0.3abs");
+    CHECK(refused.exit_code == 4);
+    CHECK(refused.err.find("limits.csv: line ") != std::string::npos);
+  }
+  CHECK(gate("0.3abs", {"--face-max", "missing.csv"}).exit_code == 4);
+  CHECK(gate("0.3abs", {"--face-max-b", "back.csv"}).exit_code == 2);
+}
+
+TEST_CASE("faces have the file's own numbers, before polygons are fanned") {
+  const Outcome fail = run({"gate", mixed(), square_b(), "--max", "1abs"});
+  CHECK(fail.exit_code == 1);
+  CHECK(fail.out.find(") on face 3 of A is at least 1.") != std::string::npos);
+  CHECK(fail.out.find("  witness    A face 3 at (") != std::string::npos);
+  const auto face = [](const char* end, Words words) {
+    words.emplace_back("--json");
+    return json::parse(run(words).out)["directions"][0]["witness"][end]["face"].get<int>();
+  };
+  CHECK(face("from", {"distance", mixed(), square_b()}) == 3);
+  CHECK(face("from", {"distance", mixed(), square_b(), "--part", "1/2"}) == 3);
+  CHECK(face("to", {"distance", square("high.obj", 1.7), mixed()}) == 3);
+}
+
+TEST_CASE("a limit of a polygon holds for all of it") {
+  const auto ask = [](const std::string& rows, const char* max) {
+    return run({"gate", mixed(), square_b(), "--max", max, "--face-max",
+                write_file("mixed.csv", rows), "--json"});
+  };
+  const Outcome pass = ask("3,1.6\n", "0.3abs");
+  CHECK(pass.exit_code == 0);
+  CHECK(json::parse(pass.out)["words"].get<std::string>().starts_with("PASS  4 of 4 triangles"));
+  CHECK(ask("0,0.3\n1,0.001\n4,0.3\n", "1.6abs").exit_code == 0);
+  for (const int near : {0, 4}) {
+    CAPTURE(near);
+    const Outcome fail = ask(std::to_string(near) + ",0.2\n", "1.6abs");
+    CHECK(fail.exit_code == 1);
+    CHECK(json::parse(fail.out)["directions"][0]["witness"]["from"]["face"] == near);
+  }
+  CHECK(ask("5,1\n", "1.6abs").exit_code == 4);
+}
+
+TEST_CASE("each triangle of a polygon has its limit") {
+  // B is beneath the quad's first triangle alone.
+  const std::string half = write_file("half.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  const std::string rows = write_file("quad.csv", "0,0.5\n");
+  const Words pair = {"gate", mixed(), half, "--max", "10abs", "--face-max", rows};
+  CHECK(run(pair).exit_code == 1);
+}
+
+TEST_CASE("--face-max takes the property max of a PLY's faces") {
+  const auto ask = [](const std::string& bytes) {
+    const std::string a = write_file("limits.ply", bytes);
+    return run({"gate", a, square_b(), "--max", "9abs", "--face-max", a, "--json"});
+  };
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    CHECK(ask(binary_ply(order, 0.3, 1.6)).exit_code == 0);
+    CHECK(ask(binary_ply(order, 0.2, 1.6)).exit_code == 1);
+    const Outcome fail = ask(binary_ply(order, 0.3, 1.4));
+    CHECK(fail.exit_code == 1);
+    CHECK(json::parse(fail.out)["directions"][0]["witness"]["from"]["face"] == 1);
+  }
+  CHECK(ask(ascii_ply("0.3", "1.6")).exit_code == 0);
+  CHECK(ask(ascii_ply("0.3", "1.4")).exit_code == 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double wrong : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
+    CAPTURE(wrong);
+    const Outcome refused = ask(binary_ply(std::endian::big, 0.3, wrong));
+    CHECK(refused.exit_code == 4);
+    CHECK(refused.err.find("limits.ply: face 1: max is not positive") != std::string::npos);
+  }
+  const Outcome word = ask(ascii_ply("0.3", "wide"));
+  CHECK(word.exit_code == 4);
+  CHECK(word.err.find("limits.ply: line ") != std::string::npos);
+}
+
+TEST_CASE("a PLY without limits, or of other faces, is refused") {
+  const std::string good = ascii_ply("1", "1");
+  const std::string none = std::string(good).replace(good.find(" max\n"), 5, " min\n");
+  const std::string a = write_file("good.ply", good);
+  const Outcome refused =
+      run({"gate", a, square_b(), "--max", "9abs", "--face-max", write_file("none.ply", none)});
+  CHECK(refused.exit_code == 4);
+  CHECK(refused.err.find("none.ply: line ") != std::string::npos);
+  CHECK(refused.err.find("'max'") != std::string::npos);
+  const Outcome other = run({"gate", mixed(), square_b(), "--max", "9abs", "--face-max", a});
+  CHECK(other.exit_code == 4);
+  CHECK(other.err.find("those of the mesh, 5") != std::string::npos);
+}
