@@ -133,13 +133,41 @@ py::tuple checked_arrays(const char* argument, const py::object& object) {
   return arrays;
 }
 
+py::array read_only(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
 template <class T, class Row>
 py::array view_of(const std::vector<Row>& rows, const py::object& owner) {
   static_assert(sizeof(Row) == 3 * sizeof(T));
-  py::array_t<T> array({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}},
-                       reinterpret_cast<const T*>(rows.data()), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
+  return read_only(py::array_t<T>({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}},
+                                  reinterpret_cast<const T*>(rows.data()), owner));
+}
+
+py::array file_faces_of(const Mesh& mesh) {
+  const std::vector<uint32_t> faces = mesh.file_faces.of_all(mesh.faces.size());
+  return read_only(py::array_t<uint32_t>(static_cast<py::ssize_t>(faces.size()), faces.data()));
+}
+
+// For pickles: (runs, 2).
+py::array runs_of(const FileFaces& faces) {
+  const std::vector<FileFaces::Run>& runs = faces.runs();
+  static_assert(sizeof(FileFaces::Run) == 2 * sizeof(uint32_t));
+  return py::array_t<uint32_t>({static_cast<py::ssize_t>(runs.size()), py::ssize_t{2}},
+                               reinterpret_cast<const uint32_t*>(runs.data()));
+}
+
+FileFaces file_faces_from(const py::object& state, size_t triangle_count) {
+  const auto array = py::cast<py::array_t<uint32_t, py::array::c_style>>(state);
+  if (array.ndim() != 2 || array.shape(1) != 2)
+    throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  std::vector<FileFaces::Run> runs;
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) runs.push_back({array.at(i, 0), array.at(i, 1)});
+  FileFaces faces(std::move(runs));
+  if (!faces.is_valid(triangle_count))
+    throw py::value_error("this pickle has faces that no mesh of a file has");
+  return faces;
 }
 
 const Mesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
@@ -159,12 +187,13 @@ py::object path_in(const Mesh& mesh) {
 py::tuple state_of(const py::object& self) {
   const Mesh& mesh = mesh_in(self);
   return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
-                        mesh.unit, mesh.notes, mesh.counts.unreferenced, mesh.counts.polygons);
+                        mesh.unit, mesh.notes, mesh.counts.unreferenced, mesh.counts.polygons,
+                        runs_of(mesh.file_faces));
 }
 
 FileMesh from_state(const py::tuple& state) {
   const Call call;
-  if (state.size() != 8) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  if (state.size() != 9) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
   Mesh mesh = mesh_from("a pickled Mesh", state[1], state[2]);
   mesh.name = py::cast<std::string>(state[0]);
   mesh.delta = py::cast<double>(state[3]);
@@ -172,6 +201,7 @@ FileMesh from_state(const py::tuple& state) {
   mesh.notes = py::cast<std::vector<std::string>>(state[5]);
   mesh.counts.unreferenced = py::cast<uint64_t>(state[6]);
   mesh.counts.polygons = py::cast<uint64_t>(state[7]);
+  mesh.file_faces = file_faces_from(state[8], mesh.faces.size());
   return {std::make_shared<const Mesh>(std::move(mesh))};
 }
 
@@ -203,6 +233,11 @@ void define_mesh(py::module_& m) {
           "faces",
           [](const py::object& self) { return view_of<uint32_t>(mesh_in(self).faces, self); },
           "(m, 3) uint32, polygons fanned into triangles, in the file's order; read-only")
+      .def_property_readonly(
+          "file_faces", of_mesh(file_faces_of),
+          "(m,) uint32, of each triangle the face of the file that it is of, counted from 0 "
+          "before\n"
+          "polygons are fanned, as the program prints it; made at each call, read-only")
       .def_property_readonly("path", of_mesh(path_in), "as it was given")
       .def_property_readonly("unit", of_mesh([](const Mesh& mesh) {
                                return mesh.unit.empty() ? std::optional<std::string>() : mesh.unit;

@@ -46,6 +46,23 @@ class Meshes(unittest.TestCase):
         gc.collect()
         self.assertTrue((vertices == a[0]).all())  # which has kept it
 
+    def test_faces_of_the_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "mixed.obj"
+            file.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 4\nf 1 2\nf 1 3 4\n")
+            mixed = vkh.read(file)
+            triangles = vkh.read(obj(folder, "a.obj", PAIRS[0][0]))
+        for mesh, numbers in ((mixed, [0, 1, 1, 3]), (triangles, list(range(len(triangles.faces))))):
+            for one in (mesh, pickle.loads(pickle.dumps(mesh))):
+                self.assertEqual(one.file_faces.dtype, np.uint32)
+                self.assertEqual(one.file_faces.tolist(), numbers)
+            with self.assertRaises(ValueError):
+                mesh.file_faces[0] = 1
+        state = mixed.__getstate__()
+        for runs in ([[9, 1]], [[2, 0]], [1, 2]):
+            with self.assertRaises(ValueError):
+                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:8], np.array(runs, np.uint32)))
+
     def test_wherever_a_mesh_goes(self):
         a, b = PAIRS[4]
         expected, gated = vkh.distance(*a, *b), vkh.gate(a, b, 0.1)
