@@ -19,7 +19,7 @@ struct FieldFile {
 
 /// A binary PLY: positions as doubles; for each face lower, upper and quality, which is upper; for
 /// each vertex as quality the largest upper of its faces; colours by quality, from 0 to the
-/// largest.
+/// largest. Where the mesh's file has other faces than triangles, each has its number there, too.
 std::string to_ply(const FieldFile& file);
 
 /// A binary glTF 2.0: positions as floats about a node's translation, each corner of each face a

@@ -36,6 +36,7 @@ std::string one_line(std::string text) {
 
 std::string header_of(const FieldFile& file) {
   const std::string unit = file.unit.empty() ? "the file's own unit" : file.unit;
+  const bool are_triangles = file.mesh.file_faces.are_triangles();
   return "ply\nformat binary_little_endian 1.0\n"
          "comment VkHausdorff: the largest distance of each face from " +
          one_line(file.against) + "\ncomment lower <= it <= upper, certified, in " + unit +
@@ -48,8 +49,8 @@ std::string header_of(const FieldFile& file) {
          "element face " +
          std::to_string(file.mesh.faces.size()) +
          "\nproperty list uchar int vertex_indices\nproperty float lower\nproperty float upper\n"
-         "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-         "end_header\n";
+         "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n" +
+         (are_triangles ? "" : "property uint file_face\n") + "end_header\n";
 }
 
 std::vector<double> quality_of_vertices(const FieldFile& file) {
@@ -77,6 +78,7 @@ std::string to_ply(const FieldFile& file) {
     out.add(float_up(quality[v]));
     out.add(colour_of(file, quality[v], largest));
   }
+  const FileFaces& file_faces = file.mesh.file_faces;
   for (size_t f = 0; f < file.mesh.faces.size(); ++f) {
     const glm::uvec3& face = file.mesh.faces[f];
     out.add(uint8_t{3});
@@ -86,6 +88,7 @@ std::string to_ply(const FieldFile& file) {
     out.add(upper);
     out.add(upper);
     out.add(colour_of(file, file.field.upper[f], largest));
+    if (!file_faces.are_triangles()) out.add(static_cast<uint32_t>(file_faces.of(f)));
   }
   return std::move(out.text);
 }

@@ -27,7 +27,8 @@ def ply(path):
     end = data.index(b"end_header\n") + 11
     head = data[:end].decode()
     vertex_count, face_count = (int(head.split(f"element {name} ")[1].split()[0]) for name in ("vertex", "face"))
-    vertex, face = struct.Struct("<dddfBBB"), struct.Struct("<BiiifffBBB")
+    vertex = struct.Struct("<dddfBBB")
+    face = struct.Struct("<BiiifffBBB" + ("I" if "property uint file_face\n" in head else ""))
     assert len(data) == end + vertex_count * vertex.size + face_count * face.size, "a size that the header does not say"
     split = end + vertex_count * vertex.size
     return head, list(vertex.iter_unpack(data[end:split])), list(face.iter_unpack(data[split:]))
@@ -115,6 +116,17 @@ class See(unittest.TestCase):
         self.assertEqual(placed, [vertices[v][:3] for f in faces for v in f[1:4]])
         self.assertEqual(tree["meshes"][0]["extras"]["unit"], "mm")
         self.assertNotEqual(faces[0][7:10], faces[1][7:10])
+
+    def test_faces_of_a_file_with_polygons_keep_their_numbers(self):
+        (self.folder / "mixed.obj").write_text(ROOF.split("f 1 2 3")[0] + "v 0 1 0.25\nf 1 2 3 5\nf 1 2\nf 2 3\nf 1 3 4\n")
+        self.run_program("distance", "mixed.obj", "plane.obj", "--field", "out.ply", "--report", "out.html")
+        self.assertEqual([f[10] for f in ply(self.folder / "out.ply")[2]], [0, 0, 3])
+        page = (self.folder / "out.html").read_text()
+        self.assertIn("witness, face 3<", page)
+        self.assertIn("<span>face 3</span>", page)
+        self.assertNotIn("face 2<", page)
+        self.run_program("distance", "roof.obj", "plane.obj", "--field", "out.ply")
+        self.assertNotIn("file_face", ply(self.folder / "out.ply")[0])
 
     @unittest.skipUnless(shutil.which("assimp"), "no assimp here")
     def test_assimp_reads_both(self):
