@@ -119,6 +119,19 @@ TEST_CASE("faces have the file's own numbers, before polygons are fanned") {
   CHECK(face("to", {"distance", square("high.obj", 1.7), mixed()}) == 3);
 }
 
+TEST_CASE("answers of parts as one keep the file's numbers") {
+  Words files;
+  for (const std::string part : {"0/2", "1/2"}) {
+    const Outcome one = run({"distance", mixed(), square_b(), "--json", "--part", part});
+    files.push_back(write_file(part.substr(0, 1) + ".json", one.out));
+  }
+  const std::string merged = folder() / "merged.json";
+  const Outcome outcome = run(Words{"merge"} + files + Words{"--out", merged});
+  CHECK(outcome.exit_code == 0);
+  const json all = json::parse(read_file(merged));
+  CHECK(all["directions"][0]["witness"]["from"]["face"] == 3);
+}
+
 TEST_CASE("a limit of a polygon holds for all of it") {
   const auto ask = [](const std::string& rows, const char* max) {
     return run({"gate", mixed(), square_b(), "--max", max, "--face-max",
