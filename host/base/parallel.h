@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <future>
 #include <thread>
@@ -17,6 +18,13 @@ namespace vkh {
 inline size_t thread_count() {
   constexpr size_t kMostThreads = 64;
   return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+}
+
+/// As many as pay for so much to be written: one costs as much as a megabyte or two (50 us), and
+/// more where all cores are busy.
+inline size_t threads_for(uint64_t bytes) {
+  constexpr uint64_t kEach = uint64_t{4} << 20;
+  return std::clamp<size_t>(static_cast<size_t>(bytes / kEach), 1, thread_count());
 }
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if

@@ -236,7 +236,7 @@ class Batch {
     return std::move(node.mapped());
   }
 
-  // On a lane's thread.
+  // On the stream's delivering thread.
   void take(StreamResult&& result) {
     const Running running = taken(result.number);
     try {

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/many/delivery.h"
 #include "host/many/lane.h"
 
 namespace vkh {
@@ -18,7 +19,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Devices are opened and taken apart one at a time: drivers share state that is theirs.
+// Devices are opened and taken apart one at a time: drivers share state that is theirs. And none is
+// taken apart while a thread ends that has used a driver: NVIDIA's (580.159.04) then may wait for
+// itself for ever, as the thread's own data of the driver goes.
 std::mutex& opening() {
   static auto* mutex = new std::mutex;
   return *mutex;
@@ -51,7 +54,7 @@ constexpr int kMostReopened = 3;
 struct PairStream::Impl {
   Impl(StreamOptions given, std::function<void(StreamResult&&)> to)
       : options(std::move(given)),
-        deliver(std::move(to)),
+        delivery(std::move(to)),
         queue(options.waiting != 0 ? options.waiting : waiting_for(options)),
         share{.options = options,
               .queue = queue,
@@ -75,7 +78,7 @@ struct PairStream::Impl {
 
   void hand_out(StreamResult&& result) {
     ++delivered;
-    deliver(std::move(result));
+    delivery.put(std::move(result));
   }
   void count(double busy, double gpu) {
     const std::lock_guard lock(mutex);
@@ -101,9 +104,15 @@ struct PairStream::Impl {
 
   // One life of a device: until nothing waits (true), or it is lost.
   bool live(const std::string& selector, bool& was_open) {
-    OpenDevice open(selector);
-    Device& device = *open;
-    if (!was_open) claim(device.description());
+    auto open = std::make_unique<OpenDevice>(selector);
+    if (!was_open) claim((**open).description());
+    if (!work_on(**open, was_open)) return false;
+    const std::lock_guard lock(mutex);
+    idle.push_back(std::move(open));
+    return true;
+  }
+
+  bool work_on(Device& device, bool& was_open) {
     LaneDevice lanes{.device = device,
                      .prepared = PreparedMeshes(device.description().memory_bytes / 8),
                      .shape = shape_for(options, device.description())};
@@ -117,9 +126,6 @@ struct PairStream::Impl {
       Lane(share, lanes, solver).work();
     };
     std::vector<std::thread> others;
-    const auto join_all = [&] {
-      for (std::thread& thread : others) thread.join();
-    };
     try {
       for (size_t i = 1; i < lanes.shape.lanes; ++i) {
         solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
@@ -128,7 +134,7 @@ struct PairStream::Impl {
     } catch (...) {  // with fewer lanes, then
     }
     run(*solvers[0]);
-    join_all();
+    for (std::thread& thread : others) thread.join();
     return !lanes.is_lost;
   }
 
@@ -169,6 +175,7 @@ struct PairStream::Impl {
     for (std::thread& thread : threads) {
       if (thread.joinable()) thread.join();
     }
+    idle.clear();
   }
   void wait_for_devices() {
     std::unique_lock lock(mutex);
@@ -182,7 +189,7 @@ struct PairStream::Impl {
 
   const Clock::time_point start = Clock::now();
   const StreamOptions options;
-  const std::function<void(StreamResult&&)> deliver;
+  Delivery delivery;
   PairQueue queue;
   LaneShare share;
   std::atomic<size_t> delivered = 0;
@@ -194,6 +201,7 @@ struct PairStream::Impl {
   std::set<uint32_t> claimed;
   std::vector<DeviceDescription> opened;
   StreamTimes times;
+  std::vector<std::unique_ptr<OpenDevice>> idle;  // that have nothing left to do
   std::vector<std::thread> threads;
 };
 
@@ -211,6 +219,7 @@ bool PairStream::push(StreamPair pair) {
 void PairStream::finish() {
   impl_->queue.end();
   impl_->queue.wait();
+  impl_->delivery.wait();
   impl_->wait_for_devices();
   impl_->check_alive();
 }

@@ -57,8 +57,8 @@ struct StreamTimes {
 class PairStream {
  public:
   /// Devices are opened by threads of its own: what keeps one from it is thrown by push() or
-  /// finish(). `deliver` is called on threads of lanes, perhaps by several at a time, once for
-  /// each pair that was pushed, unless cancel() came first; it must not throw.
+  /// finish(). `deliver` is called on one thread, not the caller's, once for each pair that was
+  /// pushed, unless cancel() came first; it must not throw.
   PairStream(StreamOptions options, std::function<void(StreamResult&&)> deliver);
   /// Cancels what is left and waits for what runs.
   ~PairStream();

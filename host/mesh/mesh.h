@@ -40,6 +40,12 @@ struct Mesh {
       notes;  ///< one line each, for people: "3 polygons were fanned into triangles"
 };
 
+/// Of its vertices and faces.
+inline uint64_t size_in_bytes(const Mesh& mesh) {
+  return mesh.vertices.size() * sizeof(mesh.vertices[0]) +
+         mesh.faces.size() * sizeof(mesh.faces[0]);
+}
+
 /// Checks and cleans a mesh: drops unreferenced vertices, counts degenerate and duplicate faces.
 /// Throws InputError that names the element if a referenced coordinate is not finite, an index is
 /// out of range or there is no face. `faces` index into `vertices`.

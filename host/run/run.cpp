@@ -47,6 +47,15 @@ void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStage
                         nullptr, 0, nullptr);
 }
 
+uint64_t bytes_of(std::span<const RunInput> inputs) {
+  uint64_t bytes = 0;
+  for (const RunInput& input : inputs) {
+    for (const MeshData& data : {input.a, input.b})
+      bytes += data.mesh != nullptr ? size_in_bytes(*data.mesh) : 0;
+  }
+  return bytes;
+}
+
 // Of a run that has not begun.
 VkhReport nothing_known() {
   VkhReport report{};
@@ -234,7 +243,8 @@ void Runner::take_seats(std::span<const RunInput> inputs, std::vector<RunOutput>
     const auto take = [&](size_t i) {
       seats_[i]->take(context_, inputs[i], outputs[i], {reach, share});
     };
-    if (reach == Reach::kDevice) return for_each_index(inputs.size(), take);
+    if (reach == Reach::kDevice)
+      return for_each_index(inputs.size(), take, threads_for(bytes_of(inputs)));
     for (size_t i = 0; i < inputs.size(); ++i) take(i);
   });
 }

@@ -250,7 +250,9 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
   const auto start = Clock::now();
   std::vector<Framed> framed(meshes.size());
   std::vector<const PreparedMesh::Impl*> kept(meshes.size());
-  for_each_index(meshes.size(), [&](size_t i) {
+  uint64_t bytes = 0;
+  for (const PairView& m : meshes) bytes += size_in_bytes(m.a) + size_in_bytes(m.b);
+  const auto frame = [&](size_t i) {
     const PairView& m = meshes[i];
     Framed& f = framed[i];
     f.box_a = bounding_box(m.a);
@@ -267,7 +269,8 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
     f.pair = frame_pair(m.a, m.b);
     f.displacement_b = f.pair.b.displacement;
     f.has_low_b = f.pair.b.has_low;
-  });
+  };
+  for_each_index(meshes.size(), frame, threads_for(bytes));
   std::vector<Pair> pairs;
   for (size_t i = 0; i < meshes.size(); ++i) {
     const Framed& f = framed[i];
