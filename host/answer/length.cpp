@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/quad.h"
 
@@ -116,6 +117,14 @@ double typed_length(const Limit& limit) {
   std::snprintf(text, sizeof text, "%.15g", middle);
   const double decimal = std::strtod(text, nullptr);
   return decimal >= limit.within && decimal <= limit.beyond ? decimal : middle;
+}
+
+std::string length_in_words(const Limit& limit) {
+  const double length = typed_length(limit);
+  const std::string all = decimal(length, 12, Rounding::kDown);
+  return std::strtod(all.c_str(), nullptr) == length
+             ? all
+             : "about " + decimal(length, 4, Rounding::kDown);
 }
 
 }  // namespace vkh

@@ -24,6 +24,9 @@ struct Length {
 /// Of a length that is known to lie between a limit's ends, the decimal of fifteen digits there, if
 /// there is one: what was typed, as a rule. What holds at both ends holds for it.
 double typed_length(const Limit& limit);
+/// It, as people read it: as it was typed where that has at most twelve digits; else, as of a share
+/// of a diagonal, "about" and four.
+std::string length_in_words(const Limit& limit);
 
 /// Whether a number alone is a fraction of diag(A), or refused.
 enum class PlainNumber { kFraction, kRefused };

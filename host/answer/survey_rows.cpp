@@ -59,7 +59,7 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
         {"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
     for (const AreaWithin& band : s.bands)
       rows.push_back({"area", enclosure(in_percent(band.share), "%") + " within " +
-                                  shortest_decimal(band.distance) +
+                                  length_in_words({band.distance, band.distance}) +
                                   (unit.empty() ? "" : " " + unit)});
     if (!s.percentiles.empty())
       rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});

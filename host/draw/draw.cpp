@@ -176,7 +176,7 @@ void Drawing::draw_header() {
   }
   std::string text = std::string(picture_.back ? "h(B,A)" : "h(A,B)") + " is in " +
                      with_unit(picture_, "[" + h.lower + ", " + h.upper + "]");
-  if (picture_.limit) text += "; the limit is " + limit_text(picture_);
+  if (picture_.limit) text += "; the limit is " + limit_caption(picture_);
   write(canvas_, {at, 98 * u}, shortened(text, 20 * u, x + width - at),
         {20 * u, kInk, Align::kLeft});
 }

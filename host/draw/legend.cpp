@@ -196,8 +196,12 @@ std::string with_unit(const Picture& picture, const std::string& number) {
 
 std::string limit_text(const Picture& picture) {
   if (!picture.limit_as.empty()) return picture.limit_as;
-  const std::string number = shortest_decimal(typed_length(*picture.limit));
-  return with_unit(picture, number);
+  return with_unit(picture, length_in_words(*picture.limit));
+}
+
+std::string limit_caption(const Picture& picture) {
+  if (picture.limit_as.empty()) return limit_text(picture);
+  return picture.limit_as + ", " + with_unit(picture, length_in_words(*picture.limit));
 }
 
 std::string grouped(size_t count) {

@@ -32,6 +32,8 @@ PrintedInterval printed(const Picture& picture);
 std::string with_unit(const Picture& picture, const std::string& number);
 /// What was asked about: a length, and no bound.
 std::string limit_text(const Picture& picture);
+/// And, of a share of a diagonal, how long that is.
+std::string limit_caption(const Picture& picture);
 /// "12,345".
 std::string grouped(size_t count);
 

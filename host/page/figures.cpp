@@ -74,7 +74,7 @@ void add_asked(std::vector<Step>& steps, const Limit& asked) {
     return step.limit.beyond >= asked.within && step.limit.within <= asked.beyond;
   });
   const double value = asked.within / 2 + asked.beyond / 2;
-  steps.push_back({value, asked, shortest_decimal(typed_length(asked))});
+  steps.push_back({value, asked, length_in_words(asked)});
 }
 
 void merge_equals(std::vector<Step>& steps) {

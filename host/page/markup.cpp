@@ -146,13 +146,14 @@ std::string facts_html(const PageText& page) {
   const CertifiedInterval whole = interval_of(answer);
   const char* what = answer.b_to_a ? "max(h(A,B), h(B,A)), certified" : "h(A,B), certified";
   std::string out = "<dl class=\"facts\">";
-  out += fact(
-      what, interval_words(answer, whole.lower, whole.upper),
-      page.json["status"].get<std::string>() + ": " + page.json["stop_reason"].get<std::string>());
+  const std::string status = page.json["status"];
+  out += fact(what, interval_words(answer, whole.lower, whole.upper),
+              (status == "limit" ? "decided" : status) + ": " +
+                  page.json["stop_reason"].get<std::string>());
   if (answer.max) {
     const Asked& max = *answer.max;
     const std::string length =
-        shortest_decimal(typed_length(max.limit)) + (answer.unit.empty() ? "" : " " + answer.unit);
+        length_in_words(max.limit) + (answer.unit.empty() ? "" : " " + answer.unit);
     const bool says_more = max.length.of == Length::Of::kDiagonal || max.length.unit != answer.unit;
     out += fact("Limit", says_more ? max.length.requested : length, says_more ? length : "");
   }
@@ -212,7 +213,7 @@ std::string statistics_html(const PageText& page, bool back, const Statistics& s
     out += row(name, range_number(p.distance));
   }
   for (const AreaWithin& band : statistics.bands) {
-    out += row("within " + shortest_decimal(band.distance), share_text(band.share));
+    out += row("within " + length_in_words({band.distance, band.distance}), share_text(band.share));
   }
   return out + "</tbody></table><p class=\"quiet\">Each is certified.</p></div>";
 }
