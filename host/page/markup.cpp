@@ -52,8 +52,9 @@ std::string percent(double share, double gap, Rounding rounding) {
 
 std::string share_text(const Enclosure& share) {
   const double gap = share.upper - share.lower;
-  return percent(share.lower, gap, Rounding::kDown) + " to " +
-         percent(share.upper, gap, Rounding::kUp) + " %";
+  const std::string low = percent(share.lower, gap, Rounding::kDown);
+  const std::string high = percent(share.upper, gap, Rounding::kUp);
+  return (low == high ? high : low + " to " + high) + " %";
 }
 
 constexpr const char* kNoBound = "no bound yet";
