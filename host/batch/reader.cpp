@@ -80,8 +80,10 @@ NamedEntry EntryReader::name(const Entry& entry) {
   job.file_b = entry.file_b;
   if (!entry.unit.empty()) check_unit("unit", entry.unit);
   if (!entry.unit.empty()) job.unit = entry.unit;
-  if (!entry.tolerance.empty())
-    job.tolerance = parse_length("tol", entry.tolerance, PlainNumber::kFraction);
+  const bool has_gate_tolerance = !base_.tolerance_is_typed && !entry.max.empty();
+  const std::string tolerance =
+      entry.tolerance.empty() && has_gate_tolerance ? "1e-7" : entry.tolerance;
+  if (!tolerance.empty()) job.tolerance = parse_length("tol", tolerance, PlainNumber::kFraction);
   if (!entry.max.empty()) job.max = parse_length("max", entry.max, PlainNumber::kRefused);
   job.symmetric = entry.symmetric.value_or(job.symmetric);
   named.known = unread_answer(job);

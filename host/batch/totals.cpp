@@ -110,7 +110,8 @@ void Totals::print_failures(std::ostream& out) const {
 void Totals::print(std::ostream& out, const Run& run) const {
   out << in_words(run) << '\n';
   const size_t done = pairs() - kept_;
-  std::string now = count_of(done, "pairs") + " in " + number("%.2f s", run.wall_s);
+  std::string now =
+      count_of(done, done == 1 ? "pair" : "pairs") + " in " + number("%.2f s", run.wall_s);
   if (done > 0 && run.wall_s > 0)
     now += ", " + number("%.4g a second", static_cast<double>(done) / run.wall_s);
   if (kept_ > 0) now += "; " + count_of(kept_, "were done before");

@@ -105,6 +105,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   CommandLine line;
   line.command = Command::kBatch;
   line.job = job_of(of_pairs, words, "batch");
+  line.job.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   BatchAsked& batch = line.batch;
   if (typed.against.empty() && typed.files.size() > 1)
     throw UsageError("batch: expected one LIST, or --against B with meshes");

@@ -23,6 +23,7 @@ struct PairJob {
   std::string file_a, file_b;      ///< both empty: the built-in pair
   std::string unit;                ///< of files that do not say; empty: unknown
   Length tolerance;
+  bool tolerance_is_typed = true;      ///< false: a limit of a pair's own brings a gate's with it
   std::optional<Length> max;           ///< gate
   std::string face_max_a, face_max_b;  ///< files of limits of faces; empty: none
   std::optional<PartOf> part;          ///< of A, alone

@@ -104,6 +104,8 @@ class Answers(Folder):
         self.assertEqual({name: line.get("verdict") for name, line in results.items()},
                          {"in": "pass", "out": "fail", "percent": "pass", "no limit": None})
         self.assertEqual(len(results["out"]["directions"]), 2)
+        self.assertEqual({name: line["tolerance"]["requested"] for name, line in results.items()},
+                         {"in": "1e-7", "out": "1e-7", "percent": "1e-7", "no limit": "0.001"})
         with (self.folder / "out.csv").open(newline="") as table:
             rows = list(csv.DictReader(table))
         self.assertEqual([row["id"] for row in rows], sorted(results))
