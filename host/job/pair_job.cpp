@@ -178,7 +178,12 @@ void solve(Progressing& at, const MeshPair& pair, const Session& session, Answer
   add_memory_notes(options.memory_bytes, answer);
   if (at.job.survey.is_any()) {
     at.keep(answer);
-    survey_all({at.job.survey, pair, at.stop, [&at](size_t cells) { at.line.show_survey(cells); }},
+    survey_all({.wish = at.job.survey,
+                .a = pair.a,
+                .b = pair.b,
+                .left_s = [&at] { return at.stop.left_s(); },
+                .goes_on = [&at] { return !at.stop.is_asked(); },
+                .show = [&at](size_t cells) { at.line.show_survey(cells); }},
                solver, options, answer);
   }
   if (at.job.proof) {

@@ -38,13 +38,13 @@ SurveyOptions options_of(const SurveyJob& job, const Answer& answer, size_t left
   options.enough = wish.area;
   if (!wish.statistics) options.percentiles.clear();
   if (!wish.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
-  const double time = job.stop.left_s();
+  const double time = job.left_s();
   options.time_limit_s = std::isfinite(time)
                              ? kPartOfTime * std::max(time, 0.0) / static_cast<double>(left)
                              : kSeconds;
   options.goes_on = [&job](size_t cells) {
     job.show(cells);
-    return !job.stop.is_asked();
+    return job.goes_on();
   };
   return options;
 }
@@ -83,9 +83,9 @@ SurveyResult survey_one(const SurveyJob& job, const Side& side, const SurveyOpti
   options.coverage = false;
   options.wave_limit = 1;
   options.time_limit_s = std::numeric_limits<double>::infinity();
-  options.progress = [&job](const Progress&) { return !job.stop.is_asked(); };
+  options.progress = [&job](const Progress&) { return job.goes_on(); };
   options.survey = survey_with(asked, result);
-  if (!job.stop.is_asked()) solver.distance(side.from, side.to, options);
+  if (job.goes_on()) solver.distance(side.from, side.to, options);
   return result;
 }
 
@@ -109,8 +109,8 @@ void survey_all(const SurveyJob& job, Solver& solver, const SolveOptions& option
     return result;
   };
   const size_t count = answer.b_to_a ? 2 : 1;
-  answer.survey_a = one({job.pair.a, job.pair.b, "A"}, answer.a_to_b, count);
-  if (answer.b_to_a) answer.survey_b = one({job.pair.b, job.pair.a, "B"}, *answer.b_to_a, 1);
+  answer.survey_a = one({job.a, job.b, "A"}, answer.a_to_b, count);
+  if (answer.b_to_a) answer.survey_b = one({job.b, job.a, "B"}, *answer.b_to_a, 1);
 }
 
 }  // namespace vkh

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "host/answer/answer.h"
-#include "host/demo/default_pair.h"
-#include "host/job/stop.h"
+#include "host/mesh/mesh.h"
 #include "host/solve/solver.h"
 
 namespace vkh {
@@ -26,8 +25,10 @@ struct SurveyWish {
 /// What one needs.
 struct SurveyJob {
   const SurveyWish& wish;
-  const MeshPair& pair;
-  const Stop& stop;
+  const Mesh& a;
+  const Mesh& b;
+  std::function<double()> left_s;    ///< of the time for it; infinite: no limit
+  std::function<bool()> goes_on;     ///< false: it is to end
   std::function<void(size_t)> show;  ///< how many cells have been bounded
 };
 

@@ -66,6 +66,7 @@ Solver::Solver(Device& device, const std::filesystem::path& cache_folder) {
   impl_ = std::make_unique<Impl>(device, cache_folder);
 }
 Solver::~Solver() = default;
+const Device& Solver::device() const { return impl_->device; }
 
 struct PreparedMesh::Impl {
   Mesh mesh;

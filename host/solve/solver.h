@@ -57,6 +57,7 @@ class Solver {
   /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
   /// the slow part of a start, so that meshes may be read meanwhile.
   void make_ready(const SolveOptions& options = {});
+  const Device& device() const;
 
   /// Encloses h(a, b).
   Report distance(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
