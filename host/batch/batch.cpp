@@ -207,6 +207,9 @@ class Batch {
     if (older == older_.end() || !older->second.is_final() ||
         older->second.name.key != entry.name.key)
       return false;
+    const bool is_drawn = !job_.folders || older->second.status.empty() ||
+                          job_.folders->has(entry.name, entry.job.symmetric);
+    if (!is_drawn) return false;
     const std::lock_guard lock(mutex_);
     if (kept_.insert(entry.name.id).second) {
       totals_.add_kept(older->second);
@@ -223,11 +226,27 @@ class Batch {
                     .symmetric = running.entry.job.symmetric,
                     .options = asked_options(running.entry.job, running.entry.known)};
     pair.options.progress = [this](const Progress&) { return goes_on(); };
+    if (job_.folders)
+      pair.beside = [this](Solver& solver, StreamResult& result) { draw(solver, result); };
     {
       const std::lock_guard lock(mutex_);
       running_.emplace(number, std::move(running));
     }
     return stream.push(std::move(pair));
+  }
+
+  const Running& running(size_t number) {
+    const std::lock_guard lock(mutex_);
+    return running_.at(number);
+  }
+
+  // On a lane's thread, before the result is delivered.
+  void draw(Solver& solver, const StreamResult& result) {
+    const Running& one = running(result.number);
+    Answer answer = answer_of(one.entry, result);
+    if (is_cancelled(answer)) return;
+    job_.folders->draw({one.entry, one.meshes, solver, [this] { return goes_on(); }},
+                       std::move(answer));
   }
 
   Running taken(size_t number) {
@@ -247,19 +266,26 @@ class Batch {
     budget_.give(running.bytes);
   }
 
-  void write_result(const NamedEntry& entry, StreamResult&& result) {
+  static Answer answer_of(const NamedEntry& entry, StreamResult result) {
     Answer answer = entry.known;
-    if (result.error)
-      return write(to_record(entry.name, failure_of(result.error, *entry.entry), answer));
     answer.a_to_b = std::move(result.a_to_b);
     answer.b_to_a = std::move(result.b_to_a);
-    const bool is_cancelled = answer.a_to_b.status == Status::kCancelled ||
-                              (answer.b_to_a && answer.b_to_a->status == Status::kCancelled);
-    if (is_cancelled) return;  // it is done again
     add_memory_notes(entry.job.options.memory_bytes, answer);
     answer.waits.total = answer.waits.read + answer.a_to_b.times.wall_ms +
                          (answer.b_to_a ? answer.b_to_a->times.wall_ms : 0);
-    write(to_record(entry.name, answer));
+    return answer;
+  }
+
+  static bool is_cancelled(const Answer& answer) {
+    return answer.a_to_b.status == Status::kCancelled ||
+           (answer.b_to_a && answer.b_to_a->status == Status::kCancelled);
+  }
+
+  void write_result(const NamedEntry& entry, StreamResult&& result) {
+    if (result.error)
+      return write(to_record(entry.name, failure_of(result.error, *entry.entry), entry.known));
+    const Answer answer = answer_of(entry, std::move(result));
+    if (!is_cancelled(answer)) write(to_record(entry.name, answer));  // else it is done again
   }
 
   void write(const std::string& line) {

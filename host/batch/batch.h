@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/batch/folders.h"
 #include "host/batch/reader.h"
 #include "host/batch/totals.h"
 #include "host/many/stream.h"
@@ -20,7 +21,8 @@ struct BatchJob {
   bool resumes = false;          ///< keeps its lines, and does what they do not have
   bool fails_fast = false;       ///< ends with the first pair that is beyond or has no answer
   StreamOptions devices;
-  uint64_t read_ahead_bytes = 0;  ///< of files that are read and not solved; 0: 2 GiB
+  std::shared_ptr<BatchFolders> folders;  ///< where pictures and reports go; none: there are none
+  uint64_t read_ahead_bytes = 0;          ///< of files that are read and not solved; 0: 2 GiB
 };
 
 /// Returns the worst code of all pairs, or kExitNotClosed where the batch was interrupted. Prints

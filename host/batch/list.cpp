@@ -9,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/base/text_scanner.h"
+#include "host/pictures/folder.h"
 #include "host/record/csv.h"
 #include "host/system/system.h"
 
@@ -202,12 +203,7 @@ PairList list_against(const std::string& b, const std::vector<std::string>& part
   return list;
 }
 
-bool Shard::has(const std::string& id) const {
-  uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccd;  // MurmurHash3's finalizer
-  return (hash ^ (hash >> 33)) % count == index;
-}
+bool Shard::has(const std::string& id) const { return hash_of_id(id) % count == index; }
 
 Shard parse_shard(const std::string& text) {
   const size_t slash = text.find('/');

@@ -33,7 +33,7 @@ PairList list_against(const std::string& b, const std::vector<std::string>& part
 /// i of n, from 0.
 struct Shard {
   uint64_t index = 0, count = 1;
-  /// A function of the id alone: FNV-1a of its bytes, mixed, modulo n.
+  /// A function of the id alone: its hash modulo n.
   bool has(const std::string& id) const;
 };
 /// "3/64". Throws UsageError.

@@ -20,13 +20,13 @@ std::string number(const char* format, double value) {
 
 std::string count_of(size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
-std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::kUp) + " %"; }
-
 void row(std::ostream& out, const char* label, const std::string& text) {
   out << "  " << label << std::string(11 - std::string(label).size(), ' ') << text << '\n';
 }
 
 }  // namespace
+
+std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::kUp) + " %"; }
 
 void Totals::add(const Record& record) {
   worst_ = worse(worst_, record.code);
@@ -78,17 +78,19 @@ std::string Totals::in_words(const Run& run) const {
   return std::to_string(closed_) + " of " + all + " have an interval within the tolerance" + rest;
 }
 
-void Totals::print_percentiles(std::ostream& out) const {
-  if (ratios_.empty()) return;
+std::string Totals::percentiles() const {
+  if (ratios_.empty()) return "";
   std::vector<double> sorted = ratios_;
   std::sort(sorted.begin(), sorted.end());
   const auto at = [&](double share) {
     const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
     return percent_up(sorted[std::max<size_t>(rank, 1) - 1]);
   };
-  row(out, "upper",
-      "of diag(A): median " + at(0.5) + ", p90 " + at(0.9) + ", p99 " + at(0.99) + ", largest " +
-          at(1));
+  return "median " + at(0.5) + ", p90 " + at(0.9) + ", p99 " + at(0.99) + ", largest " + at(1);
+}
+
+void Totals::print_percentiles(std::ostream& out) const {
+  if (!ratios_.empty()) row(out, "upper", "of diag(A): " + percentiles());
 }
 
 void Totals::print_worst(std::ostream& out) const {

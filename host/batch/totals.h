@@ -10,6 +10,9 @@
 
 namespace vkh {
 
+/// "2.64 %", rounded up.
+std::string percent_up(double ratio);
+
 class Totals {
  public:
   void add(const Record& record);
@@ -30,6 +33,10 @@ class Totals {
   };
   /// A line in words, then a table.
   void print(std::ostream& out, const Run& run) const;
+  /// That line: how many pairs have what was asked.
+  std::string in_words(const Run& run) const;
+  /// "median 2.64 %, ..., largest 5.8 %": of their upper bounds, as shares of diag(A). Empty: none.
+  std::string percentiles() const;
   /// Of results that were merged; `missing`: pairs that have none.
   void print_merged(std::ostream& out, size_t missing, const std::string& results) const;
 
@@ -41,7 +48,6 @@ class Totals {
   void print_worst(std::ostream& out) const;
   void print_failures(std::ostream& out) const;
   void print_percentiles(std::ostream& out) const;
-  std::string in_words(const Run& run) const;
 
   ExitCode worst_ = kExitClosed;
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;

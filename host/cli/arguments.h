@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/batch/folders.h"
 #include "host/batch/list.h"
 #include "host/cli/pictures.h"
 #include "host/job/pair_job.h"
@@ -42,6 +43,7 @@ struct BatchAsked {
   uint64_t read_ahead_bytes = 0;
   double time_limit_s = 0;  ///< of a pair; infinite: none
   TablesAsked tables;
+  FoldersAsked folders;
 };
 
 struct MergeAsked {

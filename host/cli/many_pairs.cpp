@@ -72,6 +72,7 @@ void add_batch(CLI::App& command, TypedMany& typed) {
   command.add_flag("--fail-fast", typed.fails_fast,
                    "End with the first pair that is beyond its limit or has no answer");
   add_limits(command, typed.of_pairs);
+  add_folder_options(command, typed.of_pairs.pictures);
   command.add_option("--device", typed.of_pairs.device,
                      "Devices, between commas, as 'doctor' names them; all: every GPU [the best]");
   command.add_option("--together", typed.together,
@@ -123,6 +124,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   batch.time_limit_s =
       of_pairs.time ? parse_time(*of_pairs.time) : std::numeric_limits<double>::infinity();
   batch.tables = tables_of(typed);
+  batch.folders = folders_of(of_pairs.pictures);
   return line;
 }
 

@@ -1,13 +1,13 @@
 // What is written of all of A: its field, a picture, the report, a certificate.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/draw/draw.h"
+#include "host/batch/folders.h"
 #include "host/job/pair_job.h"
+#include "host/pictures/drawn.h"
 #include "host/system/output_file.h"
 
 namespace CLI {
@@ -19,6 +19,7 @@ namespace vkh {
 /// As typed.
 struct TypedPictures {
   std::string field, image, report, certificate;
+  std::string image_folder, report_folder;  ///< of many pairs
   std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;
@@ -29,18 +30,19 @@ struct TypedPictures {
 };
 void add_picture_options(CLI::App& command, TypedPictures& typed);
 void add_certificate_option(CLI::App& command, TypedPictures& typed);
+void add_folder_options(CLI::App& command, TypedPictures& typed);
 
 /// What was asked for.
 struct PicturesAsked {
   std::optional<std::string> field, image, report, certificate;  ///< files
-  PictureOptions options;
-  std::optional<std::array<Length, 2>> range;  ///< of colours
+  Look look;
 
   bool any() const { return field || image || report || certificate; }
   bool of_cells() const { return field || image || report; }
 };
-/// Throws UsageError.
+/// Throw UsageError.
 PicturesAsked asked_of(const TypedPictures& typed);
+FoldersAsked folders_of(const TypedPictures& typed);
 
 /// Looked at before the run, written after it: of a symmetric run two files each of field and
 /// picture, the way back's with -b before its ending.

@@ -1,5 +1,6 @@
 #include "host/program/many_pairs.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -49,14 +50,6 @@ PairList list_of(const BatchAsked& asked) {
   return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
 }
 
-// A relative name of a file that is not there yet stays relative without absolute().
-std::filesystem::path place_of(const std::string& file) {
-  std::error_code none;
-  const std::filesystem::path whole = std::filesystem::absolute(path_of(file), none);
-  const std::filesystem::path place = std::filesystem::weakly_canonical(whole, none);
-  return none ? whole.lexically_normal() : place;
-}
-
 /// What is named twice would be read while it is written.
 void check_outputs(const std::string& results, const TablesAsked& tables) {
   std::set<std::filesystem::path> places{place_of(results)};
@@ -85,6 +78,32 @@ BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
   return batch;
 }
 
+/// None: none were asked for.
+std::shared_ptr<BatchFolders> folders_of(const BatchAsked& asked, const std::vector<Entry>& entries,
+                                         std::vector<std::string> taken) {
+  if (!asked.folders.any()) return nullptr;
+  taken.push_back(asked.results);
+  for (const auto& table : {asked.tables.csv, asked.tables.junit}) {
+    if (table) taken.push_back(*table);
+  }
+  return std::make_shared<BatchFolders>(asked.folders, entries, taken);
+}
+
+/// What was not drawn is said by then.
+ExitCode write_indexes(const BatchJob& batch) {
+  constexpr size_t kMost = 5;
+  const BatchFolders& folders = *batch.folders;
+  const std::vector<std::string> failures = folders.failures();
+  for (size_t i = 0; i < std::min(failures.size(), kMost); ++i) note(failures[i]);
+  if (failures.size() > kMost)
+    note("and " + std::to_string(failures.size() - kMost) + " more pairs are not drawn");
+  folders.write_indexes(batch.results, batch.entries, batch.pair.max.has_value());
+  for (const std::string& file : folders.indexes())
+    std::cout << "  index      " << printable(file) << '\n';
+  if (!failures.empty()) return kExitNotWritten;
+  return folders.left() > 0 ? kExitNotClosed : kExitClosed;
+}
+
 }  // namespace
 
 ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
@@ -97,19 +116,20 @@ ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
   PairList list = list_of(asked);
   for (const std::string& text : list.notes) note(text);
   std::vector<std::string> inputs = {asked.list.empty() ? asked.against : asked.list};
-  const BatchJob batch = batch_of(job, asked, list);
+  BatchJob batch = batch_of(job, asked, list);
   for (const Entry& entry : batch.entries) {
     inputs.push_back(entry.file_a);
     inputs.push_back(entry.file_b);
   }
   const Tables tables(asked.tables, inputs);
+  batch.folders = folders_of(asked, batch.entries, inputs);
   const ExitCode code = run_batch(batch, std::cout);
   if (tables.is_any()) {
     Results results;
     results.add(asked.results);
     tables.write(results, true);
   }
-  return code;
+  return batch.folders ? worse(code, write_indexes(batch)) : code;
 }
 
 namespace {

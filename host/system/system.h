@@ -18,6 +18,15 @@ inline std::string name_of(const std::filesystem::path& path) {
   return {name.begin(), name.end()};
 }
 
+/// Where a file is, or would be: absolute, links followed. A relative name of a file that is not
+/// there yet stays relative without absolute().
+inline std::filesystem::path place_of(const std::string& name) {
+  std::error_code none;
+  const std::filesystem::path whole = std::filesystem::absolute(path_of(name), none);
+  const std::filesystem::path place = std::filesystem::weakly_canonical(whole, none);
+  return none ? whole.lexically_normal() : place;
+}
+
 /// What follows the program's name on the command line.
 std::vector<std::string> command_line(int argc, const char* const* argv);
 

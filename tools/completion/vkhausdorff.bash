@@ -4,8 +4,8 @@ _vkhausdorff() {
   local commands="distance gate batch merge demo doctor help"
   local engine="--memory --waves --preset --enable --disable --no-cache --help" search tables="--out --csv --junit"
   search="--device --time $engine"
-  local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol"
-  outputs+=" --field --image --report --view --up --size --map --range --steps"
+  local look="--view --up --size --map --range --steps"
+  local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol --field --image --report $look"
   local options="--help --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
@@ -28,7 +28,7 @@ _vkhausdorff() {
     gate) options="$search $outputs --unit --max-input --certificate --max --area --face-max --face-max-b --junit --github" ;;
     batch)
       options="$search $tables --against --resume --shard --fail-fast --max --tol --symmetric --unit --max-input"
-      options+=" --together --lanes --read-ahead" ;;
+      options+=" --image-dir --report-dir $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help" ;;

@@ -1,0 +1,159 @@
+#include "host/batch/folders.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "host/base/decimal.h"
+#include "host/base/error.h"
+#include "host/batch/index.h"
+#include "host/job/survey_wish.h"
+#include "host/record/merge.h"
+#include "host/system/system.h"
+
+namespace vkh {
+namespace {
+
+// All that a picture depends on besides its answer.
+std::string text_of(const Look& look) {
+  const PictureOptions& o = look.options;
+  const glm::dvec3& from = o.view.direction;
+  std::string text = std::to_string(o.width) + "x" + std::to_string(o.height);
+  for (const int choice : {static_cast<int>(o.view.kind), static_cast<int>(o.up),
+                           static_cast<int>(o.map), static_cast<int>(o.bands)})
+    text += " " + std::to_string(choice);
+  for (const double part : {from.x, from.y, from.z}) text += " " + hex_float(part);
+  if (look.range) text += " " + (*look.range)[0].requested + "," + (*look.range)[1].requested;
+  return text;
+}
+
+std::vector<std::string> ids_of(const std::vector<Entry>& entries) {
+  std::vector<std::string> ids;
+  for (const Entry& entry : entries) ids.push_back(entry.id);
+  return ids;
+}
+
+std::string reason_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return "no memory for what is drawn of it";
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+BatchFolders::BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& entries,
+                           const std::vector<std::string>& taken)
+    : asked_(asked) {
+  if (asked.images) images_.emplace("--image-dir", *asked.images, ".png");
+  if (asked.reports) reports_.emplace("--report-dir", *asked.reports, ".html");
+  for (const auto* folder : {&images_, &reports_}) {
+    if (*folder) (*folder)->open(ids_of(entries), taken);
+  }
+}
+
+std::string BatchFolders::key_of(const RecordName& name) const {
+  return name.key + "\n" + text_of(asked_.look);
+}
+
+bool BatchFolders::has(const RecordName& name, bool symmetric) const {
+  const std::string key = key_of(name);
+  if (reports_ && !reports_->has(name.id, false, key)) return false;
+  if (!images_) return true;
+  return images_->has(name.id, false, key) && (!symmetric || images_->has(name.id, true, key));
+}
+
+void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
+  std::exception_ptr error;
+  bool is_left = false;
+  try {
+    if (pair.goes_on()) write(pair, answer);
+    is_left = !pair.goes_on() && !has(pair.entry.name, pair.entry.job.symmetric);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  const std::lock_guard lock(mutex_);
+  if (is_left) ++left_;
+  if (error) failures_.push_back(pair.entry.name.id + ": " + reason_of(error));
+}
+
+// A picture of a survey that was cut short would be taken for the whole one later on.
+void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
+  const NamedEntry& entry = pair.entry;
+  SurveyWish wish;
+  wish.faces = true;
+  wish.statistics = reports_.has_value();
+  survey_all({.wish = wish,
+              .a = *pair.meshes.a,
+              .b = *pair.meshes.b,
+              .left_s = [&] { return entry.job.options.time_limit_s; },
+              .goes_on = pair.goes_on,
+              .show = [](size_t) {}},
+             pair.solver, asked_options(entry.job, entry.known), answer);
+  if (!pair.goes_on()) return;
+  const Measured measured{answer, *pair.meshes.a, *pair.meshes.b};
+  const std::string& id = entry.name.id;
+  const std::string key = key_of(entry.name);
+  std::vector<std::string> pictures = pictures_or_none(measured, asked_.look, pair.solver.device());
+  if (reports_) reports_->write(id, false, report_of(measured, pictures), key);
+  if (!images_) return;
+  for (const Side& side : sides_of(measured)) {
+    std::string& picture = pictures[side.back ? 1 : 0];
+    if (picture.empty())  // says why there is none
+      picture = picture_of(side, answer, asked_.look, pair.solver.device());
+    images_->write(id, side.back, std::move(picture), key);
+  }
+}
+
+void BatchFolders::write_indexes(const std::string& file, const std::vector<Entry>& entries,
+                                 bool has_limit) const {
+  Results results;
+  results.add(file);
+  const bool is_one = are_one();
+  IndexContents index{.rows = {}, .results = file, .look = asked_.look, .has_limit = has_limit};
+  for (const Entry& entry : entries) index.left += results.has(entry.id) ? 0 : 1;
+  const auto write = [&](const PairFolder& folder, bool has_images, bool has_reports) {
+    index.rows.clear();
+    results.for_each([&](const Record& record, const std::string&) {
+      const std::string key = key_of(record.name);
+      IndexRow row{.record = record};
+      for (const bool back : {false, true}) {
+        if (has_images && images_->has(record.name.id, back, key))
+          row.pictures.push_back(images_->name_of(record.name.id, back));
+      }
+      if (has_reports && reports_->has(record.name.id, false, key))
+        row.report = reports_->name_of(record.name.id, false);
+      index.rows.push_back(std::move(row));
+    });
+    index.has_pictures = has_images;
+    index.has_reports = has_reports;
+    folder.write_index(to_index(index));
+  };
+  if (images_) write(*images_, true, is_one);
+  if (reports_ && !is_one) write(*reports_, false, true);
+}
+
+bool BatchFolders::are_one() const {
+  return images_ && reports_ && place_of(*asked_.images) == place_of(*asked_.reports);
+}
+
+std::vector<std::string> BatchFolders::indexes() const {
+  std::vector<std::string> files;
+  if (images_) files.push_back(images_->path_in(PairFolder::kIndex));
+  if (reports_ && !are_one()) files.push_back(reports_->path_in(PairFolder::kIndex));
+  return files;
+}
+
+std::vector<std::string> BatchFolders::failures() const {
+  const std::lock_guard lock(mutex_);
+  return failures_;
+}
+
+size_t BatchFolders::left() const {
+  const std::lock_guard lock(mutex_);
+  return left_;
+}
+
+}  // namespace vkh

@@ -1,0 +1,68 @@
+// What a batch draws: a picture and a report a pair, in folders with an index page each.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/batch/reader.h"
+#include "host/pictures/drawn.h"
+#include "host/pictures/folder.h"
+#include "host/solve/solver.h"
+
+namespace vkh {
+
+struct FoldersAsked {
+  std::optional<std::string> images = {}, reports = {};
+  Look look;
+  bool any() const { return images || reports; }
+};
+
+/// A pair whose run has ended, on the thread that ran it.
+struct EndedPair {
+  const NamedEntry& entry;
+  const EntryMeshes& meshes;
+  Solver& solver;
+  std::function<bool()> goes_on;  ///< false: what is drawn is to end
+};
+
+/// Threads may share it.
+class BatchFolders {
+ public:
+  /// Makes them. Throws UsageError where one cannot be written, or a file in it would replace one
+  /// that is `taken`.
+  BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& entries,
+               const std::vector<std::string>& taken);
+
+  /// Whether files of this answer, and drawn as is asked, are there from before.
+  bool has(const RecordName& name, bool symmetric) const;
+
+  /// Surveys the pair and writes its files, one pair at a time on a thread. Never throws: an answer
+  /// is not lost over its picture.
+  void draw(const EndedPair& pair, Answer answer) noexcept;
+
+  /// An index a folder, one for both if they are one: of all that `file` of results has. Throws
+  /// OutputError.
+  void write_indexes(const std::string& file, const std::vector<Entry>& entries,
+                     bool has_limit) const;
+  std::vector<std::string> indexes() const;  ///< their files' names
+
+  /// Why files were not written, a line a pair; and pairs that the batch's end left without.
+  std::vector<std::string> failures() const;
+  size_t left() const;
+
+ private:
+  std::string key_of(const RecordName& name) const;
+  void write(const EndedPair& pair, Answer& answer) const;
+  bool are_one() const;
+
+  FoldersAsked asked_;
+  std::optional<PairFolder> images_, reports_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> failures_;
+  size_t left_ = 0;
+};
+
+}  // namespace vkh

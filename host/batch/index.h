@@ -1,0 +1,31 @@
+// The index page of a folder that a batch has drawn: its pairs, the worst first.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/pictures/drawn.h"
+#include "host/record/record.h"
+
+namespace vkh {
+
+/// A pair, and the names of its files beside the page.
+struct IndexRow {
+  Record record;
+  std::vector<std::string> pictures = {};
+  std::string report = {};  ///< empty: none
+};
+
+struct IndexContents {
+  std::vector<IndexRow> rows;
+  const std::string& results;  ///< the file that they are from
+  const Look& look;
+  size_t left = 0;  ///< pairs without a result
+  bool has_limit = false;
+  bool has_pictures = false, has_reports = false;  ///< the folder is one of those
+};
+
+/// The whole page, which needs no script and no network.
+std::string to_index(IndexContents contents);
+
+}  // namespace vkh
