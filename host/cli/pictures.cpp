@@ -157,8 +157,8 @@ PicturesAsked asked_of(const TypedPictures& typed) {
 
 FoldersAsked folders_of(const TypedPictures& typed) {
   FoldersAsked asked{.look = look_of(typed)};
-  if (!typed.image_folder.empty()) asked.images = typed.image_folder;
-  if (!typed.report_folder.empty()) asked.reports = typed.report_folder;
+  asked.images = typed.image_folder;
+  asked.reports = typed.report_folder;
   constexpr const char* kDrawing = "--image-dir or --report-dir";
   check_needed(typed, asked.any(), kDrawing);
   if (typed.map && !asked.any())

@@ -19,7 +19,7 @@ namespace vkh {
 /// As typed.
 struct TypedPictures {
   std::string field, image, report, certificate;
-  std::string image_folder, report_folder;  ///< of many pairs
+  std::optional<std::string> image_folder, report_folder;  ///< of many pairs
   std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;

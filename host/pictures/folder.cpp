@@ -146,7 +146,7 @@ void PairFolder::check_taken(const std::set<std::string>& names,
     places.insert(place);
   }
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_of(folder_), error)) {
     if (!entry.is_symlink(error)) continue;
     const std::string link = vkh::name_of(entry.path());
     const std::string name = lowered(vkh::name_of(entry.path().filename()));
