@@ -44,7 +44,8 @@ std::string cleaned(const std::string& id) {
 
 bool is_device(const std::string& name) {
   constexpr std::array kDevices{"con", "prn", "aux", "nul"};
-  const bool is_numbered = name.size() == 4 && (name.starts_with("com") || name.starts_with("lpt"));
+  const bool is_port = name.starts_with("com") || name.starts_with("lpt");
+  const bool is_numbered = is_port && name.size() == 4 && name[3] >= '0' && name[3] <= '9';
   return is_numbered || std::find(kDevices.begin(), kDevices.end(), name) != kDevices.end();
 }
 
@@ -99,7 +100,7 @@ uint64_t hash_of_id(std::string_view id) {
 }
 
 std::string file_stem(const std::string& id) {
-  const std::string name = cleaned(id);
+  std::string name = cleaned(id);
   const bool is_plain = name == id && name == lowered(name);
   const bool is_other = name == "index" || is_device(name) || name.ends_with("-b");
   if (is_plain && !is_other && !ends_like_a_hash(name)) return name;
