@@ -48,7 +48,11 @@ a { color: #1f56b5; }
   :root { font-size: 11px; }
   body { padding: 0; }
   h1 b { font-size: 16px; } h1 { font-size: 13px; }
-  img { width: 34mm; }
+  .kind, .notes, small, .mark, thead th { font-size: 10px; }
+  th, td { padding: 6px 10px 6px 0; }
+  tbody th { min-width: 12em; }
+  .number { white-space: normal; }
+  img { width: 32mm; }
   .mark, h1 b { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 </style>
