@@ -1,7 +1,6 @@
 // What a certificate has to prove, and whether it does.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <mutex>
 
@@ -39,7 +38,7 @@ struct Part {
   unsigned depth;
 };
 
-/// Measures the leaves of blocks, one block after the other.
+/// Measures the leaves of a block.
 class Leaves {
  public:
   Leaves(const Question& question, const Fraction& limit) : q_(question), limit_(limit) {}
@@ -141,18 +140,16 @@ inline Fraction squared_claim(double claim, int side, const std::array<double, 2
 /// largest of their distances; both are squares, in 4^unit.
 inline Fraction largest_of_leaves(const Question& question, const Fraction& limit) {
   const std::vector<Direction::Block>& blocks = question.claim.blocks;
-  std::atomic<size_t> next = 0;
   std::mutex one_at_a_time;
   Fraction largest;
-  const auto some_blocks = [&](size_t) {
+  const auto one_block = [&](size_t i) {
     Leaves leaves(question, limit);
-    for (size_t i = next++; i < blocks.size(); i = next++)
-      walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i], question.y.faces.size(),
-           leaves);
+    walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i], question.y.faces.size(),
+         leaves);
     const std::lock_guard lock(one_at_a_time);
     largest = std::max(largest, leaves.largest);
   };
-  for_each_index(question.threads, some_blocks, question.threads);
+  for_each_index(blocks.size(), one_block, question.threads);
   return largest;
 }
 

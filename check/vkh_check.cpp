@@ -5,6 +5,7 @@
 //   proof.h        upper: every corner of a leaf is near enough; lower: the witness is far enough
 //   this page      whether the meshes are those that the file is of; what is printed
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <future>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -20,21 +22,34 @@ inline size_t thread_count() {
   return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
 }
 
-/// As many as pay for so much to be written: one costs as much as a megabyte or two (50 us), and
-/// more where all cores are busy.
+/// As many as pay for so much to be written: to begin one costs as much as some of it, and more
+/// where all cores are busy.
 inline size_t threads_for(uint64_t bytes) {
   constexpr uint64_t kEach = uint64_t{4} << 20;
   return std::clamp<size_t>(static_cast<size_t>(bytes / kEach), 1, thread_count());
 }
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
-/// there are any to be had, on so many in all. Throws what one of them threw, after all have ended.
+/// there are any to be had, on so many in all. Throws what the least of those that threw did, after
+/// all have ended: whichever thread is sooner.
 template <class F>
 void for_each_index(size_t count, const F& work, size_t threads = thread_count()) {
   std::atomic<size_t> next = 0;
+  std::mutex one_at_a_time;
+  size_t least = count;
+  std::exception_ptr error;
   const auto some = [&] {
     const FloatEnvironment ours;  // a new thread's is not this one's everywhere
-    for (size_t i = next++; i < count; i = next++) work(i);
+    for (size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {  // those before it have been taken, and each is ended by who has it
+        const std::lock_guard lock(one_at_a_time);
+        if (i < least) error = std::current_exception();
+        least = std::min(i, least);
+        return;
+      }
+    }
   };
   std::vector<std::future<void>> shares = {};
   shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
@@ -42,6 +57,7 @@ void for_each_index(size_t count, const F& work, size_t threads = thread_count()
     shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
   for (std::future<void>& share : shares) share.wait();
   for (std::future<void>& share : shares) share.get();
+  if (error) std::rethrow_exception(error);
 }
 
 constexpr size_t kBlock = size_t{1} << 15;
