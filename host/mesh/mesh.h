@@ -40,10 +40,12 @@ struct Mesh {
       notes;  ///< one line each, for people: "3 polygons were fanned into triangles"
 };
 
-/// Of its vertices and faces.
-inline uint64_t size_in_bytes(const Mesh& mesh) {
-  return mesh.vertices.size() * sizeof(mesh.vertices[0]) +
-         mesh.faces.size() * sizeof(mesh.faces[0]);
+/// Of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.
+inline uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {
+  return sizeof(glm::dvec3) * vertex_count + sizeof(glm::uvec3) * face_count;
+}
+inline uint64_t mesh_bytes(const Mesh& mesh) {
+  return mesh_bytes(mesh.vertices.size(), mesh.faces.size());
 }
 
 /// Checks and cleans a mesh: drops unreferenced vertices, counts degenerate and duplicate faces.

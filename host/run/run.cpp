@@ -51,7 +51,7 @@ uint64_t bytes_of(std::span<const RunInput> inputs) {
   uint64_t bytes = 0;
   for (const RunInput& input : inputs) {
     for (const MeshData& data : {input.a, input.b})
-      bytes += data.mesh != nullptr ? size_in_bytes(*data.mesh) : 0;
+      bytes += data.mesh != nullptr ? mesh_bytes(*data.mesh) : 0;
   }
   return bytes;
 }

@@ -252,7 +252,7 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
   std::vector<Framed> framed(meshes.size());
   std::vector<const PreparedMesh::Impl*> kept(meshes.size());
   uint64_t bytes = 0;
-  for (const PairView& m : meshes) bytes += size_in_bytes(m.a) + size_in_bytes(m.b);
+  for (const PairView& m : meshes) bytes += mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
     const PairView& m = meshes[i];
     Framed& f = framed[i];

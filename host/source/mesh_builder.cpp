@@ -11,10 +11,6 @@ constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-in
 
 }  // namespace
 
-uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {
-  return sizeof(glm::dvec3) * vertex_count + sizeof(glm::uvec3) * face_count;
-}
-
 std::string counted(uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }

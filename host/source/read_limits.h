@@ -26,7 +26,4 @@ struct ReadLimits {
   size_t block_bytes = 0;
 };
 
-/// Of a mesh as a file gives it, with vertices that no face uses: 24 bytes a vertex, 12 a face.
-uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count);
-
 }  // namespace vkh
