@@ -183,10 +183,11 @@ class Batch {
       auto start = Clock::now();
       running.entry = reader_.name(entry);
       count_reading(start);
-      running.bytes = is_done(running.entry) ? 0 : kBytesOfAByte * running.entry.file_bytes;
+      const bool is_kept = is_done(running.entry);
+      running.bytes = is_kept ? 0 : kBytesOfAByte * running.entry.file_bytes;
       if (!budget_.take(ticket, running.bytes)) return false;
       has_room = true;
-      if (running.bytes == 0 && is_done(running.entry)) return true;
+      if (is_kept) return true;
       start = Clock::now();
       running.meshes = reader_.read(running.entry);
       count_reading(start);
