@@ -1,3 +1,4 @@
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -66,7 +67,9 @@ struct Corners {
 void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double largest,
               Corners& out) {
   const glm::uvec3& face = file.mesh.faces[f];
-  const drawing::Rgb colour = colour_of(file, file.field.upper[f], largest);
+  const drawing::Rgb shown = colour_of(file, file.field.upper[f], largest);
+  const std::array colour = {linear(shown.red), linear(shown.green), linear(shown.blue),
+                             uint16_t{UINT16_MAX}};
   for (const uint32_t v : {face.x, face.y, face.z}) {
     const glm::vec3 p(file.mesh.vertices[v] - middle);
     for (int axis = 0; axis < 3; ++axis) {
@@ -76,8 +79,7 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
     }
     out.lower.push_back(float_down(file.field.lower[f]));
     out.upper.push_back(float_up(file.field.upper[f]));
-    for (const uint8_t part : {colour.red, colour.green, colour.blue, uint8_t{255}})
-      out.colours.push_back(linear(part));
+    out.colours.insert(out.colours.end(), colour.begin(), colour.end());
   }
 }
 
