@@ -16,11 +16,6 @@ namespace {
 using nlohmann::json;
 using namespace vkh::test;
 
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 std::string obj_text(const vkh::Mesh& mesh) {
   std::ostringstream text;
   text.precision(17);

@@ -16,11 +16,6 @@ namespace {
 using nlohmann::json;
 using namespace vkh::test;
 
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 /// Of two triangles, at a height.
 std::string square(const std::string& name, double z) {
   std::ostringstream obj;

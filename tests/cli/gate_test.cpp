@@ -16,11 +16,6 @@ namespace {
 using nlohmann::json;
 using namespace vkh::test;
 
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 std::string square(const std::string& name, double width, double z) {
   std::ostringstream obj;
   obj << "v 0 0 " << z << "\nv " << width << " 0 " << z << "\nv " << width << " 1 " << z

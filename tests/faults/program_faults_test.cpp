@@ -20,11 +20,6 @@ FaultTable& table() {
   return one;
 }
 
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 std::string square(const std::string& name, double z) {
   std::ostringstream obj;
   obj << "v 0 0 " << z << "\nv 1 0 " << z << "\nv 1 1 " << z << "\nv 0 1 " << z

@@ -11,6 +11,10 @@
 namespace vkh::test {
 
 using Words = std::vector<std::string>;
+inline Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 struct Outcome {
   int exit_code = -1;
