@@ -58,7 +58,7 @@ std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
   const uint64_t face_count = mesh.file_faces.count(mesh.faces.size());
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw InputError(path + ": byte 0: cannot be read; expected a CSV of face, max");
-  // No CSV begins so. It is not opened twice: it may be a pipe.
+  // No CSV begins so. Of a CSV this is the only look: it may be a pipe.
   if (file.peek() == 'p') return limits_of_triangles(mesh, limits_in_ply(path, face_count));
   std::vector<Limit> limits(face_count, otherwise);
   std::vector<bool> named(face_count);

@@ -11,8 +11,8 @@
 
 namespace vkh {
 
-/// Hands results out one at a time, on a thread of its own: to write one takes a lane half as long
-/// as to solve it (docs/log/measurements.md, batches).
+/// Hands results out one at a time, on a thread of its own: writing sixteen took a lane of an H100
+/// 2.3 ms, beside 5.8 for the device's work on them (docs/log/measurements.md, batches).
 class Delivery {
  public:
   explicit Delivery(std::function<void(StreamResult&&)> to);

@@ -54,7 +54,7 @@ class Rows:
 
 
 def has_module(name):
-    return subprocess.run([SYSTEM_PYTHON, "-c", f"import {name}"], capture_output=True).returncode == 0 if pathlib.Path(SYSTEM_PYTHON).exists() else False
+    return pathlib.Path(SYSTEM_PYTHON).exists() and subprocess.run([SYSTEM_PYTHON, "-c", f"import {name}"], capture_output=True).returncode == 0
 
 
 def run(*words):
