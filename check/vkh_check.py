@@ -16,9 +16,27 @@ from fractions import Fraction
 DEEPEST = 100  # halvings; a cut takes 8 more bits, the witness at most 62 instead
 
 
+def is_fanned(corners):
+    """Whether the product keeps a polygon's fan for sure: convex along the axis where its normal is largest."""
+    points = [tuple(map(Fraction, corner)) for corner in corners]
+    edges = list(zip(points, points[1:] + points[:1]))
+    normal = [sum(p[k - 2] * q[k - 1] - p[k - 1] * q[k - 2] for p, q in edges) for k in range(3)]
+    axis = max(range(3), key=lambda k: abs(normal[k]))
+    steps = [(q[axis - 2] - p[axis - 2], q[axis - 1] - p[axis - 1]) for p, q in edges]
+    steps = [step for step in steps if step != (0, 0)]
+    pairs = list(zip(steps, steps[1:] + steps[:1]))
+    turns = [a[0] * b[1] - a[1] * b[0] for a, b in pairs]
+    changes = [(a < (0, 0)) != (b < (0, 0)) for a, b in pairs]
+    if not any(turns) or (min(turns) < 0 < max(turns)):
+        return False
+    return sum(changes) == 2 and not any(change and turn == 0 for change, turn in zip(changes, turns))
+
+
 def fanned(points, polygons):
     if any(len(polygon) < 3 or min(polygon) < 0 for polygon in polygons):
         raise ValueError("a face has fewer than three corners, or a corner that is not there")
+    if not all(is_fanned([points[i] for i in polygon]) for polygon in polygons if len(polygon) > 3):
+        raise ValueError("a polygon is not convex: write triangles, this checker does not cut polygons")
     return [tuple(points[i] for i in (p[0], p[n - 1], p[n])) for p in polygons for n in range(2, len(p))]
 
 

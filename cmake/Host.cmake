@@ -59,7 +59,7 @@ endif()
 file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
 list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli|program|python)/.*$")
 if(NOT VKH_HAS_3MF)
-  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/threemf/(model|package|xml)\\.cpp$")
+  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/threemf/(model|package|volumes|xml)\\.cpp$")
 endif()
 if(WIN32)  # what operating systems do differently stands in host/system
   list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_posix\\.cpp$")
@@ -73,8 +73,12 @@ list(REMOVE_ITEM VKH_HOST_SOURCES ${VKH_READER_SOURCES})
 add_library(vkh_reader OBJECT ${VKH_READER_SOURCES})
 target_link_libraries(vkh_reader PRIVATE vkh_flags vkh_hardening glm::glm nlohmann_json::nlohmann_json)
 target_compile_features(vkh_reader PUBLIC cxx_std_20)
+vkh_unity(vkh_reader)
 vkh_add_kernel(self_test ${PROJECT_SOURCE_DIR}/shaders/doctor/self_test.comp ${PROJECT_BINARY_DIR}/generated/kernels)
 # What pictures are drawn with: generated/draw/NAME.h with an array each, k_mesh_vert and k_mesh_frag, and kFont.
+if(NOT VKH_GLSLANG)
+  message(FATAL_ERROR "glslang was not found, which the shaders of pictures are compiled with (Debian: glslang-tools); VKH_HOST=OFF needs none")
+endif()
 set(VKH_DRAW_OUT ${PROJECT_BINARY_DIR}/generated/draw)
 file(MAKE_DIRECTORY ${VKH_DRAW_OUT})
 foreach(stage IN ITEMS vert frag)
@@ -93,9 +97,19 @@ add_custom_command(
   DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
   COMMENT "Embedding the font"
   VERBATIM)
+# Nothing of what words, tables and pages are made by is hot, and it is half of the host's compile time: -Og (docs/log/build.md).
+add_library(vkh_cold INTERFACE)
+target_compile_options(vkh_cold INTERFACE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Og>)
+if(VKH_SANITIZE)
+  target_compile_options(vkh_cold INTERFACE -O0)
+endif()
+set(VKH_COLD_SOURCES ${VKH_HOST_SOURCES})
+list(FILTER VKH_COLD_SOURCES INCLUDE REGEX "host/(answer|parts|record|page|export|pictures|job|batch|many)/[^/]*$")
+list(REMOVE_ITEM VKH_HOST_SOURCES ${VKH_COLD_SOURCES})
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
 include(Page)
-add_library(vkh_host STATIC ${VKH_HOST_SOURCES} $<TARGET_OBJECTS:vkh_reader> ${VKH_PAGE_ASSETS} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
+add_library(vkh_answers OBJECT ${VKH_COLD_SOURCES})
+add_library(vkh_host STATIC ${VKH_HOST_SOURCES} $<TARGET_OBJECTS:vkh_reader> $<TARGET_OBJECTS:vkh_answers> ${VKH_PAGE_ASSETS} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
             ${VKH_DRAW_OUT}/mesh_vert.h ${VKH_DRAW_OUT}/mesh_frag.h ${VKH_DRAW_OUT}/font.h)
 if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
@@ -103,13 +117,18 @@ endif()
 target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
                       $<BUILD_INTERFACE:vkh_shaders> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
 target_link_libraries(vkh_host PRIVATE ${VKH_FORMAT_LIBRARIES})
-foreach(target IN ITEMS vkh_reader vkh_host)
+target_link_libraries(vkh_answers PRIVATE vkh_flags vkh_hardening vkh_cold vkh_shaders nlohmann_json::nlohmann_json Vulkan::Headers
+                      glm::glm)
+foreach(target IN ITEMS vkh_reader vkh_answers vkh_host)
   target_compile_definitions(${target} PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
                              $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>
                              $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB> $<$<BOOL:${VKH_HAS_ZLIB}>:VKH_HAS_ZLIB>
                              $<$<BOOL:${WIN32}>:NOMINMAX>)
 endforeach()
-target_compile_definitions(vkh_host PRIVATE VK_NO_PROTOTYPES)
+foreach(target IN ITEMS vkh_answers vkh_host)
+  target_compile_definitions(${target} PRIVATE VK_NO_PROTOTYPES)
+  vkh_unity(${target})
+endforeach()
 target_compile_features(vkh_host PUBLIC cxx_std_20)
 set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)
 add_library(VkHausdorff::host ALIAS vkh_host)
@@ -119,7 +138,8 @@ add_executable(vkhausdorff ${VKH_PROGRAM_SOURCES})
 if(WIN32)
   target_sources(vkhausdorff PRIVATE host/program/windows.rc)
 endif()
-target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
+vkh_unity(vkhausdorff)
+target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_cold vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 if(VKH_GMP_HEADER AND VKH_GMP_LIBRARY AND (VKH_HAS_CRYPTO OR WIN32))
   file(GLOB VKH_CHECK_SOURCES CONFIGURE_DEPENDS check/*.cpp)

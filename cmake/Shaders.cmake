@@ -1,9 +1,6 @@
 # vkh_add_shaders(target a.comp b.comp ...): a static library that holds the SPIR-V of every kernel
 # and gives the generated headers, #include "kernels/a.h" and #include "kernels/all_kernels.h".
 # A kernel is compiled again when a file that it includes changes.
-find_program(VKH_GLSLANG NAMES glslangValidator glslang REQUIRED)
-find_program(VKH_SPIRV_VAL spirv-val REQUIRED)
-find_program(VKH_SPIRV_OPT spirv-opt REQUIRED)
 option(VKH_FLATTEN_SHADERS "Embed kernels inlined, for drivers that do so slowly" ON)
 if(NOT VKH_FLATTEN_SHADERS)
   message(STATUS "VKH_FLATTEN_SHADERS is OFF: CPU devices run the kernels of wide ones, which start later there")
@@ -17,14 +14,31 @@ if(VKH_KERNELS)
   endif()
   file(CREATE_LINK ${VKH_KERNELS} ${PROJECT_BINARY_DIR}/generated/kernels SYMBOLIC)
 endif()
+find_program(VKH_GLSLANG NAMES glslangValidator glslang)
+find_program(VKH_SPIRV_VAL spirv-val)
+find_program(VKH_SPIRV_OPT spirv-opt)
+foreach(tool IN ITEMS GLSLANG SPIRV_VAL SPIRV_OPT)
+  if(NOT VKH_${tool} AND NOT VKH_KERNELS)
+    string(REPLACE "_" "-" program ${tool})
+    string(TOLOWER ${program} program)
+    message(FATAL_ERROR "${program} was not found, which the kernels are compiled with (Debian: glslang-tools spirv-tools). "
+                        "Or give -DVKH_KERNELS=FOLDER, the generated/kernels of another build of these sources, "
+                        "which are the same on every platform (docs/packages.md).")
+  endif()
+endforeach()
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools VKH_EMBED_DIR)
 set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
 set(VKH_RUN_EMBED ${Python3_EXECUTABLE} -B ${VKH_EMBED})  # -B: leave no __pycache__ in the sources
-# Every float operation is decorated before anything else looks at it; embedding asserts that all of them still are.
-set(VKH_RUN_ORDER ${Python3_EXECUTABLE} -B ${VKH_EMBED_DIR}/float_order.py)
-set(VKH_RUN_LAYOUT ${Python3_EXECUTABLE} -B ${VKH_EMBED_DIR}/explicit_layout.py)
-set(VKH_PASSES ${VKH_EMBED_DIR}/float_order.py ${VKH_EMBED_DIR}/explicit_layout.py ${VKH_EMBED_DIR}/spirv_module.py)
+# Everything between a kernel's GLSL and its C++ is one process; these are its modules.
+set(VKH_BUILD_KERNEL ${VKH_EMBED_DIR}/build_kernel.py)
+set(VKH_KERNEL_PASSES embed_shaders.py explicit_layout.py float_order.py kernel_templates.py shared_memory.py spirv_module.py)
+list(TRANSFORM VKH_KERNEL_PASSES PREPEND ${VKH_EMBED_DIR}/)
+set(VKH_RUN_BUILD_KERNEL ${Python3_EXECUTABLE} -B ${VKH_BUILD_KERNEL} --root ${PROJECT_SOURCE_DIR} --glslang ${VKH_GLSLANG}
+                         --spirv-val ${VKH_SPIRV_VAL})
+if(VKH_FLATTEN_SHADERS)
+  list(APPEND VKH_RUN_BUILD_KERNEL --spirv-opt ${VKH_SPIRV_OPT})
+endif()
 
 function(vkh_add_shaders target)
   set(out ${PROJECT_BINARY_DIR}/generated/kernels)
@@ -52,60 +66,20 @@ function(vkh_add_shaders target)
   if(TARGET vkh_flags)
     target_link_libraries(${target} PRIVATE vkh_flags)
   endif()
+  vkh_unity(${target})
 endfunction()
 
-# lavapipe inlines and brings to SSA form at every start of a program, and slower than it takes what is so already
-# (docs/log/startup.md). Nothing here may touch floating point: no -O, no --simplify-instructions, which reassociate whatever is
-# not `precise`. That is left to the drivers, whose rounding is specified.
-set(VKH_FLATTEN
-  --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
-  --private-to-local --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive
-  --scalar-replacement=0 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
-  --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive --ccp --eliminate-dead-branches
-  --redundancy-elimination --eliminate-dead-branches --vector-dce --eliminate-dead-inserts
-  --eliminate-dead-code-aggressive --merge-blocks --compact-ids)
-# It also keeps what a wide device would do until it has been through most of that, and unrolls loops at a third of its
-# time for nothing that runs faster. So every kernel is built a second time, for a device that is not wide, and its loops
-# are marked to be left as they are (embed_shaders.py).
-set(VKH_PRUNE --ccp --eliminate-dead-branches --eliminate-dead-functions)
-
-# No -g0: reflection reads the debug names, of what the compiler wrote, for the optimiser drops buffers that are not used.
 function(vkh_add_kernel name shader out)
   if(VKH_KERNELS)
     return()
   endif()
-  set(spv ${out}/${name}.spv)
-  set(flat)
-  set(flatten)
-  if(VKH_FLATTEN_SHADERS)
-    set(flat ${out}/${name}.flat.spv ${out}/${name}.cpu.spv)
-    set(optimise COMMAND ${VKH_SPIRV_OPT} --target-env=vulkan1.2 --scalar-block-layout)
-    set(flatten ${optimise} ${VKH_FLATTEN} -o ${out}/${name}.flat.spv ${spv}
-                COMMAND ${VKH_RUN_EMBED} narrow ${spv} ${out}/${name}.narrow.spv
-                ${optimise} ${VKH_PRUNE} ${VKH_FLATTEN} -o ${out}/${name}.cpu.spv ${out}/${name}.narrow.spv)
-    foreach(file IN LISTS flat)
-      list(APPEND flatten COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${file})
-    endforeach()
-    list(APPEND flatten BYPRODUCTS ${flat} ${out}/${name}.narrow.spv)
-  endif()
-  add_custom_command(
-    OUTPUT ${spv}
-    COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR} --depfile ${spv}.d
-            -o ${spv} ${shader}
-    COMMAND ${VKH_RUN_ORDER} ${spv}
-    COMMAND ${VKH_RUN_LAYOUT} ${spv}
-    COMMAND ${VKH_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
-    ${flatten}
-    DEPENDS ${shader} ${VKH_PASSES} ${VKH_EMBED}
-    DEPFILE ${spv}.d
-    COMMENT "Compiling ${name}.comp"
-    VERBATIM)
   # The header is a by-product, since it keeps its time while its text is the same.
   add_custom_command(
     OUTPUT ${out}/${name}.cpp
-    BYPRODUCTS ${out}/${name}.h
-    COMMAND ${VKH_RUN_EMBED} kernel ${spv} ${out} ${flat}
-    DEPENDS ${spv} ${VKH_EMBED} ${VKH_PASSES} ${VKH_EMBED_DIR}/kernel_templates.py ${VKH_EMBED_DIR}/shared_memory.py
-    COMMENT "Embedding ${name}"
+    BYPRODUCTS ${out}/${name}.h ${out}/${name}.spv
+    COMMAND ${VKH_RUN_BUILD_KERNEL} ${shader} ${out}
+    DEPENDS ${shader} ${VKH_BUILD_KERNEL} ${VKH_KERNEL_PASSES}
+    DEPFILE ${out}/${name}.d
+    COMMENT "Compiling ${name}.comp"
     VERBATIM)
 endfunction()

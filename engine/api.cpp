@@ -49,6 +49,8 @@ Limits chosen(const VkhContextCreateInfo& info) {
   limits.switches = info.switches & ~uint32_t{VKH_SWITCH_NONE};
   if (info.switches == 0)
     limits.switches = limits.wide ? VKH_SWITCH_DEFAULT_WIDE : VKH_SWITCH_DEFAULT_NARROW;
+  limits.switches &= ~gpu::kUseInputCheck;
+  if (info.checkInput != VK_FALSE) limits.switches |= gpu::kUseInputCheck;
   return limits;
 }
 
@@ -103,6 +105,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
           .pauses = can_grow && p.pauseWhenFull != VK_FALSE,
+          .input_fault = layout_fault(p.a),
           .b = view_hierarchy(p.b, context.limits),
           .ws = ws,
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
@@ -117,25 +120,40 @@ void record_hierarchy(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
   record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy, limits));
 }
 
+// A hierarchy that was copied before its build has no counts: a run has no B, and its report says
+// so.
+bool is_built(const Problem& p) { return p.b.face_count > 0; }
+
 // `p`: a view of `problem`.
 void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
+  if (!is_built(p)) return;
   // Without twoFloat, B is measured by its high parts alone: A must be, too.
   check_begin(problem);
   VkhMesh a = problem.a;
   if (problem.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   record_load(rec, a, p.ws.vertices, p.ws.faces);
   record_seed(rec, p);
+  record_check(rec, a, as<uint32_t>(p.ws.control), offsetof(gpu::Control, input_fault) / 4);
   if (p.areas.buffer != VK_NULL_HANDLE) rec.fill(p.areas, 0);
   record_first_wave(rec, p);
 }
 
 void record_waves(Recorder& rec, const Problem& p, uint32_t waves) {
+  if (!is_built(p)) return;
   for (uint32_t wave = 0; wave < waves; ++wave) record_wave(rec, p);
 }
 
 Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
   check_report(buffer, offset);
   return {buffer, offset, sizeof(VkhReport)};
+}
+
+void record_any_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
+  if (is_built(p)) {
+    record_report(rec, p, report);
+  } else {
+    record_unbuilt_report(rec, p, report);
+  }
 }
 
 void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task) {
@@ -150,7 +168,7 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
   if (task.begin != VK_FALSE) record_begin(rec, problem, p);
   record_waves(rec, p, task.waves);
   if (task.reportBuffer != VK_NULL_HANDLE)
-    record_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
+    record_any_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
 }
 
 // False where the host has no memory to keep the commands in.
@@ -293,6 +311,7 @@ void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem from = vkh::view_problem(*context, *problem);
   problem->workspace = *workspace;
+  if (!vkh::is_built(from)) return;
   vkh::record_move(rec, from, vkh::view_problem(*context, *problem));
 }
 
@@ -300,15 +319,18 @@ void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile) {
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_report(rec, vkh::view_problem(*context, *problem), vkh::report_at(buffer, offset));
+  vkh::record_any_report(rec, vkh::view_problem(*context, *problem),
+                         vkh::report_at(buffer, offset));
 }
 
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhCells* cells, VkhProfile* profile) {
   vkh::check_cells(*context, *problem, *cells);
   vkh::Recorder rec(*context, commandBuffer, profile);
+  const vkh::Problem p = vkh::view_problem(*context, *problem);
+  if (!vkh::is_built(p)) return;
   vkh::record_cells(
-      rec, vkh::view_problem(*context, *problem),
+      rec, p,
       {.cells = {cells->cellBuffer, cells->cellOffset, cells->count * sizeof(VkhCell)},
        .bounds = {cells->boundsBuffer, cells->boundsOffset, cells->count * sizeof(VkhCellBounds)},
        .first = cells->first,

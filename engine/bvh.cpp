@@ -47,11 +47,17 @@ struct Ranked : Hierarchy {
   gpu::CountPush push;
   Slice<uint32_t> next_rank;
 };
-struct Load {
+// The caller's buffers.
+struct Words {
   gpu::LoadPush push;
   Slice<uint32_t> vertex_words, index_words, low_words;
+};
+struct Load : Words {
   Slice<gpu::Vertex> vertices;
   Slice<uint32_t> indices;
+};
+struct Check : Words {
+  Slice<uint32_t> fault_words;
 };
 
 // The levels over the triangles: those over 4, 64, .. of them stand behind those over 16, 256, ..
@@ -90,10 +96,7 @@ void record_ranks(Recorder& rec, const Hierarchy& h, const Slice<uint32_t>& next
   rec.run<k::BvhRank>(Ranked{h, {h.face_count}, next_rank}, Items{h.face_count - 1});
 }
 
-}  // namespace
-
-void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
-                 const Slice<gpu::uvec3>& faces) {
+Words words_of(const VkhMesh& mesh) {
   const bool is_16bit = mesh.indexType == VK_INDEX_TYPE_UINT16;
   const VkDeviceSize index_bytes = 3ull * mesh.faceCount * (is_16bit ? 2 : 4);
   const VkDeviceSize vertex_bytes =
@@ -110,10 +113,39 @@ void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& v
                            .index_count = 3 * mesh.faceCount,
                            .index_is_16bit = is_16bit ? 1u : 0u,
                            .has_low = has_low ? 1u : 0u,
-                           .low_word = low.skip / 4};
-  rec.run<k::MeshLoad>(
-      Load{push, high.words, indices.words, low.words, vertices, as<uint32_t>(faces)},
-      Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
+                           .low_word = low.skip / 4,
+                           .fault_word = 0};
+  return {push, high.words, indices.words, low.words};
+}
+
+// What a build or a refit takes B from: whether it is a mesh stays with the hierarchy.
+void record_fault(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
+  rec.fill(h.fault, layout_fault(b), Order::kIndependent);
+  record_check(rec, b, h.fault, 0);
+}
+
+}  // namespace
+
+uint32_t layout_fault(const VkhMesh& m) {
+  const bool is_16bit = m.indexType == VK_INDEX_TYPE_UINT16;
+  const bool has_layout = m.vertexStride >= 12 && m.vertexStride % 4 == 0 &&
+                          m.vertexOffset % 4 == 0 && m.vertexLowOffset % 4 == 0 &&
+                          (is_16bit || m.indexType == VK_INDEX_TYPE_UINT32) &&
+                          m.indexOffset % (is_16bit ? 2 : 4) == 0;
+  return has_layout ? gpu::kNone : gpu::kFaultLayout;
+}
+
+void record_check(Recorder& rec, const VkhMesh& mesh, const Slice<uint32_t>& words, uint32_t word) {
+  if (!rec.checks_input() || layout_fault(mesh) != gpu::kNone) return;
+  Check check{words_of(mesh), words};
+  check.push.fault_word = word;
+  rec.run<k::MeshCheck>(check, Items{3 * mesh.faceCount});
+}
+
+void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
+                 const Slice<gpu::uvec3>& faces) {
+  rec.run<k::MeshLoad>(Load{words_of(mesh), vertices, as<uint32_t>(faces)},
+                       Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
 }
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const Hierarchy& h) {
@@ -123,6 +155,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
   const uint32_t side = sort_side(first_bit);
   record_load(rec, b, h.vertices, h.faces);
   rec.fill(h.box, 0xffffffffu, Order::kIndependent);
+  record_fault(rec, b, h);
   const uint32_t block =
       record_empty_counts(rec, s.sort, b.faceCount, first_bit, Order::kIndependent);
   const Keys unsorted{
@@ -143,6 +176,7 @@ void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& s, const 
 void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   const auto scope = rec.scope("refit");
   record_load(rec, b, h.vertices, h.faces);
+  record_fault(rec, b, h);
   rec.run<k::BvhMove>(Level{h, first_levels(h)}, Items{b.faceCount});
   record_boxes(rec, h);
   rec.stage("refit");

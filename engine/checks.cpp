@@ -53,6 +53,7 @@ void check_mesh(const VkhMesh& m) {
   VKH_RULE("VkhMesh::vertexBuffer: not null", m.vertexBuffer != VK_NULL_HANDLE);
   VKH_RULE("VkhMesh::vertexOffset: a multiple of 4 bytes", m.vertexOffset % 4 == 0);
   VKH_RULE("VkhMesh::vertexStride: a multiple of 4 bytes", m.vertexStride % 4 == 0);
+  VKH_RULE("VkhMesh::vertexStride: at least 12 bytes", m.vertexStride >= 12);
   VKH_RULE("VkhMesh::vertexCount: 1 to 2^28", is_count(m.vertexCount));
   VKH_RULE("VkhMesh::vertexCount * vertexStride: at most 8 GiB",
            uint64_t{m.vertexCount} * m.vertexStride <= kMostVertexBytes);

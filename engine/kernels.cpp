@@ -134,12 +134,12 @@ std::array<uint32_t, kKernelCount> costliest_first(
 }
 
 // What the lines of shaders/stages.h say of one kernel.
-struct Lines {
+struct StageLines {
   bool any = false, needed = false;
 };
 
-Lines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
-  Lines lines;
+StageLines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
+  StageLines lines;
   const auto see = [&](uint32_t other, bool needed) {
     if (other != kernel) return;
     lines.any = true;
@@ -155,6 +155,7 @@ Lines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
 #undef VKH_SEE_SIZED
 #undef VKH_SEE_ALONE
   see(kIndexOfWaveSort, gpu::sorts_frontier(switches, wide));
+  see(kIndexOfMeshCheck, gpu::checks_input(switches, wide));
   see(kIndexOfReportOpen, gpu::covers_area(switches, wide));
   see(kIndexOfCellBounds, gpu::bounds_cells(switches, wide));
   return lines;
@@ -163,7 +164,7 @@ Lines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
 // Others are not created, for a driver takes tens of milliseconds for some. What no line names is
 // of the hierarchy, the seed or the report, and always needed.
 bool is_needed(uint32_t kernel, const Limits& limits) {
-  const Lines lines = lines_of(kernel, limits.switches, limits.wide);
+  const StageLines lines = lines_of(kernel, limits.switches, limits.wide);
   return !lines.any || lines.needed;
 }
 

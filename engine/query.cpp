@@ -13,6 +13,7 @@ RunBuffers::RunBuffers(const Problem& p)
       box(p.b.box),
       b_vertices(p.b.vertices),
       b_faces(p.b.faces),
+      b_fault(p.b.fault),
       // Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
       areas(p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused)),
       vertex_state(p.ws.vertex_distance),

@@ -85,6 +85,9 @@ class Recorder {
   // Writes the tracks in step (engine/command.h).
   void put_in_step(const std::vector<Track>& tracks) { write_in_step(binder_, tracks); }
   bool is_wide() const { return context_.limits.wide; }
+  bool checks_input() const {
+    return gpu::checks_input(context_.limits.switches, context_.limits.wide);
+  }
   // Ends a stage: what ran since the last call is timed under this name (a static string).
   void stage(const char* name);
 

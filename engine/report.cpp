@@ -6,9 +6,9 @@ namespace {
 
 struct ReportBuffers : RunBuffers {
   ReportBuffers(const Problem& p, const Slice<gpu::Report>& at)
-      : RunBuffers(p), report(at), push{p.b.face_count} {}
+      : RunBuffers(p), report(at), push{p.b.face_count, 1} {}
   Slice<gpu::Report> report;
-  gpu::CountPush push;
+  gpu::ReportPush push;
 };
 
 // The open half of the areas.
@@ -26,6 +26,14 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
   rec.run<k::ReportWrite>(run, Items{p.b.face_count});
   if (has_areas) rec.fill(open_areas(p), 0);
   if (has_areas) rec.run<k::ReportOpen>(run, Items{p.ws.capacity});
+  rec.stage("report");
+}
+
+void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
+  const auto scope = rec.scope("report");
+  ReportBuffers run(p, report);
+  run.push = {0, 0};
+  rec.run<k::ReportWrite>(run, Groups{1});
   rec.stage("report");
 }
 

@@ -14,7 +14,8 @@ gpu::BeginPush begin_push(const Problem& p) {
           .two_float = p.two_float ? 1u : 0u,
           .warm = p.warm ? 1u : 0u,
           .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom,
-          .pauses = p.pauses ? 1u : 0u};
+          .pauses = p.pauses ? 1u : 0u,
+          .input_fault = p.input_fault};
 }
 
 // As `query` has it: all of a workgroup for an item where they are few.

@@ -35,18 +35,18 @@ void dispatch(Recorder& rec, const Pass& pass, const Slice<gpu::Dispatch>& size)
 
 // By which bits, how many keys an invocation takes, how many there are, and whether each pass
 // counts for the next.
-struct Keys {
+struct SortKeys {
   uint32_t first_bit, rounds, count;
   bool counted_ahead;
 };
 
-uint32_t passes_of(const Keys& keys) { return (32 - keys.first_bit) / 8; }
+uint32_t passes_of(const SortKeys& keys) { return (32 - keys.first_bit) / 8; }
 
 // `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
 // blocks are few.
 template <class Size>
 // NOLINTNEXTLINE(readability-function-size): two callers, in this file
-void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted counted,
+void record_passes(Recorder& rec, const SortStreams& s, SortKeys sorted, Counted counted,
                    const Size& blocks, const Size& digits) {
   const uint32_t passes = passes_of(sorted);
   for (uint32_t pass = 0; pass < passes; ++pass) {
@@ -66,7 +66,7 @@ void record_passes(Recorder& rec, const SortStreams& s, Keys sorted, Counted cou
 // A sort of few keys is a chain of rounds and dispatches on a few of the device's processors: up to
 // kSortFewBlocks workgroups take fewer rounds, and each pass counts for the next, by atomics. A CPU
 // does not wait, and has more to do for each workgroup.
-Keys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
+SortKeys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
   if (!rec.is_wide()) return {first_bit, gpu::kSortRounds, count, false};
   uint32_t rounds = gpu::kFewestSortRounds;
   while (rounds < gpu::kSortRounds && sort_blocks(count, rounds) > gpu::kSortFewBlocks) rounds *= 2;
@@ -79,7 +79,7 @@ uint32_t sort_side(uint32_t first_bit) { return (32 - first_bit) / 8 % 2; }
 
 uint32_t record_empty_counts(Recorder& rec, const SortStreams& s, uint32_t count,
                              uint32_t first_bit, Order order) {
-  const Keys keys = keys_for(rec, first_bit, count);
+  const SortKeys keys = keys_for(rec, first_bit, count);
   if (!keys.counted_ahead) return 0;
   const uint64_t words =
       uint64_t{passes_of(keys)} * sort_blocks(count, keys.rounds) * gpu::kSortDigits;
@@ -89,7 +89,7 @@ uint32_t record_empty_counts(Recorder& rec, const SortStreams& s, uint32_t count
 
 void record_sort(Recorder& rec, const SortStreams& s, uint32_t count, uint32_t first_bit,
                  Counted counted) {
-  const Keys keys = keys_for(rec, first_bit, count);
+  const SortKeys keys = keys_for(rec, first_bit, count);
   const uint32_t blocks = sort_blocks(count, keys.rounds);
   const uint32_t digits = blocks > gpu::kSortFewBlocks ? gpu::kSortDigits : 0;
   if (counted == Counted::kNo && count > 0)

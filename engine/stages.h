@@ -11,6 +11,13 @@ namespace vkh {
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
+// kNone, or kFaultLayout where a VkhMesh cannot describe one, as far as that costs the host
+// nothing: strides and offsets, the type of indices.
+uint32_t layout_fault(const VkhMesh& mesh);
+// With a context that checks: whether the caller's buffers hold a mesh, into a word of `words`,
+// which holds what is known already.
+void record_check(Recorder& rec, const VkhMesh& mesh, const Slice<uint32_t>& words, uint32_t word);
+
 // Sorts keys with values by bits first_bit and up, 8 a pass, stable, ascending: from the side that
 // sort_side names to side 0.
 uint32_t sort_side(uint32_t first_bit);
@@ -43,6 +50,7 @@ struct Problem {
   bool two_float = false;
   bool warm = false;  // the workspace holds an earlier run to start from
   bool pauses = false;
+  uint32_t input_fault = gpu::kNone;  // of A: layout_fault
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =
@@ -61,6 +69,7 @@ struct RunBuffers : Workspace {
   Slice<gpu::CentroidBox> box;
   Slice<gpu::Vertex> b_vertices;
   Slice<gpu::uvec3> b_faces;
+  Slice<uint32_t> b_fault;
   Slice<gpu::Area> areas;
   Slice<uint32_t> vertex_state;  // vertex_distance, before it is one
   Slice<uint32_t> order;         // of the frontier, where it is sorted
@@ -94,5 +103,7 @@ struct AskedCells {
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
+// Of a run whose B was never built: that, and nothing else.
+void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

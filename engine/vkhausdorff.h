@@ -57,7 +57,8 @@
  * becomes null). Recording cannot fail (but see vkhGetRecordingResult): what could go wrong is
  * refused before, or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the
  * engine without NDEBUG asserts the rules that it can see (strides, offsets, sizes, counts, types)
- * and names the one that is broken. The validation layers see the engine's commands as yours. */
+ * and names the one that is broken. Some are found in any build, and end as VKH_STATUS_INPUT. The
+ * validation layers see the engine's commands as yours. */
 #ifndef VKHAUSDORFF_H
 #define VKHAUSDORFF_H
 
@@ -172,6 +173,12 @@ typedef struct VkhContextCreateInfo {
    * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
    * at most 8 GiB. robustBufferAccess does not hold for addresses. */
   VkBool32 byAddress;
+  /* VK_TRUE: each mesh is checked on the device where it is read, by vkhCmdBuildHierarchy,
+   * vkhCmdRefitHierarchy, vkhCmdBegin and tasks: indices below vertexCount, coordinates that are
+   * finite and up to 2^15, low parts of at most half an ulp, of the vertices that faces use. A run
+   * with a mesh that fails has reports of VKH_STATUS_INPUT, which name a face. VK_FALSE: none of
+   * this is looked at, and such a mesh gives an untrue interval that says certified. */
+  VkBool32 checkInput;
 } VkhContextCreateInfo;
 
 /* Zeros but for `device` are right: certified, and what pays on the device. Creates the pipelines,
@@ -193,16 +200,17 @@ void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 /* A triangle mesh in the caller's buffers. Positions are three float32 at vertexOffset + i *
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount.
- * The GPU checks nothing: coordinates not finite and indices out of range give an untrue interval;
- * the latter are taken for the last vertex. Unused vertices are no part of the mesh. Degenerate
- * faces are segments or points. Both buffers: usage STORAGE_BUFFER; each range is at most
- * maxStorageBufferRange less 256 bytes, unless byAddress, and with 16-bit indices it must reach to
- * the end of the last index's 4-byte word. A and B may share buffers. The engine never writes them.
+ * Without VkhContextCreateInfo::checkInput the GPU checks nothing: coordinates not finite and
+ * indices out of range give an untrue interval; the latter are taken for the last vertex. Unused
+ * vertices are no part of the mesh. Degenerate faces are segments or points. Both buffers: usage
+ * STORAGE_BUFFER; each range is at most maxStorageBufferRange less 256 bytes, unless byAddress, and
+ * with 16-bit indices it must reach to the end of the last index's 4-byte word. A and B may share
+ * buffers. The engine never writes them.
  */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */
-  uint32_t vertexStride;     /* bytes */
+  uint32_t vertexStride;     /* bytes, at least 12 */
   uint32_t vertexCount;      /* 1 .. 2^28 */
   VkBuffer indexBuffer;
   VkDeviceSize indexOffset; /* bytes */
@@ -379,7 +387,13 @@ typedef enum VkhStatus {
   VKH_STATUS_PRECISION = 2, /* none is left, but some could not be decided in float32 */
   VKH_STATUS_MEMORY = 3,    /* no room for some, and nothing could wait: their u is in upper */
   VKH_STATUS_WITHIN = 4,    /* with VkhProblem::limit: upper is at most that */
-  VKH_STATUS_BEYOND = 5     /* with VkhProblem::limit: lower is more than limit and limitUp */
+  VKH_STATUS_BEYOND = 5,    /* with VkhProblem::limit: lower is more than limit and limitUp */
+  /* A or B is no mesh, and nothing is known: lower 0, upper infinite, certified 0. Always where a
+   * stride is under 12, a stride or offset is no multiple of what it must be, or an index type is
+   * unknown, and where VkhProblem::b is a copy that was made before the build; of what the buffers
+   * hold with VkhContextCreateInfo::checkInput. witnessFaceA and witnessFaceB are then the least
+   * face of A and of B that is at fault; 0xffffffff: none is; 0xfffffffe: the VkhMesh is, or b. */
+  VKH_STATUS_INPUT = 6
 } VkhStatus;
 
 enum { VKH_MAX_WAVE_RECORDS = 64, VKH_MAX_CULLS = 16 };
@@ -398,8 +412,9 @@ typedef struct VkhReport {
   /* The same interval with more bits than two float32 near h have: certified, base + lowerAbove <=
    * h(A, B) <= base + upperAbove, the sums taken exactly (in double). */
   float base, lowerAbove, upperAbove;
-  uint32_t status;    /* VkhStatus */
-  uint32_t certified; /* 0 with VKH_SWITCH_UNCERTIFIED: then neither end is certified; else 1 */
+  uint32_t status; /* VkhStatus */
+  uint32_t
+      certified; /* 0 with VKH_SWITCH_UNCERTIFIED or VKH_STATUS_INPUT: neither end is; else 1 */
   uint32_t waves;
   float witnessPosition[3]; /* the point of A that proves `lower`, rounded */
   float witnessDistance;

@@ -86,6 +86,7 @@ void list(Suballocator& take, Hierarchy& h, uint32_t vertex_count, uint32_t face
   take.large(h.vertices, vertex_count);
   take.large(h.faces, face_count);
   take(h.groups_done, 1);
+  take(h.fault, 1);
   h.face_count = face_count;
 }
 

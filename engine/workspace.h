@@ -23,6 +23,7 @@ struct Hierarchy {
   Slice<gpu::Vertex> vertices;  // B as given: the report's lower bound rests on these two alone
   Slice<gpu::uvec3> faces;
   Slice<uint32_t> groups_done;  // 0 between dispatches
+  Slice<uint32_t> fault;  // of the mesh that it was built or refitted from: Control::input_fault
   uint32_t face_count = 0;
   bool ranked = false;
 };

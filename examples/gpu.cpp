@@ -64,6 +64,7 @@ Gpu::Gpu(const GpuRequest& request) {
                                   VK_NULL_HANDLE,
                                   0,
                                   VKH_DEVICE_KIND_AUTO,
+                                  VK_FALSE,
                                   VK_FALSE};
   if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
   keep([this] { vkhDestroyContext(context_); });

@@ -98,6 +98,8 @@ VKH_CONST uint kUseUncertified = 1u << 10;
 VKH_CONST uint kUseField = 1u << 17;
 // A candidate whose barycentric bits run out becomes a root of its own (candidate/subroot.glsl).
 VKH_CONST uint kUseSubroots = 1u << 18;
+// Meshes are checked on the device (bvh/mesh_check.comp).
+VKH_CONST uint kUseInputCheck = 1u << 19;
 // So many may: a quarter of the frontier's capacity, and no more than this. Most runs have tens.
 VKH_CONST uint kMostSubroots = 1u << 14;
 
@@ -202,6 +204,12 @@ VKH_CONST uint kMaxWaveRecords = 64u;
 // cell_bounds: triangles of B that are looked at for one cell before boxes stand for the rest.
 VKH_CONST uint kCellTriangles = 128u;
 
+// What is wrong with a mesh: kNone, the least face of it that is no triangle, or, known when it is
+// recorded, that its VkhMesh describes none.
+VKH_CONST uint kFaultLayout = 0xfffffffeu;
+// Coordinates that the analysis of errors covers, as the bits of a float: 2^15.
+VKH_CONST uint kLargestCoordinate = 0x47000000u;
+
 // What seed_faces says of a vertex of A: 0 where no face uses it.
 VKH_CONST uint kVertexUsed = 1u;
 VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
@@ -213,7 +221,8 @@ VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
   X(kStatusPrecision, 2u, PRECISION) /* none, but some closed at a u above the tolerance */     \
   X(kStatusMemory, 3u, MEMORY) /* candidates were spilled: nothing could wait, or be refined */ \
   X(kStatusWithin, 4u, WITHIN) /* with a limit: upper <= limit */                               \
-  X(kStatusBeyond, 5u, BEYOND) /* with a limit: lower > limit_up; in control, nearly surely */
+  X(kStatusBeyond, 5u, BEYOND) /* with a limit: lower > limit_up; in control, nearly surely */  \
+  X(kStatusInput, 6u, INPUT)   /* in the report: an input is no mesh, nothing is known */
 #define VKH_STATUS(constant, value, api) VKH_CONST uint constant = value;
 VKH_STATUSES(VKH_STATUS)
 #undef VKH_STATUS
@@ -319,6 +328,7 @@ struct Control {
   uint count[5];            // kCount*
   uint maximum[6];          // kMax*
   uint culled[kMostCulls];  // kCull*
+  uint input_fault;         // of A: kNone, a face, kFaultLayout
   uint parity;              // which half of the frontier is being read
   uint wave;                // while the run goes on, the planned one is counted
   uint status;              // kStatus*
@@ -439,6 +449,29 @@ struct SelfTestAnswer {
   uint rank;      // and of them those before this one
 };
 
+// What the invocations of a subgroup that ran one piece of code together saw of each other: each
+// subgroup operation that a kernel uses, of the invocations in `ballot`.
+struct SelfTestGroup {
+  uvec4 ballot;
+  uint subgroup, lane;
+  uint first;                   // the lowest lane, by subgroupBroadcastFirst,
+  uint first_lane;              // and by first_lane (base/subgroup.glsl)
+  uint elected;                 // 1 for one of them
+  uint members;                 // how many they are,
+  uint rank;                    // and how many of them come before this one
+  uint sum;                     // of their items + 1, up to this one
+  uint shuffled;                // the item of the first
+  float least, highest;         // of a
+  vec3 all_least, all_highest;  // of (a, b, -a)
+};
+
+// The same item's, in three kinds of control flow.
+struct SelfTestGroups {
+  SelfTestGroup whole;   // all of the subgroup
+  SelfTestGroup branch;  // those with a > b in one branch, the others in the other
+  SelfTestGroup loop;    // in the last turn of a loop of (bits & 3) + 1 turns
+};
+
 // What composed expressions are asked of (doctor/composed.h): two-floats, 2^-30 <= |x| and the
 // bases near the length of u and the quotient of reach by the length of scaled(w), or 0.
 struct SelfTestOperands {
@@ -465,7 +498,7 @@ struct SelfTestTotals {
 // ---- push constants
 // ---------------------------------------------------------------------------------------------
 
-// mesh_load: one mesh from the caller's buffers into packed ones.
+// mesh_load and mesh_check: one mesh from the caller's buffers into packed ones.
 struct LoadPush {
   uint vertex_word;   // where the first position starts, in 4-byte words
   uint stride_words;  // between positions
@@ -473,12 +506,19 @@ struct LoadPush {
   uint index_half;   // where the first index starts, in 2-byte units
   uint index_count;  // 3 * faces
   uint index_is_16bit;
-  uint has_low;   // low parts are given,
-  uint low_word;  // and start here, with the same stride
+  uint has_low;     // low parts are given,
+  uint low_word;    // and start here, with the same stride
+  uint fault_word;  // mesh_check alone: where it writes
 };
 
 struct CountPush {
   uint count;
+};
+
+// report_write
+struct ReportPush {
+  uint count;     // triangles of B
+  uint is_built;  // 0: B is no hierarchy, and no run was recorded
 };
 
 struct MortonPush {
@@ -546,6 +586,7 @@ struct BeginPush {
   uint warm;  // the last run's witness is kept
   uint sort_from;
   uint pauses;
+  uint input_fault;  // of A, as far as it is known when it is recorded
 };
 
 #ifdef __cplusplus

@@ -37,6 +37,7 @@ VKH_PREDICATE(asks_centroids, (kSwitches & kUseCentroid) != 0u)
 VKH_PREDICATE(covers_area, (kSwitches & kUseCoverage) != 0u)
 VKH_PREDICATE(bounds_cells, (kSwitches & kUseField) != 0u)
 VKH_PREDICATE(has_subroots, (kSwitches & kUseSubroots) != 0u)
+VKH_PREDICATE(checks_input, (kSwitches & kUseInputCheck) != 0u)
 // Whether all of a workgroup may walk for one query.
 VKH_PREDICATE(walks_by_group, kWide && (kSwitches & kUseGroupWalk) != 0u)
 VKH_PREDICATE(splits_apart,

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # The house rules that a search can check; prints 'file:line: rule' for each breach and exits 1 if there is any.
 #   - calls of vkCmdPipelineBarrier in engine/: only in engine/command.cpp.
-#   - 400 lines a file, 250 a kernel (*.comp); 500 the C header, most of which is contract.
 #   - clang-format, where it is the version that the project is written with (others disagree in details).
 # usage: tools/check_style.sh [ROOT]
 set -euo pipefail
@@ -25,7 +24,6 @@ files() {
 
 mapfile -t recording < <(files engine -- cpp h)
 mapfile -t formatted < <(files shaders engine host check examples tests tools -- comp vert frag glsl h c cpp)
-mapfile -t counted < <(files engine host check examples tests tools cmake -- cpp h py sh cmake | grep -v '^engine/vkhausdorff\.h$')
 
 # Prints 'file:line:<tab>code' for every line with code on it, comments and #includes taken out.
 code_lines() {
@@ -59,16 +57,6 @@ check_barriers() {
     $2 ~ /CmdPipelineBarrier[0-9A-Z]*[ ]*\(/ && $1 !~ /^engine\/command\.cpp:/ { print $1 " a barrier outside engine/command.cpp" }'
 }
 
-# check_length LIMIT FILE...
-check_length() {
-  local limit=$1 lines
-  shift
-  for file in "$@"; do
-    lines=$(wc -l <"$file")
-    [ "$lines" -le "$limit" ] || echo "$file:$lines: more than $limit lines"
-  done
-}
-
 check_format() {
   [ ${#formatted[@]} -gt 0 ] || return 0
   if ! clang-format --version 2>/dev/null | grep -q "version $kClangFormat\."; then
@@ -82,9 +70,6 @@ check_format() {
 
 {
   check_barriers
-  check_length 250 shaders/*/*.comp
-  check_length 400 "${counted[@]}"
-  [ ! -e engine/vkhausdorff.h ] || check_length 500 engine/vkhausdorff.h
   check_format
 } >"$failures"
 

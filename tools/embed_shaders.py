@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """SPIR-V in, C++ out: one header and one source per kernel, checked against shaders/gpu_types.h.
 
-  embed_shaders.py narrow SPV OUT          the kernel of a device that is not wide (kWide)
   embed_shaders.py kernel SPV OUT_DIR [FLAT CPU]
                                            OUT_DIR/NAME.h (only when it changes) and NAME.cpp;
                                            SPV tells of the buffers, and FLAT is embedded where it
@@ -236,7 +235,7 @@ def check_buffers(buffers):
 
 
 def reflect(name, words):
-    module = spirv.Module(words)
+    module = spirv.module_of(words)
     layouts, buffers, push = Layouts(module), [], "NoPush"
     for variable, pointer, storage in module.variables:
         if storage not in spirv.INTERFACE:
@@ -323,21 +322,27 @@ def write_if_changed(path, text):
         path.write_text(text)
 
 
+def embed(name, out_dir, words, embedded):
+    """Writes NAME.h and NAME.cpp: `words`, as the compiler wrote them, tell of the buffers, and the
+    pair `embedded`, for devices that are wide and for the others, is what the program holds."""
+    try:
+        kernel = reflect(name, words)
+    except (ContractError, ValueError) as error:
+        sys.exit(f"{name}.comp: {error}")
+    for one in embedded:
+        if breach := float_order.breach(one) or explicit_layout.breach(one):
+            sys.exit(f"{name}.comp: {breach}")
+    write_if_changed(out_dir / f"{name}.h", header_text(kernel))
+    # Always: it is the output by which a Makefile knows that this ran.
+    flat, cpu = embedded
+    (out_dir / f"{name}.cpp").write_text(source_text(kernel, flat, cpu if cpu != flat else None))
+
+
 def embed_kernel(spv, out_dir, flat=None, cpu=None):
     words = spirv.read_words(spv)
-    try:
-        kernel = reflect(spv.stem, words)
-    except (ContractError, ValueError) as error:
-        sys.exit(f"{spv.stem}.comp: {error}")
     flat_words = spirv.read_words(flat) if flat else words
     cpu_words = spirv.with_loops_kept(spirv.read_words(cpu)) if cpu else flat_words
-    for embedded in (flat_words, cpu_words):
-        if breach := float_order.breach(embedded) or explicit_layout.breach(embedded):
-            sys.exit(f"{spv.stem}.comp: {breach}")
-    write_if_changed(out_dir / f"{kernel.name}.h", header_text(kernel))
-    # Always: it is the output by which a Makefile knows that this ran.
-    text = source_text(kernel, flat_words, cpu_words if cpu_words != flat_words else None)
-    (out_dir / f"{kernel.name}.cpp").write_text(text)
+    embed(spv.stem, out_dir, words, (flat_words, cpu_words))
 
 
 SHADERS = Path(__file__).resolve().parent.parent / "shaders"
@@ -355,15 +360,8 @@ def embed_index(out_dir, names):
 WIDE = 1  # constant_id of kWide (shaders/base/switches.glsl)
 
 
-def write_narrow(spv, out):
-    words = spirv.with_constant_false(spirv.read_words(spv), WIDE)
-    spirv.write_words(out, words)
-
-
 def main(args):
-    if len(args) == 3 and args[0] == "narrow":
-        write_narrow(*map(Path, args[1:]))
-    elif len(args) in (3, 5) and args[0] == "kernel":
+    if len(args) in (3, 5) and args[0] == "kernel":
         embed_kernel(*map(Path, args[1:]))
     elif len(args) >= 2 and args[0] == "index":
         embed_index(Path(args[1]), sorted(args[2:]))

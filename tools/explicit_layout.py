@@ -40,7 +40,7 @@ def laid_out_variables(module):
 def without_layout(words):
     """The module, such variables with array types of their own. spirv-val finds what this does not
     do: arrays of what has a layout itself, and variables that are loaded or stored whole."""
-    module = spirv.Module(words)
+    module = spirv.module_of(words)
     found = laid_out_variables(module)
     bound = words[3]
     fresh, pointers = {}, {}  # by array type, by pointer type
@@ -65,7 +65,7 @@ def without_layout(words):
 
 def breach(words):
     """A variable that has a layout and should not, as text; None where there is none."""
-    module = spirv.Module(words)
+    module = spirv.module_of(words)
     for variable, _ in laid_out_variables(module):
         return f"{module.names.get(variable, variable)} has an explicit layout and is no buffer"
     return None

@@ -47,7 +47,7 @@ def float_types(module):
 
 def float_results(words):
     """(opcode, result id, extended instruction or None) of every instruction that gives floats."""
-    types = float_types(spirv.Module(words))
+    types = float_types(spirv.module_of(words))
     for at, op in spirv.instructions(words):
         has_type = words[at] >> 16 > 2 and op not in spirv.DECLARATIONS
         if has_type and words[at + 1] in types:
@@ -72,7 +72,7 @@ def no_contraction(words):
 
 def other_instructions(words):
     """Extended instructions of other sets than GLSL.std.450, and those that give several values."""
-    types = spirv.Module(words).types
+    types = spirv.module_of(words).types
     for at, op in spirv.instructions(words):
         if op == OP_EXT_INST_IMPORT:
             name = spirv.literal_string(words[at + 2:at + (words[at] >> 16)])

@@ -57,16 +57,16 @@ SOURCE = """\
 #include "kernels/{name}.h"
 
 namespace vkh::k {{
-namespace {{
+namespace of_{name} {{  // a name of its own: kernels may share a translation unit
 
 constexpr uint32_t kWords[] = {{
 {words}
 }};
 {cpu_words}
-}}  // namespace
+}}  // namespace of_{name}
 
-std::span<const uint32_t> {type}::words() {{ return kWords; }}
-std::span<const uint32_t> {type}::words_for_cpu() {{ return {cpu_name}; }}
+std::span<const uint32_t> {type}::words() {{ return of_{name}::kWords; }}
+std::span<const uint32_t> {type}::words_for_cpu() {{ return of_{name}::{cpu_name}; }}
 uint32_t {type}::fingerprint() {{ return {fingerprint:#010x}; }}
 
 }}  // namespace vkh::k

@@ -1,5 +1,6 @@
 """The declarations of a SPIR-V module, read straight from its words."""
 
+import functools
 import struct
 from collections import defaultdict
 
@@ -149,3 +150,9 @@ class Module:
             raise ValueError("no local size: is this a compute shader?")
         resolve = {"id": lambda n: self.constants[n][0], "value": lambda n: n}
         self.local_size = [resolve[kind](n) for kind, n in self.local_size]
+
+
+@functools.lru_cache(maxsize=4)
+def module_of(words):
+    """The declarations of a tuple of words: several passes ask for those of the same module."""
+    return Module(words)

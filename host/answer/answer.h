@@ -13,6 +13,7 @@
 #include "host/field/survey.h"
 #include "host/prove/prover.h"
 #include "host/solve/report.h"
+#include "host/system/sha256.h"
 
 namespace vkh {
 
@@ -25,12 +26,14 @@ struct Input {
   MeshCounts counts = {};
   MeshPlace place = {};
   std::string sha256 = {};              ///< of the file, in hexadecimal digits; empty: not known
+  std::vector<FileHash> files = {};     ///< read besides it (files_beneath), where that is known
   std::vector<std::string> notes = {};  ///< what people should know about it
 };
 
 /// Of a mesh whose faces have limits of their own.
 struct FaceLimits {
   std::string path;                ///< the file that says which
+  std::string sha256 = {};         ///< of that file; empty: not known
   uint64_t within = 0, faces = 0;  ///< faces that are proven to be within theirs; of how many
   uint64_t runs = 0;
   Limit limit = {};  ///< of the face of the witness, where it is beyond
@@ -104,6 +107,10 @@ double gap_as_printed(const Answer& answer, double lower, double upper);
 /// A file's name as a terminal may see it: control characters are written as \xNN.
 std::string printable(const std::string& text);
 
+/// Picks the notes on the inputs' surfaces, which build servers are told, too: "A: polygons: ...".
+std::vector<std::string> surface_notes(const std::vector<std::string>& notes_a,
+                                       const std::vector<std::string>& notes_b);
+
 /// One line of JSON, without a newline at its end, of docs/schema/answer.schema.json.
 std::string to_json(const Answer& answer);
 
@@ -118,6 +125,8 @@ std::string to_json(const Failure& failure);
 /// The words, and ten to fifteen lines; `verbose` adds switches, stages, waves and the cull
 /// histogram.
 void print_table(std::ostream& out, const Answer& answer, bool verbose);
+/// One line of such a table.
+void print_row(std::ostream& out, const char* label, const std::string& text);
 
 /// What a survey says, as rows of that table.
 struct TableRow {
@@ -130,6 +139,7 @@ struct JunitCase {
   std::string command, name, words;
   double seconds = 0;
   std::string element = {}, type = {};
+  std::vector<std::string> notes = {};  ///< see surface_notes
 };
 /// A test suite: JUnit's XML, as build servers read it. `started` empty: without it and the host.
 std::string to_junit(std::span<const JunitCase> cases, const std::string& host,

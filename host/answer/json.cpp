@@ -26,7 +26,8 @@ Json witness_json(const Report& r) {
 // Before a mesh is read, its counts are null. The delta is written so that it is read back as the
 // same double.
 Json input_json(const char* name, const Input& input) {
-  Json json = {{"name", name}, {"path", input.path}, {"sha256", text_or_null(input.sha256)}};
+  Json json = {{"name", name}, {"path", input.path}};
+  add_hashes(json, input);
   const auto add = [&](const char* key, uint64_t count) {
     json[key] = input.is_read ? Json(count) : Json();
   };
@@ -105,11 +106,9 @@ Json diagonal_of(const Length& length) {
 }
 
 Json faces_json(const FaceLimits& faces) {
-  return {{"path", faces.path},
-          {"faces", faces.faces},
-          {"within", faces.within},
-          {"runs", faces.runs},
-          {"verdict", verdict_name(faces.verdict)}};
+  return {{"path", faces.path},   {"sha256", text_or_null(faces.sha256)},
+          {"faces", faces.faces}, {"within", faces.within},
+          {"runs", faces.runs},   {"verdict", verdict_name(faces.verdict)}};
 }
 
 std::string max_json(const Answer& answer) {
@@ -210,6 +209,17 @@ std::string direction_json(const Answer& answer, const Report& r, bool back, Det
 constexpr const char* kSchema = "vkhausdorff.answer/1";
 
 }  // namespace
+
+void add_hashes(Json& json, const Input& input) {
+  json["sha256"] = text_or_null(input.sha256);
+  if (input.sha256.empty()) {
+    json["files"] = nullptr;
+    return;
+  }
+  json["files"] = Json::array();
+  for (const FileHash& file : input.files)
+    json["files"].push_back({{"path", file.path}, {"sha256", text_or_null(file.sha256)}});
+}
 
 void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
   const CertifiedInterval whole = interval_of(answer);

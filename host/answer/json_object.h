@@ -36,6 +36,19 @@ class JsonObject {
 
 inline Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
+/// The files that an input was read from, as its members: `sha256`, null where it is not known, and
+/// `files`, those besides, which are null with it.
+void add_hashes(Json& json, const Input& input);
+
+/// The lower or upper end `key` of an interval, by its hexadecimal digits, which say the double
+/// itself. Throws InputError where they are missing or malformed, negative or another double than
+/// the decimal beside them.
+double bound_in(const Json& interval, const std::string& key);
+/// Checks every bound of an answer that was read, as bound_in does.
+void check_bounds(const Json& answer);
+/// A whole number of 0 or more. Throws InputError that names `key` for anything else: 1.9, true.
+uint64_t count_in(const Json& object, const std::string& key);
+
 /// What was surveyed of a direction's mesh, as its members.
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer);
 

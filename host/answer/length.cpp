@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "host/answer/meant.h"
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/quad.h"
@@ -44,6 +45,11 @@ Limit around(Quad x) {
   return limit;
 }
 
+/// "write 0.1mm; ", where that is known and another word than what was typed.
+std::string proposal(const std::string& meant, const std::string& typed) {
+  return meant.empty() || meant == typed ? std::string() : "write " + meant + "; ";
+}
+
 std::string expected_of(PlainNumber plain) {
   std::string text = "a positive length: ";
   if (plain == PlainNumber::kFraction) text += "a fraction of diag(A) such as 1e-6, ";
@@ -76,13 +82,15 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
     length.number = 0;
   }
   if (!is_number || !(length.number > 0))
-    throw UsageError(std::string(option) + " '" + text + "': expected " + expected_of(plain));
+    throw UsageError(std::string(option) + " '" + text +
+                     "': " + proposal(length_meant(text), text) + "expected " + expected_of(plain));
   return length;
 }
 
 void check_unit(const char* option, const std::string& unit) {
   if (find_unit(unit) == nullptr)
-    throw UsageError(std::string(option) + " '" + unit + "': expected " + kUnitNames);
+    throw UsageError(std::string(option) + " '" + unit + "': " + proposal(unit_meant(unit), unit) +
+                     "expected " + kUnitNames);
 }
 
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
@@ -109,6 +117,18 @@ Limit in_files(const Length& length, const char* option, const std::string& file
   if (!std::isfinite(limit.beyond))
     throw UsageError(std::string(option) + " '" + length.requested + "': longer than any double");
   return limit;
+}
+
+Limit limit_in_files(const Length& length, const char* option, const std::string& file_unit,
+                     double diagonal_a) {
+  using Doubles = std::numeric_limits<double>;
+  const bool is_normal = diagonal_a >= Doubles::min() && diagonal_a < Doubles::max();
+  if (length.of == Length::Of::kDiagonal && !is_normal) {
+    throw UsageError(std::string(option) + " '" + length.requested + "': A's diagonal is " +
+                     (diagonal_a == 0 ? "0" : "beyond what a double holds to all its bits") +
+                     "; give the length itself, as 0.1abs or 0.1mm");
+  }
+  return in_files(length, option, file_unit, diagonal_a);
 }
 
 double typed_length(const Limit& limit) {

@@ -45,4 +45,9 @@ void check_unit(const char* option, const std::string& unit);
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
                double diagonal_a);
 
+/// The same for a length that decides: also refuses a share of a diagonal that is 0 or no normal
+/// double, of which nobody knows how far it is off.
+Limit limit_in_files(const Length& length, const char* option, const std::string& file_unit,
+                     double diagonal_a);
+
 }  // namespace vkh

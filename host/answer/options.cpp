@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-struct Unit {
+struct NamedFactor {
   const char* name;
   double factor;
 };
@@ -42,29 +42,30 @@ std::string lower_case(std::string text) {
 }
 
 template <size_t kCount>
-const Unit* find_unit(const std::array<Unit, kCount>& units, const std::string& name) {
-  for (const Unit& unit : units) {
+const NamedFactor* find_unit(const std::array<NamedFactor, kCount>& units,
+                             const std::string& name) {
+  for (const NamedFactor& unit : units) {
     if (name == unit.name) return &unit;
   }
   return nullptr;
 }
 
-constexpr std::array<Unit, 14> kMemoryUnits = {{{"", 1},
-                                                {"b", 1},
-                                                {"k", 0x1p10},
-                                                {"m", 0x1p20},
-                                                {"g", 0x1p30},
-                                                {"t", 0x1p40},
-                                                {"kib", 0x1p10},
-                                                {"mib", 0x1p20},
-                                                {"gib", 0x1p30},
-                                                {"tib", 0x1p40},
-                                                {"kb", 1e3},
-                                                {"mb", 1e6},
-                                                {"gb", 1e9},
-                                                {"tb", 1e12}}};
+constexpr std::array<NamedFactor, 14> kMemoryUnits = {{{"", 1},
+                                                       {"b", 1},
+                                                       {"k", 0x1p10},
+                                                       {"m", 0x1p20},
+                                                       {"g", 0x1p30},
+                                                       {"t", 0x1p40},
+                                                       {"kib", 0x1p10},
+                                                       {"mib", 0x1p20},
+                                                       {"gib", 0x1p30},
+                                                       {"tib", 0x1p40},
+                                                       {"kb", 1e3},
+                                                       {"mb", 1e6},
+                                                       {"gb", 1e9},
+                                                       {"tb", 1e12}}};
 
-constexpr std::array<Unit, 5> kTimeUnits = {
+constexpr std::array<NamedFactor, 5> kTimeUnits = {
     {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}};
 
 }  // namespace
@@ -74,7 +75,7 @@ uint64_t parse_size(const char* option, const std::string& text) {
       "a size of at least one byte such as 2GiB, 512MiB, 1.5GB or a number of bytes";
   Quantity quantity;
   if (!split(text, quantity)) refuse(option, text, kExpected);
-  const Unit* unit = find_unit(kMemoryUnits, lower_case(quantity.unit));
+  const NamedFactor* unit = find_unit(kMemoryUnits, lower_case(quantity.unit));
   if (unit == nullptr) refuse(option, text, kExpected);
   const double bytes = std::floor(quantity.number * unit->factor);
   if (bytes < 1 || bytes >= 0x1p63) refuse(option, text, kExpected);
@@ -98,7 +99,7 @@ double parse_time(const std::string& text) {
       "a time above zero such as 10s, 250ms, 2min, 1h or a number of seconds";
   Quantity quantity;
   if (!split(text, quantity)) refuse("--time", text, kExpected);
-  const Unit* unit = find_unit(kTimeUnits, quantity.unit);
+  const NamedFactor* unit = find_unit(kTimeUnits, quantity.unit);
   if (unit == nullptr) refuse("--time", text, kExpected);
   const double seconds = quantity.number * unit->factor;
   if (!std::isfinite(seconds) || seconds <= 0) refuse("--time", text, kExpected);

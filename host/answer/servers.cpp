@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "host/answer/answer.h"
+#include "host/base/note.h"
 
 namespace vkh {
 namespace {
@@ -104,6 +105,10 @@ bool is_failed(const Answer& answer) {
   return answer.max && verdict_of(answer) == Verdict::kBeyond;
 }
 
+std::vector<std::string> surface_notes_of(const Answer& answer) {
+  return surface_notes(answer.inputs[0].notes, answer.inputs[1].notes);
+}
+
 std::string pair_name(const Answer& answer) {
   const char* arrow = answer.b_to_a ? " <-> " : " -> ";
   std::string name = answer.inputs[0].path + arrow + answer.inputs[1].path;
@@ -125,7 +130,9 @@ std::string case_xml(const JunitCase& one) {
     text += "<" + one.element + " type=\"" + one.type + "\" message=\"" + words + "\">" + words +
             "</" + one.element + ">\n";
   }
-  return text + "<system-out>" + words + "</system-out>\n</testcase>\n";
+  text += "<system-out>" + words;
+  for (const std::string& note : one.notes) text += "\n" + in_xml(note);
+  return text + "</system-out>\n</testcase>\n";
 }
 
 JunitCase case_of(const Answer& answer) {
@@ -133,6 +140,7 @@ JunitCase case_of(const Answer& answer) {
                 .name = pair_name(answer),
                 .words = in_words(answer),
                 .seconds = answer.waits.total / 1000};
+  one.notes = surface_notes_of(answer);
   if (is_failed(answer)) {
     one.element = "failure";
     one.type = "beyond the limit";
@@ -144,6 +152,17 @@ JunitCase case_of(const Answer& answer) {
 }
 
 }  // namespace
+
+std::vector<std::string> surface_notes(const std::vector<std::string>& notes_a,
+                                       const std::vector<std::string>& notes_b) {
+  std::vector<std::string> told;
+  for (const auto* const notes : {&notes_a, &notes_b}) {
+    for (const std::string& note : *notes) {
+      if (is_on_surface(note)) told.push_back((notes == &notes_a ? "A: " : "B: ") + note);
+    }
+  }
+  return told;
+}
 
 std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
                      const std::string& started) {
@@ -183,8 +202,10 @@ std::string to_junit(const Failure& failure) {
 
 std::string github_annotation(const Answer& answer) {
   const char* level = is_failed(answer) ? "error" : is_undecided(answer) ? "warning" : "notice";
+  std::string words = in_words(answer);
+  for (const std::string& note : surface_notes_of(answer)) words += "\n" + printable(note);
   return std::string("::") + level + " file=" + github(printable(answer.inputs[0].path), true) +
-         ",title=vkhausdorff " + answer.command + "::" + github(in_words(answer), false) + "\n";
+         ",title=vkhausdorff " + answer.command + "::" + github(words, false) + "\n";
 }
 
 std::string github_annotation(const Failure& failure) {
@@ -211,6 +232,8 @@ std::string github_summary(const Answer& answer) {
           " |\n";
   if (!answer.a_to_b.device.name.empty())
     text += "| device | " + code(answer.a_to_b.device.name) + " |\n";
+  for (const std::string& note : surface_notes_of(answer))
+    text += "| note | " + code(note) + " |\n";
   return text + "\n";
 }
 

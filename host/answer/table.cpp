@@ -18,6 +18,14 @@ namespace {
   return buffer;
 }
 
+}  // namespace
+
+void print_row(std::ostream& out, const char* label, const std::string& text) {
+  out << printed("  %-10s ", label) << text << '\n';
+}
+
+namespace {
+
 using Count = unsigned long long;
 
 std::string counted(uint64_t n, const char* what) {
@@ -51,14 +59,10 @@ std::string at(const SurfacePoint& p) {
                  p.point.y, p.point.z);
 }
 
-void row(std::ostream& out, const char* label, const std::string& text) {
-  out << printed("  %-10s ", label) << text << '\n';
-}
-
 void print_input(std::ostream& out, const char* label, const Input& input) {
   const MeshCounts& counts = input.counts;
   std::string text = printable(input.path) + ": ";
-  if (!input.is_read) return row(out, label, text + "not read");
+  if (!input.is_read) return print_row(out, label, text + "not read");
   text += counted(counts.faces, "face") + ", " + printed("%llu", Count{counts.vertices}) +
           (counts.vertices == 1 ? " vertex" : " vertices");
   const auto also = [&](uint64_t n, const char* what) {
@@ -68,14 +72,14 @@ void print_input(std::ostream& out, const char* label, const Input& input) {
   also(counts.degenerate, "degenerate (kept)");
   also(counts.duplicate, "duplicate (kept)");
   if (!input.place.unit.empty()) text += ", in " + input.place.unit;
-  row(out, label, text);
+  print_row(out, label, text);
   if (input.place.delta > 0) {
-    row(out, "",
-        "each vertex within " + decimal(input.place.delta, 3, Rounding::kUp) +
-            " of its exact place: the interval is wider by it");
+    print_row(out, "",
+              "each vertex within " + decimal(input.place.delta, 3, Rounding::kUp) +
+                  " of its exact place: the interval is wider by it");
   }
   for (const std::string& note : input.notes)
-    row(out, "note", std::string(label) + ": " + printable(note));
+    print_row(out, "note", std::string(label) + ": " + printable(note));
 }
 
 std::string unit_text(const Answer& answer) {
@@ -114,33 +118,34 @@ std::string coverage_text(const CoverageCheck& c) {
 
 void print_direction(std::ostream& out, const Report& r, const char* a, const char* b) {
   if (r.has_witness) {
-    row(out, "witness", std::string(a) + " " + at(r.witness_a));
-    row(out, "", std::string(b) + " " + at(r.witness_b));
+    print_row(out, "witness", std::string(a) + " " + at(r.witness_a));
+    print_row(out, "", std::string(b) + " " + at(r.witness_b));
   }
-  if (r.witness_check) row(out, "verified", verified_text(*r.witness_check));
-  if (r.coverage_check) row(out, "", coverage_text(*r.coverage_check));
+  if (r.witness_check) print_row(out, "verified", verified_text(*r.witness_check));
+  if (r.coverage_check) print_row(out, "", coverage_text(*r.coverage_check));
   if (r.waves == 0) return;  // nothing was sought
-  row(out, "work",
-      counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +
-          printed(" (at most %llu at once), ", static_cast<Count>(r.peak_frontier)) +
-          printed("%llu queries, workspace ", static_cast<Count>(r.queries)) +
-          megabytes(r.workspace_bytes));
+  print_row(out, "work",
+            counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +
+                printed(" (at most %llu at once), ", static_cast<Count>(r.peak_frontier)) +
+                printed("%llu queries, workspace ", static_cast<Count>(r.queries)) +
+                megabytes(r.workspace_bytes));
 }
 
 void print_survey(std::ostream& out, const Answer& answer,
                   const std::optional<SurveyResult>& survey) {
   if (!survey) return;
-  for (const TableRow& one : survey_rows(answer, *survey)) row(out, one.label.c_str(), one.text);
+  for (const TableRow& one : survey_rows(answer, *survey))
+    print_row(out, one.label.c_str(), one.text);
 }
 
 std::string seconds(double ms) { return printed("%.3g s", ms / 1000); }
 
 void print_proof(std::ostream& out, const std::optional<Proof>& proof) {
   if (!proof) return;
-  row(out, "certificate",
-      printed("%llu leaves, ", Count{proof->leaves}) +
-          printed("%llu of them cut, ", Count{proof->cut_leaves}) +
-          printed("%llu bytes, in ", Count{proof->blocks.size()}) + seconds(proof->ms));
+  print_row(out, "certificate",
+            printed("%llu leaves, ", Count{proof->leaves}) +
+                printed("%llu of them cut, ", Count{proof->cut_leaves}) +
+                printed("%llu bytes, in ", Count{proof->blocks.size()}) + seconds(proof->ms));
 }
 
 std::string times_text(const Answer& answer) {
@@ -194,36 +199,40 @@ void print_names(std::ostream& out, const char* label, const std::vector<std::st
   if (names.empty()) return;
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  row(out, label, text);
+  print_row(out, label, text);
 }
 
 void print_part(std::ostream& out, const Answer& answer) {
-  row(out, "part",
+  print_row(
+      out, "part",
       printed("%llu of %llu, from 0: h(A,B) is the largest of all parts'",
               static_cast<Count>(answer.part->index), static_cast<Count>(answer.part->count)));
   const double known = answer.a_to_b.known_lower;
-  if (known > 0) row(out, "known", printed("%.9g ", known) + unit_text(answer));
+  if (known > 0) print_row(out, "known", printed("%.9g ", known) + unit_text(answer));
 }
 
 void print_summary(std::ostream& out, const Answer& answer) {
   const Report& r = answer.a_to_b;
   const CertifiedInterval whole = interval_of(answer);
-  row(out, "interval",
-      bounds(whole.lower, whole.upper, gap_as_printed(answer, whole.lower, whole.upper)) + "  " +
-          ending(whole.status));
-  row(out, "width",
-      decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " + unit_text(answer) +
-          ", " + decimal(whole.gap, 3, Rounding::kUp) + " of diag(A)");
+  print_row(out, "interval",
+            bounds(whole.lower, whole.upper, gap_as_printed(answer, whole.lower, whole.upper)) +
+                "  " + ending(whole.status));
+  print_row(out, "width",
+            decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " +
+                unit_text(answer) +
+                (answer.a_to_b.diagonal_a > 0
+                     ? ", " + decimal(whole.gap, 3, Rounding::kUp) + " of diag(A)"
+                     : ""));
   if (answer.max)
-    row(out, "max", length_text(answer, answer.max->length, answer.max->limit.within));
-  row(out, "tolerance", length_text(answer, answer.tolerance, r.tolerance));
+    print_row(out, "max", length_text(answer, answer.max->length, answer.max->limit.within));
+  print_row(out, "tolerance", length_text(answer, answer.tolerance, r.tolerance));
   if (answer.part) print_part(out, answer);
   print_input(out, "A", answer.inputs[0]);
   print_input(out, "B", answer.inputs[1]);
-  for (const std::string& note : answer.notes) row(out, "note", printable(note));
-  if (!r.device.name.empty()) row(out, "device", device_text(r.device));
-  for (const DeviceDescription& device : r.more_devices) row(out, "and", device_text(device));
-  if (r.preset != "default") row(out, "preset", r.preset);
+  for (const std::string& note : answer.notes) print_row(out, "note", printable(note));
+  if (!r.device.name.empty()) print_row(out, "device", device_text(r.device));
+  for (const DeviceDescription& device : r.more_devices) print_row(out, "and", device_text(device));
+  if (r.preset != "default") print_row(out, "preset", r.preset);
 }
 
 }  // namespace
@@ -234,24 +243,24 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   print_summary(out, answer);
   if (verbose) print_names(out, "off", r.switched_off);
   if (answer.b_to_a)
-    row(out, "h(A,B)",
-        bounds(r.lower, r.upper, gap_as_printed(answer, r.lower, r.upper)) + "  " +
-            ending(r.status));
+    print_row(out, "h(A,B)",
+              bounds(r.lower, r.upper, gap_as_printed(answer, r.lower, r.upper)) + "  " +
+                  ending(r.status));
   print_direction(out, r, "A", "B");
   print_survey(out, answer, answer.survey_a);
   print_proof(out, answer.proof_a);
   if (verbose) print_details(out, r);
   if (answer.b_to_a) {
     const Report& back = *answer.b_to_a;
-    row(out, "h(B,A)",
-        bounds(back.lower, back.upper, gap_as_printed(answer, back.lower, back.upper)) + "  " +
-            ending(back.status));
+    print_row(out, "h(B,A)",
+              bounds(back.lower, back.upper, gap_as_printed(answer, back.lower, back.upper)) +
+                  "  " + ending(back.status));
     print_direction(out, back, "B", "A");
     print_survey(out, answer, answer.survey_b);
     print_proof(out, answer.proof_b);
     if (verbose) print_details(out, back);
   }
-  row(out, "times", times_text(answer));
+  print_row(out, "times", times_text(answer));
 }
 
 }  // namespace vkh

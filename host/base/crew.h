@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 
 namespace vkh {
@@ -31,32 +30,11 @@ class Crew {
 
   size_t threads() const { return threads_; }
 
-  void check_going() const {
-    if (!keep_going_) return;
-    if (const std::unique_lock lock(asking_, std::try_to_lock); lock.owns_lock()) {
-      if (!stopped_ && !keep_going_()) stopped_ = true;
-    }
-    if (stopped_) throw Interrupted(called_off_);
-  }
+  /// Throws Interrupted once `keep_going` said false.
+  void check_going() const;
 
   /// Calls work(0) to work(count - 1), several at once. Where one throws, no more are begun.
-  template <class F>
-  void for_each(size_t count, const F& work) const {
-    std::atomic<bool> failed = false;
-    for_each_index(
-        count,
-        [&](size_t i) {
-          if (failed) return;
-          try {
-            check_going();
-            work(i);
-          } catch (...) {
-            failed = true;
-            throw;
-          }
-        },
-        threads_);
-  }
+  void for_each(size_t count, const std::function<void(size_t)>& work) const;
 
   /// Elements of a part, 0.1 to 1 ms of work: what is worth a thread, and is called off in time.
   static constexpr size_t kPart = size_t{1} << 14;
@@ -64,19 +42,10 @@ class Crew {
 
   /// Calls work(part, begin, end) for the elements 0 to count - 1, kPart at a time: the same parts
   /// on any number of threads.
-  template <class F>
-  void for_parts(size_t count, const F& work) const {
-    for_each(parts_of(count),
-             [&](size_t part) { work(part, part * kPart, std::min(count, (part + 1) * kPart)); });
-  }
+  void for_parts(size_t count, const RangeWork& work) const;
 
   /// The sum over the parts of work(begin, end).
-  template <class F>
-  size_t sum_parts(size_t count, const F& work) const {
-    std::atomic<size_t> sum = 0;
-    for_parts(count, [&](size_t, size_t begin, size_t end) { sum += work(begin, end); });
-    return sum;
-  }
+  size_t sum_parts(size_t count, const std::function<size_t(size_t, size_t)>& work) const;
 
  private:
   size_t threads_ = thread_count();
@@ -133,10 +102,6 @@ void resize_together(const Crew& crew, std::vector<T>& vector, size_t size) {
 }
 
 /// From counts of parts to where each part begins; returns the sum.
-inline size_t starts_of(std::vector<size_t>& counts) {
-  size_t sum = 0;
-  for (size_t& count : counts) sum += std::exchange(count, sum);
-  return sum;
-}
+size_t starts_of(std::vector<size_t>& counts);
 
 }  // namespace vkh

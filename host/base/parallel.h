@@ -1,82 +1,32 @@
 // Independent pieces of work on a few threads.
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <exception>
-#include <future>
-#include <mutex>
-#include <thread>
-#include <vector>
-
-#include "host/base/float_environment.h"
+#include <functional>
 
 namespace vkh {
 
 /// As many as there are cores, within reason.
-inline size_t thread_count() {
-  constexpr size_t kMostThreads = 64;
-  return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
-}
+size_t thread_count();
 
 /// As many as pay for so much to be written: to begin one costs as much as some of it, and more
 /// where all cores are busy.
-inline size_t threads_for(uint64_t bytes) {
-  constexpr uint64_t kEach = uint64_t{4} << 20;
-  return std::clamp<size_t>(static_cast<size_t>(bytes / kEach), 1, thread_count());
-}
+size_t threads_for(uint64_t bytes);
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
 /// there are any to be had, on so many in all. Throws what the least of those that threw did, after
 /// all have ended: whichever thread is sooner.
-template <class F>
-void for_each_index(size_t count, const F& work, size_t threads = thread_count()) {
-  std::atomic<size_t> next = 0;
-  std::mutex one_at_a_time;
-  size_t least = count;
-  std::exception_ptr error;
-  const auto some = [&] {
-    const FloatEnvironment ours;  // a new thread's is not this one's everywhere
-    for (size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {  // those before it have been taken, and each is ended by who has it
-        const std::lock_guard lock(one_at_a_time);
-        if (i < least) error = std::current_exception();
-        least = std::min(i, least);
-        return;
-      }
-    }
-  };
-  std::vector<std::future<void>> shares = {};
-  shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
-  for (size_t i = 1; i < std::min(threads, count); ++i)
-    shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
-  for (std::future<void>& share : shares) share.wait();
-  for (std::future<void>& share : shares) share.get();
-  if (error) std::rethrow_exception(error);
-}
+void for_each_index(size_t count, const std::function<void(size_t)>& work,
+                    size_t threads = thread_count());
 
 constexpr size_t kBlock = size_t{1} << 15;
 inline size_t block_count(size_t count) { return (count + kBlock - 1) / kBlock; }
 /// Calls work(block, begin, end) for all blocks of kBlock of `count` items, as for_each_index.
-template <class F>
-void for_each_block(size_t count, const F& work) {
-  for_each_index(block_count(count),
-                 [&](size_t i) { work(i, i * kBlock, std::min((i + 1) * kBlock, count)); });
-}
+using RangeWork = std::function<void(size_t number, size_t begin, size_t end)>;
+void for_each_block(size_t count, const RangeWork& work);
 
 /// memcpy on several threads, where it is worth them.
-inline void copy_together(void* to, const void* from, size_t bytes) {
-  constexpr size_t kPiece = size_t{1} << 22;  // 0.4 ms
-  for_each_index((bytes + kPiece - 1) / kPiece, [&](size_t i) {
-    const size_t at = i * kPiece;
-    std::memcpy(static_cast<std::byte*>(to) + at, static_cast<const std::byte*>(from) + at,
-                std::min(kPiece, bytes - at));
-  });
-}
+void copy_together(void* to, const void* from, size_t bytes);
 
 }  // namespace vkh

@@ -5,11 +5,6 @@
 #include <cstring>
 
 namespace vkh {
-namespace {
-
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-}  // namespace
 
 // Deciding once keeps a binary body's first LF out of it.
 char line_terminator(std::string_view text) {
@@ -22,10 +17,20 @@ char line_terminator(std::string_view text) {
 void reject(std::string_view name, const std::string& place, const std::string& what,
             const std::string& expected) {
   std::string line(name);
-  line += ": " + place + ": " + what + "; expected " + expected;
+  if (!place.empty()) line += ": " + place;
+  line += ": " + what + "; expected " + expected;
   std::replace_if(
       line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
   throw InputError(line);
+}
+
+std::string place_in(std::string_view line, std::string_view name) {
+  if (!line.starts_with(name)) return "";
+  const size_t begin = std::min(name.size() + 2, line.size());
+  const size_t end = std::min(line.find(": ", begin), line.size());
+  return end < line.find("; expected ", begin) && end < line.size()
+             ? std::string(line.substr(begin, end - begin))
+             : std::string();
 }
 
 std::string quoted(std::string_view word) {
@@ -157,6 +162,12 @@ std::string_view TextScanner::word() {
   while (cursor_ < line_.size() && !is_space(line_[cursor_])) ++cursor_;
   const bool comment = comment_ != '\0' && begin < line_.size() && line_[begin] == comment_;
   return comment ? std::string_view() : line_.substr(begin, cursor_ - begin);
+}
+
+char TextScanner::peek() const {
+  size_t at = cursor_;
+  while (at < line_.size() && is_space(line_[at])) ++at;
+  return at < line_.size() ? line_[at] : '\0';
 }
 
 std::string_view TextScanner::word_across_lines() {

@@ -13,9 +13,13 @@
 
 namespace vkh {
 
-/// Throws "name: place: what; expected so and so", on one line whatever the name holds.
+/// Throws "name: place: what; expected so and so", on one line whatever the name holds. `place` is
+/// empty where nothing of the file was read.
 [[noreturn]] void reject(std::string_view name, const std::string& place, const std::string& what,
                          const std::string& expected);
+
+/// The place in a line that reject() made for that name; empty where there is none.
+std::string place_in(std::string_view line, std::string_view name);
 
 /// A word of a file for an error line: quoted, at most 32 bytes, unprintable bytes as \xNN.
 std::string quoted(std::string_view word);
@@ -48,6 +52,9 @@ bool parse_number(std::string_view word, T& value) {
 /// readers, and part of a comment or a name to others.
 enum class MixedLineEnds { kRefused, kIgnored };
 
+/// Whether C's isspace() holds of it, whatever the locale.
+inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
 /// Lines end in LF or CR LF (or CR CR LF); only a text whose first line ends in a CR alone ends
 /// them so throughout (old Macintosh exports).
 char line_terminator(std::string_view text);
@@ -74,6 +81,8 @@ class TextScanner {
 
   /// The next word of the current line, empty at its end.
   std::string_view word();
+  /// How the next word of the current line begins; '\0' at its end.
+  char peek() const;
   /// The next word of this line or a later one, empty at the end of the text.
   std::string_view word_across_lines();
   /// Skips what is left of the current line.
@@ -82,7 +91,11 @@ class TextScanner {
   /// Reads a number from the current line; fails if there is none. `what` names it in the error.
   template <class T>
   T number(const char* what) {
-    const std::string_view text = word();
+    return number_in<T>(word(), what);
+  }
+  /// The number that a word is; fails if it is none.
+  template <class T>
+  T number_in(std::string_view text, const char* what) const {
     T value{};
     if (!parse_number(text, value)) fail_number(text, what, std::is_integral_v<T>);
     return value;

@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
+#include "host/base/text_scanner.h"
 #include "host/job/progress_line.h"
 #include "host/many/budget.h"
 #include "host/system/output_file.h"
@@ -37,8 +38,7 @@ Failure failure_of(const std::exception_ptr& error, const Entry& entry) {
     if (!failure.message.starts_with(*file + ": ")) continue;
     failure.file = *name;
     failure.message = *name + failure.message.substr(file->size());
-    const size_t begin = name->size() + 2, end = failure.message.find(": ", begin);
-    if (end != std::string::npos) failure.place = failure.message.substr(begin, end - begin);
+    failure.place = place_in(failure.message, *name);
     break;
   }
   return failure;
@@ -115,7 +115,7 @@ class Batch {
       ++number;
       try {
         Record record = read_record(line);
-        record.words.clear();  // which nobody asks for any more
+        if (!record.status.empty()) record.words.clear();  // which nobody asks for any more
         older_.insert_or_assign(record.name.id, std::move(record));
       } catch (const InputError& error) {
         throw InputError(job_.results + ": line " + std::to_string(number) + ": " + error.what());

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>
 
+#include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
 #include "host/base/text_scanner.h"
 #include "host/pictures/folder.h"
@@ -18,7 +20,7 @@ namespace {
 
 constexpr const char* kExpected = "id, a, b and perhaps tol, max, unit, symmetric";
 
-std::string lowered(std::string text) {
+std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -26,7 +28,7 @@ std::string lowered(std::string text) {
 
 // Spreadsheets write TRUE.
 bool truth_of(const std::string& text) {
-  const std::string word = lowered(text);
+  const std::string word = lower_word(text);
   if (word == "true" || word == "1" || word == "yes") return true;
   if (word == "false" || word == "0" || word == "no") return false;
   throw InputError("'" + text + "': expected true or false for symmetric");
@@ -54,11 +56,18 @@ bool is_utf8(const std::string& text) {
   }
 }
 
+/// The folder that a list's names start from: a pipe's (/dev/fd/63) says nothing of its writer.
+std::filesystem::path folder_of_list(const std::string& path) {
+  std::error_code none;
+  const bool is_pipe = std::filesystem::exists(path_of(path), none) &&
+                       !std::filesystem::is_regular_file(path_of(path), none);
+  return is_pipe ? std::filesystem::path() : path_of(path).parent_path();
+}
+
 /// What is collected while a list is read.
 class Collected {
  public:
-  explicit Collected(std::string path)
-      : path_(std::move(path)), folder_(path_of(path_).parent_path()) {}
+  explicit Collected(std::string path) : path_(std::move(path)), folder_(folder_of_list(path_)) {}
 
   void take(Entry entry, uint64_t line) {
     for (const auto& [name, text] :
@@ -101,13 +110,8 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, const
   }
 }
 
-void skip_mark(std::istream& text) {  // spreadsheets' byte-order mark
-  if (text.peek() != 0xef) return;
-  for (int i = 0; i < 3; ++i) text.get();
-}
-
 void read_csv(std::istream& text, Collected& to) {
-  skip_mark(text);
+  skip_byte_order_mark(text);
   CsvReader rows(text);
   std::optional<std::vector<std::string>> heading;
   const auto next = [&] {
@@ -172,7 +176,7 @@ PairList read_list(const std::string& path) {
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw InputError(path + ": cannot be read; expected a list of pairs");
   Collected collected(path);
-  if (lowered(path).ends_with(".csv")) {
+  if (lower_word(path).ends_with(".csv")) {
     read_csv(file, collected);
   } else {
     read_jsonl(file, collected);

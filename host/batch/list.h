@@ -23,8 +23,8 @@ struct PairList {
 };
 
 /// `id`, `a` and `b`, and perhaps `tol`, `max`, `unit` and `symmetric`. Relative names are of the
-/// list's folder. CSV is what ends in .csv. Throws InputError: file, line, what was expected; an id
-/// that is there twice.
+/// list's folder, or of the current one where the list is a pipe. CSV is what ends in .csv. Throws
+/// InputError: file, line, what was expected; an id that is there twice.
 PairList read_list(const std::string& path);
 
 /// Each of `parts` against one B; its id is its name, as typed.

@@ -25,14 +25,23 @@ std::string sha256_of_text(const std::string& text) {
   });
 }
 
-// All that an answer depends on, but for the device.
+// Names hold no line's end (files_beneath), and counts say where a list ends.
+std::string hashes_in_text(const Input& input) {
+  std::string text = input.sha256 + '\n' + std::to_string(input.files.size());
+  for (const FileHash& file : input.files) text += '\n' + file.path + '\n' + file.sha256;
+  return text;
+}
+
+// All that an answer depends on, but for the device; and a refusal, which --max-input decides, too.
 std::string key_of(const PairJob& job, const Answer& known, bool shares_b) {
   std::string text = program_version();
   const auto add = [&](const std::string& part) { text += '\n' + part; };
-  for (const Input& input : known.inputs) add(input.sha256);
+  add("all files");  // which keys were not of before 0.2.0
+  for (const Input& input : known.inputs) add(hashes_in_text(input));
   add(job.tolerance.requested);
   add(job.max ? job.max->requested : "");
   add(job.unit);
+  if (job.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
   add(job.symmetric ? "symmetric" : "");
   add(shares_b ? "prepared" : "");
   const SolveOptions& o = job.options;
@@ -42,6 +51,7 @@ std::string key_of(const PairJob& job, const Answer& known, bool shares_b) {
   add(std::to_string(o.time_limit_s));
   add(std::to_string(o.wave_limit));
   add(std::to_string(o.memory_bytes));
+  add(std::to_string(job.limits.max_input_bytes));
   return sha256_of_text(text);
 }
 
@@ -56,10 +66,12 @@ std::set<std::string> shared_files(const std::vector<Entry>& entries) {
 }
 
 // A thread that asks for what another one reads waits for it.
-std::string EntryReader::hash_of(const std::string& file, bool is_shared) {
-  if (!is_shared) return sha256_of(path_of(file), keep_going_);
-  std::promise<std::string> mine;
-  std::shared_future<std::string> theirs;
+InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
+  ReadLimits limits = base_.limits;
+  limits.keep_going = keep_going_;
+  if (!is_shared) return hashes_of_input(file, limits);
+  std::promise<InputHashes> mine;
+  std::shared_future<InputHashes> theirs;
   {
     const std::lock_guard lock(mutex_);
     const auto [known, is_new] = hashes_.try_emplace(file);
@@ -67,9 +79,14 @@ std::string EntryReader::hash_of(const std::string& file, bool is_shared) {
     if (!is_new) theirs = known->second;
   }
   if (theirs.valid()) return theirs.get();
-  std::string hash = sha256_of(path_of(file), keep_going_);
-  mine.set_value(hash);
-  return hash;
+  try {
+    InputHashes hashes = hashes_of_input(file, limits);
+    mine.set_value(hashes);
+    return hashes;
+  } catch (...) {
+    mine.set_exception(std::current_exception());
+    throw;
+  }
 }
 
 NamedEntry EntryReader::name(const Entry& entry) {
@@ -90,10 +107,14 @@ NamedEntry EntryReader::name(const Entry& entry) {
   const bool shares_b = shared_.count(entry.file_b) > 0;
   named.known.inputs[0].path = entry.a;
   named.known.inputs[1].path = entry.b;
-  named.known.inputs[0].sha256 = hash_of(entry.file_a, false);
-  named.known.inputs[1].sha256 = hash_of(entry.file_b, shares_b);
+  for (size_t i = 0; i < named.known.inputs.size(); ++i) {
+    const bool is_shared = i == 1 && shares_b;
+    InputHashes hashes = hashes_of(i == 0 ? entry.file_a : entry.file_b, is_shared);
+    named.known.inputs[i].sha256 = std::move(hashes.sha256);
+    named.known.inputs[i].files = std::move(hashes.files);
+    if (!is_shared) named.file_bytes += hashes.bytes;
+  }
   named.name = {entry.id, key_of(job, named.known, shares_b)};
-  named.file_bytes = size_of(entry.file_a) + (shares_b ? 0 : size_of(entry.file_b));
   return named;
 }
 
@@ -157,6 +178,7 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   for (size_t i = 0; i < known.inputs.size(); ++i) {
     known.inputs[i].path = entry.known.inputs[i].path;
     known.inputs[i].sha256 = entry.known.inputs[i].sha256;
+    known.inputs[i].files = entry.known.inputs[i].files;
   }
   entry.known = std::move(known);
   entry.known.waits.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/batch/list.h"
+#include "host/job/input_hashes.h"
 #include "host/job/reading.h"
 #include "host/record/record.h"
 
@@ -22,8 +23,8 @@ struct NamedEntry {
   const Entry* entry = nullptr;
   PairJob job;
   RecordName name;
-  Answer known;  ///< with its inputs' hashes
-  uint64_t file_bytes = 0;
+  Answer known;             ///< with its inputs' hashes
+  uint64_t file_bytes = 0;  ///< of all files that are read for it alone
 };
 
 struct EntryMeshes {
@@ -53,7 +54,7 @@ class EntryReader {
     std::shared_future<MeshPointer> mesh;
     uint64_t last_use = 0, bytes = 0;
   };
-  std::string hash_of(const std::string& file, bool is_shared);
+  InputHashes hashes_of(const std::string& file, bool is_shared);
   MeshPointer mesh_of(const std::string& file, const ReadLimits& limits) const;
   MeshPointer shared_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();
@@ -62,7 +63,7 @@ class EntryReader {
   std::set<std::string> shared_;
   std::function<bool()> keep_going_;
   std::mutex mutex_;
-  std::map<std::string, std::shared_future<std::string>> hashes_;  // of shared files
+  std::map<std::string, std::shared_future<InputHashes>> hashes_;  // of shared files
   std::map<std::string, Kept> meshes_;                             // likewise
   uint64_t uses_ = 0;
 };

@@ -20,10 +20,6 @@ std::string number(const char* format, double value) {
 
 std::string count_of(size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
-void row(std::ostream& out, const char* label, const std::string& text) {
-  out << "  " << label << std::string(11 - std::string(label).size(), ' ') << text << '\n';
-}
-
 }  // namespace
 
 std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::kUp) + " %"; }
@@ -90,23 +86,23 @@ std::string Totals::percentiles() const {
 }
 
 void Totals::print_percentiles(std::ostream& out) const {
-  if (!ratios_.empty()) row(out, "upper", "of diag(A): " + percentiles());
+  if (!ratios_.empty()) print_row(out, "upper", "of diag(A): " + percentiles());
 }
 
 void Totals::print_worst(std::ostream& out) const {
   for (const Place& place : top_) {
-    row(out, &place == top_.data() ? "farthest" : "",
-        percent_up(place.ratio) + "  [" + decimal(place.lower, 7, Rounding::kDown) + ", " +
-            decimal(place.upper, 7, Rounding::kUp) + "]" +
-            (place.unit.empty() ? "" : " " + place.unit) + "  " + printable(place.id));
+    print_row(out, &place == top_.data() ? "farthest" : "",
+              percent_up(place.ratio) + "  [" + decimal(place.lower, 7, Rounding::kDown) + ", " +
+                  decimal(place.upper, 7, Rounding::kUp) + "]" +
+                  (place.unit.empty() ? "" : " " + place.unit) + "  " + printable(place.id));
   }
 }
 
 void Totals::print_failures(std::ostream& out) const {
   for (const std::string& failure : failures_)
-    row(out, &failure == failures_.data() ? "failed" : "", printable(failure));
+    print_row(out, &failure == failures_.data() ? "failed" : "", printable(failure));
   if (failed_ > failures_.size())
-    row(out, "", "and " + std::to_string(failed_ - failures_.size()) + " more");
+    print_row(out, "", "and " + std::to_string(failed_ - failures_.size()) + " more");
 }
 
 void Totals::print(std::ostream& out, const Run& run) const {
@@ -117,19 +113,19 @@ void Totals::print(std::ostream& out, const Run& run) const {
   if (done > 0 && run.wall_s > 0)
     now += ", " + number("%.4g a second", static_cast<double>(done) / run.wall_s);
   if (kept_ > 0) now += "; " + count_of(kept_, "were done before");
-  row(out, "pairs", now);
-  row(out, "time",
-      "reading " + number("%.2f s", run.read_s) + " of all threads, devices ready after " +
-          number("%.2f s", run.device.start_s) + ", lanes busy " +
-          number("%.2f s", run.device.lanes_s) + ", GPU time " +
-          number("%.2f s", run.device.gpu_s));
+  print_row(out, "pairs", now);
+  print_row(out, "time",
+            "reading " + number("%.2f s", run.read_s) + " of all threads, devices ready after " +
+                number("%.2f s", run.device.start_s) + ", lanes busy " +
+                number("%.2f s", run.device.lanes_s) + ", GPU time " +
+                number("%.2f s", run.device.gpu_s));
   print_percentiles(out);
   print_worst(out);
   print_failures(out);
   for (const DeviceDescription& device : run.devices)
-    row(out, &device == run.devices.data() ? "devices" : "",
-        std::to_string(device.index) + " " + device.name + ", driver " + device.driver);
-  row(out, "results", printable(run.results));
+    print_row(out, &device == run.devices.data() ? "devices" : "",
+              std::to_string(device.index) + " " + device.name + ", driver " + device.driver);
+  print_row(out, "results", printable(run.results));
 }
 
 void Totals::print_merged(std::ostream& out, size_t missing, const std::string& results) const {
@@ -139,7 +135,7 @@ void Totals::print_merged(std::ostream& out, size_t missing, const std::string& 
   print_percentiles(out);
   print_worst(out);
   print_failures(out);
-  row(out, "results", printable(results));
+  print_row(out, "results", printable(results));
 }
 
 }  // namespace vkh

@@ -57,7 +57,8 @@ bool check_arithmetic(std::ostream& out, const Device& device) {
       << ", division within " << decimal(r.worst_quotient_ulp, 3, Rounding::kUp)
       << " ulp (2.5 allowed), roots within " << decimal(r.worst_root_ulp, 3, Rounding::kUp)
       << " (6), results under 2^-126 " << (r.flushes ? "flushed" : "kept") << ", subgroups of "
-      << r.largest_subgroup << '\n';
+      << r.largest_subgroup << "; subgroup operations tried " << r.group_views << " times, "
+      << r.partial_views << " of them on a part of a subgroup\n";
   return true;
 }
 

@@ -14,6 +14,7 @@ namespace {
 constexpr uint32_t kItems = 1u << 18;
 constexpr uint32_t kRounds = 4;
 constexpr uint32_t kComposed = kItems / 16;  // judged in 113 bits, which takes longer
+constexpr uint32_t kGrouped = kItems / 16;
 
 class SelfTestKernel {
  public:
@@ -41,7 +42,7 @@ class SelfTestKernel {
   }
 
  private:
-  static constexpr uint32_t kBuffers = 5;
+  static constexpr uint32_t kBuffers = 6;
   static_assert(sizeof(k::SelfTest::kBindings) == kBuffers * sizeof(Binding));
 
   void bind(const k::SelfTest::Args& args) const {
@@ -155,6 +156,8 @@ void host_barrier(const Device& device, VkCommandBuffer commands) {
 
 }  // namespace
 
+void compile_self_test(const Device& device) { const SelfTestKernel kernel(device); }
+
 SelfTestResult run_self_test(const Device& device) {
   const SelfTestKernel kernel(device);
   Submitter submitter(device);
@@ -169,13 +172,15 @@ SelfTestResult run_self_test(const Device& device) {
     const std::vector<gpu::SelfTestOperands> given = composed_questions(round, kComposed);
     const Buffer operands = shared_buffer(device, given.data(), given.size());
     const Buffer results = shared_buffer<gpu::SelfTestComposed>(device, nullptr, kComposed);
+    const Buffer groups = shared_buffer<gpu::SelfTestGroups>(device, nullptr, kGrouped);
     const VkCommandBuffer commands = submitter.begin();
     kernel.record(commands,
                   {.questions = whole<gpu::SelfTestQuestion>(questions),
                    .answers = whole<gpu::SelfTestAnswer>(answers),
                    .totals = whole<gpu::SelfTestTotals>(totals),
                    .operands = whole<gpu::SelfTestOperands>(operands),
-                   .results = whole<gpu::SelfTestComposed>(results)},
+                   .results = whole<gpu::SelfTestComposed>(results),
+                   .groups = whole<gpu::SelfTestGroups>(groups)},
                   kItems);
     host_barrier(device, commands);
     submitter.submit_and_wait({});
@@ -183,6 +188,8 @@ SelfTestResult run_self_test(const Device& device) {
     std::memcpy(&after, totals.mapped(), sizeof after);
     const auto* read = reinterpret_cast<const gpu::SelfTestAnswer*>(answers.mapped());
     judge_self_test(asked, {read, kItems}, after, result);
+    const auto* seen = reinterpret_cast<const gpu::SelfTestGroups*>(groups.mapped());
+    judge_groups(asked, {seen, kGrouped}, result);
     const auto* found = reinterpret_cast<const gpu::SelfTestComposed*>(results.mapped());
     judge_composed(given, {found, kComposed}, result);
   }

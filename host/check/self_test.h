@@ -20,6 +20,8 @@ struct SelfTestResult {
   bool flushes = false;           ///< some result under 2^-126 came out as 0; allowed
   double worst_quotient_ulp = 0, worst_root_ulp = 0;  ///< 2.5 and 6 are allowed
   uint32_t largest_subgroup = 0;
+  uint64_t group_views = 0;    ///< times that an invocation tried every subgroup operation,
+  uint64_t partial_views = 0;  ///< of them those with a part of its subgroup
 };
 
 /// `count` questions, a multiple of gpu::kGroupSize, on which arithmetic goes wrong: mantissas of
@@ -30,6 +32,11 @@ std::vector<gpu::SelfTestQuestion> self_test_questions(uint64_t seed, uint32_t c
 void judge_self_test(std::span<const gpu::SelfTestQuestion> questions,
                      std::span<const gpu::SelfTestAnswer> answers,
                      const gpu::SelfTestTotals& totals, SelfTestResult& result);
+
+/// Of the first items: what their subgroups saw. Which invocations run together in divergent
+/// control flow is the device's to choose; each operation must agree with the ballot about it.
+void judge_groups(std::span<const gpu::SelfTestQuestion> questions,
+                  std::span<const gpu::SelfTestGroups> groups, SelfTestResult& result);
 
 /// Likewise for composed expressions: sums that a driver must not regroup.
 std::vector<gpu::SelfTestOperands> composed_questions(uint64_t seed, uint32_t count);
@@ -43,5 +50,7 @@ uint64_t draw(uint64_t& state);  ///< splitmix64
 
 /// Asks the device about a million questions. Throws DeviceError if it is lost.
 SelfTestResult run_self_test(const Device& device);
+/// Creates its pipeline and runs nothing: for tools/compile_kernels.cpp.
+void compile_self_test(const Device& device);
 
 }  // namespace vkh

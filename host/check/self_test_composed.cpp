@@ -19,15 +19,18 @@ constexpr double kUlp2 = 0x1p-44;
 constexpr double kTiny = 0x1p-60;
 constexpr double kOwnRounding = 1 - 0x1p-50;  // of lengths in double, which bounds are taken from
 
-Quad wide(float x) { return quad(static_cast<double>(x)); }
+Quad as_quad(float x) { return quad(static_cast<double>(x)); }
 double number(Quad x) { return static_cast<double>(x); }
 
 QuadVector pair(const gpu::vec3& hi, const gpu::vec3& lo) {
-  return {wide(hi.x) + wide(lo.x), wide(hi.y) + wide(lo.y), wide(hi.z) + wide(lo.z)};
+  return {as_quad(hi.x) + as_quad(lo.x), as_quad(hi.y) + as_quad(lo.y),
+          as_quad(hi.z) + as_quad(lo.z)};
 }
 
 /// Within 2^-50 of itself.
-double length(const QuadVector& v) { return std::hypot(number(v.x), number(v.y), number(v.z)); }
+double rough_length(const QuadVector& v) {
+  return std::hypot(number(v.x), number(v.y), number(v.z));
+}
 
 /// w times the power of two that brings its largest component into [1, 2).
 QuadVector scaled(const QuadVector& w, const gpu::vec3& hi) {
@@ -57,9 +60,9 @@ float base_under(uint64_t& state, double value) {
                   : static_cast<float>(value * (1 - std::ldexp(1.0, -10 * static_cast<int>(way))));
 }
 
-class Judge {
+class ComposedJudge {
  public:
-  Judge(const Operands& q, const Composed& c, SelfTestResult& result)
+  ComposedJudge(const Operands& q, const Composed& c, SelfTestResult& result)
       : q_(q),
         c_(c),
         result_(result),
@@ -76,28 +79,31 @@ class Judge {
  private:
   void sums() {
     const QuadVector difference = u_ - v_;
-    const double sizes = length(u_) + length(v_);
-    near("two_difference(u, v)", length(difference - pair(c_.difference_hi, c_.difference_lo)),
-         kUlp2 * sizes);
-    const QuadVector combination = u_ + (wide(q_.x) * v_ + wide(q_.y) * w_);
+    const double sizes = rough_length(u_) + rough_length(v_);
+    near("two_difference(u, v)",
+         rough_length(difference - pair(c_.difference_hi, c_.difference_lo)), kUlp2 * sizes);
+    const QuadVector combination = u_ + (as_quad(q_.x) * v_ + as_quad(q_.y) * w_);
     near("two_combination(u, x, v, y, w)",
-         length(combination - pair(c_.combination_hi, c_.combination_lo)),
-         4 * kUlp2 * (length(u_) + std::abs(q_.x) * length(v_) + std::abs(q_.y) * length(w_)));
-    near("two_dot(u, v)", number(magnitude(dot(u_, v_) - (wide(c_.dot_hi) + wide(c_.dot_lo)))),
-         8 * kUlp2 * length(u_) * length(v_));
+         rough_length(combination - pair(c_.combination_hi, c_.combination_lo)),
+         4 * kUlp2 *
+             (rough_length(u_) + std::abs(q_.x) * rough_length(v_) +
+              std::abs(q_.y) * rough_length(w_)));
+    near("two_dot(u, v)",
+         number(magnitude(dot(u_, v_) - (as_quad(c_.dot_hi) + as_quad(c_.dot_lo)))),
+         8 * kUlp2 * rough_length(u_) * rough_length(v_));
     const QuadVector coarse = pair(c_.coarse, {});
-    near("coarse_difference(u, v)", length(difference - coarse),
-         2 * kUlp * length(difference) + kUlp2 * sizes);
+    near("coarse_difference(u, v)", rough_length(difference - coarse),
+         2 * kUlp * rough_length(difference) + kUlp2 * sizes);
   }
 
   /// Compared as squares: no root is taken in 113 bits.
   void lengths() {
     const Quad square = dot(u_, u_);
-    const Quad norm = wide(c_.norm), above = wide(q_.norm_base) + wide(c_.norm_above);
+    const Quad norm = as_quad(c_.norm), above = as_quad(q_.norm_base) + as_quad(c_.norm_above);
     promise(norm >= 0 && norm * norm >= square, "sharp_norm_up(u)", number(norm));
     promise(above >= 0 && above * above >= square, "sharp_norm_above_up(u, base)", number(above));
     // And no looser than they are said to be.
-    const double size = length(u_);
+    const double size = rough_length(u_);
     near("sharp_norm_up(u)", number(norm) - size, 8 * kUlp * size);
     near("sharp_norm_above_up(u, base)", number(above - quad(size)),
          12 * kUlp * std::abs(size - static_cast<double>(q_.norm_base)) +
@@ -105,13 +111,13 @@ class Judge {
   }
 
   void quotients() {
-    const Quad down = wide(c_.quotient);
-    promise(down >= 0 && down * magnitude(wide(q_.x)) <= wide(q_.reach_hi), "quotient_down(a, b)",
-            number(down));
+    const Quad down = as_quad(c_.quotient);
+    promise(down >= 0 && down * magnitude(as_quad(q_.x)) <= as_quad(q_.reach_hi),
+            "quotient_down(a, b)", number(down));
     // base + above <= reach / |r|, whose sides are positive or the left one is not.
     const QuadVector r = scaled(w_, q_.w_hi);
-    const Quad above = wide(q_.quotient_base) + wide(c_.quotient_above);
-    const Quad reach = wide(q_.reach_hi) + wide(q_.reach_lo);
+    const Quad above = as_quad(q_.quotient_base) + as_quad(c_.quotient_above);
+    const Quad reach = as_quad(q_.reach_hi) + as_quad(q_.reach_lo);
     promise(above <= 0 || above * above * dot(r, r) <= reach * reach,
             "quotient_above_down(reach, 0, r, base)", number(above));
     promise(above >= quad(-kTiny * 4), "quotient_above_down(reach, 0, r, base)", number(above));
@@ -153,8 +159,8 @@ std::vector<Operands> composed_questions(uint64_t seed, uint32_t count) {
     q.y = hard_float(state, -20, 0);
     q.reach_hi = std::abs(hard_float(state, -12, 0));
     q.reach_lo = low_part(state, q.reach_hi);
-    q.norm_base = base_under(state, length(pair(q.u_hi, q.u_lo)));
-    const double r = length(scaled(pair(q.w_hi, q.w_lo), q.w_hi));
+    q.norm_base = base_under(state, rough_length(pair(q.u_hi, q.u_lo)));
+    const double r = rough_length(scaled(pair(q.w_hi, q.w_lo), q.w_hi));
     q.quotient_base = base_under(state, static_cast<double>(q.reach_hi) / r);
   }
   return questions;
@@ -162,7 +168,7 @@ std::vector<Operands> composed_questions(uint64_t seed, uint32_t count) {
 
 void judge_composed(std::span<const Operands> operands, std::span<const Composed> results,
                     SelfTestResult& result) {
-  for (size_t i = 0; i < operands.size(); ++i) Judge(operands[i], results[i], result).all();
+  for (size_t i = 0; i < operands.size(); ++i) ComposedJudge(operands[i], results[i], result).all();
   result.composed += operands.size();
 }
 

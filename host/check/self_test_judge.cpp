@@ -11,15 +11,12 @@
 namespace vkh {
 namespace {
 
-using Question = gpu::SelfTestQuestion;
-using Answer = gpu::SelfTestAnswer;
-
 constexpr double kHalfUlp2 = 0x1p-45;  // of the operands: what two_sum and two_product may lose
 constexpr double kLeastNormal = 0x1p-126;
 constexpr double kQuotientUlps = 2.5;
 constexpr double kRootUlps = 6;
 
-double wide(float x) { return static_cast<double>(x); }
+double as_double(float x) { return static_cast<double>(x); }
 
 /// value + rest without rounding, rest under half an ulp of value.
 struct Exact {
@@ -44,26 +41,28 @@ std::string number(double x) {
   return text;
 }
 
-class Judge {
+class OperationJudge {
  public:
-  Judge(const Question& question, const Answer& answer, SelfTestResult& result)
-      : a_(wide(question.a)),
-        b_(wide(question.b)),
+  OperationJudge(const gpu::SelfTestQuestion& question, const gpu::SelfTestAnswer& answer,
+                 SelfTestResult& result)
+      : a_(as_double(question.a)),
+        b_(as_double(question.b)),
         q_(question),
         answer_(answer),
         result_(result) {}
 
   void all() {
-    rounded("a + b", wide(answer_.sum), exact_sum(a_, b_));
-    rounded("a - b", wide(answer_.difference), exact_sum(a_, -b_));
-    rounded("a * b", wide(answer_.product), {a_ * b_, 0});
+    rounded("a + b", as_double(answer_.sum), exact_sum(a_, b_));
+    rounded("a - b", as_double(answer_.difference), exact_sum(a_, -b_));
+    rounded("a * b", as_double(answer_.product), {a_ * b_, 0});
     const double quotient = a_ / b_, root = std::sqrt(std::abs(a_));
-    within("a / b", wide(answer_.quotient), quotient, kQuotientUlps, result_.worst_quotient_ulp);
-    within("sqrt(|a|)", wide(answer_.root), root, kRootUlps, result_.worst_root_ulp);
+    within("a / b", as_double(answer_.quotient), quotient, kQuotientUlps,
+           result_.worst_quotient_ulp);
+    within("sqrt(|a|)", as_double(answer_.root), root, kRootUlps, result_.worst_root_ulp);
     pairs();
     promise(answer_.bits == q_.bits, "the bits of a float", static_cast<double>(answer_.bits));
-    promise(answer_.larger == std::max(q_.a, q_.b), "max(a, b)", wide(answer_.larger));
-    promise(answer_.smaller == std::min(q_.a, q_.b), "min(a, b)", wide(answer_.smaller));
+    promise(answer_.larger == std::max(q_.a, q_.b), "max(a, b)", as_double(answer_.larger));
+    promise(answer_.smaller == std::min(q_.a, q_.b), "min(a, b)", as_double(answer_.smaller));
   }
 
  private:
@@ -103,18 +102,19 @@ class Judge {
   void pairs() {
     const Exact sum = exact_sum(a_, b_);
     const double left =
-        std::abs(((sum.value - wide(answer_.sum_hi)) + sum.rest) - wide(answer_.sum_lo));
+        std::abs(((sum.value - as_double(answer_.sum_hi)) + sum.rest) - as_double(answer_.sum_lo));
     promise(left <= kHalfUlp2 * (std::abs(a_) + std::abs(b_)) + 0x1p-125, "two_sum(a, b)",
-            wide(answer_.sum_lo));
+            as_double(answer_.sum_lo));
     const double product = a_ * b_;
-    const double rest = std::abs((product - wide(answer_.product_hi)) - wide(answer_.product_lo));
+    const double rest =
+        std::abs((product - as_double(answer_.product_hi)) - as_double(answer_.product_lo));
     promise(rest <= kHalfUlp2 * std::abs(product) + 0x1p-120, "two_product(a, b)",
-            wide(answer_.product_lo));
+            as_double(answer_.product_lo));
   }
 
   double a_, b_;
-  const Question& q_;
-  const Answer& answer_;
+  const gpu::SelfTestQuestion& q_;
+  const gpu::SelfTestAnswer& answer_;
   SelfTestResult& result_;
 };
 
@@ -133,8 +133,8 @@ bool are_ranks(std::vector<uint32_t> ranks) {
   return true;
 }
 
-std::string subgroup_fault(std::span<const Question> questions, std::span<const Answer> answers,
-                           uint32_t& largest) {
+std::string subgroup_fault(std::span<const gpu::SelfTestQuestion> questions,
+                           std::span<const gpu::SelfTestAnswer> answers, uint32_t& largest) {
   std::map<uint32_t, Subgroup> all;
   for (size_t i = 0; i < answers.size(); ++i) {
     Subgroup& s = all[answers[i].subgroup];
@@ -158,9 +158,10 @@ std::string subgroup_fault(std::span<const Question> questions, std::span<const 
   return {};
 }
 
-std::string totals_fault(std::span<const Question> questions, const gpu::SelfTestTotals& totals) {
+std::string totals_fault(std::span<const gpu::SelfTestQuestion> questions,
+                         const gpu::SelfTestTotals& totals) {
   uint32_t highest = 0, lowest = UINT32_MAX;
-  for (const Question& q : questions) {
+  for (const gpu::SelfTestQuestion& q : questions) {
     const auto bits = std::bit_cast<uint32_t>(std::abs(q.a));
     highest = std::max(highest, bits);
     lowest = std::min(lowest, bits);
@@ -205,10 +206,10 @@ float hard_float(uint64_t& state, int lo, int hi) {
   return std::bit_cast<float>(static_cast<uint32_t>(bits >> 63) << 31 | biased << 23 | mantissa);
 }
 
-std::vector<Question> self_test_questions(uint64_t seed, uint32_t count) {
-  std::vector<Question> questions(count);
+std::vector<gpu::SelfTestQuestion> self_test_questions(uint64_t seed, uint32_t count) {
+  std::vector<gpu::SelfTestQuestion> questions(count);
   uint64_t state = seed;
-  for (Question& q : questions) {
+  for (gpu::SelfTestQuestion& q : questions) {
     const uint64_t way = draw(state) & 7u;
     // Exponents that keep exact sums in two doubles and exact products in one.
     q.a = hard_float(state, -20, 20);
@@ -226,9 +227,11 @@ std::vector<Question> self_test_questions(uint64_t seed, uint32_t count) {
   return questions;
 }
 
-void judge_self_test(std::span<const Question> questions, std::span<const Answer> answers,
+void judge_self_test(std::span<const gpu::SelfTestQuestion> questions,
+                     std::span<const gpu::SelfTestAnswer> answers,
                      const gpu::SelfTestTotals& totals, SelfTestResult& result) {
-  for (size_t i = 0; i < questions.size(); ++i) Judge(questions[i], answers[i], result).all();
+  for (size_t i = 0; i < questions.size(); ++i)
+    OperationJudge(questions[i], answers[i], result).all();
   result.items += questions.size();
   const std::string together = subgroup_fault(questions, answers, result.largest_subgroup);
   if (result.fault.empty()) result.fault = together;

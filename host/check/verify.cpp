@@ -53,14 +53,14 @@ double outward(double distance, double direction) {
   return std::max(std::nextafter(moved, direction * kInfinity), 0.0);
 }
 
-struct Enclosure {
+struct DistanceBounds {
   double lower = 0, upper = 0;
   bool beyond = false;  // d >= the bound asked about: decided in quads, where no double rounds
 };
 
 // d(p, t) and whether it is at least `bound`, for p known to within `scale` * kQuadUlp in each
 // coordinate.
-Enclosure distance_to(const QuadVector& p, const Triangle& t, Quad scale, double bound) {
+DistanceBounds distance_to(const QuadVector& p, const Triangle& t, Quad scale, double bound) {
   const QuadVector r = offset_of(p, t);
   const Quad size = magnitude(r);
   const double upper = outward(length(r) + static_cast<double>(scale * kQuadUlp), 1);
@@ -132,7 +132,7 @@ WitnessCheck verify_witness(const Mesh& a, const Mesh& b, const Report& report) 
     const std::array<glm::dvec3, 3> t = {b.vertices[f.x], b.vertices[f.y], b.vertices[f.z]};
     // Such a face is farther than one that was measured: it decides nothing.
     if (box_distance_down(near, t, scale) > out.distance_upper) continue;
-    const Enclosure d =
+    const DistanceBounds d =
         distance_to(p, {{quad(t[0]), quad(t[1]), quad(t[2])}}, quad(scale), report.lower);
     out.holds = out.holds && d.beyond;
     out.distance_lower = std::min(out.distance_lower, d.lower);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "host/answer/meant.h"
 #include "host/answer/options.h"
 #include "host/base/error.h"
 #include "host/cli/help_text.h"
@@ -57,6 +58,19 @@ struct Program {
 
     command = app.add_subcommand("doctor", "Devices, drivers and a self-check");
     add_device_option(*command, doctor);
+    refuse_empty_values();
+  }
+
+  /// A script whose variable is not set would else ask about less than it says: --max "$LIMIT".
+  void refuse_empty_values() {
+    for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+      for (CLI::Option* option : command->get_options()) {
+        if (option->get_expected_max() == 0) continue;  // a flag
+        option->check([](const std::string& text) {
+          return std::string(text.empty() ? "'' is no value" : "");
+        });
+      }
+    }
   }
 
   void add_gate(CLI::App& command) {
@@ -123,6 +137,25 @@ std::string listed(const Words& words, const char* last) {
   return text;
 }
 
+/// Says what to write for "--max 0.1 mm" and "--max=0.1 mm"; nothing where no number and unit are
+/// so apart.
+std::string blank_hint(const Words& words) {
+  for (size_t i = 1; i < words.size(); ++i) {
+    const std::string& before = words[i - 1];
+    const size_t equals = before.starts_with("--") ? before.find('=') : std::string::npos;
+    const bool is_one_word = equals != std::string::npos;
+    if (!is_one_word && (i < 2 || !words[i - 2].starts_with("--"))) continue;
+    const std::string option = is_one_word ? before.substr(0, equals) : words[i - 2];
+    const std::string number = is_one_word ? before.substr(equals + 1) : before;
+    if (option == "--time" || number.find_first_not_of("0123456789.,+-eE") != std::string::npos)
+      continue;
+    const std::string meant = length_meant(number + words[i]);
+    if (!meant.empty())
+      return option + " '" + number + " " + words[i] + "': write " + meant + ", without a blank";
+  }
+  return "";
+}
+
 /// CLI11 says that a command is missing where one was misspelt, and that an option was not expected
 /// where one was.
 std::string usage_message(const Program& program, const CLI::ParseError& error,
@@ -144,6 +177,7 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
            (meant.empty() ? " (see vkhausdorff --help)" : ": did you mean " + meant + "?");
   }
   const bool stray = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (const std::string hint = stray ? blank_hint(words) : ""; !hint.empty()) return hint;
   if (stray && std::find(words.begin(), words.end(), "--json") != words.end()) {
     return std::string(error.what()) + "; JSON goes into a file by --json=FILE, without a space";
   }

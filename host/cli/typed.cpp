@@ -103,6 +103,10 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
   job.caches = !typed.no_cache;
   job.options = options_of(typed);
   if (typed.max_input) job.limits.max_input_bytes = parse_size("--max-input", *typed.max_input);
+  if (!typed.polygons.empty()) {
+    check_names("--polygons", {typed.polygons}, {"fan"});
+    job.limits.odd_polygons = OddPolygons::kFanned;
+  }
   return job;
 }
 
@@ -200,6 +204,11 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
       "--max-input", typed.max_input,
       "Refuse a file of more bytes, or with a mesh that takes more, such as 100M or 2GiB; reading "
       "takes up to six times that [no limit]");
+  command
+      .add_option("--polygons", typed.polygons,
+                  "fan: measure the fan of a polygon's corners where its outline crosses itself or "
+                  "encloses no area [such a file is refused]")
+      ->type_name("fan");
 }
 
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {

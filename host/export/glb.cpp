@@ -58,14 +58,14 @@ uint16_t linear(uint8_t srgb) {
   return static_cast<uint16_t>(std::lround(65535 * light));
 }
 
-struct Corners {
+struct CornerArrays {
   std::vector<float> positions, lower, upper;
   std::vector<uint16_t> colours;
   glm::vec3 lo{3e38f}, hi{-3e38f};
 };
 
 void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double largest,
-              Corners& out) {
+              CornerArrays& out) {
   const glm::uvec3& face = file.mesh.faces[f];
   const drawing::Rgb shown = colour_of(file, file.field.upper[f], largest);
   const std::array colour = {linear(shown.red), linear(shown.green), linear(shown.blue),
@@ -84,7 +84,7 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
 }
 
 // glTF has metres and y up; a file that says neither is shown as it is.
-Json document(const FieldFile& file, const Corners& corners, const glm::dvec3& middle,
+Json document(const FieldFile& file, const CornerArrays& corners, const glm::dvec3& middle,
               Binary& binary) {
   const size_t count = corners.lower.size();
   const auto scalar = [&](uint32_t type, const char* shape) {
@@ -131,7 +131,7 @@ std::string to_glb(const FieldFile& file) {
   static_assert(std::endian::native == std::endian::little);
   const glm::dvec3 middle = middle_of(file.mesh);
   const double largest = largest_upper(file.field);
-  Corners corners;
+  CornerArrays corners;
   for (size_t f = 0; f < file.mesh.faces.size(); ++f) add_face(file, f, middle, largest, corners);
   Binary binary;
   std::string json =

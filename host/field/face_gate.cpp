@@ -226,6 +226,7 @@ class Search {
 
 FaceGate gate_faces(Solver& solver, const Mesh& a, const Mesh& b, std::span<const Limit> limits,
                     const SolveOptions& options) {
+  check_mesh(a);
   check_limits(a, limits);
   const FloatEnvironment ours;
   return Search(solver, a, b, limits, options).run();

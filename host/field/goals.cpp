@@ -165,7 +165,7 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
     goals.emplace_back([asked](const CellStore& store) { return score_verdicts(store, asked); });
   if (options.faces)
     goals.emplace_back([asked](const CellStore& store) { return score_faces(store, asked); });
-  if (!options.statistics || !(areas.whole > 2 * areas.error)) return goals;
+  if (!options.statistics || !areas.is_positive()) return goals;
   goals.emplace_back(
       [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
   goals.emplace_back(
@@ -203,9 +203,9 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
 
 std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
                                         const SurveyedPair& pair, const SurveyOptions& options) {
-  if (!(areas.whole > 2 * areas.error)) return std::nullopt;
+  if (!areas.is_positive()) return std::nullopt;
   const double last = largest_upper(store, pair);
-  const double area = pair.frame.length_up(pair.frame.length_up(areas.whole));
+  const double area = areas.unit.length_up(areas.unit.length_up(areas.whole));
   if (!std::isfinite(last) || !std::isfinite(area)) return std::nullopt;
   const Asked asked{options, pair.displacement, pair.frame, last};
   const Moments moments = moments_of(store, areas);

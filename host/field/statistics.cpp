@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <numeric>
@@ -35,27 +36,47 @@ struct FaceArea {
   double area, error;
 };
 
+// No square of a component may underflow.
+double length_of(const glm::dvec3& v) { return std::hypot(v.x, v.y, v.z); }
+
 // Half of |e x f|. Differences are off by kUnit of themselves, a component of the product by 4
 // kUnit of its parts, so the vector by less than 16 |e| |f| kUnit, and its length by 4 of itself.
-// Vertices that are off by delta move it by 2 delta (|e| + |f| + 2 delta).
+// Where a product underflows it is off by 2^-1075, a component by twice that, and so all of it by
+// less than 2^-1072. Vertices that are off by delta move it by 2 delta (|e| + |f| + 2 delta).
 FaceArea area_of(const glm::dvec3& e, const glm::dvec3& f, double delta) {
-  const double e_length = glm::length(e), f_length = glm::length(f);
-  const double area = 0.5 * glm::length(glm::cross(e, f));
+  const double e_length = length_of(e), f_length = length_of(f);
+  const double area = 0.5 * length_of(glm::cross(e, f));
   const double moved = 2 * delta * (e_length + f_length + 2 * delta);
-  return {area, 1.01 * (16 * kUnit * e_length * f_length + moved)};
+  return {area, 1.01 * (16 * kUnit * e_length * f_length + moved) + 0x1p-1070};
+}
+
+// Scales the largest component of an edge to between 1 and 2.
+Frame unit_of(const Mesh& a) {
+  double largest = 0;
+  for (const glm::uvec3& f : a.faces) {
+    for (const uint32_t to : {f.y, f.z}) {
+      const glm::dvec3 d = glm::abs(a.vertices[to] - a.vertices[f.x]);
+      largest = std::max({largest, d.x, d.y, d.z});
+    }
+  }
+  Frame unit;
+  if (largest > 0 && std::isfinite(largest)) unit.exponent = -std::ilogb(largest);
+  return unit;
 }
 
 }  // namespace
 
-Areas areas_of(const Mesh& a, const Frame& frame) {
+Areas areas_of(const Mesh& a) {
   Areas areas;
+  areas.unit = unit_of(a);
   areas.of_face.reserve(a.faces.size());
-  const double delta = frame.to_frame(a.delta);
+  const double delta = areas.unit.to_frame(a.delta);
   Sum whole, error;
   for (const glm::uvec3& f : a.faces) {
     const auto edge = [&](uint32_t to) {
       const glm::dvec3 d = a.vertices[to] - a.vertices[f.x];
-      return glm::dvec3(frame.to_frame(d.x), frame.to_frame(d.y), frame.to_frame(d.z));
+      const Frame& unit = areas.unit;
+      return glm::dvec3(unit.to_frame(d.x), unit.to_frame(d.y), unit.to_frame(d.z));
     };
     const FaceArea face = area_of(edge(f.y), edge(f.z), delta);
     areas.of_face.push_back(face.area);
@@ -280,13 +301,15 @@ std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
 
 namespace {
 
-// What a weighted sum of numbers up to `largest` is divided by the area, from below and above.
+// Divide a weighted sum of numbers up to `largest` by the area, rounding down and up. Each of fewer
+// than 2^40 parts may have underflowed, by 2^-1073, but for those of zeros alone.
 double mean_down(const Sum& sum, double largest, const Areas& areas) {
   const double least = sum.value() * (1 - kSumError) - areas.error * largest;
   return std::max(least / (areas.whole + areas.error) * (1 - 4 * kUnit), 0.0);
 }
 double mean_up(const Sum& sum, double largest, const Areas& areas) {
-  const double most = sum.value() * (1 + kSumError) + areas.error * largest;
+  const double lost = largest > 0 ? 0x1p-1030 : 0;
+  const double most = sum.value() * (1 + kSumError) + areas.error * largest + lost;
   return most / (areas.whole - areas.error) * (1 + 4 * kUnit);
 }
 

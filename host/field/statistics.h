@@ -9,13 +9,17 @@
 
 namespace vkh {
 
-/// The areas of A's faces, in the frame.
+/// The areas of A's faces, in a unit that A's own size decides, so that none is lost beside a large
+/// B.
 struct Areas {
   std::vector<double> of_face;
   double whole = 0;
   double error = 0;  ///< of `whole`, and of any sum of parts of the faces
+  Frame unit;        ///< in which they are
+  /// Whether A has an area that figures can be shares of. Below 2^-700 products of it underflow.
+  bool is_positive() const { return whole > 2 * error && whole >= 0x1p-700; }
 };
-Areas areas_of(const Mesh& a, const Frame& frame);
+Areas areas_of(const Mesh& a);
 
 /// The share of a triangle's area on which the affine function with these values at its corners is
 /// at most `t`.

@@ -170,7 +170,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
     Bounding bounding(pair, bound, options);
     bounding.faces(store);
-    const Areas areas = areas_of(pair.a, pair.frame);
+    const Areas areas = areas_of(pair.a);
     bool is_met = bounding.goes_on();
     for (const Goal& goal : goals_of(options, pair, areas)) {
       if (!refine(store, bounding, options, goal)) is_met = false;

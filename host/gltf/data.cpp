@@ -130,37 +130,54 @@ std::string_view Data::embedded(uint32_t number) {
 }
 
 // Nothing outside the file's folder is opened, not even by a link.
+NamedFile Data::file_of(uint32_t number) const {
+  const std::vector<std::string> names = files_beneath(model_.buffers[number].uri);
+  if (source_.folder.empty() || names.empty()) return {};
+  std::error_code error;
+  const auto is_there = [&](const std::string& file) {
+    return fs::exists(path_of(source_.folder) / path_of(file), error);
+  };
+  const auto found = std::find_if(names.begin(), names.end(), is_there);
+  NamedFile file{.name = found == names.end() ? names.front() : *found, .path = {}, .wrong = {}};
+  const fs::path folder = fs::canonical(path_of(source_.folder), error);
+  const fs::path path = fs::canonical(path_of(source_.folder) / path_of(file.name), error);
+  if (error || !fs::is_regular_file(path, error)) {
+    file.wrong = "there is no file " + vkh::quoted(file.name);
+  } else if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first !=
+             folder.end()) {
+    file.wrong = vkh::quoted(file.name) + " leads elsewhere";
+  } else {
+    file.path = path;
+  }
+  return file;
+}
+
 std::string_view Data::external(uint32_t number) {
   const std::string place = place_of("buffers", number);
-  std::string name;
-  if (source_.folder.empty() || !file_beneath(model_.buffers[number].uri, name)) {
+  const NamedFile file = file_of(number);
+  if (file.name.empty()) {
     fail(place, "its data lie in " + vkh::quoted(model_.buffers[number].uri),
          "a file beneath the folder of this one");
   }
-  const auto known = files_.find(name);
+  const auto known = files_.find(file.name);
   if (known != files_.end()) {
     const std::vector<char>& bytes = buffers_[known->second];
     return {bytes.data(), bytes.size()};
   }
+  if (!file.wrong.empty()) fail(place, file.wrong, "a file beneath the folder of this one");
   std::error_code error;
-  const fs::path folder = fs::canonical(path_of(source_.folder), error);
-  const fs::path path = fs::canonical(path_of(source_.folder) / path_of(name), error);
-  if (error || !fs::is_regular_file(path, error))
-    fail(place, "there is no file " + vkh::quoted(name), "the file beside this one");
-  if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
-    fail(place, vkh::quoted(name) + " leads elsewhere", "a file beneath the folder of this one");
-  const uint64_t size = fs::file_size(path, error), wanted = model_.buffers[number].length;
+  const uint64_t size = fs::file_size(file.path, error), wanted = model_.buffers[number].length;
   if (error || size < wanted) {
-    fail(place, vkh::quoted(name) + " is shorter than " + counted(wanted, "byte"),
+    fail(place, vkh::quoted(file.name) + " is shorter than " + counted(wanted, "byte"),
          "all of byteLength");
   }
   spend(wanted, place);
   std::vector<char>& bytes = buffers_[number];
   bytes.resize(wanted);
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in(file.path, std::ios::binary);
   if (!in.read(bytes.data(), static_cast<std::streamsize>(wanted)))
-    fail(place, vkh::quoted(name) + " cannot be read", "a readable file");
-  files_.emplace(name, number);
+    fail(place, vkh::quoted(file.name) + " cannot be read", "a readable file");
+  files_.emplace(file.name, number);
   return {bytes.data(), bytes.size()};
 }
 
@@ -172,7 +189,7 @@ std::string_view Data::buffer(uint32_t number) {
   std::string_view bytes;
   if (kept != buffers_.end()) {
     bytes = {kept->second.data(), kept->second.size()};
-  } else if (entry.uri.starts_with("data:")) {
+  } else if (is_data(entry.uri)) {
     bytes = embedded(number);
   } else if (!entry.uri.empty()) {
     bytes = external(number);
@@ -237,6 +254,23 @@ const Accessor& Data::accessor_of(uint32_t number) const {
 bool Data::has_data(uint32_t number) const {
   const Accessor& accessor = accessor_of(number);
   return accessor.view != kNone || accessor.sparse != kNone;
+}
+
+void Data::add_buffer_of_view(uint32_t number, std::set<uint32_t>& buffers) const {
+  if (number >= model_.views.size()) return;
+  const View& view = model_.views[number];
+  const uint32_t buffer = view.packed == kNone ? view.buffer : model_.packed[view.packed].buffer;
+  if (buffer < model_.buffers.size()) buffers.insert(buffer);
+}
+
+void Data::add_buffers(uint32_t number, std::set<uint32_t>& buffers) const {
+  if (number >= model_.accessors.size()) return;
+  const Accessor& accessor = model_.accessors[number];
+  add_buffer_of_view(accessor.view, buffers);
+  if (accessor.sparse == kNone) return;
+  const Sparse& sparse = model_.sparses[accessor.sparse];
+  add_buffer_of_view(sparse.indices.view, buffers);
+  add_buffer_of_view(sparse.values.view, buffers);
 }
 
 Column Data::column(uint32_t number, uint32_t width, uint64_t row_bytes) {

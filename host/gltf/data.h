@@ -2,8 +2,10 @@
 // packed or not, and columns of values in views.
 #pragma once
 
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +37,13 @@ struct Column {
   const char* row(uint64_t number, uint64_t width) const;
 };
 
+/// The file that a buffer names.
+struct NamedFile {
+  std::string name;            ///< as it is opened, from the document's folder; empty: none
+  std::filesystem::path path;  ///< empty where `wrong` says why it is not opened
+  std::string wrong;
+};
+
 /// Finds data as they are asked for, and keeps what had to be unpacked or read.
 class Data {
  public:
@@ -44,6 +53,12 @@ class Data {
   Column indices(uint32_t accessor);
   Column positions(uint32_t accessor);
   bool has_data(uint32_t accessor) const;
+
+  /// Adds the buffers that hold an accessor's numbers. Opens no file, and leaves out what is not
+  /// there: whoever reads the accessor says so.
+  void add_buffers(uint32_t accessor, std::set<uint32_t>& buffers) const;
+  /// Finds the file of a buffer that has its data neither in the document nor in its chunk.
+  NamedFile file_of(uint32_t buffer) const;
 
  private:
   struct Slice {
@@ -60,6 +75,7 @@ class Data {
                         const std::string& place);
   Column column(uint32_t accessor, uint32_t width, uint64_t row_bytes);
   void add_sparse(uint32_t accessor, uint64_t row_bytes, Column& column);
+  void add_buffer_of_view(uint32_t view, std::set<uint32_t>& buffers) const;
   void check_ascending(const Column& column) const;
   const Accessor& accessor_of(uint32_t number) const;
   /// Counts what was read or unpacked against --max-input.
@@ -79,8 +95,12 @@ class Data {
 /// What "data:...;base64," holds, of text as JSON writes it; false where it is none.
 bool decode_base64(std::string_view uri, std::vector<char>& out);
 
-/// A file's name of a URI, its percents resolved. False for one that leaves the folder, or names
-/// another place than a file: an absolute path, "..", a scheme.
-bool file_beneath(std::string_view uri, std::string& name);
+/// Whether a URI has data in itself; as JSON writes it, too.
+bool is_data(std::string_view uri);
+
+/// The names that a URI, as JSON writes it, may have of a file: its percents resolved and, where
+/// that differs, as it is written. None that leaves the folder or names another place than a file:
+/// an absolute path, "..", a scheme.
+std::vector<std::string> files_beneath(std::string_view uri);
 
 }  // namespace vkh::gltf

@@ -1,7 +1,10 @@
 // glTF 2.0 and GLB: a scene's triangles, each where its nodes put it.
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 
+#include "host/base/note.h"
 #include "host/base/text_scanner.h"
 #include "host/gltf/data.h"
 #include "host/gltf/scene.h"
@@ -37,6 +40,33 @@ class Reader {
     mesh.delta = delta_;
     mesh.unit = "m";
     return mesh;
+  }
+
+  /// The files that read() opens, by name, or tries to open before it refuses the document.
+  std::vector<FileBeneath> files() {
+    std::set<uint32_t> buffers;
+    std::vector<bool> is_known(model_.meshes.size());
+    scene_.for_each([&](const Instance& instance) {
+      if (is_known[instance.detail->mesh]) return;
+      is_known[instance.detail->mesh] = true;
+      for_primitives(instance, [&](uint32_t number) {
+        const Primitive& primitive = model_.primitives[number];
+        data_.add_buffers(primitive.position, buffers);
+        data_.add_buffers(primitive.indices, buffers);
+        check_going(source_.name, source_.limits);
+      });
+    });
+    std::map<std::string, std::filesystem::path> by_name;
+    for (const uint32_t number : buffers) {
+      const std::string_view uri = model_.buffers[number].uri;
+      if (uri.empty() || is_data(uri)) continue;
+      const NamedFile file = data_.file_of(number);
+      if (!file.name.empty()) by_name.emplace(file.name, file.path);
+    }
+    std::vector<FileBeneath> files;
+    files.reserve(by_name.size());
+    for (const auto& [name, path] : by_name) files.push_back({name, path});
+    return files;
   }
 
  private:
@@ -181,14 +211,16 @@ class Reader {
 
   void add_notes() {
     builder_.notes = scene_.notes();
-    const auto note = [&](bool holds, const std::string& text) {
-      if (holds) builder_.notes.push_back(text);
+    const auto note = [&](bool holds, NoteCode code, const std::string& text) {
+      if (holds) builder_.notes.push_back(note_of(code, text));
     };
-    note(lines_ > 0, counted(lines_, "primitive") + " of points or lines ignored");
-    note(without_positions_ > 0,
+    note(lines_ > 0, NoteCode::kElements,
+         counted(lines_, "primitive") + " of points or lines ignored");
+    note(without_positions_ > 0, NoteCode::kPositions,
          counted(without_positions_, "primitive") + " without positions ignored");
-    note(has_targets_, "morph targets at weight 0: the base shape");
-    note(model_.has_animations, "animations ignored: nodes as the file places them");
+    note(has_targets_, NoteCode::kMorph, "morph targets at weight 0: the base shape");
+    note(model_.has_animations, NoteCode::kAnimations,
+         "animations ignored: nodes as the file places them");
   }
 
   const MeshSource& source_;
@@ -239,6 +271,17 @@ Chunks chunks_of(const MeshSource& source) {
   return chunks;
 }
 
+// A GLB's binary chunk names no file, and need not be read for it. Empty where the file is no GLB.
+std::string json_of_glb(const MeshSource& source) {
+  constexpr uint64_t kHeaders = 20;
+  const std::string head = head_of(source, kHeaders);
+  if (head.size() < kHeaders) return "";
+  const uint64_t size = load<uint32_t>(&head[12]);
+  if (size > source.size() - kHeaders) return "";
+  Windows windows(source);
+  return std::string(Windows::Window(windows).read(kHeaders, kHeaders + size));
+}
+
 Mesh read_whole(const MeshSource& source) {
   const bool is_glb = source.bytes.starts_with("glTF");
   const Chunks chunks = is_glb ? chunks_of(source) : Chunks{.json = source.bytes, .binary = {}};
@@ -250,5 +293,15 @@ Mesh read_whole(const MeshSource& source) {
 }  // namespace gltf
 
 Mesh parse_gltf(const MeshSource& source) { return in_memory(source, gltf::read_whole); }
+
+std::vector<FileBeneath> files_of_gltf(const MeshSource& source) {
+  const bool is_glb = head_of(source, 4) == "glTF";
+  const std::string json = is_glb ? gltf::json_of_glb(source) : read_all(source);
+  MeshSource document = source;
+  document.bytes = json;
+  document.file = nullptr;
+  const gltf::Model model = gltf::read_model(document, document.bytes);
+  return gltf::Reader(document, model, {}).files();
+}
 
 }  // namespace vkh

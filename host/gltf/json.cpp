@@ -17,10 +17,12 @@ namespace {
 /// These leave a document's shape alone: they are of materials, textures, lights and notes.
 bool is_known(std::string_view extension) {
   for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                        "KHR_lights_", "KHR_xmp", "MSFT_texture_"}) {
+                                        "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_"}) {
     if (extension.starts_with(prefix)) return true;
   }
-  return extension == "KHR_mesh_quantization" || extension == "EXT_meshopt_compression";
+  // Nothing is animated: a mesh is read as it stands.
+  return extension == "KHR_mesh_quantization" || extension == "EXT_meshopt_compression" ||
+         extension == "KHR_node_visibility" || extension == "KHR_animation_pointer";
 }
 
 /// The number of a name among names; the last is any other.
@@ -162,6 +164,8 @@ bool Handler::start_object(size_t /*size*/) {
       return true;
     }
     const Frame& frame = top();
+    if (frame.is == Is::kRoot && frame.member->holds == Holds::kObjects && !frame.in_array)
+      fail("'" + std::string(frame.member->key) + "' is an object, as in glTF 1.0", "glTF 2.0");
     if (frame.member->holds != (frame.in_array ? Holds::kObjects : Holds::kObject)) fail_type();
   }
   const Is is = depth_ == 0 ? Is::kRoot : top().member->object;

@@ -24,6 +24,7 @@ struct NodeDetail {
   uint32_t mesh = kNone, skin = kNone;
   Range children;  ///< of Model::indices
   uint32_t placing = kNone;
+  bool is_hidden = false;         ///< KHR_node_visibility: with all below it
   bool instances = false;         ///< EXT_mesh_gpu_instancing
   bool has_morph_weight = false;  ///< one that is not 0
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/note.h"
 #include "host/base/text_scanner.h"
 
 namespace vkh::gltf {
@@ -19,6 +20,7 @@ Scene::Scene(const MeshSource& source, const Model& model) : source_(source), mo
   choose();
   check_trees();
   check_rotations();
+  note_hidden();
 }
 
 void Scene::fail(uint32_t node, const std::string& what, const std::string& expected) const {
@@ -34,8 +36,9 @@ void Scene::choose() {
   }
   if (model_.scenes[chosen] != kNone) roots_ = model_.roots[model_.scenes[chosen]];
   if (count == 1) return;
-  notes_.push_back("scene " + std::to_string(chosen) + " of " + std::to_string(count) +
-                   (has_default ? " read: the default" : " read: none is the default"));
+  notes_.push_back(note_of(
+      NoteCode::kScene, "scene " + std::to_string(chosen) + " of " + std::to_string(count) +
+                            (has_default ? " read: the default" : " read: none is the default")));
 }
 
 const NodeDetail* Scene::detail_of(uint32_t node) const {
@@ -55,9 +58,9 @@ void Scene::walk(const Enter& enter) const {
     }
     const uint32_t node = model_.indices[level.nodes.begin + level.next++];
     Level below;
-    enter(node, level.map, below.map);
+    const bool is_entered = enter(node, level.map, below.map);
     const NodeDetail* detail = detail_of(node);
-    if (detail == nullptr || detail->children.count == 0) continue;
+    if (!is_entered || detail == nullptr || detail->children.count == 0) continue;
     if (levels.size() == kMostLevels)
       fail(node, "it lies " + std::to_string(kMostLevels) + " levels deep", "fewer levels");
     below.nodes = detail->children;
@@ -72,6 +75,7 @@ void Scene::check_trees() {
     if (node >= seen.size()) fail(node, "there is none", "a node that is there");
     if (seen[node]) fail(node, "it has two parents, or is its own ancestor", "trees of nodes");
     seen[node] = true;
+    return true;
   });
 }
 
@@ -79,17 +83,36 @@ void Scene::check_rotations() {
   uint64_t off = 0;
   walk([&](uint32_t node, const scene::Affine&, scene::Affine&) {
     const NodeDetail* detail = detail_of(node);
-    if (detail == nullptr || detail->placing == kNone) return;
+    if (detail == nullptr || detail->placing == kNone) return true;
     const uint32_t at = model_.placings[detail->placing].rotation;
-    if (at == kNone) return;
+    if (at == kNone) return true;
     const auto& n = model_.numbers;
     const double length2 = scene::squared_length({n[at], n[at + 1], n[at + 2], n[at + 3]});
     if (!(std::abs(length2 - 1) <= kUnitWithin)) ++off;
+    return true;
   });
   if (off > 0) {
-    notes_.push_back(counted(off, "rotation") +
-                     " of a length other than 1 read as the rotation of that direction");
+    notes_.push_back(
+        note_of(NoteCode::kRotations,
+                counted(off, "rotation") +
+                    " of a length other than 1 read as the rotation of that direction"));
   }
+}
+
+bool Scene::is_hidden(uint32_t node) const {
+  const NodeDetail* detail = detail_of(node);
+  return detail != nullptr && detail->is_hidden;
+}
+
+void Scene::note_hidden() {
+  uint64_t count = 0;
+  walk([&](uint32_t node, const scene::Affine&, scene::Affine&) {
+    if (is_hidden(node)) ++count;
+    return !is_hidden(node);
+  });
+  if (count > 0)
+    notes_.push_back(note_of(NoteCode::kBodies,
+                             "left out: " + counted(count, "hidden node") + " and what is below"));
 }
 
 scene::Affine Scene::map_of(uint32_t node) const {
@@ -121,12 +144,14 @@ scene::Affine Scene::map_of(uint32_t node) const {
 
 void Scene::for_each(const std::function<void(const Instance&)>& use) const {
   walk([&](uint32_t node, const scene::Affine& outer, scene::Affine& map) {
+    if (is_hidden(node)) return false;
     map = scene::compose(outer, map_of(node));
     const NodeDetail* detail = detail_of(node);
-    if (detail == nullptr || detail->mesh == kNone) return;
+    if (detail == nullptr || detail->mesh == kNone) return true;
     if (detail->mesh >= model_.meshes.size())
       fail(node, "mesh " + std::to_string(detail->mesh) + " is not there", "a mesh that is there");
     use({node, detail, map});
+    return true;
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
 #include "host/base/text_scanner.h"
 #include "host/read/mesh_io.h"
@@ -57,7 +58,8 @@ std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
                                     double diagonal_a) {
   const uint64_t face_count = mesh.file_faces.count(mesh.faces.size());
   std::ifstream file(path_of(path), std::ios::binary);
-  if (!file) throw InputError(path + ": byte 0: cannot be read; expected a CSV of face, max");
+  if (!file) reject(path, "", "no file to be read", "a CSV of face, max");
+  skip_byte_order_mark(file);
   // No CSV begins so. Of a CSV this is the only look: it may be a pipe.
   if (file.peek() == 'p') return limits_of_triangles(mesh, limits_in_ply(path, face_count));
   std::vector<Limit> limits(face_count, otherwise);

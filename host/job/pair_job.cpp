@@ -4,13 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <new>
 
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/base/note.h"
 #include "host/check/verify.h"
 #include "host/field/face_gate.h"
 #include "host/job/face_limits.h"
+#include "host/job/input_hashes.h"
 #include "host/job/progress_line.h"
 #include "host/job/reading.h"
 #include "host/run/cells.h"
@@ -94,14 +97,15 @@ SolveOptions options_for(Progressing& at, const Answer& known) {
 }
 
 /// A direction whose faces may have limits of their own: in a file, unless that is empty.
-struct Side {
+struct GatedSide {
   const std::string& file;
   const Mesh& from;
   const Mesh& to;
   std::optional<FaceLimits>& limits;
 };
 
-Report gate(const Side& side, const SolveOptions& options, Solver& solver, const Answer& answer) {
+Report gate(const GatedSide& side, const SolveOptions& options, Solver& solver,
+            const Answer& answer) {
   if (side.file.empty()) return solver.distance(side.from, side.to, options);
   const std::vector<Limit> limits = read_face_limits(side.file, side.from, answer.max->limit,
                                                      answer.unit, answer.a_to_b.diagonal_a);
@@ -145,13 +149,16 @@ void prove_all(Progressing& at, const MeshPair& pair, Solver& solver, const Solv
                                return !at.stop.is_asked();
                              }});
     } catch (const std::bad_alloc&) {
-      answer.notes.push_back("there was no memory for a certificate");
+      answer.notes.push_back(
+          note_of(NoteCode::kCertificate, "there was no memory for a certificate"));
     } catch (const MemoryError&) {
-      answer.notes.push_back("the device had no memory for a certificate");
+      answer.notes.push_back(
+          note_of(NoteCode::kCertificate, "the device had no memory for a certificate"));
     }
     if (proof && proof->upper > report.upper)
-      answer.notes.push_back("the certificate proves less: " + from.name + " is within " +
-                             shortest_decimal(proof->upper));
+      answer.notes.push_back(
+          note_of(NoteCode::kCertificate, "the certificate proves less: " + from.name +
+                                              " is within " + shortest_decimal(proof->upper)));
     return proof;
   };
   answer.proof_a = one(pair.a, pair.b, answer.a_to_b);
@@ -197,22 +204,66 @@ void solve(Progressing& at, const MeshPair& pair, const Session& session, Answer
     answer.b_to_a->witness_check = verify_witness(pair.b, pair.a, *answer.b_to_a);
 }
 
-/// Of both files, beside all that is done with them; waited for where it is wanted.
+/// Hashes all files that are read, beside what is done with them; waited for where it is wanted.
 class Hashes {
  public:
-  explicit Hashes(const std::shared_ptr<Progressing>& at) {
-    if (!at->job.hashes || at->job.file_a.empty()) return;
-    for (const std::string& file : {at->job.file_a, at->job.file_b}) {
-      digests_.push_back(begin_now(
-          [at, file] { return sha256_of(path_of(file), [at] { return !at->stop.is_asked(); }); }));
+  explicit Hashes(const std::shared_ptr<Progressing>& at)
+      : at_(at), is_wanted_(at->job.hashes && !at->job.file_a.empty()) {
+    if (!is_wanted_) return;
+    for (const std::string& file : {at->job.file_a, at->job.file_b})
+      digests_.push_back(begin_hash(file));
+    for (const std::string& file : {at->job.face_max_a, at->job.face_max_b})
+      limits_.push_back(begin_hash(file));
+  }
+
+  /// Begins with the files beneath both. Call it once they are read: whoever parses a file for
+  /// their names would else hold it in memory a second time.
+  void begin_beneath() {
+    if (!is_wanted_) return;
+    for (const std::string& file : {at_->job.file_a, at_->job.file_b}) {
+      beneath_.push_back(begin_now([at = at_, file]() -> Beneath {
+        ReadLimits limits = at->job.limits;
+        limits.keep_going = [at] { return !at->stop.is_asked(); };
+        try {
+          return hashes_beneath(file, limits);
+        } catch (const Interrupted&) {
+          return std::nullopt;
+        } catch (const std::bad_alloc&) {  // which must not cost the answer
+          return std::nullopt;
+        }
+      }));
     }
   }
+
+  /// Says the hashes of an input only where those of all its files are known.
   void fill(Answer& answer) {
-    for (size_t i = 0; i < digests_.size(); ++i) answer.inputs[i].sha256 = digests_[i].get();
+    for (size_t i = 0; i < beneath_.size(); ++i) {
+      Beneath beneath = beneath_[i].get();
+      if (!beneath) continue;
+      answer.inputs[i].sha256 = digests_[i].get();
+      answer.inputs[i].files = std::move(*beneath);
+    }
+    if (!is_wanted_ || !answer.max) return;
+    for (size_t i = 0; i < limits_.size(); ++i) {
+      auto& faces = i == 0 ? answer.max->faces_a : answer.max->faces_b;
+      if (faces) faces->sha256 = limits_[i].get();
+    }
   }
 
  private:
-  std::vector<std::future<std::string>> digests_;
+  using Beneath = std::optional<std::vector<FileHash>>;
+
+  std::future<std::string> begin_hash(const std::string& file) {
+    return begin_now([at = at_, file] {
+      if (file.empty()) return std::string();
+      return sha256_of(path_of(file), [at] { return !at->stop.is_asked(); });
+    });
+  }
+
+  std::shared_ptr<Progressing> at_;
+  bool is_wanted_;
+  std::vector<std::future<std::string>> digests_, limits_;
+  std::vector<std::future<Beneath>> beneath_;
 };
 
 Done work(const std::shared_ptr<Progressing>& shared) {
@@ -233,6 +284,7 @@ Done work(const std::shared_ptr<Progressing>& shared) {
   done.pair =
       job.file_a.empty() ? default_pair() : read_pair(job.file_a, job.file_b, job.limits, reading);
   at.read(done.pair, ms_since(start));
+  hashes.begin_beneath();
   done.session = opening.get();
   at.open(done.session.device->description(), done.session.setup_ms);
   done.answer = at.known();

@@ -8,7 +8,9 @@
 #include <memory>
 
 #include "host/base/error.h"
+#include "host/base/note.h"
 #include "host/base/rounding.h"
+#include "host/field/statistics.h"
 #include "host/job/session.h"
 #include "host/read/mesh_io.h"
 #include "host/run/frame.h"
@@ -75,10 +77,13 @@ std::vector<std::string> pair_notes(const PairJob& job, const std::string& a,
                                     const std::string& b) {
   if (a == b || !job.unit.empty()) return {};
   if (!a.empty() && !b.empty())
-    return {"A is in " + a + " and B in " + b + ": neither was converted"};
+    return {note_of(NoteCode::kUnitsDiffer,
+                    "A is in " + a + " and B in " + b + ": neither was converted")};
   const bool a_says = !a.empty();
-  return {std::string(a_says ? "B" : "A") + "'s file does not say what it is in: taken as " +
-          (a_says ? a : b) + ", as " + (a_says ? "A" : "B") + " is"};
+  return {note_of(NoteCode::kUnitAssumed, std::string(a_says ? "B" : "A") +
+                                              "'s file does not say what it is in: taken as " +
+                                              (a_says ? a : b) + ", as " + (a_says ? "A" : "B") +
+                                              " is")};
 }
 
 /// A verdict on lengths of which nobody knows what they are would be none.
@@ -112,8 +117,21 @@ Answer unread_answer(const PairJob& job) {
   return known;
 }
 
+namespace {
+
+// A share of nothing is no question.
+void check_area(const PairJob& job, const Mesh& mesh) {
+  if (!job.max || !job.survey.area || areas_of(mesh).is_positive()) return;
+  throw InputError(mesh.name + ": faces without area; expected a surface, of which --area " +
+                   job.survey.area_requested + " asks a share");
+}
+
+}  // namespace
+
 double take_meshes(const PairJob& job, const Mesh& a, const Mesh& b, Answer& answer) {
   check_units(job, a.unit, b.unit);
+  check_area(job, a);
+  if (job.symmetric) check_area(job, b);
   const Box box_a = bounding_box(a);
   const double farthest = farthest_in(join(box_a, bounding_box(b)), add_up(a.delta, b.delta));
   const double diagonal_a = diagonal(box_a);
@@ -126,7 +144,14 @@ double take_meshes(const PairJob& job, const Mesh& a, const Mesh& b, Answer& ans
     r->upper = farthest;
     r->tolerance = in_files(job.tolerance, "--tol", answer.unit, diagonal_a).within;
   }
-  if (job.max) answer.max->limit = in_files(*job.max, "--max", answer.unit, diagonal_a);
+  // A run with a limit may end by that, whatever its tolerance is.
+  const bool is_share = job.tolerance.of == Length::Of::kDiagonal;
+  if (is_share && diagonal_a == 0 && !job.max)
+    answer.notes.push_back(
+        note_of(NoteCode::kTolerance, "A is one point, so that " + job.tolerance.requested +
+                                          " of its diagonal is 0: give --tol as a length, such as "
+                                          "1e-6abs"));
+  if (job.max) answer.max->limit = limit_in_files(*job.max, "--max", answer.unit, diagonal_a);
   if (!job.face_max_a.empty()) answer.max->faces_a->faces = a.faces.size();
   if (!job.face_max_b.empty()) answer.max->faces_b->faces = b.faces.size();
   return farthest;
@@ -141,7 +166,8 @@ SolveOptions asked_options(const PairJob& job, const Answer& known) {
   options.coverage = job.verify;
   if (job.known_lower)
     options.known_lower =
-        in_files(*job.known_lower, "--known-lower", known.unit, known.a_to_b.diagonal_a).within;
+        limit_in_files(*job.known_lower, "--known-lower", known.unit, known.a_to_b.diagonal_a)
+            .within;
   return options;
 }
 
@@ -151,14 +177,16 @@ void add_memory_notes(uint64_t asked, Answer& answer) {
   };
   const uint64_t in_host = most(&Report::host_memory_bytes);
   if (in_host > 0) {
-    answer.notes.push_back("the device has too little memory: it reads " +
-                           std::to_string((in_host + 0xfffff) >> 20) +
-                           " MiB from the host's, slowly");
+    answer.notes.push_back(
+        note_of(NoteCode::kMemory, "the device has too little memory: it reads " +
+                                       std::to_string((in_host + 0xfffff) >> 20) +
+                                       " MiB from the host's, slowly"));
   }
   const uint64_t taken = most(&Report::workspace_bytes);
   if (asked > 0 && taken > asked) {
-    answer.notes.push_back("--memory is less than a search can do with: " +
-                           std::to_string((taken + 1023) >> 10) + " KiB were taken");
+    answer.notes.push_back(
+        note_of(NoteCode::kMemory, "--memory is less than a search can do with: " +
+                                       std::to_string((taken + 1023) >> 10) + " KiB were taken"));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "host/base/error.h"
+#include "host/base/note.h"
 #include "host/base/parallel.h"
 #include "host/parts/part.h"
 #include "host/parts/together.h"
@@ -42,8 +43,9 @@ std::vector<Solver*> solvers_of(const Session& session) {
 void note_left_out(const Session& session, Answer& answer) {
   for (const LeftOut& one : answer.a_to_b.left_out) {
     const Device& device = one.device == 0 ? *session.device : *session.more[one.device - 1].device;
-    answer.notes.push_back("the others did the part of " + device.description().name + ": " +
-                           one.why);
+    answer.notes.push_back(
+        note_of(NoteCode::kDevices,
+                "the others did the part of " + device.description().name + ": " + one.why));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "host/base/error.h"
+#include "host/base/note.h"
 
 namespace vkh {
 namespace {
@@ -21,7 +22,9 @@ Limit resolved(const Length& length, const char* option, const Answer& answer) {
 std::vector<Limit> bands_of(const SurveyWish& wish, const Answer& answer) {
   std::vector<Limit> bands;
   if (answer.max && (wish.area || wish.statistics)) bands.push_back(answer.max->limit);
-  for (const Length& band : wish.bands) bands.push_back(resolved(band, "--bands", answer));
+  for (const Length& band : wish.bands) {
+    bands.push_back(limit_in_files(band, "--bands", answer.unit, answer.a_to_b.diagonal_a));
+  }
   return bands;
 }
 
@@ -69,13 +72,13 @@ void join(Report& report, SurveyResult& survey, size_t face_count) {
   if (survey.statistics) join_bands(*survey.statistics);
 }
 
-struct Side {
+struct SurveyedSide {
   const Mesh& from;
   const Mesh& to;
   const char* name;
 };
 
-SurveyResult survey_one(const SurveyJob& job, const Side& side, const SurveyOptions& asked,
+SurveyResult survey_one(const SurveyJob& job, const SurveyedSide& side, const SurveyOptions& asked,
                         Solver& solver, SolveOptions options) {
   SurveyResult result;
   options.limit = {};
@@ -92,20 +95,23 @@ SurveyResult survey_one(const SurveyJob& job, const Side& side, const SurveyOpti
 }  // namespace
 
 void survey_all(const SurveyJob& job, Solver& solver, const SolveOptions& options, Answer& answer) {
-  const auto one = [&](const Side& side, Report& report, size_t left) {
+  const auto one = [&](const SurveyedSide& side, Report& report, size_t left) {
     SurveyOptions asked = options_of(job, answer, left);
     asked.upper = report.upper;
     SurveyResult result;
     try {
       result = survey_one(job, side, asked, solver, options);
     } catch (const std::bad_alloc&) {
-      answer.notes.push_back(std::string("there was no memory to survey ") + side.name);
+      answer.notes.push_back(
+          note_of(NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name));
     } catch (const MemoryError&) {
-      answer.notes.push_back(std::string("the device had no memory to survey ") + side.name);
+      answer.notes.push_back(note_of(
+          NoteCode::kSurvey, std::string("the device had no memory to survey ") + side.name));
     }
     join(report, result, side.from.faces.size());
     if (asked.statistics && !result.statistics)
-      answer.notes.push_back(std::string("there are no statistics of ") + side.name);
+      answer.notes.push_back(
+          note_of(NoteCode::kSurvey, std::string("there are no statistics of ") + side.name));
     return result;
   };
   const size_t count = answer.b_to_a ? 2 : 1;

@@ -15,7 +15,7 @@ namespace vkh {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
+double seconds_from(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -89,7 +89,7 @@ struct PairStream::Impl {
     const std::lock_guard lock(mutex);
     if (is_first) --unopened;
     all_tried.notify_all();
-    if (opened.empty()) times.start_s = seconds_since(start);
+    if (opened.empty()) times.start_s = seconds_from(start);
     const bool is_taken = std::any_of(opened.begin(), opened.end(), [&](const auto& other) {
       return other.index == device.index && other.name == device.name;
     });

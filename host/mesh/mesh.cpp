@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 
@@ -55,6 +56,27 @@ bool is_finite(const glm::dvec3& p) {
   std::array<char, 96> text;
   std::snprintf(text.data(), text.size(), "(%.9g, %.9g, %.9g) is not finite", p.x, p.y, p.z);
   reject(mesh.name, "vertex " + std::to_string(vertex), text.data(), "finite coordinates");
+}
+
+// Exponents of all ones, without a branch: compilers make vectors of it.
+uint64_t not_finite(const glm::dvec3& p) {
+  constexpr uint64_t kExponent = uint64_t{0x7ff} << 52;
+  const auto is_it = [](double x) {
+    return uint64_t{(std::bit_cast<uint64_t>(x) & kExponent) == kExponent};
+  };
+  return is_it(p.x) | is_it(p.y) | is_it(p.z);
+}
+
+void check_finite(const Mesh& mesh, const Crew& crew) {
+  Least wrong;
+  crew.for_parts(mesh.vertices.size(), [&](size_t, size_t begin, size_t end) {
+    uint64_t any = 0;
+    for (size_t v = begin; v < end; ++v) any |= not_finite(mesh.vertices[v]);
+    for (size_t v = begin; any != 0 && v < end; ++v) {
+      if (not_finite(mesh.vertices[v]) != 0) return wrong.see(v);
+    }
+  });
+  if (wrong.found()) reject_vertex(mesh, wrong.number());
 }
 
 // 1 for each vertex that a face uses, else 0. Looked at before it is set: a line of memory that
@@ -134,7 +156,25 @@ uint64_t count_degenerate(const Mesh& mesh, const Crew& crew) {
   });
 }
 
+void check_sizes(const Mesh& mesh) {
+  if (mesh.faces.empty()) reject(mesh.name, "face 0", "there is no face", "at least one triangle");
+  if (std::max(mesh.faces.size(), mesh.vertices.size()) >= UINT32_MAX)
+    reject(mesh.name, "element 4294967294", "too many elements", "fewer than 2^32 - 1");
+}
+
 }  // namespace
+
+void check_mesh(const Mesh& mesh) {
+  check_sizes(mesh);
+  const Crew crew(threads_for(mesh_bytes(mesh)), {}, {});
+  check_indices(mesh, crew);
+  check_finite(mesh, crew);
+  if (!(mesh.delta >= 0) || !std::isfinite(mesh.delta))
+    reject(mesh.name, "delta", std::to_string(mesh.delta), "a finite number, at least 0");
+  if (!mesh.file_faces.is_valid(mesh.faces.size()))
+    reject(mesh.name, "face " + std::to_string(mesh.faces.size()), "file_faces names more",
+           "those of " + std::to_string(mesh.faces.size()) + " triangles");
+}
 
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces,
                const Crew& crew, Positions positions) {
@@ -144,10 +184,7 @@ Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<g
             .faces = std::move(faces),
             .counts = {},
             .notes = {}};
-  if (mesh.faces.empty()) reject(mesh.name, "face 0", "there is no face", "at least one triangle");
-  if (std::max(mesh.faces.size(), mesh.vertices.size()) >= UINT32_MAX) {
-    reject(mesh.name, "element 4294967294", "too many elements", "fewer than 2^32 - 1");
-  }
+  check_sizes(mesh);
   check_indices(mesh, crew);
   drop_unreferenced(mesh, crew);
   mesh.counts.vertices = mesh.vertices.size();

@@ -11,46 +11,90 @@
 
 namespace vkh {
 
+/// glm::dvec3 and glm::uvec3, unless the program that includes this has its own alignment of those
+/// (GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, GLM_FORCE_INTRINSICS): these are packed there, too, as the
+/// library has them, and GLM converts between both.
+using DVec3 = glm::vec<3, double, glm::packed_highp>;
+using UVec3 = glm::vec<3, uint32_t, glm::packed_highp>;
+static_assert(sizeof(DVec3) == 24 && sizeof(UVec3) == 12 && alignof(DVec3) == alignof(double),
+              "VkHausdorff's vectors must be packed: compile this file without the GLM_FORCE_ "
+              "definitions that change glm::vec<3, double, glm::packed_highp>");
+
 /// What was counted while a mesh was accepted; all of it is reported, none of it changes the
 /// geometry but the unreferenced vertices, which are not part of a mesh and are dropped.
 struct MeshCounts {
   uint64_t vertices = 0;      ///< referenced vertices, kept
-  uint64_t faces = 0;         ///< triangles, after polygons were fanned
+  uint64_t faces = 0;         ///< triangles, after polygons were triangulated
   uint64_t unreferenced = 0;  ///< vertices that no face uses, dropped
   uint64_t degenerate =
       0;  ///< faces whose corners are collinear or coincide; kept as segments or points
   uint64_t duplicate = 0;  ///< faces whose three positions are those of an earlier face; kept
-  uint64_t polygons = 0;   ///< faces of more than three corners that were fanned into triangles
+  uint64_t polygons = 0;   ///< faces of more than three corners, triangulated
+};
+
+/// Says how a polygon became triangles.
+enum class PolygonKind {
+  kFan,        ///< convex, or all its corners lie on a line: the fan covers it
+  kClipped,    ///< simple or weakly simple, not convex: ears were clipped
+  kCrossing,   ///< its outline crosses itself: there is only the fan
+  kNoArea,     ///< its corners lie on no line, and the outline encloses nothing: likewise
+  kIntricate,  ///< undecided after 4,096 tests a corner: likewise
+};
+
+/// Whether the triangles are the fan because nothing else is known.
+constexpr bool has_only_fan(PolygonKind kind) {
+  return kind != PolygonKind::kFan && kind != PolygonKind::kClipped;
+}
+
+/// How the faces of more than three corners became triangles.
+struct Polygons {
+  uint64_t clipped = 0;       ///< not convex: triangulated by their outline
+  uint64_t fanned = 0;        ///< of those below: measured as the fan of their corners
+  uint64_t first_fanned = 0;  ///< its face, as the file counts from 0
+  /// Whether the outline of that face crosses itself, encloses no area or is too intricate.
+  PolygonKind first_kind = PolygonKind::kFan;
+  /// Any triangulation of the same outlines is as near to this mesh, both ways: what corners that
+  /// lie in no plane leave open. Those that have only a fan are not among them.
+  double ambiguity = 0;
+  uint64_t ambiguous_face = 0;  ///< the first with this ambiguity, as the file counts from 0
 };
 
 /// Coordinates are float64, so that float32 and float64 input are both held exactly. Face i is the
-/// i-th triangle of the input (polygons fanned in place); degenerate and duplicate faces stay.
+/// i-th triangle of the input (polygons triangulated in place); degenerate and duplicate faces
+/// stay.
 struct Mesh {
   std::string name;  ///< the file's path, or what a caller named it; starts every error line
-  std::vector<glm::dvec3> vertices;
-  std::vector<glm::uvec3> faces;
+  std::vector<DVec3> vertices;
+  std::vector<UVec3> faces;
   FileFaces file_faces = {};  ///< which face of the file each of them is of, for people
   MeshCounts counts;
+  Polygons polygons = {};
   /// No vertex is farther than this from its exact place: what a reader rounded beyond "as given",
   /// such as a scene's transforms. h is 1-Lipschitz in it, and the certified interval is wider by
   /// it.
   double delta = 0;
   std::string unit = {};  ///< of the coordinates, where the file says: "m", "mm", "in"; else empty
-  std::vector<std::string>
-      notes;  ///< one line each, for people: "3 polygons were fanned into triangles"
+  std::vector<std::string> notes;  ///< one line each, for people: "polygons: 3 faces of more than
+                                   ///< three corners were triangulated"
 };
 
 /// Of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.
 inline uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {
-  return sizeof(glm::dvec3) * vertex_count + sizeof(glm::uvec3) * face_count;
+  return sizeof(DVec3) * vertex_count + sizeof(UVec3) * face_count;
 }
 inline uint64_t mesh_bytes(const Mesh& mesh) {
   return mesh_bytes(mesh.vertices.size(), mesh.faces.size());
 }
 
+/// Throws InputError that names the element where a coordinate is not finite, an index is out of
+/// range, there is no face, `delta` is not a finite number of 0 or more, or `file_faces` are not
+/// those of so many triangles. Solver asks this of every mesh, for anything may be written into
+/// one.
+void check_mesh(const Mesh& mesh);
+
 /// Checks and cleans a mesh: drops unreferenced vertices, counts degenerate and duplicate faces.
 /// Throws InputError that names the element if a referenced coordinate is not finite, an index is
 /// out of range or there is no face. `faces` index into `vertices`.
-Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces);
+Mesh make_mesh(std::string name, std::vector<DVec3> vertices, std::vector<UVec3> faces);
 
 }  // namespace vkh

@@ -42,7 +42,7 @@ std::string fact(const char* name, const std::string& text, const std::string& m
 }
 
 // Outward: 100 times a share is rounded, unless it is 0 or 1.
-std::string percent(double share, double gap, Rounding rounding) {
+std::string percent_of_gap(double share, double gap, Rounding rounding) {
   double percent = 100 * share;
   if (share > 0 && share < 1) {
     percent = std::nextafter(percent, rounding == Rounding::kUp ? 101.0 : 0.0);
@@ -52,8 +52,8 @@ std::string percent(double share, double gap, Rounding rounding) {
 
 std::string share_text(const Enclosure& share) {
   const double gap = share.upper - share.lower;
-  const std::string low = percent(share.lower, gap, Rounding::kDown);
-  const std::string high = percent(share.upper, gap, Rounding::kUp);
+  const std::string low = percent_of_gap(share.lower, gap, Rounding::kDown);
+  const std::string high = percent_of_gap(share.upper, gap, Rounding::kUp);
   return (low == high ? high : low + " to " + high) + " %";
 }
 
@@ -92,7 +92,7 @@ std::string part_of_side(const char* tag, const char* style, bool back) {
          "\">";
 }
 
-std::string vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}).dump(); }
+std::string array_text(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}).dump(); }
 
 struct PlaceButton {
   std::string key, name, length, label;
@@ -100,7 +100,7 @@ struct PlaceButton {
 };
 std::string place_html(const PlaceButton& place) {
   return "<li><button type=\"button\" aria-pressed=\"false\" data-point=\"" +
-         vector_json(place.point) + "\" data-normal=\"" + vector_json(place.normal) +
+         array_text(place.point) + "\" data-normal=\"" + array_text(place.normal) +
          "\" data-label=\"" + html_text(place.label) + "\"><b>" + html_text(place.key) +
          "</b><span>" + html_text(place.name) + "</span><span>" + html_text(place.length) +
          "</span></button></li>";

@@ -17,7 +17,7 @@ constexpr size_t kPrintedNotes = 3;  // as style.css has it
 std::string head(const std::string& name) {
   return "<tr><th scope=\"row\">" + html_text(name) + "</th>";
 }
-std::string cell(const std::string& text) {
+std::string table_cell(const std::string& text) {
   return "<td><span class=\"clip\">" + html_text(text) + "</span></td>";
 }
 std::string code_cell(const std::string& text) {
@@ -39,7 +39,7 @@ std::string input_row(const PageText& page, const char* name, const Text& text) 
   const Json& inputs = page.json["inputs"];
   const std::string a = text(inputs[0]), b = text(inputs[1]);
   if (a.empty() && b.empty()) return "";
-  return head(name) + cell(a.empty() ? "0" : a) + cell(b.empty() ? "0" : b) + "</tr>";
+  return head(name) + table_cell(a.empty() ? "0" : a) + table_cell(b.empty() ? "0" : b) + "</tr>";
 }
 
 std::string count_row(const PageText& page, const char* name, const char* key, bool even_if_none) {
@@ -75,7 +75,7 @@ std::string command_text(const Json& json) {
   return out;
 }
 
-std::string seconds(double ms) {
+std::string duration_text(double ms) {
   std::array<char, 32> text{};
   const bool is_short = ms < 1000;
   std::snprintf(text.data(), text.size(), is_short ? "%.3g\u00a0ms" : "%.3g\u00a0s",
@@ -85,11 +85,11 @@ std::string seconds(double ms) {
 
 std::string times_text(const PageText& page) {
   const Json& times = page.json["times"];
-  std::string out = seconds(times["total_ms"].get<double>()) + " in all: reading " +
-                    seconds(times["read_ms"].get<double>()) + ", starting " +
-                    seconds(times["start_ms"].get<double>());
-  out += ", A to B " + seconds(page.answer.a_to_b.times.wall_ms);
-  if (page.answer.b_to_a) out += ", B to A " + seconds(page.answer.b_to_a->times.wall_ms);
+  std::string out = duration_text(times["total_ms"].get<double>()) + " in all: reading " +
+                    duration_text(times["read_ms"].get<double>()) + ", starting " +
+                    duration_text(times["start_ms"].get<double>());
+  out += ", A to B " + duration_text(page.answer.a_to_b.times.wall_ms);
+  if (page.answer.b_to_a) out += ", B to A " + duration_text(page.answer.b_to_a->times.wall_ms);
   return out;
 }
 
@@ -114,6 +114,24 @@ std::string device_text(const Json& json) {
          "), Vulkan " + text_or(device["api_version"], "not known");
 }
 
+/// The files that were read besides A and B, each with its hash; left out where there are none.
+std::string beneath_row(const Json& inputs) {
+  std::string cells;
+  bool is_any = false;
+  for (const Json& input : inputs) {
+    cells += "<td>";
+    if (input["files"].is_array()) {
+      for (const Json& file : input["files"]) {
+        is_any = true;
+        cells += "<code class=\"clip\">" + html_text(text_or(file["path"], "no name")) +
+                 "</code> <code>" + html_text(text_or(file["sha256"], "not known")) + "</code> ";
+      }
+    }
+    cells += "</td>";
+  }
+  return is_any ? head("SHA-256 of files beneath") + cells + "</tr>" : "";
+}
+
 }  // namespace
 
 std::string grouped(uint64_t count) {
@@ -132,7 +150,7 @@ std::string inputs_html(const PageText& page) {
       "<div class=\"pair\"><h2>Meshes</h2><table><thead><tr><th></th><th scope=\"col\">A</th>"
       "<th scope=\"col\">B</th></tr></thead><tbody>";
   out += head("file") + path(inputs[0]) + path(inputs[1]) + "</tr>";
-  out += head("SHA-256") + hash(inputs[0]) + hash(inputs[1]) + "</tr>";
+  out += head("SHA-256") + hash(inputs[0]) + hash(inputs[1]) + "</tr>" + beneath_row(inputs);
   out += count_row(page, "faces", "faces", true) + count_row(page, "vertices", "vertices", true);
   out += count_row(page, "degenerate", "degenerate", false) +
          count_row(page, "duplicate", "duplicate", false) +
@@ -153,18 +171,18 @@ std::string run_html(const PageText& page) {
   std::string out = "<div class=\"run\"><h2>Run</h2><table><tbody>";
   out += head("command") + code_cell(command_text(json)) + "</tr>";
   out += head("interval") + "<td><code id=\"digits\">" + every_digit(page) + "</code></td></tr>";
-  out += head("tolerance") + cell(tolerance_text(page)) + "</tr>";
-  out += head("device") + cell(device_text(json)) + "</tr>";
-  out += head("driver") + cell(text_or(json["driver"], "not known")) + "</tr>";
+  out += head("tolerance") + table_cell(tolerance_text(page)) + "</tr>";
+  out += head("device") + table_cell(device_text(json)) + "</tr>";
+  out += head("driver") + table_cell(text_or(json["driver"], "not known")) + "</tr>";
   out += head("program") +
-         cell("vkhausdorff " + json["version"].get<std::string>() + ", preset " +
-              text_or(json["options"]["preset"], "default")) +
+         table_cell("vkhausdorff " + json["version"].get<std::string>() + ", preset " +
+                    text_or(json["options"]["preset"], "default")) +
          "</tr>";
   out += head("started") +
-         cell(text_or(json["started"], "not known") + " on " +
-              text_or(json["host"], "a machine without a name")) +
+         table_cell(text_or(json["started"], "not known") + " on " +
+                    text_or(json["host"], "a machine without a name")) +
          "</tr>";
-  out += head("wall time") + cell(times_text(page)) + "</tr>";
+  out += head("wall time") + table_cell(times_text(page)) + "</tr>";
   return out + "</tbody></table></div>";
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
@@ -24,22 +24,10 @@ constexpr std::array kStatuses{Status::kClosed, Status::kPrecision, Status::kTim
 struct Part {
   const WrittenAnswer* written;
   uint64_t index, count;
-  std::string version, sha256_a, sha256_b;
-  Report report;  ///< interval, status, tolerance, what was known
+  std::string version;
+  std::array<std::vector<FileHash>, 2> files;  ///< of A and B, the mesh file first, by its hash
+  Report report;                               ///< interval, status, tolerance, what was known
 };
-
-/// As hex_float() writes them: from_chars, which no locale changes.
-double bound(const Json& object, const char* key) {
-  const auto& text = object.at(key).get_ref<const std::string&>();
-  if (text == "inf") return std::numeric_limits<double>::infinity();
-  const std::string digits = text.starts_with("0x") ? text.substr(2) : "";
-  const char* end = digits.data() + digits.size();
-  double value = 0;
-  const auto result = std::from_chars(digits.data(), end, value, std::chars_format::hex);
-  if (result.ec != std::errc() || result.ptr != end || !(value >= 0))
-    throw InputError(std::string(key) + " '" + text + "'");
-  return value;
-}
 
 Status status_named(const std::string& name) {
   const auto found = std::find_if(kStatuses.begin(), kStatuses.end(),
@@ -52,9 +40,10 @@ Report report_of(const Json& json) {
   const Json& direction = json.at("directions").at(0);
   const Json& interval = direction.at("interval");
   Report r;
-  r.lower = bound(interval, "lower_hex");
-  r.upper = bound(interval, "upper_hex");
-  if (r.lower > r.upper) throw InputError("an interval whose lower end is above its upper");
+  r.lower = bound_in(interval, "lower");
+  r.upper = bound_in(interval, "upper");
+  if (r.lower > r.upper || std::isinf(r.lower))
+    throw InputError("an interval whose lower end is above its upper");
   r.status = status_named(direction.at("status"));
   r.tolerance = json.at("tolerance").at("absolute");
   r.diagonal_a = json.at("tolerance").at("diagonal");
@@ -64,9 +53,31 @@ Report report_of(const Json& json) {
   return r;
 }
 
-std::string digest_of(const Json& input) {
-  const Json& digest = input.at("sha256");
-  return digest.is_string() ? digest.get<std::string>() : "";
+FileHash hash_of(const Json& path, const Json& digest) {
+  if (!digest.is_string()) throw InputError("no SHA-256 of a file that was read");
+  return {path.get<std::string>(), digest.get<std::string>()};
+}
+
+/// The names of A and B themselves say nothing: parts may be measured in several folders.
+std::vector<FileHash> files_of(const Json& input) {
+  std::vector<FileHash> files{hash_of("", input.at("sha256"))};
+  if (!input.contains("files"))
+    throw InputError(
+        "no word on files that were read besides A and B, as answers have since 0.2.0");
+  for (const Json& file : input.at("files"))
+    files.push_back(hash_of(file.at("path"), file.at("sha256")));
+  return files;
+}
+
+/// Checks that what is added up over parts are whole numbers.
+void check_counts(const Json& direction) {
+  std::vector<const Json*> objects{&direction.at("counts")};
+  if (direction.contains("culled")) objects.push_back(&direction.at("culled"));
+  if (direction.contains("verified") && direction.at("verified").contains("faces"))
+    objects.push_back(&direction.at("verified").at("faces"));
+  for (const Json* counts : objects) {
+    for (const auto& [key, value] : counts->items()) (void)count_in(*counts, key);
+  }
 }
 
 Part parsed(const WrittenAnswer& written) {
@@ -74,12 +85,13 @@ Part parsed(const WrittenAnswer& written) {
   try {
     if (!is_part(json) || json.at("schema") != "vkhausdorff.answer/1")
       throw InputError("no answer of a part");
+    check_bounds(json);
+    check_counts(json.at("directions").at(0));
     return {.written = &written,
-            .index = json.at("part").at("index"),
-            .count = json.at("part").at("count"),
+            .index = count_in(json.at("part"), "index"),
+            .count = count_in(json.at("part"), "count"),
             .version = json.at("version"),
-            .sha256_a = digest_of(json.at("inputs").at(0)),
-            .sha256_b = digest_of(json.at("inputs").at(1)),
+            .files = {files_of(json.at("inputs").at(0)), files_of(json.at("inputs").at(1))},
             .report = report_of(json)};
   } catch (const Json::exception& error) {
     reject(written.file, written.place, error.what(), "an answer of 'distance --part'");
@@ -95,11 +107,12 @@ void check_alike(const Part& part, const Part& first) {
       reject(at.file, at.place, std::string("another ") + what,
              "that of " + first.written->file + ": " + first.written->place);
   };
-  if (part.sha256_a.empty() || part.sha256_b.empty())
-    reject(at.file, at.place, "no SHA-256 of A and B", "answers that say what they are of");
   same(part.count, first.count, "number of parts");
-  same(part.sha256_a, first.sha256_a, "A");
-  same(part.sha256_b, first.sha256_b, "B");
+  for (size_t i = 0; i < part.files.size(); ++i) {
+    const char* name = i == 0 ? "A" : "B";
+    same(part.files[i].front(), first.files[i].front(), name);
+    same(part.files[i], first.files[i], (std::string("file beneath ") + name).c_str());
+  }
   same(part.report.tolerance, first.report.tolerance, "tolerance");
   same(at.json.at("tolerance").at("unit"), first.written->json.at("tolerance").at("unit"), "unit");
   same(part.version, first.version, "version");
@@ -204,8 +217,8 @@ std::string verified_text(const std::vector<Part>& parts) {
   const Json& of_witness = direction_of(farthest(parts)).at("verified");
   JsonObject json;
   json.add("witness", of_witness.at("witness"));
-  json.add_bound("distance_lower", bound(of_witness, "distance_lower_hex"), Rounding::kDown);
-  json.add_bound("distance_upper", bound(of_witness, "distance_upper_hex"), Rounding::kUp);
+  json.add_bound("distance_lower", bound_in(of_witness, "distance_lower"), Rounding::kDown);
+  json.add_bound("distance_upper", bound_in(of_witness, "distance_upper"), Rounding::kUp);
   bool holds = true;
   std::vector<const Json*> faces;
   for (const Json* one : members(parts, "verified")) {
@@ -340,6 +353,11 @@ bool is_part(const Json& answer) { return answer.is_object() && answer.contains(
 std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files) {
   std::vector<WrittenAnswer> parts;
   for (const std::string& path : files) {
+    std::error_code none;
+    // A pipe would be waited for a second time, without end.
+    if (std::filesystem::exists(path_of(path), none) &&
+        !std::filesystem::is_regular_file(path_of(path), none))
+      throw InputError(path + ": is no file; expected results in files, which are read twice");
     std::ifstream file(path_of(path), std::ios::binary);
     if (!file) throw InputError(path + ": cannot be read; expected results");
     uint64_t number = 0;

@@ -141,6 +141,7 @@ uint64_t face_of_whole(const FaceRanges& ranges, uint64_t face) {
 Report distance_of_part(const Distance& distance, const Mesh& a, const FaceRanges& ranges,
                         const Mesh& b, const SolveOptions& options) {
   const FloatEnvironment ours;
+  check_mesh(a);
   const double diagonal_a = diagonal(bounding_box(a));
   Report r = distance(part_of(a, ranges), b, options_of_part(options, diagonal_a));
   r.diagonal_a = diagonal_a;

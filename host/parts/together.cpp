@@ -226,6 +226,7 @@ Report distance_over(std::span<Solver* const> solvers, const Mesh& a, const Mesh
   if (solvers.empty()) throw UsageError("no device was given");
   if (solvers.size() == 1) return solvers[0]->distance(a, b, options);
   const FloatEnvironment ours;
+  check_mesh(a);
   return Together(solvers, a, b, options).run();
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "host/base/error.h"
+#include "host/base/text_scanner.h"
 #include "host/record/exit_code.h"
 #include "host/system/system.h"
 
@@ -105,8 +106,7 @@ Failure failure_of(const std::string& message, int code, const PairJob& job) {
   for (const std::string& file : {job.file_a, job.file_b, job.face_max_a, job.face_max_b}) {
     if (file.empty() || !message.starts_with(file + ": ")) continue;
     failure.file = file;
-    const size_t begin = file.size() + 2, end = message.find(": ", begin);
-    if (end != std::string::npos) failure.place = message.substr(begin, end - begin);
+    failure.place = place_in(message, file);
     break;
   }
   return failure;

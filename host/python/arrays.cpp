@@ -20,7 +20,7 @@ namespace py = pybind11;
 }
 
 // Text of a Python object, such as a shape or a dtype.
-std::string text_of(const py::object& object) { return py::cast<std::string>(py::str(object)); }
+std::string in_words(const py::object& object) { return py::cast<std::string>(py::str(object)); }
 
 // Whatever NumPy takes for an array, of three columns. Rows of none are left to make_mesh.
 py::array array_from(const std::string& what, const py::object& object,
@@ -28,10 +28,10 @@ py::array array_from(const std::string& what, const py::object& object,
   py::array array = py::array::ensure(object);
   if (!array) {
     PyErr_Clear();
-    refuse(what, "no array can be made of " + text_of(py::type::of(object)), expected);
+    refuse(what, "no array can be made of " + in_words(py::type::of(object)), expected);
   }
   if (array.ndim() != 2 || array.shape(1) != 3)
-    refuse(what, "an array of shape " + text_of(array.attr("shape")), expected);
+    refuse(what, "an array of shape " + in_words(array.attr("shape")), expected);
   return array;
 }
 
@@ -90,7 +90,7 @@ std::vector<glm::dvec3> vertices_from(const std::string& name, const py::object&
   // Wider floats would be rounded, too.
   const bool is_float =
       kind == 'f' && (given.dtype().itemsize() == 4 || given.dtype().itemsize() == 8);
-  if (!is_float) refuse(what, "an array of " + text_of(given.dtype()), expected);
+  if (!is_float) refuse(what, "an array of " + in_words(given.dtype()), expected);
   return floats_from(given);
 }
 
@@ -120,7 +120,7 @@ std::vector<glm::uvec3> faces_from(const std::string& name, const py::object& ob
   const char kind = given.dtype().kind();
   if (kind == 'i') return indices_from<int64_t>(what, given, vertex_count);
   if (kind == 'u') return indices_from<uint64_t>(what, given, vertex_count);
-  refuse(what, "an array of " + text_of(given.dtype()), expected);
+  refuse(what, "an array of " + in_words(given.dtype()), expected);
 }
 
 }  // namespace

@@ -22,15 +22,14 @@ py::object exception_of(const std::exception_ptr& error) {
   return py::none();
 }
 
-Answer answer_of(StreamResult&& result, bool is_symmetric) {
+Answer streamed_answer(StreamResult&& result, bool is_symmetric) {
   Answer answer;
   if (result.error) {
     answer.error = exception_of(result.error);
   } else if (is_symmetric && result.b_to_a) {
-    answer =
-        python::answer_of(SymmetricReport{std::move(result.a_to_b), std::move(*result.b_to_a)});
+    answer = answer_of(SymmetricReport{std::move(result.a_to_b), std::move(*result.b_to_a)});
   } else {
-    answer = python::answer_of(result.a_to_b);
+    answer = answer_of(result.a_to_b);
   }
   answer.index = result.number;
   return answer;
@@ -95,12 +94,12 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 }  // namespace
 
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distances",
-                    {"against", "tol", "symmetric", "max", "device", "time", "waves", "memory",
-                     "disable", "enable", "preset", "together", "lanes", "ahead", "max_input"},
-                    0,
-                    0};
+  static const auto* signature = new Signature{
+      "distances",
+      {"against", "tol", "symmetric", "max", "device", "time", "waves", "memory", "disable",
+       "enable", "preset", "together", "lanes", "ahead", "max_input", "polygons"},
+      0,
+      0};
   const Call call;
   const Arguments given(*signature, positional, named);
   mark_used();
@@ -142,7 +141,7 @@ py::object PythonStream::take(bool waits) {
     }
   }
   if (!result) return py::none();
-  Answer answer = answer_of(std::move(*result), is_symmetric_);
+  Answer answer = streamed_answer(std::move(*result), is_symmetric_);
   const auto id = ids_.extract(*answer.index);
   if (id) answer.id = id.mapped();
   return py::cast(std::move(answer));

@@ -172,7 +172,7 @@ FileFaces file_faces_from(const py::object& state, size_t triangle_count) {
 
 const Mesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
 
-py::dict counts_of(const MeshCounts& c) {
+py::dict file_counts_of(const MeshCounts& c) {
   using py::literals::operator""_a;
   return py::dict("vertices"_a = c.vertices, "faces"_a = c.faces, "unreferenced"_a = c.unreferenced,
                   "degenerate"_a = c.degenerate, "duplicate"_a = c.duplicate,
@@ -191,7 +191,7 @@ py::tuple state_of(const py::object& self) {
                         runs_of(mesh.file_faces));
 }
 
-FileMesh from_state(const py::tuple& state) {
+FileMesh mesh_from_state(const py::tuple& state) {
   const Call call;
   if (state.size() != 9) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
   Mesh mesh = mesh_from("a pickled Mesh", state[1], state[2]);
@@ -206,7 +206,7 @@ FileMesh from_state(const py::tuple& state) {
 }
 
 FileMesh read(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{"read", {"path", "max_input"}, 1, 1};
+  static const auto* signature = new Signature{"read", {"path", "max_input", "polygons"}, 1, 1};
   const Call call;
   const Arguments given(*signature, positional, named);
   const py::object& path = given.at("path");
@@ -248,7 +248,7 @@ void define_mesh(py::module_& m) {
                              "no vertex is farther from its exact place: what transforms of a "
                              "scene round.\nIntervals are wider by it")
       .def_property_readonly("counts",
-                             of_mesh([](const Mesh& mesh) { return counts_of(mesh.counts); }),
+                             of_mesh([](const Mesh& mesh) { return file_counts_of(mesh.counts); }),
                              "what was counted: vertices, faces, unreferenced, degenerate, "
                              "duplicate, polygons")
       .def_property_readonly("notes", of_mesh([](const Mesh& mesh) { return mesh.notes; }),
@@ -258,14 +258,15 @@ void define_mesh(py::module_& m) {
                     std::to_string(mesh.faces.size()) + " faces>";
            }))
       .def(py::pickle([](const py::object& self) { return state_of(self); },
-                      [](const py::tuple& state) { return from_state(state); }));
+                      [](const py::tuple& state) { return mesh_from_state(state); }));
   m.def(
       "read", read,
-      "read(path, *, max_input=None)\n--\n\n"
+      "read(path, *, max_input=None, polygons='refuse')\n--\n\n"
       "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
       "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
       "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
-      "and one whose mesh takes more, 24 bytes a vertex and 12 a face.");
+      "and one whose mesh takes more, 24 bytes a vertex and 12 a face. polygons: 'fan' measures\n"
+      "the fan of a polygon whose outline crosses itself or encloses no area; else it is refused.");
 }
 
 void raise(const FileFault& fault) {
@@ -293,6 +294,11 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const py::ob
 ReadLimits limits_of(const Arguments& given) {
   ReadLimits limits;
   limits.max_input_bytes = size_of(given, "max_input").value_or(limits.max_input_bytes);
+  constexpr const char* kPolygons = "'refuse', or 'fan' for the fan of what has no triangulation";
+  const std::string polygons = given.text("polygons", kPolygons);
+  if (polygons == "fan") limits.odd_polygons = OddPolygons::kFanned;
+  if (!polygons.empty() && polygons != "fan" && polygons != "refuse")
+    refuse_value("polygons", kPolygons, given.at("polygons"));
   return limits;
 }
 

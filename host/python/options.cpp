@@ -82,7 +82,7 @@ MaxAsked read_max(const Arguments& given, const char* expected) {
 Limit limit_for(const MaxAsked& max, const Mesh& a) {
   const FloatEnvironment ours;
   if (const auto* limit = std::get_if<Limit>(&max)) return *limit;
-  return in_files(std::get<Length>(max), "max", "", diagonal(bounding_box(a)));
+  return limit_in_files(std::get<Length>(max), "max", "", diagonal(bounding_box(a)));
 }
 
 }  // namespace vkh::python

@@ -71,7 +71,7 @@ Answer read_state(const py::tuple& state) {
   return r;
 }
 
-Answer from_state(const py::tuple& state) {
+Answer answer_from_state(const py::tuple& state) {
   constexpr const char* kStranger = "this pickle is not of a vkhausdorff.Result";
   try {
     return read_state(state);
@@ -221,7 +221,7 @@ void define_values(py::class_<Answer>& result) {
             const Answer& r = made<Answer>(self, "Result");
             return py::tuple(proven(r) + py::make_tuple(r.stats, r.index, r.id, r.error));
           },
-          [](const py::tuple& state) { return from_state(state); }));
+          [](const py::tuple& state) { return answer_from_state(state); }));
 }
 
 // What distances() says of a pair besides.

@@ -18,13 +18,13 @@ std::set<Session*>& sessions_alive() {
   return *alive;
 }
 
-struct Asked {
+struct Question {
   PyObject* progress;
   const Progress* p;
 };
 
 Reply ask_python(void* data) {
-  const auto& [progress, p] = *static_cast<const Asked*>(data);
+  const auto& [progress, p] = *static_cast<const Question*>(data);
   if (PyErr_CheckSignals() != 0) return Reply::kRaised;
   if (progress == Py_None) return Reply::kGoOn;
   PyObject* answer = PyObject_CallFunction(progress, "Idd", p->wave, p->lower, p->upper);
@@ -125,13 +125,13 @@ void Session::free_all() {
 
 void listen_to(const py::object& progress, SolveOptions& options) {
   options.progress = [&progress](const Progress& p) {
-    Asked asked{progress.ptr(), &p};
+    Question asked{progress.ptr(), &p};
     return ask(ask_python, &asked);
   };
 }
 
 void hear_signals() {
-  Asked asked{Py_None, nullptr};
+  Question asked{Py_None, nullptr};
   ask(ask_python, &asked);
 }
 

@@ -20,13 +20,13 @@ namespace py = pybind11;
 constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as '0' or part of a name";
 
 /// The limit of gate(): one for all, or of each face.
-struct Asked {
+struct GateWish {
   Limit limit;
   std::optional<std::vector<Limit>> of_faces;
 };
 
 /// In A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for A's faces.
-Asked read_asked(const Arguments& given, const Mesh& a) {
+GateWish read_gate_wish(const Arguments& given, const Mesh& a) {
   constexpr const char* kExpected =
       "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or a "
       "number for each face of A";
@@ -174,7 +174,7 @@ Answer gate(const py::args& positional, const py::kwargs& named) {
   const Arguments arguments(*signature, positional, named);
   Given given(arguments, mesh_of("a", "A", arguments.at("a")),
               mesh_of("b", "B", arguments.at("b")));
-  const Asked asked = read_asked(arguments, *given.a);
+  const GateWish asked = read_gate_wish(arguments, *given.a);
   if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
   read_area(arguments, asked.limit, given.survey);
   if (given.certificate.is_asked() && (asked.of_faces || given.survey.area))

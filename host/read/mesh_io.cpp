@@ -5,9 +5,12 @@
 #include <cctype>
 #include <fstream>
 
+#include "host/base/byte_order_mark.h"
 #include "host/base/float_environment.h"
+#include "host/base/note.h"
 #include "host/base/text_scanner.h"
 #include "host/read/readers.h"
+#include "host/read/strangers.h"
 #include "host/system/system.h"
 
 namespace vkh {
@@ -16,25 +19,30 @@ namespace {
 constexpr const char* kExpectedFormats = "an OBJ, STL, PLY, OFF, glTF or 3MF file";
 constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
 
+void refuse_stranger(const std::string& name, const Stranger& stranger) {
+  if (!stranger.what.empty()) reject(name, "byte 0", stranger.what, stranger.expected);
+}
+
 // What people pass by mistake, so that they are told more than that a keyword is missing.
 void reject_known_strangers(const MeshSource& source, std::string_view head) {
-  struct Stranger {
+  struct Wrapped {
     std::string_view magic;
     const char* what;
     const char* expected;
   };
-  constexpr std::array<Stranger, 4> kStrangers = {{
+  constexpr std::array<Wrapped, 4> kWrapped = {{
       {"\x1f\x8b", "gzip-compressed data", "the file unpacked (gunzip)"},
       {"version https://git-lfs", "a Git LFS pointer", "the file itself (git lfs pull)"},
       {"\xfe\xff", "UTF-16 text", "ASCII or UTF-8"},
       {"\xff\xfe", "UTF-16 text", "ASCII or UTF-8"},
   }};
   if (head.empty()) reject(source.name, "byte 0", "the file is empty", kExpectedFormats);
-  for (const Stranger& stranger : kStrangers) {
-    if (head.starts_with(stranger.magic) && !is_exact_binary_stl(head, source.size())) {
-      reject(source.name, "byte 0", stranger.what, stranger.expected);
-    }
+  if (is_exact_binary_stl(head, source.size())) return;
+  for (const Wrapped& wrapped : kWrapped) {
+    if (head.starts_with(wrapped.magic))
+      reject(source.name, "byte 0", wrapped.what, wrapped.expected);
   }
+  refuse_stranger(source.name, stranger_by_content(head));
 }
 
 std::string lower_case(std::string_view text) {
@@ -43,10 +51,13 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
+std::string extension_of(const std::string& name) {
+  return lower_case(name_of(path_of(name).extension()));
+}
+
 using Parse = Mesh (*)(const MeshSource&);
 
-Parse parser_by_extension(const std::string& name) {
-  const std::string extension = lower_case(name_of(path_of(name).extension()));
+Parse parser_by_extension(const std::string& extension) {
   if (extension == ".obj") return parse_obj;
   if (extension == ".stl") return parse_stl;
   if (extension == ".ply") return parse_ply;
@@ -54,6 +65,14 @@ Parse parser_by_extension(const std::string& name) {
   if (extension == ".gltf" || extension == ".glb") return parse_gltf;
   if (extension == ".3mf") return parse_3mf;
   return nullptr;
+}
+
+// STOFF, 4nOFF and the like, perhaps with a count glued to it.
+bool is_off_keyword(std::string_view word) {
+  constexpr size_t kMostPrefix = 5;
+  const size_t at = word.find("OFF");
+  return at <= kMostPrefix &&
+         word.find_first_not_of("0123456789", at + 3) == std::string_view::npos;
 }
 
 Parse parser_by_content(std::string_view head, uint64_t size) {
@@ -64,7 +83,7 @@ Parse parser_by_content(std::string_view head, uint64_t size) {
   scanner.next_full_line();
   const std::string_view word = scanner.word();
   if (word == "ply") return parse_ply;
-  if (word.size() >= 3 && word.size() <= 8 && word.ends_with("OFF")) return parse_off;
+  if (is_off_keyword(word)) return parse_off;
   if (lower_case(word) == "solid") return parse_stl;
   if (word.starts_with('{')) return parse_gltf;
   return nullptr;
@@ -79,16 +98,13 @@ bool looks_like_obj(std::string_view head) {
   return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
 }
 
-// Windows editors put one before UTF-8 text, where it hides the first word.
-constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
-
 MeshSource without_byte_order_mark(const MeshSource& given, std::string_view head) {
   MeshSource source = given;
-  if (!head.starts_with(kMark)) return source;
+  if (!head.starts_with(kByteOrderMark)) return source;
   if (source.file != nullptr) {
-    source.begin += kMark.size();
+    source.begin += kByteOrderMark.size();
   } else {
-    source.bytes.remove_prefix(kMark.size());
+    source.bytes.remove_prefix(kByteOrderMark.size());
   }
   return source;
 }
@@ -106,11 +122,11 @@ std::string read_pipe(const std::filesystem::path& path, const std::string& name
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status)) {
     const char* what = std::filesystem::exists(status) ? "not a file" : "no such file";
-    reject(name, "byte 0", error && std::filesystem::exists(status) ? error.message() : what,
+    reject(name, "", error && std::filesystem::exists(status) ? error.message() : what,
            kExpectedFormats);
   }
   std::ifstream in(path, std::ios::binary);
-  if (!in) reject(name, "byte 0", "the file cannot be opened", "permission to read it");
+  if (!in) reject(name, "", "the file cannot be opened", "permission to read it");
   constexpr size_t kPiece = size_t{1} << 20;
   std::string bytes;
   while (in) {
@@ -128,27 +144,47 @@ std::string read_pipe(const std::filesystem::path& path, const std::string& name
   return bytes;
 }
 
+// The reader of a file and what it reads; throws InputError where none fits.
+struct Told {
+  Parse parse;
+  MeshSource source;
+};
+
+Told told_format(const MeshSource& file) {
+  constexpr size_t kHead = 4096;  // tells the format
+  check_going(file.name, file.limits);
+  const std::string start = head_of(file, kByteOrderMark.size() + kHead);
+  reject_known_strangers(file, start);
+  const MeshSource source = without_byte_order_mark(file, start);
+  const std::string_view head = std::string_view(start).substr(file.size() - source.size(), kHead);
+  const std::string extension = extension_of(source.name);
+  Parse parse = parser_by_content(head, source.size());
+  // Other formats are zip archives, too.
+  if (parse == parse_3mf) refuse_stranger(source.name, stranger_by_extension(extension));
+  if (!parse) parse = parser_by_extension(extension);
+  if (!parse && looks_like_obj(head)) parse = parse_obj;
+  if (!parse) refuse_stranger(source.name, stranger_by_extension(extension));
+  if (!parse)
+    reject(source.name, "byte 0", "neither content nor name tells what it is", kExpectedFormats);
+  return {parse, source};
+}
+
+std::string folder_beside(const std::filesystem::path& path) {
+  return path.has_parent_path() ? name_of(path.parent_path()) : ".";
+}
+
 }  // namespace
 
 Mesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
-  constexpr size_t kHead = 4096;  // tells the format
-  check_going(file.name, file.limits);
-  const std::string start = head_of(file, kMark.size() + kHead);
-  reject_known_strangers(file, start);
-  const MeshSource source = without_byte_order_mark(file, start);
-  const std::string_view head = std::string_view(start).substr(file.size() - source.size(), kHead);
-  Parse parse = parser_by_content(head, source.size());
-  if (!parse) parse = parser_by_extension(source.name);
-  if (!parse && looks_like_obj(head)) parse = parse_obj;
-  if (!parse) reject(source.name, "byte 0", "neither content nor name tells", kExpectedFormats);
-  return parse(source);
+  const Told told = told_format(file);
+  return told.parse(told.source);
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string name = name_of(path);
   const InputFile file(path);
-  const std::string folder = path.has_parent_path() ? name_of(path.parent_path()) : ".";
+  const std::string folder = folder_beside(path);
   if (!file.is_open()) {
     const std::string bytes = read_pipe(path, name, limits);
     return parse_mesh({.name = name, .bytes = bytes, .limits = limits, .folder = folder});
@@ -158,11 +194,32 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   return parse_mesh({.name = name, .bytes = {}, .limits = limits, .file = &file, .folder = folder});
 }
 
+std::vector<FileBeneath> files_beneath(const std::filesystem::path& path,
+                                       const ReadLimits& limits) {
+  const FloatEnvironment ours;
+  const InputFile file(path);
+  if (!file.is_open() || file.size() > limits.max_input_bytes) return {};
+  const std::string name = name_of(path);
+  try {
+    const Told told = told_format({.name = name,
+                                   .bytes = {},
+                                   .limits = limits,
+                                   .file = &file,
+                                   .folder = folder_beside(path)});
+    if (told.parse != &parse_gltf) return {};
+    return files_of_gltf(told.source);
+  } catch (const InputError&) {  // read_mesh says so, too
+    return {};
+  }
+}
+
 std::vector<double> read_face_property(const std::filesystem::path& path, std::string_view name) {
   const FloatEnvironment ours;
   const InputFile file(path);
-  if (!file.is_open()) reject(name_of(path), "byte 0", "no file to be read", "a PLY file");
-  return parse_face_property({.name = name_of(path), .bytes = {}, .file = &file}, name);
+  if (!file.is_open()) reject(name_of(path), "", "no file to be read", "a PLY file");
+  const MeshSource source = {.name = name_of(path), .bytes = {}, .file = &file};
+  return parse_face_property(
+      without_byte_order_mark(source, head_of(source, kByteOrderMark.size())), name);
 }
 
 void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
@@ -174,7 +231,8 @@ void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
       scanner.fail("a row more than announced", "as many rows as the header says");
     }
   }
-  if (!first.empty()) notes.push_back("what follows the last row ignored, from " + first);
+  if (!first.empty())
+    notes.push_back(note_of(NoteCode::kUnread, "what follows the last row ignored, from " + first));
 }
 
 }  // namespace vkh

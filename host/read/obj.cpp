@@ -5,7 +5,9 @@
 // through atoi, which wraps 2^32+3 to 3; continued lines and '2/2/' are refused.
 #include <algorithm>
 #include <array>
+#include <cctype>
 
+#include "host/base/note.h"
 #include "host/read/readers.h"
 #include "host/source/text_blocks.h"
 
@@ -19,18 +21,29 @@ constexpr const char* kIndexForms = "a vertex index such as 7, 7/1, 7//1 or 7/1/
 // tinyobj's bone weights and tags (vw, t), materials that were pasted in and colours (newmtl to
 // vc), and the words that only describe a curve or a free-form surface. What is no triangle mesh is
 // noted: points, lines and curves; free-form surfaces, which we do not read; files and commands
-// that are called. Any other word is refused: F, fo (the first versions' f), V, a keyword misspelt
-// or glued to something, text.
-enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kUnknown };
+// that are called; lines that begin with $ or //, as programs write remarks that OBJ has no sign
+// for. Any other word is refused: F, fo (the first versions' f), V, a keyword misspelt or glued to
+// something, text.
+enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kRemark, kUnknown };
+
+// A line of a material library (MTL), as some exporters paste it into the mesh: those that name a
+// picture, by any word behind map_.
+bool is_map(std::string_view keyword) {
+  static constexpr std::array<std::string_view, 6> kMaps = {"bump", "Bump",  "disp",
+                                                            "refl", "decal", "norm"};
+  return keyword.starts_with("map_") || keyword.starts_with("Map_") ||
+         std::find(kMaps.begin(), kMaps.end(), keyword) != kMaps.end();
+}
 
 Line kind_of(std::string_view keyword) {
-  static constexpr std::array<std::string_view, 46> kSkipped = {
+  static constexpr std::array<std::string_view, 54> kSkipped = {
       "",          "vn",    "vt",     "g",     "s",      "o",        "usemtl",   "mtllib",
       "vp",        "vw",    "t",      "mg",    "usemap", "maplib",   "lod",      "shadow_obj",
       "trace_obj", "end",   "cstype", "deg",   "bmat",   "c_interp", "d_interp", "sp",
       "step",      "parm",  "trim",   "hole",  "scrv",   "con",      "ctech",    "stech",
       "res",       "bevel", "newmtl", "illum", "Ka",     "Kd",       "Ks",       "Ke",
-      "Ns",        "Ni",    "d",      "Tr",    "Tf",     "vc"};
+      "Ns",        "Ni",    "d",      "Tr",    "Tf",     "vc",       "Km",       "sharpness",
+      "Pr",        "Pm",    "Ps",     "Pc",    "Pcr",    "aniso"};
   static constexpr std::array<std::string_view, 6> kElements = {"p",     "l",   "curv",
                                                                 "curv2", "cdc", "cdp"};
   static constexpr std::array<std::string_view, 3> kSurfaces = {"surf", "bsp", "bzp"};
@@ -42,7 +55,9 @@ Line kind_of(std::string_view keyword) {
   if (is_in(kSkipped)) return Line::kSkipped;
   if (is_in(kElements)) return Line::kElement;
   if (is_in(kSurfaces)) return Line::kSurface;
-  return keyword == "call" || keyword == "csh" ? Line::kCall : Line::kUnknown;
+  if (keyword == "call" || keyword == "csh") return Line::kCall;
+  if (keyword.starts_with('$') || keyword.starts_with("//")) return Line::kRemark;
+  return is_map(keyword) ? Line::kSkipped : Line::kUnknown;
 }
 
 /// Of what a block's faces refer to.
@@ -56,13 +71,26 @@ struct Ignored {
   uint64_t elements = 0;  ///< points, lines and curves
   uint64_t surfaces = 0;
   uint64_t calls = 0;
+  uint64_t remarks = 0;
+  std::string first_remark = {};  ///< how it begins, quoted
 
   void add(const Ignored& more) {
     elements += more.elements;
     surfaces += more.surfaces;
     calls += more.calls;
+    if (remarks == 0) first_remark = more.first_remark;
+    remarks += more.remarks;
   }
 };
+
+// C libraries print a float that is no number, or infinite, as nan, -nan(ind), 1.#QNAN or inf.
+bool is_printed_nan(std::string_view word) {
+  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with("1.#")) return true;
+  std::string lower(word.substr(0, 3));
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower == "nan" || lower == "inf";
+}
 
 class ObjReader {
  public:
@@ -114,7 +142,8 @@ class ObjReader {
     static constexpr std::array<std::string_view, 10> kNames = {
         "",       "usemtl", "mtllib",     "usemap",    "maplib",
         "newmtl", "o",      "shadow_obj", "trace_obj", "lod"};
-    if (std::find(kNames.begin(), kNames.end(), keyword) != kNames.end()) return Continued::kNot;
+    if (std::find(kNames.begin(), kNames.end(), keyword) != kNames.end() || is_map(keyword))
+      return Continued::kNot;
     return keyword == "g" ? Continued::kByNames : Continued::kByNumbers;
   }
 
@@ -126,7 +155,10 @@ class ObjReader {
     ignored_.elements += line == Line::kElement ? 1 : 0;
     ignored_.surfaces += line == Line::kSurface ? 1 : 0;
     ignored_.calls += line == Line::kCall ? 1 : 0;
-    if (!scanner_.is_continued()) {
+    if (line == Line::kRemark) {
+      if (ignored_.remarks++ == 0) ignored_.first_remark = quoted(keyword);
+      continued_ = Continued::kNot;
+    } else if (!scanner_.is_continued()) {
       continued_ = Continued::kNot;
     } else if (line != Line::kUnknown) {
       continued_ = continued_by(keyword);
@@ -158,9 +190,15 @@ class ObjReader {
     glm::dvec3 p{};
     for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
     double unused = 0;
-    for (auto word = scanner_.word(); !word.empty(); word = scanner_.word()) {
-      if (!parse_number(word, unused)) scanner_.fail(quoted(word) + " in a vertex", "a number");
+    size_t behind = 0;
+    std::string_view nan;
+    for (auto word = scanner_.word(); !word.empty(); word = scanner_.word(), ++behind) {
+      if (parse_number(word, unused)) continue;
+      if (!is_printed_nan(word)) scanner_.fail(quoted(word) + " in a vertex", "a number");
+      nan = word;
     }
+    // A colour has three components, and is not used; a weight is one.
+    if (!nan.empty() && behind < 3) scanner_.fail(quoted(nan) + " in a vertex", "a number");
     builder_.add_vertex(p);
   }
 
@@ -246,18 +284,26 @@ class ObjReader {
 
 void note_ignored(const Ignored& lines, std::vector<std::string>& notes) {
   if (lines.elements > 0) {
-    notes.push_back(counted(lines.elements, "line") + " with points, polylines or curves ignored");
+    notes.push_back(note_of(NoteCode::kElements, counted(lines.elements, "line") +
+                                                     " with points, polylines or curves ignored"));
   }
   if (lines.surfaces > 0) {
-    notes.push_back(counted(lines.surfaces, "free-form surface") +
-                    " not read: only the faces are measured");
+    notes.push_back(note_of(NoteCode::kSurfaces, counted(lines.surfaces, "free-form surface") +
+                                                     " not read: only the faces are measured"));
   }
   if (lines.calls > 0) {
-    notes.push_back(counted(lines.calls, "call") + " of other files or commands not followed");
+    notes.push_back(note_of(NoteCode::kCalls, counted(lines.calls, "call") +
+                                                  " of other files or commands not followed"));
+  }
+  if (lines.remarks > 0) {
+    notes.push_back(
+        note_of(NoteCode::kUnread, counted(lines.remarks, "line") +
+                                       " taken for remarks and ignored, the first begins with " +
+                                       lines.first_remark));
   }
 }
 
-Mesh read_whole(const MeshSource& source) {
+Mesh read_obj_whole(const MeshSource& source) {
   MeshBuilder builder(source);
   ObjReader reader(source, whole_text(source), builder);
   reader.read();
@@ -280,7 +326,7 @@ void place_relative(const ObjBlock& block, size_t vertices_before, MeshBuilder& 
     builder.corner(number) += static_cast<uint32_t>(vertices_before);
 }
 
-Mesh read_by_blocks(const MeshSource& source) {
+Mesh read_obj_by_blocks(const MeshSource& source) {
   const Crew crew = crew_of(source);
   TextBlocks blocks(source, 0, Cut::kUncontinued);
   std::vector<MeshBuilder> builders = blocks.builders();
@@ -309,7 +355,7 @@ Mesh read_by_blocks(const MeshSource& source) {
 }  // namespace
 
 Mesh parse_obj(const MeshSource& source) {
-  return by_blocks_or_whole(source, read_by_blocks, read_whole);
+  return by_blocks_or_whole(source, read_obj_by_blocks, read_obj_whole);
 }
 
 }  // namespace vkh

@@ -1,7 +1,10 @@
 // OFF as Geomview writes it: the keyword is optional, '#' begins a comment, a vertex's first three
-// numbers are its position, and what follows a face's corners is its colour.
+// numbers are its position, and what follows a face's corners is its colour. As others write it,
+// the first count is glued to the keyword, that of edges is missing, and rows go on in the next
+// line.
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "host/read/readers.h"
 #include "host/source/text_blocks.h"
@@ -14,24 +17,30 @@ struct Counts {
 };
 
 // ST, C and N announce texture coordinates, colours and normals after the position on a vertex's
-// line; 4 and n announce other dimensions.
-bool is_keyword(std::string_view word) {
+// line; 4 and n announce other dimensions. Returns what follows the keyword in its word, all digits
+// (ModelNet40's files lack a line end there), or nothing if the word is another.
+std::optional<std::string_view> after_keyword(std::string_view word) {
   for (const std::string_view prefix : {"ST", "C", "N"}) {
     if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
   }
-  return word == "OFF";
+  if (!word.starts_with("OFF")) return std::nullopt;
+  word.remove_prefix(3);
+  if (word.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  return word;
 }
 
-uint64_t read_count(TextScanner& scanner, const char* what) {
-  const auto count = scanner.number<int64_t>(what);
+uint64_t count_in(const TextScanner& scanner, std::string_view word, const char* what) {
+  const auto count = scanner.number_in<int64_t>(word, what);
   if (count < 0) scanner.fail(std::to_string(count) + " as " + what, "a count of 0 or more");
   return static_cast<uint64_t>(count);
 }
 
-Counts read_counts(TextScanner& scanner, uint64_t file_bytes) {
-  const Counts counts{.vertices = read_count(scanner, "vertex count"),
-                      .faces = read_count(scanner, "face count")};
-  read_count(scanner, "edge count");
+// Edges are not read, and may not be counted.
+Counts read_counts(TextScanner& scanner, std::string_view glued, uint64_t file_bytes) {
+  const std::string_view first = glued.empty() ? scanner.word() : glued;
+  const Counts counts{.vertices = count_in(scanner, first, "vertex count"),
+                      .faces = count_in(scanner, scanner.word(), "face count")};
+  if (const auto edges = scanner.word(); !edges.empty()) count_in(scanner, edges, "edge count");
   if (const auto word = scanner.word(); !word.empty()) {
     scanner.fail(quoted(word) + " after the counts", "the end of the line");
   }
@@ -47,23 +56,25 @@ Counts read_counts(TextScanner& scanner, uint64_t file_bytes) {
   return counts;
 }
 
-Counts read_header(TextScanner& scanner, uint64_t file_bytes) {
+Counts read_off_header(TextScanner& scanner, uint64_t file_bytes) {
   if (!scanner.next_full_line()) scanner.fail("the file holds no word", "OFF or three counts");
   TextScanner ahead = scanner;
   const std::string_view word = ahead.word();
-  if (is_keyword(word)) {
+  std::string_view glued;
+  if (const auto after = after_keyword(word)) {
     scanner.word();
+    glued = *after;
     ahead = scanner;
     const std::string_view next = ahead.word();
     if (next == "BINARY") scanner.fail("binary OFF, which is not read", "ASCII OFF");
-    if (next.empty() && !scanner.next_full_line()) {
+    if (glued.empty() && next.empty() && !scanner.next_full_line()) {
       scanner.fail("the file ends after " + quoted(word), "counts of vertices, faces and edges");
     }
   } else if (uint64_t count = 0; !parse_number(word, count)) {
     scanner.fail("the file begins with " + quoted(word),
                  "OFF, COFF, NOFF or STOFF, or the vertex count");
   }
-  return read_counts(scanner, file_bytes);
+  return read_counts(scanner, glued, file_bytes);
 }
 
 void next_element(TextScanner& scanner, const char* what, uint64_t number, uint64_t count) {
@@ -72,8 +83,8 @@ void next_element(TextScanner& scanner, const char* what, uint64_t number, uint6
                std::to_string(count) + " of them");
 }
 
-uint32_t read_index(TextScanner& scanner, uint64_t vertex_count) {
-  const auto index = scanner.number<int64_t>("vertex index");
+uint32_t index_in(const TextScanner& scanner, std::string_view word, uint64_t vertex_count) {
+  const auto index = scanner.number_in<int64_t>(word, "vertex index");
   if (index < 0 || static_cast<uint64_t>(index) >= vertex_count) {
     scanner.fail(
         "index " + std::to_string(index) + " of " + std::to_string(vertex_count) + " vertices",
@@ -106,10 +117,12 @@ class RowReader {
   // length is a face that a wrong count makes a vertex, and with as wrong a count of faces it would
   // be lost in silence.
   void read_vertex(uint64_t v) {
-    next_element(scanner_, "vertex", v, counts_.vertices);
+    begin_row("vertex", v, counts_.vertices);
     glm::dvec3 p{};
-    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = scanner_.number_in<double>(next_word(), "coordinate");
     builder_.add_vertex(p);
+    check_wrapped("vertex", v);
     uint64_t words = 3;
     while (!scanner_.word().empty()) ++words;
     if (words_of_first_ == 0) words_of_first_ = words;
@@ -120,24 +133,48 @@ class RowReader {
   }
 
   void read_face(uint64_t f) {
-    next_element(scanner_, "face", f, counts_.faces);
+    begin_row("face", f, counts_.faces);
     corners_.clear();
-    for (uint64_t left = read_count(scanner_, "corner count"); left > 0; --left)
-      corners_.push_back(read_index(scanner_, counts_.vertices));
+    for (uint64_t left = count_in(scanner_, scanner_.word(), "corner count"); left > 0; --left)
+      corners_.push_back(index_in(scanner_, next_word(), counts_.vertices));
+    check_wrapped("face", f);
     builder_.add_face(corners_);
+  }
+
+  void begin_row(const char* what, uint64_t number, uint64_t count) {
+    next_element(scanner_, what, number, count);
+    line_ = scanner_.line_number();
+  }
+
+  // A row may go on in the next line.
+  std::string_view next_word() {
+    const std::string_view word = scanner_.word();
+    return word.empty() ? scanner_.word_across_lines() : word;
+  }
+
+  // Behind a row of several lines nothing may stand: rows that lack a word would be read as other
+  // rows.
+  void check_wrapped(const char* what, uint64_t number) {
+    if (scanner_.line_number() == line_) return;
+    if (const auto word = scanner_.word(); !word.empty()) {
+      scanner_.fail(quoted(word) + " behind " + what + " " + std::to_string(number) +
+                        ", which begins in line " + std::to_string(line_),
+                    "as many words as the row needs");
+    }
   }
 
   TextScanner& scanner_;
   const Counts& counts_;
   MeshBuilder& builder_;
   std::vector<uint32_t> corners_;
+  size_t line_ = 0;  ///< in which the row begins
   uint64_t words_of_first_ = 0;
 };
 
-Mesh read_whole(const MeshSource& source) {
+Mesh read_off_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name, '#');
   MeshBuilder builder(source);
-  const Counts counts = read_header(scanner, source.size());
+  const Counts counts = read_off_header(scanner, source.size());
   builder.reserve(counts.vertices, counts.faces);
   {
     RowReader rows(scanner, counts, builder);
@@ -148,12 +185,12 @@ Mesh read_whole(const MeshSource& source) {
   return std::move(builder).finish(place);
 }
 
-Mesh read_by_blocks(const MeshSource& source) {
+Mesh read_off_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
   const auto head = window.read(0, std::min(kTextHeader, source.size()));
   TextScanner header(head, source.name, '#');
-  const Counts counts = read_header(header, source.size());
+  const Counts counts = read_off_header(header, source.size());
   check_header_ends(header, source);
   MeshBuilder(source).check_room(counts.vertices, counts.faces);
   RowBlocks blocks(source, header.offset(), '#');
@@ -173,7 +210,7 @@ Mesh read_by_blocks(const MeshSource& source) {
 }  // namespace
 
 Mesh parse_off(const MeshSource& source) {
-  return by_blocks_or_whole(source, read_by_blocks, read_whole);
+  return by_blocks_or_whole(source, read_off_by_blocks, read_off_whole);
 }
 
 }  // namespace vkh

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "host/base/note.h"
 #include "host/read/ply_header.h"
 #include "host/read/readers.h"
 #include "host/source/text_blocks.h"
@@ -18,20 +19,39 @@ namespace {
 
 using namespace ply;
 
-// The two bodies give one row's values after another. In ASCII, a row is a line.
+/// How many lines, and the first of them.
+struct Lines {
+  uint64_t count = 0;
+  size_t first = 0;
+
+  void add(size_t line) {
+    if (count++ == 0) first = line;
+  }
+};
+
+// The two bodies give one row's values after another. In ASCII, a row is a line, and a line that
+// begins with 'comment' is none.
 class AsciiBody {
  public:
   AsciiBody(TextScanner& scanner, const MeshSource&) : scanner_(scanner) {}
 
   void begin_row(const Element& element, uint64_t row) {
-    if (scanner_.next_full_line()) return;
+    while (scanner_.next_full_line()) {
+      if (!is_comment()) return;
+      comments_.add(scanner_.line_number());
+    }
     scanner_.fail("the file ends at " + row_place(element, row),
                   std::to_string(element.count) + " of them");
   }
-  void end_row() {
-    if (const auto word = scanner_.word(); !word.empty()) {
+  // Behind a face's corners words change nothing: rows are lines, and each list says how long it
+  // is. Behind a vertex's coordinates they may be one of them, of a row that begins with something
+  // else; and a row of another element may be a face, where counts are wrong.
+  void end_row(bool is_face) {
+    const auto word = scanner_.word();
+    if (word.empty()) return;
+    if (!is_face)
       scanner_.fail(quoted(word) + " after the line's last property", "the end of the line");
-    }
+    longer_.add(scanner_.line_number());
   }
   int64_t integer(Scalar type) {
     const auto value = scanner_.number<int64_t>("integer");
@@ -64,12 +84,32 @@ class AsciiBody {
     scanner_.fail(what, expected);
   }
   std::string place() const { return scanner_.place(); }
-  void read_rest(MeshBuilder& builder) { note_rest(scanner_, builder.notes); }
+  void read_rest(MeshBuilder& builder) {
+    note_lines(comments_, " of comment in the body ignored", builder);
+    note_lines(longer_, " with words behind a face's properties, which were ignored", builder);
+    note_rest(scanner_, builder.notes);
+  }
+  bool has_notes() const { return comments_.count + longer_.count > 0; }
 
   static constexpr bool kRowsAreLines = true;
 
  private:
+  bool is_comment() const {
+    if (const char first = scanner_.peek(); first != 'c' && first != 'o') return false;
+    TextScanner ahead = scanner_;
+    const std::string_view word = ahead.word();
+    return word == "comment" || word == "obj_info";
+  }
+
+  static void note_lines(const Lines& lines, const char* text, MeshBuilder& builder) {
+    if (lines.count == 0) return;
+    builder.notes.push_back(note_of(NoteCode::kUnread, counted(lines.count, "line") + text +
+                                                           ", the first is line " +
+                                                           std::to_string(lines.first)));
+  }
+
   TextScanner& scanner_;
+  Lines comments_, longer_;
 };
 
 template <std::endian kOrder>
@@ -82,7 +122,7 @@ class BinaryBody {
     element_ = &element;
     row_ = row;
   }
-  void end_row() const {}
+  void end_row(bool) const {}
   int64_t integer(Scalar type) { return value<int64_t>(type); }
   double real(Scalar type, const char*) { return value<double>(type); }
   void skip(Scalar type, uint64_t count) {
@@ -173,7 +213,7 @@ class BodyReader {
       for (uint64_t row = std::max(begin, before); row < stop; ++row) {
         body_.begin_row(element, row - before);
         read_row(element);
-        body_.end_row();
+        body_.end_row(&element == layout_.face && corners_.size() > 2);
       }
       before += element.count;
     }
@@ -261,7 +301,7 @@ std::vector<double> read_scalar(const Header& header, const Layout& layout, size
           skip_property(body, element.properties[i]);
         }
       }
-      body.end_row();
+      body.end_row(is_face);
     }
     if (is_face) break;
   }
@@ -283,7 +323,7 @@ Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scan
   return std::move(builder).finish(place);
 }
 
-Mesh read_whole(const MeshSource& source) {
+Mesh read_ply_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name);
   const Header header = read_header(scanner, source);
   switch (header.encoding) {
@@ -304,13 +344,15 @@ Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64
   RowBlocks blocks(source, body_begin, '\0');
   std::vector<MeshBuilder> builders = blocks.builders();
   blocks.for_each(row_count, [&](size_t i, const Rows& rows) {
-    BodyReader(header, layout, AsciiBody(rows.scanner, source), builders[i])
-        .read(rows.begin, rows.end);
+    BodyReader reader(header, layout, AsciiBody(rows.scanner, source), builders[i]);
+    reader.read(rows.begin, rows.end);
+    if (reader.body().has_notes())  // which have lines of the whole file
+      reject(source.name, "byte 0", "lines beside the rows", "none");
   });
   return MeshBuilder::joined(source, std::move(builders)).finish("byte 0");
 }
 
-Mesh read_by_blocks(const MeshSource& source) {
+Mesh read_ply_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
   const auto head = window.read(0, std::min(kTextHeader, source.size()));
@@ -325,7 +367,7 @@ Mesh read_by_blocks(const MeshSource& source) {
 }  // namespace
 
 Mesh parse_ply(const MeshSource& source) {
-  return by_blocks_or_whole(source, read_by_blocks, read_whole);
+  return by_blocks_or_whole(source, read_ply_by_blocks, read_ply_whole);
 }
 
 std::vector<double> parse_face_property(const MeshSource& source, std::string_view name) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "host/base/note.h"
+
 namespace vkh::ply {
 namespace {
 
@@ -162,6 +164,15 @@ const Element& only_element(const Header& header, const MeshSource& source,
   return *only;
 }
 
+void check_has_faces(const Header& header, const MeshSource& source, uint64_t points) {
+  const auto& elements = header.elements;
+  const bool has = std::any_of(elements.begin(), elements.end(),
+                               [](const Element& element) { return element.name == "face"; });
+  if (!has)
+    reject(source.name, header.end_place, counted(points, "point") + " and no element 'face'",
+           kAMesh);
+}
+
 // The number of the property of one of those names; rejects none, several and, where `list`, any
 // that is not a list of integers, otherwise any list.
 size_t only_property(const Element& element, const MeshSource& source,
@@ -210,8 +221,10 @@ Header read_header(TextScanner& scanner, const MeshSource& source) {
 }
 
 Layout layout_of(const Header& header, const MeshSource& source) {
-  Layout layout{.vertex = &only_element(header, source, "vertex"),
-                .face = &only_element(header, source, "face")};
+  Layout layout;
+  layout.vertex = &only_element(header, source, "vertex");
+  check_has_faces(header, source, layout.vertex->count);
+  layout.face = &only_element(header, source, "face");
   const auto axis = [&](std::string_view name) {
     return only_property(*layout.vertex, source, {&name, 1}, false);
   };
@@ -242,7 +255,8 @@ void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBui
            counted(rest.size(), "byte") + " after the last element",
            "fewer than a row, or as many rows as the header says");
   }
-  builder.notes.push_back(counted(rest.size(), "byte") + " after the last element ignored");
+  builder.notes.push_back(
+      note_of(NoteCode::kUnread, counted(rest.size(), "byte") + " after the last element ignored"));
 }
 
 }  // namespace vkh::ply

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/read/mesh_io.h"
 #include "host/source/mesh_builder.h"
 #include "host/source/source.h"
 
@@ -27,6 +28,10 @@ Mesh parse_ply(const MeshSource& source);
 Mesh parse_off(const MeshSource& source);
 Mesh parse_gltf(const MeshSource& source);  ///< host/gltf; GLB, too
 Mesh parse_3mf(const MeshSource& source);   ///< host/threemf
+
+/// The files that parse_gltf reads besides: see files_beneath. Throws what parse_gltf throws for a
+/// document that is refused before its numbers are looked at.
+std::vector<FileBeneath> files_of_gltf(const MeshSource& source);
 
 /// Of a PLY: see read_face_property.
 std::vector<double> parse_face_property(const MeshSource& source, std::string_view name);

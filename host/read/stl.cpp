@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "host/base/hash_index.h"
+#include "host/base/note.h"
 #include "host/read/merge.h"
 #include "host/read/readers.h"
 #include "host/source/text_blocks.h"
@@ -118,23 +119,43 @@ void check_rest(std::string_view rest, uint64_t begin, MeshBuilder& builder) {
     reject(builder.name(), byte_place(begin + at), "a triangle after the last one announced",
            "as many triangles as byte 80 says");
   }
-  builder.notes.push_back(counted(rest.size(), "byte") + " after the last triangle ignored");
+  builder.notes.push_back(note_of(
+      NoteCode::kUnread, counted(rest.size(), "byte") + " after the last triangle ignored"));
 }
 
 bool is_finite(const glm::dvec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+uint64_t attribute_of(std::string_view bytes, uint64_t triangle_begin) {
+  return load<uint16_t>(bytes.data() + triangle_begin + kTriangleBytes - 2);
+}
+
+// A triangle's last two bytes are the count of attribute bytes that follow it. Nearly all writers
+// have 0 or a colour there and nothing behind it, so the counts are believed where they, and only
+// they, make the file's size.
+bool has_attribute_bytes(std::string_view bytes) {
+  if (bytes.size() < kHeaderBytes || is_exact_binary_stl(bytes, bytes.size())) return false;
+  const uint64_t count = announced_triangles(bytes);
+  uint64_t at = kHeaderBytes;
+  for (uint64_t t = 0; t < count; ++t) {
+    if (at + kTriangleBytes > bytes.size()) return false;
+    at += kTriangleBytes + attribute_of(bytes, at);
+  }
+  return at == bytes.size() && count <= UINT32_MAX / 3;
+}
+
 Mesh read_binary(const MeshSource& source) {
   MeshBuilder builder(source);
-  const uint64_t count = checked_count(source);
+  const bool has_attributes = has_attribute_bytes(source.bytes);
+  const uint64_t count = has_attributes ? announced_triangles(source.bytes) : checked_count(source);
   builder.reserve(0, count);
   VertexMerger merger(builder, count);
+  uint64_t end = kHeaderBytes;
   for (uint64_t t = 0; t < count; ++t) {
-    const size_t at = kHeaderBytes + t * kTriangleBytes + 12;
     glm::uvec3 face{};
     for (int i = 0; i < 3; ++i) {
-      const size_t corner = at + 12 * static_cast<size_t>(i);
+      const size_t corner = end + 12 + 12 * static_cast<size_t>(i);
       const glm::dvec3 p(load_position(source.bytes.data() + corner));
       if (!is_finite(p)) {
         reject(source.name, "triangle " + std::to_string(t) + ", " + byte_place(corner),
@@ -143,8 +164,13 @@ Mesh read_binary(const MeshSource& source) {
       face[i] = merger.insert(p);
     }
     builder.add_triangle(face);
+    end += kTriangleBytes + (has_attributes ? attribute_of(source.bytes, end) : 0);
   }
-  const uint64_t end = kHeaderBytes + count * kTriangleBytes;
+  if (has_attributes) {
+    builder.notes.push_back(note_of(
+        NoteCode::kUnread, counted(end - kHeaderBytes - count * kTriangleBytes, "attribute byte") +
+                               " behind triangles ignored"));
+  }
   check_rest(source.bytes.substr(end), end, builder);
   return std::move(builder).finish(byte_place(kHeaderBytes));
 }
@@ -181,6 +207,11 @@ Mesh read_binary_by_blocks(const MeshSource& source) {
       corners[3 * begin + c] = load_position(at);
       if (!is_finite(corners[3 * begin + c]))
         reject(source.name, byte_place(0), "a coordinate is nan or infinite", "finite coordinates");
+    }
+    // The first count that is not 0 stands where it does in a file without attribute bytes.
+    for (uint64_t t = 0; end != source.size() && t < stop - begin; ++t) {
+      if (attribute_of(bytes, t * kTriangleBytes) != 0)
+        reject(source.name, byte_place(0), "attribute bytes, perhaps", "none");
     }
     count_read(source, bytes.size());
   });
@@ -232,8 +263,12 @@ class AsciiReader {
   bool read_solid() {
     for (;;) {
       const std::string_view word = scanner_.word_across_lines();
-      if (is_word(word, "endsolid")) return true;
+      if (is_word(word.substr(0, 8), "endsolid")) return true;  // its name may be glued to it
       if (word.empty() && !block_.is_last) return false;
+      if (is_word(word, "color") || is_word(word, "solid")) {  // a line twice is one
+        skip_name();
+        continue;
+      }
       if (!is_word(word, "facet")) fail_word(word, kFacetOrEnd);
       read_facet();
     }
@@ -250,12 +285,24 @@ class AsciiReader {
       for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
       use_.corner(p);
     }
-    expect({"endloop", "endfacet"});
+    expect_end("loop");
+    expect_end("facet");
     use_.end_facet();
   }
 
-  bool another_solid() {
+  // "endloop", or "end loop".
+  void expect_end(const std::string& what) {
     const std::string_view word = scanner_.word_across_lines();
+    if (is_word(word, "end")) return expect({what.c_str()});
+    if (!is_word(word, "end" + what)) fail_word(word, vkh::quoted("end" + what));
+  }
+
+  bool another_solid() {
+    std::string_view word = scanner_.word_across_lines();
+    while (is_word(word, "endsolid")) {  // its line twice, as that of "solid"
+      skip_name();
+      word = scanner_.word_across_lines();
+    }
     if (word.empty() && block_.is_last) return false;
     if (!is_word(word, "solid")) fail_word(word, "'solid' or the end of the file");
     return true;
@@ -351,13 +398,21 @@ Mesh read_ascii_by_blocks(const MeshSource& source) {
   return merged(source, crew, joined(crew, std::move(read))).finish("byte 0", Positions::kDiffer);
 }
 
-Mesh read_whole(const MeshSource& source) {
-  if (!is_exact_binary_stl(source.bytes, source.size()) && is_ascii(source.bytes))
-    return read_ascii(source);
+// Some writers end text as C or DOS did: with zero bytes, or with Ctrl-Z.
+std::string_view without_end_marks(std::string_view text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == '\x1a')) text.remove_suffix(1);
+  return text;
+}
+
+Mesh read_stl_whole(const MeshSource& source) {
+  MeshSource text = source;
+  text.bytes = without_end_marks(source.bytes);
+  if (!is_exact_binary_stl(source.bytes, source.size()) && is_ascii(text.bytes))
+    return read_ascii(text);
   return read_binary(source);
 }
 
-Mesh read_by_blocks(const MeshSource& source) {
+Mesh read_stl_by_blocks(const MeshSource& source) {
   const std::string head = head_of(source, 4096);
   if (!is_exact_binary_stl(head, source.size()) && is_ascii(head))
     return read_ascii_by_blocks(source);
@@ -372,7 +427,7 @@ bool is_exact_binary_stl(std::string_view head, uint64_t size) {
 }
 
 Mesh parse_stl(const MeshSource& source) {
-  return by_blocks_or_whole(source, read_by_blocks, read_whole);
+  return by_blocks_or_whole(source, read_stl_by_blocks, read_stl_whole);
 }
 
 }  // namespace vkh

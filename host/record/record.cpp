@@ -1,16 +1,19 @@
 #include "host/record/record.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "host/answer/json_object.h"
 #include "host/base/error.h"
 
 namespace vkh {
 namespace {
 
-constexpr const char* kSchema = "vkhausdorff.pair/1";
+constexpr const char* kPairSchema = "vkhausdorff.pair/1";
 constexpr const char* kRun = ",\"run\":{";
 
 void begin(JsonObject& json, const RecordName& name, ExitCode code) {
-  json.add("schema", kSchema);
+  json.add("schema", kPairSchema);
   json.add("version", program_version());
   json.add("id", name.id);
   json.add("key", name.key);
@@ -37,7 +40,9 @@ void add_run(JsonObject& json, const Answer& answer) {
 }
 
 Json name_and_hash(const char* name, const Input& input) {
-  return {{"name", name}, {"path", input.path}, {"sha256", text_or_null(input.sha256)}};
+  Json json = {{"name", name}, {"path", input.path}};
+  add_hashes(json, input);
+  return json;
 }
 
 // Members that are not there, or null, are as they are where nothing is known.
@@ -50,17 +55,44 @@ std::string text_in(const Json& json, const char* key) {
   const Json& value = member(json, key);
   return value.is_string() ? value.get<std::string>() : std::string();
 }
+std::vector<std::string> texts_in(const Json& json, const char* key) {
+  std::vector<std::string> texts;
+  for (const Json& value : member(json, key)) {
+    if (value.is_string()) texts.push_back(value.get<std::string>());
+  }
+  return texts;
+}
 double number_in(const Json& json, const char* key, double otherwise) {
   const Json& value = member(json, key);
   return value.is_number() ? value.get<double>() : otherwise;
 }
 
+Bounds bounds_in(const Json& interval) {
+  const Bounds bounds{bound_in(interval, "lower"), bound_in(interval, "upper")};
+  if (!(bounds.lower <= bounds.upper) || std::isinf(bounds.lower))
+    throw InputError("an interval whose lower end is above its upper");
+  return bounds;
+}
+
+Record::Side side_of(const Json& input) {
+  return {.path = text_in(input, "path"),
+          .sha256 = text_in(input, "sha256"),
+          .faces = member(input, "faces").is_null() ? 0 : count_in(input, "faces"),
+          .names_files = input.is_object() && input.contains("files"),
+          .notes = texts_in(input, "notes")};
+}
+
 void read_answer(const Json& json, Record& record) {
   const Json& interval = member(json, "interval");
+  check_bounds(json);
+  const Bounds whole = bounds_in(interval);
+  const Json& directions = member(json, "directions");
+  for (size_t i = 0; directions.is_array() && i < std::min<size_t>(directions.size(), 2); ++i)
+    record.directions[i] = bounds_in(member(directions[i], "interval"));
   record.status = text_in(json, "status");
   record.verdict = text_in(json, "verdict");
-  record.lower = number_in(interval, "lower", 0);
-  record.upper = number_in(interval, "upper", record.upper);
+  record.lower = whole.lower;
+  record.upper = whole.upper;
   record.gap = number_in(interval, "gap", 0);
   record.unit = text_in(interval, "unit");
   record.diagonal = number_in(member(json, "tolerance"), "diagonal", 0);
@@ -104,8 +136,8 @@ bool Record::is_final() const {
 Record read_record(std::string_view line) {
   const Json json = Json::parse(line, nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw InputError("no JSON object");
-  if (text_in(json, "schema") != kSchema)
-    throw InputError(std::string("no result of a batch: expected the schema ") + kSchema);
+  if (text_in(json, "schema") != kPairSchema)
+    throw InputError(std::string("no result of a batch: expected the schema ") + kPairSchema);
   Record record;
   record.name = {text_in(json, "id"), text_in(json, "key")};
   const Json& code = member(json, "code");
@@ -124,11 +156,8 @@ Record read_record(std::string_view line) {
     read_answer(json, record);
   }
   const Json& inputs = member(json, "inputs");
-  for (size_t i = 0; inputs.is_array() && i < std::min<size_t>(inputs.size(), 2); ++i) {
-    record.inputs[i] = {.path = text_in(inputs[i], "path"),
-                        .sha256 = text_in(inputs[i], "sha256"),
-                        .faces = static_cast<uint64_t>(number_in(inputs[i], "faces", 0))};
-  }
+  for (size_t i = 0; inputs.is_array() && i < std::min<size_t>(inputs.size(), 2); ++i)
+    record.inputs[i] = side_of(inputs[i]);
   const Json &run = member(json, "run"), &times = member(run, "times");
   record.total_ms = number_in(times, "total_ms", 0);
   record.gpu_ms = number_in(times, "gpu_ms", 0);

@@ -72,6 +72,7 @@ JunitCase junit_case(const Record& r, bool with_run) {
                 .name = r.name.id,
                 .words = r.words,
                 .seconds = with_run ? r.total_ms / 1000 : 0};
+  one.notes = surface_notes(r.inputs[0].notes, r.inputs[1].notes);
   if (r.code == kExitBeyond) {
     one.element = "failure";
     one.type = "beyond the limit";

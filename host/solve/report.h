@@ -37,8 +37,8 @@ const char* verdict_name(Verdict verdict);  ///< "pass", "fail", "undecided"
 /// A point on a face, in the files' own coordinates.
 struct SurfacePoint {
   uint64_t face = 0;  ///< of Mesh::faces: a triangle
-  glm::dvec3 barycentric{};
-  glm::dvec3 point{};
+  DVec3 barycentric{};
+  DVec3 point{};
   uint64_t file_face = 0;  ///< the file's number of the face that this is of, for people
 
   void set_face(const Mesh& mesh, uint64_t triangle) {

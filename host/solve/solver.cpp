@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
@@ -129,6 +130,8 @@ SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu) {
 }
 
 Report report_of(const RunOutput& run, const Watch& watch) {
+  if (run.report.status == VKH_STATUS_INPUT)  // check_mesh and the frame leave nothing to find
+    throw InputError("the device says that a mesh is none (VKH_STATUS_INPUT)");
   const Pair& pair = watch.pair;
   const SolveOptions& options = pair.options;
   Report out;
@@ -236,6 +239,16 @@ void Solver::make_ready(const SolveOptions& options) {
 
 namespace {
 
+// Each mesh once: many pairs may have one B. A prepared one was checked when it was prepared.
+void check_meshes(std::span<const PairView> pairs) {
+  std::set<const Mesh*> meshes;
+  for (const PairView& pair : pairs) {
+    meshes.insert(&pair.a);
+    if (pair.prepared == nullptr || &pair.b != &pair.prepared->mesh()) meshes.insert(&pair.b);
+  }
+  for (const Mesh* mesh : meshes) check_mesh(*mesh);
+}
+
 // A mesh of the caller's as it is stored, in a frame around both or in that of a prepared B.
 struct Framed {
   FramedPair pair;
@@ -249,6 +262,7 @@ struct Framed {
 std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
                                             const std::vector<SolveOptions>& options) {
   const auto start = Clock::now();
+  check_meshes(meshes);
   std::vector<Framed> framed(meshes.size());
   std::vector<const PreparedMesh::Impl*> kept(meshes.size());
   uint64_t bytes = 0;
@@ -321,6 +335,7 @@ Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& option
 
 PreparedMesh Solver::prepare(Mesh b) {
   const FloatEnvironment ours;
+  check_mesh(b);
   auto kept = std::make_unique<PreparedMesh::Impl>();
   kept->mesh = std::move(b);
   kept->box = bounding_box(kept->mesh);

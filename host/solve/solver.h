@@ -42,9 +42,11 @@ struct PairView {
 };
 
 /// Keeps pipelines and buffers of one device between runs. Threads take turns; Solvers of their own
-/// on the same Device run at once. Everything throws DeviceError if the device is lost or out of
-/// memory, and UsageError for an unknown switch, a tolerance that is not positive and finite, or a
-/// call from a progress callback of the same Solver.
+/// on the same Device run at once. Everything throws InputError that names the mesh, and a
+/// vertex or face of it, where a mesh is none (check_mesh), whatever it holds, as long as it does
+/// not change during the call; DeviceError if the device is lost or out of memory; and UsageError
+/// for an unknown switch, a tolerance that is not positive and finite, or a call from a progress
+/// callback of the same Solver.
 class Solver {
  public:
   /// `cache_folder`: where pipelines are kept between processes, in files of their own for each

@@ -1,13 +1,24 @@
 #include "host/source/mesh_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/base/decimal.h"
+#include "host/base/note.h"
 #include "host/base/text_scanner.h"
+#include "host/mesh/polygon.h"
 
 namespace vkh {
 namespace {
 
 constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
+
+// Follows "an outline that".
+std::string what_is_odd(PolygonKind kind) {
+  if (kind == PolygonKind::kNoArea) return "encloses no area";
+  if (kind == PolygonKind::kIntricate) return "is too intricate to be triangulated in time";
+  return "crosses itself";
+}
 
 }  // namespace
 
@@ -94,27 +105,128 @@ MeshBuilder MeshBuilder::joined(const MeshSource& source, std::vector<MeshBuilde
   return all;
 }
 
-Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
-  if (faces_.empty()) {
-    reject(name_, place,
-           short_faces_ == 0 ? "the file ends without a face"
-                             : "the file ends without a face of three corners",
-           "at least one face: a distance between no surfaces is undefined");
+// make_mesh refuses the others.
+bool MeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
+  return std::all_of(faces.begin(), faces.end(), [&](const glm::uvec3& face) {
+    for (int k = 0; k < 3; ++k) {
+      if (face[k] >= vertices_.size()) return false;
+      const glm::dvec3& p = vertices_[face[k]];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+    }
+    return true;
+  });
+}
+
+// From one face of equally many triangles to another.
+Polygons MeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::Run& end) {
+  const uint32_t each = (end.triangles - begin.triangles) / (end.faces - begin.faces);
+  Polygons found;
+  for (uint32_t i = 0; i < end.faces - begin.faces; ++i) {
+    const std::span fan(&faces_[begin.triangles + size_t{i} * each], each);
+    if (!is_measurable(fan)) continue;
+    const PolygonResult result = triangulate_fan(vertices_, fan);
+    const uint64_t face = begin.faces + i;
+    if (result.kind == PolygonKind::kClipped) ++found.clipped;
+    if (has_only_fan(result.kind) && found.fanned++ == 0) {
+      found.first_fanned = face;
+      found.first_kind = result.kind;
+    }
+    if (result.ambiguity > found.ambiguity) {
+      found.ambiguity = result.ambiguity;
+      found.ambiguous_face = face;
+    }
   }
+  return found;
+}
+
+Polygons MeshBuilder::triangulate(const Crew& crew) {
+  constexpr uint32_t kTriangles = 1 << 15;  // about 3 ms
+  std::vector<std::pair<FileFaces::Run, FileFaces::Run>> parts;
+  FileFaces::Run before;
+  for (const FileFaces::Run& run : file_faces_.runs()) {
+    const uint32_t each = (run.triangles - before.triangles) / (run.faces - before.faces);
+    const uint32_t step = each > 1 ? std::max(1U, kTriangles / each) : 0;
+    while (each > 1 && before.faces < run.faces) {
+      const uint32_t count = std::min(step, run.faces - before.faces);
+      const FileFaces::Run end = {before.triangles + count * each, before.faces + count};
+      parts.emplace_back(before, end);
+      before = end;
+    }
+    before = run;
+  }
+  std::vector<Polygons> found(parts.size());
+  crew.for_each(parts.size(),
+                [&](size_t i) { found[i] = triangulate(parts[i].first, parts[i].second); });
+  Polygons all;
+  for (const Polygons& part : found) {
+    if (all.fanned == 0) {
+      all.first_fanned = part.first_fanned;
+      all.first_kind = part.first_kind;
+    }
+    all.clipped += part.clipped;
+    all.fanned += part.fanned;
+    if (part.ambiguity > all.ambiguity) {
+      all.ambiguity = part.ambiguity;
+      all.ambiguous_face = part.ambiguous_face;
+    }
+  }
+  return all;
+}
+
+void MeshBuilder::note_polygons(const Polygons& polygons) {
+  std::string note = counted(polygons_, "face") + " of more than three corners " +
+                     (polygons_ == 1 ? "was" : "were") + " triangulated";
+  if (polygons.clipped > 0) note += ", " + std::to_string(polygons.clipped) + " of them not convex";
+  if (polygons.ambiguity > 0) {
+    note += "; corners off a plane leave the surface open by up to " +
+            decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
+            std::to_string(polygons.ambiguous_face);
+  }
+  notes.push_back(note_of(NoteCode::kPolygons, note));
+  if (polygons.fanned == 0) return;
+  notes.push_back(note_of(
+      NoteCode::kPolygons,
+      "fanned: " + counted(polygons.fanned, "face") + " without a triangulation of " +
+          (polygons.fanned == 1 ? "its" : "their") +
+          " outline; what is measured may leave it; at face " +
+          std::to_string(polygons.first_fanned) + " it " + what_is_odd(polygons.first_kind)));
+}
+
+void MeshBuilder::refuse_odd(const Polygons& polygons) const {
+  if (polygons.fanned == 0 || limits_.odd_polygons == OddPolygons::kFanned) return;
+  std::string what = "an outline that " + what_is_odd(polygons.first_kind);
+  if (polygons.fanned > 1) what += ", the first of " + counted(polygons.fanned, "such face");
+  reject(name_, "face " + std::to_string(polygons.first_fanned), what,
+         "a polygon that does not cross itself, or --polygons fan, which measures the fan of its "
+         "corners");
+}
+
+void MeshBuilder::refuse_no_face(const std::string& place) const {
+  if (short_faces_ == 0 && !vertices_.empty())
+    reject(name_, place, counted(vertices_.size(), "point") + " and no face", kAMesh);
+  reject(name_, place,
+         short_faces_ == 0 ? "the file ends without a face"
+                           : "the file ends without a face of three corners",
+         "at least one face: a distance between no surfaces is undefined");
+}
+
+Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
+  if (faces_.empty()) refuse_no_face(place);
   if (faces_.size() + short_faces_ >= UINT32_MAX)
     reject(name_, place, "too many faces", "fewer than 2^32 - 1");
-  Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_),
-                        crew_of({.name = name_, .bytes = {}, .limits = limits_}), positions);
+  const Crew crew = crew_of({.name = name_, .bytes = {}, .limits = limits_});
+  const Polygons polygons = triangulate(crew);
+  refuse_odd(polygons);
+  Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_), crew, positions);
+  mesh.polygons = polygons;
   mesh.file_faces = std::move(file_faces_);
   mesh.counts.polygons = polygons_;
+  if (polygons_ > 0) note_polygons(polygons);
   mesh.notes = std::move(notes);
-  if (polygons_ > 0) {
-    mesh.notes.push_back(counted(polygons_, "polygon") +
-                         " fanned into triangles from the first corner; the fan of a concave "
-                         "polygon leaves its outline");
-  }
   if (short_faces_ > 0) {
-    mesh.notes.push_back(counted(short_faces_, "face") + " of fewer than three corners ignored");
+    mesh.notes.push_back(
+        note_of(NoteCode::kShortFaces,
+                counted(short_faces_, "face") + " of fewer than three corners ignored"));
   }
   return mesh;
 }

@@ -11,6 +11,9 @@
 
 namespace vkh {
 
+/// What is expected in place of points alone.
+inline constexpr const char* kAMesh = "a mesh: export the surface as triangles (STL, OBJ, PLY)";
+
 /// "1 face", "2 faces": for notes and errors.
 std::string counted(uint64_t count, const std::string& noun);
 
@@ -46,7 +49,8 @@ class MeshBuilder {
     make_room(0, 1);
     faces_.push_back(face);
   }
-  /// Fans a polygon from its first corner; one of fewer than three corners is ignored and noted.
+  /// Fans a polygon from its first corner, until finish() triangulates it; one of fewer than three
+  /// corners is ignored and noted.
   void add_face(std::span<const uint32_t> corners);
   /// Those that were added by other means, from the triangle `first` on.
   void count_faces(uint64_t polygons, uint64_t short_faces, const FileFaces& faces, size_t first) {
@@ -67,6 +71,12 @@ class MeshBuilder {
     }
     if (++rows_ % kRowsOfTick == 0) check_going(name_, limits_);
   }
+  Polygons triangulate(const Crew& crew);
+  Polygons triangulate(const FileFaces::Run& begin, const FileFaces::Run& end);
+  bool is_measurable(std::span<const glm::uvec3> faces) const;
+  void note_polygons(const Polygons& polygons);
+  void refuse_odd(const Polygons& polygons) const;
+  [[noreturn]] void refuse_no_face(const std::string& place) const;
   [[noreturn]] void refuse_size(uint64_t vertex_count, uint64_t face_count) const;
 
   std::string name_;

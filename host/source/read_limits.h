@@ -8,12 +8,19 @@
 
 namespace vkh {
 
-/// What a file may cost, and who may call its reading off.
+/// What becomes of a polygon whose outline crosses itself, encloses no area or is too intricate.
+enum class OddPolygons {
+  kRefused,  ///< its face is named in an InputError
+  kFanned,   ///< the fan of its corners is measured, whatever that covers, and noted
+};
+
+/// What a file may cost and hold, and who may call its reading off.
 struct ReadLimits {
   /// Bytes that a file may have, and that its mesh may take (mesh_bytes). A file that breaks it is
   /// refused before the work. Reading takes at most six times the larger of both, and so at most
   /// six times this (read_cost_test), besides a megabyte.
   uint64_t max_input_bytes = UINT64_MAX;
+  OddPolygons odd_polygons = OddPolygons::kRefused;
   /// Asked now and then while a file is read, by one thread at a time, perhaps another than that
   /// which waits: false ends it with an Interrupted.
   std::function<bool()> keep_going = {};

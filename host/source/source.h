@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/base/crew.h"
+#include "host/base/error.h"
 #include "host/source/read_limits.h"
 #include "host/system/input_file.h"
 

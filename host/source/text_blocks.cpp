@@ -7,8 +7,6 @@
 namespace vkh {
 namespace {
 
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
 [[noreturn]] void refuse_to_cut(const MeshSource& source) {
   reject(source.name, "byte 0", "a text that is not cut", "lines");
 }

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "host/system/input_file.h"
+#include "host/system/windows_handle.h"
 
 namespace vkh {
 namespace {
-
-HANDLE handle_of(std::intptr_t value) { return reinterpret_cast<HANDLE>(value); }
 
 /// One read of at most 1 GiB; the bytes that came.
 DWORD read_once(HANDLE file, uint64_t offset, char* to, size_t count) {

@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/system/output_file.h"
 #include "host/system/system.h"
+#include "host/system/windows_handle.h"
 #include "host/system/windows_text.h"
 
 namespace vkh {
@@ -15,8 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr DWORD kShareAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-
-HANDLE handle_of(std::intptr_t value) { return reinterpret_cast<HANDLE>(value); }
 
 class File {
  public:

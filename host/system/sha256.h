@@ -8,6 +8,13 @@
 
 namespace vkh {
 
+/// A file by its name and its bytes.
+struct FileHash {
+  std::string path;
+  std::string sha256;  ///< 64 hexadecimal digits; empty: not known
+  bool operator==(const FileHash&) const = default;
+};
+
 /// 64 hexadecimal digits, of a file. Empty: the file cannot be read, `keep_going` said no, or this
 /// build has no library for it (libcrypto; on Windows the system's own).
 std::string sha256_of(const std::filesystem::path& path, const std::function<bool()>& keep_going);

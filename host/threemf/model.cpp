@@ -51,6 +51,11 @@ class Part : public XmlReader {
 
   void open(std::string_view name, const Attributes& attributes) override;
   void close(std::string_view name) override;
+  void text(std::string_view piece) override {
+    if (skipped_ > 0 || depth_ == 0 || way_[depth_ - 1] != In::kMetadata) return;
+    constexpr size_t kLongest = 16;
+    value_ += piece.substr(0, kLongest - std::min(kLongest, value_.size()));
+  }
   void declare(std::string_view prefix, std::string_view uri) override {
     if (depth_ == 0) namespaces_.emplace_back(prefix, uri);
   }
@@ -66,6 +71,8 @@ class Part : public XmlReader {
     kVertices,
     kTriangles,
     kComponents,
+    kGroup,
+    kMetadata,
     kBuild
   };
   struct Step {
@@ -74,10 +81,11 @@ class Part : public XmlReader {
     In to;
   };
   static constexpr Step kSteps[] = {
-      {In::kNothing, "model", In::kModel},      {In::kModel, "resources", In::kResources},
-      {In::kModel, "build", In::kBuild},        {In::kResources, "object", In::kObject},
-      {In::kObject, "mesh", In::kMesh},         {In::kMesh, "vertices", In::kVertices},
-      {In::kMesh, "triangles", In::kTriangles}, {In::kObject, "components", In::kComponents}};
+      {In::kNothing, "model", In::kModel},        {In::kModel, "resources", In::kResources},
+      {In::kModel, "build", In::kBuild},          {In::kResources, "object", In::kObject},
+      {In::kObject, "mesh", In::kMesh},           {In::kMesh, "vertices", In::kVertices},
+      {In::kMesh, "triangles", In::kTriangles},   {In::kObject, "components", In::kComponents},
+      {In::kObject, "metadatagroup", In::kGroup}, {In::kGroup, "metadata", In::kMetadata}};
 
   [[noreturn]] void fail(const std::string& what, const std::string& expected) const {
     reject(source_.name, place_in(model_.parts[part_], line), what, expected);
@@ -98,6 +106,7 @@ class Part : public XmlReader {
   void open_model(const Attributes& attributes);
   void open_object(const Attributes& attributes);
   void close_object();
+  void close_metadata();
   void add_row(std::string_view name, const Attributes& attributes);
   void add_triangle(const Attributes& attributes);
   void refuse_foreign(std::string_view name) const;
@@ -111,6 +120,7 @@ class Part : public XmlReader {
   std::vector<std::pair<std::string, std::string>> namespaces_;  // of the root element
   std::array<In, 8> way_{};
   size_t depth_ = 0, skipped_ = 0;
+  std::string key_, value_;  // of the metadata that is open
 };
 
 // Shapes that are no triangles, in any namespace, and in a place that matters.
@@ -135,12 +145,17 @@ void Part::open(std::string_view name, const Attributes& attributes) {
   });
   if (step == std::end(kSteps)) {
     skipped_ = 1;
+    if (!is_core && from == In::kObject) object().foreign = name.substr(name.rfind('|') + 1);
     is_core ? add_row(local, attributes) : refuse_foreign(name);
     return;
   }
   way_[depth_++] = step->to;
   if (step->to == In::kModel) open_model(attributes);
   if (step->to == In::kObject) open_object(attributes);
+  if (step->to == In::kMetadata) {
+    key_ = required(attributes, "name");
+    value_.clear();
+  }
   if (step->to == In::kMesh || step->to == In::kComponents) {
     if (object().has_shape) fail("an object of two shapes", "a mesh, or components");
     object().has_shape = true;
@@ -152,7 +167,19 @@ void Part::close(std::string_view /*name*/) {
     --skipped_;
     return;
   }
-  if (way_[--depth_] == In::kObject) close_object();
+  const In closed = way_[--depth_];
+  if (closed == In::kObject) close_object();
+  if (closed == In::kMetadata) close_metadata();
+}
+
+// Cura's settings of an object: "cura:infill_mesh" is True.
+void Part::close_metadata() {
+  const std::string_view key = std::string_view(key_).substr(key_.rfind(':') + 1);
+  const std::string_view value = trimmed(value_);
+  if (value != "True" && value != "true" && value != "1") return;
+  if (key == "infill_mesh" || key == "cutting_mesh") object().role = Role::kModifier;
+  if (key == "support_mesh") object().role = Role::kEnforcer;
+  if (key == "anti_overhang_mesh") object().role = Role::kBlocker;
 }
 
 void Part::open_model(const Attributes& attributes) {
@@ -194,9 +221,14 @@ void Part::open_object(const Attributes& attributes) {
     fail("an object with slices, which are not read", "objects of triangles alone");
   const char* type = attributes.find("type");
   const std::string_view kind = type == nullptr ? "model" : type;
-  constexpr std::array<std::string_view, 5> kKinds = {"model", "solidsupport", "support", "surface",
-                                                      "other"};
-  if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end())
+  constexpr std::pair<std::string_view, Role> kKinds[] = {{"model", Role::kBody},
+                                                          {"solidsupport", Role::kSupport},
+                                                          {"support", Role::kSupport},
+                                                          {"surface", Role::kBody},
+                                                          {"other", Role::kOther}};
+  const auto* const found = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                         [&](const auto& pair) { return pair.first == kind; });
+  if (found == std::end(kKinds))
     fail("an object of type " + vkh::quoted(kind),
          "model, solidsupport, support, surface or other");
   model_.objects.push_back({.part = part_,
@@ -204,10 +236,8 @@ void Part::open_object(const Attributes& attributes) {
                             .vertices = {model_.vertices.size(), model_.vertices.size()},
                             .faces = {model_.faces.size(), model_.faces.size()},
                             .components = {model_.components.size(), model_.components.size()},
-                            .is_support = kind == "support" || kind == "solidsupport",
-                            .is_other = kind == "other",
-                            .has_shape = false,
-                            .face_count = 0});
+                            .role = found->second,
+                            .foreign = {}});
 }
 
 void Part::close_object() {
@@ -271,6 +301,8 @@ Use Part::use(const Attributes& attributes) {
           .id = number<uint32_t>(attributes, "objectid"),
           .transform = kNone,
           .line = line};
+  const char* printable = attributes.find("printable");
+  out.is_printed = printable == nullptr || trimmed(printable) != "0";
   const char* text = attributes.find("transform");
   if (text == nullptr) return out;
   std::array<double, 12> numbers{};

@@ -10,6 +10,7 @@
 
 #include "host/scene/transform.h"
 #include "host/threemf/package.h"
+#include "host/threemf/volumes.h"
 
 namespace vkh::threemf {
 
@@ -20,6 +21,7 @@ struct Use {
   uint32_t part = 0, id = 0;  ///< of the object
   uint32_t transform = kNone;
   size_t line = 0;
+  bool is_printed = true;  ///< an item's
 };
 
 struct Range {
@@ -30,8 +32,11 @@ struct Object {
   uint32_t part = 0, id = 0;
   Range vertices, faces;  ///< of its mesh
   Range components;
-  bool is_support = false, is_other = false, has_shape = false;
-  uint64_t face_count = 0;  ///< with its components'; at most 2^40
+  Role role = Role::kBody;
+  bool has_shape = false;    ///< a mesh, or components
+  bool lacks_shape = false;  ///< it has none, or one of its components has none
+  std::string foreign;       ///< the last element in it that is none of the core's
+  uint64_t face_count = 0;   ///< with its components'; at most 2^40
 };
 
 /// All parts of one package; what objects refer to stands before them.

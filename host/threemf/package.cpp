@@ -2,8 +2,11 @@
 
 #include <zip.h>
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
+#include "host/base/percent.h"
 #include "host/base/text_scanner.h"
 
 namespace vkh::threemf {
@@ -14,6 +17,23 @@ struct CloseEntry {
 };
 
 constexpr const char* kExpected = "a 3MF file";
+
+// From the root on, without "." and "..".
+std::string without_dots(std::string_view name) {
+  std::vector<std::string_view> steps;
+  while (!name.empty()) {
+    const std::string_view step = name.substr(0, name.find('/'));
+    name.remove_prefix(std::min(name.size(), step.size() + 1));
+    if (step == ".." && !steps.empty()) steps.pop_back();
+    if (!step.empty() && step != "." && step != "..") steps.push_back(step);
+  }
+  std::string out;
+  for (const std::string_view step : steps) {
+    if (!out.empty()) out += '/';
+    out += step;
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -41,13 +61,23 @@ Package::Package(const MeshSource& source)
 
 Package::~Package() = default;
 
+// A name as it is written comes first: not all who write packages know of percents.
+int64_t Package::find(const std::string& part) const {
+  const std::string plain = without_dots(part);
+  for (const std::string& name : {plain, without_percents(plain)}) {
+    const zip_int64_t index =
+        zip_name_locate(archive_->zip, name.c_str(), ZIP_FL_NOCASE | ZIP_FL_ENC_GUESS);
+    if (index >= 0) return index;
+  }
+  return -1;
+}
+
 void Package::read(const std::string& part, const std::function<void(std::string_view)>& use) {
   const std::string name = part.starts_with('/') ? part.substr(1) : part;
   const auto fail = [&](const std::string& what) {
     reject(source_.name, "byte 0", "part " + vkh::quoted(name) + ": " + what, kExpected);
   };
-  const zip_int64_t index =
-      zip_name_locate(archive_->zip, name.c_str(), ZIP_FL_NOCASE | ZIP_FL_ENC_GUESS);
+  const zip_int64_t index = find(part);
   if (index < 0) fail("it is not in the archive");
   const std::unique_ptr<zip_file_t, CloseEntry> file(
       zip_fopen_index(archive_->zip, static_cast<zip_uint64_t>(index), 0));

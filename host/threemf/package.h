@@ -19,13 +19,16 @@ class Package {
   Package(const Package&) = delete;
   Package& operator=(const Package&) = delete;
 
+  bool has(const std::string& part) const { return find(part) >= 0; }
   /// Unpacks a part, named from the root on, with or without its first slash: use(piece) for each
   /// piece, in order. What is unpacked counts against --max-input. Rejects a part that is not
   /// there, encrypted or damaged.
+  /// Percents in the name, and "." and "..", mean what they do in a URI.
   void read(const std::string& part, const std::function<void(std::string_view)>& use);
 
  private:
   struct Archive;
+  int64_t find(const std::string& part) const;
 
   const MeshSource& source_;
   uint64_t unpacked_bytes_ = 0;

@@ -60,7 +60,11 @@ void on_namespace(void* data, const char* prefix, const char* uri) {
   session.guard(
       [&] { session.reader->declare(prefix == nullptr ? "" : prefix, uri == nullptr ? "" : uri); });
 }
-// Text, comments and what else no one asks for.
+void on_text(void* data, const char* text, int length) {
+  Session& session = session_of(data);
+  session.guard([&] { session.reader->text({text, static_cast<size_t>(length)}); });
+}
+// Comments and what else no one asks for.
 void on_other(void* data, const char* /*text*/, int /*length*/) { session_of(data).note(); }
 void on_doctype(void* data, const char* /*name*/, const char* /*system*/, const char* /*open*/,
                 int /*has_subset*/) {
@@ -90,6 +94,7 @@ void read_xml(const MeshSource& source, Package& package, const std::string& par
   XML_SetElementHandler(parser.get(), on_open, on_close);
   XML_SetNamespaceDeclHandler(parser.get(), on_namespace, nullptr);
   XML_SetStartDoctypeDeclHandler(parser.get(), on_doctype);
+  XML_SetCharacterDataHandler(parser.get(), on_text);
   XML_SetDefaultHandler(parser.get(), on_other);
   uint64_t fed = 0;
   const auto fail = [&](const std::string& what) {

@@ -26,6 +26,8 @@ class XmlReader {
   virtual ~XmlReader() = default;
   virtual void open(std::string_view name, const Attributes& attributes) = 0;
   virtual void close(std::string_view name) = 0;
+  /// Between tags, in pieces.
+  virtual void text(std::string_view /*piece*/) {}
   /// A prefix of a namespace, before the element that declares it.
   virtual void declare(std::string_view /*prefix*/, std::string_view /*uri*/) {}
 

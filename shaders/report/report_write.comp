@@ -4,8 +4,9 @@
 // waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
 // 48-bit position can lie from the point of A that it stands for. upper: the largest u of
 // everything that was closed, spilled or is still open; without bound while faces of A wait. Both
-// as float32, and to more bits above the base. lower_bits, ordered bits (math/morton.h), and
-// groups_done are kNone and 0 again.
+// as float32, and to more bits above the base. Where
+// an input is no mesh the status says so, and no bound is. lower_bits, ordered bits
+// (math/morton.h), and groups_done are kNone and 0 again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -27,7 +28,8 @@ layout(scalar, binding = 6) buffer LowerBits { uint lower_bits; };
 layout(scalar, binding = 7) buffer GroupsDone { uint groups_done; };
 layout(scalar, binding = 8) writeonly buffer ReportBlock { Report report; };
 layout(scalar, binding = 9) readonly buffer Frontier { Candidate frontier[]; };
-layout(scalar, push_constant) uniform PushBlock { CountPush push; };
+layout(scalar, binding = 10) readonly buffer BFault { uint b_fault; };
+layout(scalar, push_constant) uniform PushBlock { ReportPush push; };
 
 #include "shaders/base/last_group.glsl"
 #include "shaders/candidate/base.glsl"
@@ -153,11 +155,48 @@ void write_report() {
   for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = control.culled[i];
 }
 
+// No bound is known: what was measured are no meshes. The faces at fault stand as the witness's.
+void write_fault(uint a_fault, uint fault_of_b) {
+  report.base = 0.0;
+  report.lower = 0.0;
+  report.lower_above = 0.0;
+  float infinity = uintBitsToFloat(0x7f800000u);
+  report.upper = infinity;
+  report.upper_above = infinity;
+  report.status = kStatusInput;
+  report.certified = 0u;
+  report.witness.root = a_fault;
+  report.witness_face = fault_of_b;
+}
+
+// Nothing but the report is valid: no run, and no triangles.
+void write_unbuilt() {
+  report.wave = 0u;
+  report.witness = Witness(vec3(0.0), 0.0, kNone, 0u, 0u, kNone);
+  report.remaining = 0u;
+  report.candidate_total = 0u;
+  report.query_total = 0u;
+  report.peak_frontier = 0u;
+  report.wanted = 0u;
+  report.witness_low_j = 0u;
+  report.witness_low_k = 0u;
+  for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = 0u;
+  for (uint w = 0u; w < kMaxWaveRecords; ++w)
+    report.waves[w] = WaveRecord(0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
+  write_fault(kNone, kFaultLayout);
+}
+
 void main() {
+  if (push.is_built == 0u) {
+    if (item_index() == 0u) write_unbuilt();
+    return;
+  }
   float smallest = subgroupMin(certified_distance());
   if (subgroupElect()) atomicMin(lower_bits, ordered_bits(floatBitsToUint(smallest)));
   if (!is_last_group()) return;
   uint lane = gl_LocalInvocationID.x;
   for (uint w = lane; w < kMaxWaveRecords; w += kGroupSize) report.waves[w] = control.waves[w];
-  if (lane == 0u) write_report();
+  if (lane != 0u) return;
+  write_report();
+  if (control.input_fault != kNone || b_fault != kNone) write_fault(control.input_fault, b_fault);
 }

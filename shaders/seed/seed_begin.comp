@@ -13,6 +13,7 @@ layout(scalar, binding = 2) writeonly buffer GroupsDone { uint groups_done; };
 layout(scalar, push_constant) uniform PushBlock { BeginPush push; };
 
 void begin() {
+  control.input_fault = push.input_fault;
   for (int i = 0; i < 5; ++i) control.count[i] = 0u;
   for (int i = 0; i < 6; ++i) control.maximum[i] = 0u;
   for (uint i = 0u; i < kMostCulls; ++i) control.culled[i] = 0u;

@@ -14,6 +14,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "shaders/gpu_types.h"
 #include "shaders/base/invocation.glsl"
+#include "shaders/base/subgroup.glsl"
 #include "shaders/sort/sort.glsl"
 
 layout(local_size_x = kSortGroup) in;
@@ -126,7 +127,7 @@ void rank_run(uint run) {
     bool there = run + round * gl_SubgroupSize < total;
     uint digit = there ? (key[round] >> push.shift) & 255u : 255u;
     uvec4 peers = peers_of(digit);
-    uint leader = subgroupBallotFindLSB(peers);
+    uint leader = first_lane(peers);
     uint shift = 16u * (digit & 1u);
     uint before = 0u;
     if (gl_SubgroupInvocationID == leader) {

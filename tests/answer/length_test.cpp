@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "host/base/error.h"
 
@@ -51,6 +54,60 @@ TEST_CASE("what is no length is refused, and a limit is no number alone") {
                        "--unit 'miles': expected um, mm, cm, m, in or ft", UsageError);
 }
 
+/// What is to be written in place of it; empty where nothing is proposed.
+std::string proposed(const std::string& text, PlainNumber plain = PlainNumber::kRefused) {
+  try {
+    parse_length("--max", text, plain);
+  } catch (const UsageError& error) {
+    const std::string line = error.what(), before = "--max '" + text + "': write ";
+    if (!line.starts_with(before)) return "";
+    return line.substr(before.size(), line.find("; expected") - before.size());
+  }
+  return "accepted";
+}
+
+TEST_CASE("a length that is meant is proposed as it has to be written") {
+  CHECK(proposed("0,1mm") == "0.1mm");
+  CHECK(proposed("0,100 mm") == "0.100mm");
+  CHECK(proposed("1,000mm") == "1.000mm or 1000mm");
+  CHECK(proposed("1,000.5mm") == "1000.5mm");
+  CHECK(proposed("4mil") == "0.1016mm");
+  CHECK(proposed("4 thou") == "0.1016mm");
+  CHECK(proposed("0.1inch") == "0.1in");
+  CHECK(proposed("0.1 Inches") == "0.1in");
+  CHECK(proposed("0.1MM") == "0.1mm");
+  CHECK(proposed("+0.1mm") == "0.1mm");
+  CHECK(proposed("100\xc2\xb5m") == "100um");
+  CHECK(proposed("5 microns") == "5um");
+  CHECK(proposed("50nm") == "0.05um");
+  CHECK(proposed("1e-2 millimetres") == "1e-2mm");
+  CHECK(proposed("0,5%") == "0.5%");
+  CHECK(proposed("0.1mm") == "accepted");
+  CHECK(proposed("0.1 mm") == "accepted");
+  for (const char* unknown :
+       {"", "mm", "0.1", "1 fortnight", "1.2.3inch", "-1inch", "0,0mm", "1mm mm", ","}) {
+    CAPTURE(unknown);
+    CHECK(proposed(unknown) == "");
+  }
+}
+
+TEST_CASE("a unit that is meant is proposed by its name") {
+  CHECK_THROWS_WITH_AS(check_unit("--unit", "inch"),
+                       "--unit 'inch': write in; expected um, mm, cm, m, in or ft", UsageError);
+  for (const auto& one : {std::pair{"MM", "mm"},
+                          {"Inches", "in"},
+                          {"micron", "um"},
+                          {"meter", "m"},
+                          {"feet", "ft"}}) {
+    CAPTURE(one.first);
+    const std::string hint = std::string("write ") + one.second + ";";
+    CHECK_THROWS_WITH_AS(check_unit("--unit", one.first), doctest::Contains(hint.c_str()),
+                         UsageError);
+  }
+  for (const char* none : {"mil", "%", "abs", "diag", "nm"})
+    CHECK_THROWS_WITH_AS(check_unit("--unit", none), doctest::Contains("': expected"), UsageError);
+}
+
 TEST_CASE("a length is enclosed in the files' unit") {
   const double diagonal = std::sqrt(3.0);
   const auto in = [&](const char* text, const char* unit) {
@@ -73,6 +130,20 @@ TEST_CASE("a length is enclosed in the files' unit") {
   CHECK_THROWS_AS(in("0.1mm", ""), UsageError);
   CHECK_THROWS_WITH_AS(in("0.1mm", ""), doctest::Contains("as 0.1abs"), UsageError);
   CHECK_THROWS_AS(in("1e308m", "um"), UsageError);
+}
+
+TEST_CASE("a share of a diagonal that no double holds to all its bits decides nothing") {
+  const auto limit = [](const char* text, double diagonal) {
+    return limit_in_files(parsed(text), "--max", "mm", diagonal);
+  };
+  for (const double none : {0.0, 5e-324, 1e-310, std::numeric_limits<double>::max()}) {
+    CAPTURE(none);
+    for (const char* text : {"50%", "0.5diag"}) CHECK_THROWS_AS(limit(text, none), UsageError);
+    CHECK(limit("0.5abs", none).within > 0);
+    CHECK(limit("0.5mm", none).within > 0);
+  }
+  check_near(limit("50%", 4 * std::numeric_limits<double>::min()), 0x1p-1021);
+  check_near(limit("50%", 1e308), 5e307);
 }
 
 }  // namespace

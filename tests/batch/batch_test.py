@@ -4,12 +4,14 @@ usage: batch_test.py PROGRAM [--kills N] [TEST...]
 """
 
 import csv
+import hashlib
 import json
 import os
 import pathlib
 import random
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -81,6 +83,16 @@ class Answers(Folder):
             self.assertEqual([results[name]["interval"][key] for key in FLOATS], [alone["interval"][key] for key in FLOATS])
             self.assertEqual(results[name]["directions"][0]["witness"], alone["directions"][0]["witness"])
             self.assertEqual(list(results[name])[-1], "run")
+
+    def test_junit_has_notes_on_polygons(self):
+        (self.folder / "quad.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 2\n")
+        self.write_list([{"id": "quads", "a": "quad.obj", "b": "quad.obj"}])
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--junit=out.xml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "out.xml").read_text()
+        for side in "AB":
+            self.assertIn(f"\n{side}: polygons: 1 face of more than three corners was triangulated", text)
+        self.assertNotIn("polylines", text)
 
     def test_groups_and_lanes_change_no_bit(self):
         self.make_pairs(12)
@@ -246,6 +258,24 @@ class Interrupted(Folder):
         self.assertEqual([line["id"] for line in self.results()[8:]], ["pair 2"])
         self.assertEqual(len(self.merged().splitlines()), 4)
 
+    def test_a_failure_that_is_kept_keeps_its_reason(self):
+        self.make_pairs(2)
+        (self.folder / "0_a.obj").write_text("v 0 0 zero\n")
+        first = self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
+        again = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")
+        for done in (first, again):
+            self.assertEqual(done.returncode, 4)
+            failed = [line for line in done.stdout.splitlines() if line.startswith("  failed")]
+            self.assertEqual(len(failed), 1, done.stdout)
+            self.assertIn("pair 0: 0_a.obj: line 1", failed[0])
+        self.assertEqual(len(self.results()), 2)
+
+    def test_a_file_beyond_the_limit_is_read_under_a_larger_one(self):
+        self.make_pairs(2)
+        self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--max-input", "100").returncode, 4)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--max-input", "1M", "--resume")
+        self.assertEqual(done.returncode, 0, done.stdout)
+
     def test_a_full_disk(self):
         self.make_pairs(8)
 
@@ -324,6 +354,105 @@ class Faults(Folder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([line for line in self.results() if line["code"] == 0][:len(kept)], kept)
         self.assertEqual(len(self.merged().splitlines()), 6)
+
+
+class Beneath(Folder):
+    """A glTF document's numbers lie in a file beneath it, which no list names."""
+
+    def write_scene(self, height):
+        corners = struct.pack("<9f", 0, 0, height, 1, 0, height, 0, 1, height)
+        (self.folder / "a.bin").write_bytes(corners)
+        (self.folder / "a.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(corners)}],
+            "buffers": [{"uri": "a.bin", "byteLength": len(corners)}]}))
+
+    def setUp(self):
+        super().setUp()
+        self.write_scene(0.25)
+        (self.folder / "b.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.write_list([{"id": "one", "a": "a.gltf", "b": "b.obj"}])
+
+    def batch(self, *words, out="out.jsonl"):
+        return self.run_words("batch", "list.jsonl", "--out", out, "--max", "0.5m", *words)
+
+    def test_a_changed_file_is_done_again(self):
+        self.assertEqual(self.batch().returncode, 0)
+        first = self.results()[0]
+        self.assertEqual([file["path"] for file in first["inputs"][0]["files"]], ["a.bin"])
+        self.assertEqual(first["inputs"][0]["files"][0]["sha256"], hashlib.sha256((self.folder / "a.bin").read_bytes()).hexdigest())
+        self.assertEqual(first["inputs"][1]["files"], [])
+        self.assertEqual(self.batch("--resume").returncode, 0)
+        self.assertEqual(len(self.results()), 1)
+        document = (self.folder / "a.gltf").read_bytes()
+        self.write_scene(7)
+        self.assertEqual((self.folder / "a.gltf").read_bytes(), document)
+        done = self.batch("--resume")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertTrue(done.stdout.startswith("FAIL"), done.stdout)
+        self.assertEqual([line["verdict"] for line in self.results()], ["pass", "fail"])
+        self.assertEqual(json.loads(self.merged())["verdict"], "fail")
+
+    def test_one_that_is_shared_as_b(self):
+        self.write_list([{"id": str(i), "a": "b.obj", "b": "a.gltf"} for i in range(3)])
+        self.assertEqual(self.batch().returncode, 0)
+        self.write_scene(7)
+        self.assertEqual(self.batch("--resume").returncode, 1)
+        self.assertEqual(len(self.results()), 6)
+
+    def test_one_that_was_missing_is_read_once_it_is_there(self):
+        corners = (self.folder / "a.bin").read_bytes()
+        (self.folder / "a.bin").unlink()
+        self.assertEqual(self.batch().returncode, 4)
+        self.assertEqual(self.results()[0]["inputs"][0]["files"], [{"path": "a.bin", "sha256": None}])
+        self.assertEqual(self.batch("--resume").returncode, 4)
+        self.assertEqual(len(self.results()), 1)
+        (self.folder / "a.bin").write_bytes(corners)
+        self.assertEqual(self.batch("--resume").returncode, 0)
+
+    def test_shards_of_different_geometry_do_not_merge(self):
+        self.batch(out="0.jsonl")
+        self.write_scene(7)
+        self.batch(out="1.jsonl")
+        done = self.run_words("merge", "0.jsonl", "1.jsonl", "--out", "merged.jsonl")
+        self.assertEqual(done.returncode, 4, done.stdout)
+        self.assertIn("'one' has other inputs", done.stderr)
+        self.assertFalse((self.folder / "merged.jsonl").exists())
+
+    def test_parts_of_different_geometry_do_not_merge(self):
+        write_mesh(self.folder / "two.obj", 0, size=1)
+        for i, height in enumerate((0.25, 7)):
+            self.write_scene(height)
+            part = self.run_words("distance", "two.obj", "a.gltf", "--part", f"{i}/2", f"--json={i}.json")
+            self.assertEqual(part.returncode, 0, part.stderr)
+        done = self.run_words("merge", "0.json", "1.json", "--out", "merged.json")
+        self.assertEqual(done.returncode, 4, done.stdout)
+        self.assertIn("another file beneath B", done.stderr)
+
+    def test_a_line_of_an_older_program_is_done_again(self):
+        """Its key was of the document alone, so that nobody knows of which shape it is."""
+        self.batch()
+        line = self.results()[0]
+        digests = [side["sha256"] for side in line["inputs"]]
+        no_waves = "4294967295"
+        parts = [line["version"], *digests, line["tolerance"]["requested"], line["max"]["requested"], "", "", "", "", "inf", no_waves, "0"]
+        line["key"] = hashlib.sha256("\n".join(parts).encode()).hexdigest()  # as 0.1.0 made it
+        for side in line["inputs"]:
+            del side["files"]
+        (self.folder / "out.jsonl").write_text(json.dumps(line, separators=(",", ":")) + "\n")
+        self.write_scene(7)
+        done = self.batch("--resume")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(len(self.results()), 2)
+
+    def test_an_answer_and_a_report_name_it(self):
+        done = self.run_words("distance", "a.gltf", "b.obj", "--json", "--report", "out.html")
+        digest = hashlib.sha256((self.folder / "a.bin").read_bytes()).hexdigest()
+        self.assertEqual(json.loads(done.stdout)["inputs"][0]["files"], [{"path": "a.bin", "sha256": digest}])
+        page = (self.folder / "out.html").read_text()
+        self.assertIn(digest, page.split("SHA-256 of files beneath", 1)[1].split("</tr>", 1)[0])
 
 
 class Merged(Folder):

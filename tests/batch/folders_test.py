@@ -280,7 +280,7 @@ class Refused(Folders):
         shutil.copy(self.folder / "0_a.obj", self.folder / "d" / "A.PNG")
         self.write_list([{"id": "a", "a": "d/A.PNG", "b": "0_b.obj"}], "inside.jsonl")
         before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
-        for words, said in ((["--image-dir", "file"], "is a file, no folder"), (["--image-dir", "file/d"], "cannot be made"), (["--image-dir", ""], "expected the name of a folder"),
+        for words, said in ((["--image-dir", "file"], "is a file, no folder"), (["--image-dir", "file/d"], "cannot be made"), (["--image-dir", ""], "--image-dir: '' is no value"),
                             (["--image-dir", "d"], "would overwrite what 'd/b.png' leads to"), (["--csv", "d/index.html", "--report-dir", "d"], "would overwrite 'd/index.html'"),
                             (["--junit", "d/b.html", "--report-dir", "d"], "would overwrite 'd/b.html'"), (["--range", "0,1abs"], "ask for --image-dir or --report-dir"),
                             (["--map", "batlow"], "ask for --image-dir or --report-dir"), (["--image-dir", "e", "--size", "1x1"], "--size")):

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "host/answer/json_object.h"
 #include "host/base/error.h"
 #include "host/record/csv.h"
 #include "host/record/record.h"
@@ -148,6 +149,38 @@ TEST_CASE("a result's line is read back as what it says") {
   CHECK(!failed.is_final());
   for (const char* text : {"", "{", "[]", "{}", R"({"schema":"vkhausdorff.pair/1"})"})
     CHECK_THROWS_AS(read_record(text), InputError);
+}
+
+TEST_CASE("a line that was changed is refused") {
+  Answer answer;
+  answer.a_to_b.lower = 0.1;
+  answer.a_to_b.upper = 0.25;
+  answer.b_to_a = answer.a_to_b;
+  answer.inputs[0].is_read = true;
+  const std::string line = to_record({"x", "key"}, answer);
+  CHECK(read_record(line).directions[1].upper == 0.25);
+  const auto refusal = [&](const std::string& pointer, const Json& value) {
+    Json json = Json::parse(line);
+    json[Json::json_pointer(pointer)] = value;
+    try {
+      read_record(json.dump());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("it was read");
+  };
+  CHECK(refusal("/interval/lower", 0.1) == "it was read");
+  CHECK(refusal("/interval/lower_hex", "0x1p-4").find("lower_hex '0x1p-4' is another number") == 0);
+  CHECK(refusal("/interval/upper", 0.2500000001).find("upper_hex") == 0);
+  CHECK(refusal("/interval/upper", nullptr).find("upper_hex") == 0);
+  CHECK(refusal("/interval/upper_hex", "inf").find("upper_hex") == 0);
+  CHECK(refusal("/interval/upper_hex", nullptr).find("no upper with its upper_hex") == 0);
+  CHECK(refusal("/directions/1/interval/upper_hex", "0x1p-9").find("upper_hex") == 0);
+  CHECK(refusal("/interval",
+                {{"lower", 0.5}, {"lower_hex", "0x1p-1"}, {"upper", 0.25}, {"upper_hex", "0x1p-2"}})
+            .find("lower end is above") != std::string::npos);
+  CHECK(refusal("/inputs/0/faces", 1.5).find("faces 1.5 is no whole number") == 0);
+  CHECK(refusal("/inputs/0/faces", -1).find("faces -1") == 0);
 }
 
 TEST_CASE("codes: the worst of a batch") {

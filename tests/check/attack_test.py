@@ -17,7 +17,7 @@ import make_certificate
 import pairs
 import spoil
 import truth
-from checkers import PROGRAM, Checkers
+from checkers import PROGRAM, Checkers, vkh_check
 
 KEEP = os.environ.get("VKH_ATTACK_KEEP", os.path.join(tempfile.gettempdir(), "vkh_attack"))
 OPTIONS = argparse.Namespace(pairs=70, seed=1, seconds=0.0, mutants=60)
@@ -152,6 +152,14 @@ class Cases(unittest.TestCase):
                 self.checkers.meshes(first, write(other), ending)
                 self.checkers.ask(data, code, f"a polygon, as {ending}")
         self.settle()
+
+    def test_polygons_that_are_not_convex(self):
+        corners = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n"
+        convex = vkh_check.read_obj((corners + "f 1 2 4\n").encode())
+        self.assertEqual(len(convex), 1)
+        for face in ("1 2 3 4", "1 2 4 3", "2 1 4 3", "1 4 2 3"):
+            with self.assertRaisesRegex(ValueError, "not convex"):
+                vkh_check.read_obj((corners + f"f {face}\n").encode())
 
     def test_a_part_too_far_from_all(self):
         """h(A,B) is the height of a peak in a part that the tree may not leave out."""

@@ -97,8 +97,9 @@ TEST_CASE("what cannot be had of a part") {
     CHECK(outcome.out == "");
     CHECK(outcome.err.find(why) != std::string::npos);
   };
-  for (const char* wrong : {"3/3", "-1/3", "1", "1/", "/3", "1/3x", "a/b", "1/0", "1.5/3", ""})
+  for (const char* wrong : {"3/3", "-1/3", "1", "1/", "/3", "1/3x", "a/b", "1/0", "1.5/3"})
     refused({"--part", wrong}, "--part '");
+  refused({"--part", ""}, "--part: '' is no value");
   refused({"--part", "0/1153"}, "A has 1152 faces, too few for 1153 parts");
   refused({"--known-lower", "1abs"}, "ask for a --part");
   refused({"--part", "0/2", "--known-lower", "1"}, "--known-lower '1'");

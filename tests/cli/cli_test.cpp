@@ -132,6 +132,28 @@ TEST_CASE("bad input: exit code 4, one line that names the file") {
   }
 }
 
+TEST_CASE("a file that is not there has no place in it") {
+  const Outcome outcome = run({"distance", "gone.obj", square_a(), "--json"});
+  CHECK(outcome.exit_code == 4);
+  const json error = parse_only_line(outcome.out).at("error");
+  CHECK(error.at("message").get<std::string>().starts_with("gone.obj: no such file; expected "));
+  CHECK(error.at("file") == "gone.obj");
+  CHECK(error.at("place").is_null());
+}
+
+TEST_CASE("an A of one point is measured, and a note says what its diagonal is for") {
+  const std::string point = write_file("point.obj", "v 0.5 0.5 2\nf 1 1 1\n");
+  const json r = parse_only_line(run({"distance", point, square_b(), "--json"}).out);
+  check_interval(r, 1.75);
+  REQUIRE(r.at("notes").size() == 1);
+  CHECK(r["notes"][0].get<std::string>().starts_with("tolerance: A is one point"));
+  const Outcome table = run({"distance", point, square_b(), "--tol", "1e-6abs"});
+  CHECK(table.exit_code == 0);
+  CHECK(table.out.find("tolerance: ") == std::string::npos);
+  CHECK(table.out.find(" of diag(A)") == std::string::npos);
+  CHECK(run({"gate", point, square_b(), "--max", "1.8abs"}).exit_code == 0);
+}
+
 TEST_CASE("a device that is not there: exit code 5") {
   check_refused({"distance", square_a(), square_b(), "--device", "no such device"}, 5, "device");
   check_refused({"distance", square_a(), square_b(), "--device", "12345"}, 5, "device");
@@ -182,8 +204,9 @@ TEST_CASE("distance --json: one object of the schema and nothing else on stdout"
           sorted({"requested", "absolute", "unit", "diagonal_of", "diagonal"}));
     REQUIRE(r["inputs"].size() == 2);
     const json& mesh = r["inputs"][0];
-    CHECK(keys(mesh) == sorted({"name", "path", "sha256", "vertices", "faces", "unreferenced",
-                                "degenerate", "duplicate", "polygons", "delta", "unit", "notes"}));
+    CHECK(keys(mesh) ==
+          sorted({"name", "path", "sha256", "files", "vertices", "faces", "unreferenced",
+                  "degenerate", "duplicate", "polygons", "delta", "unit", "notes"}));
     CHECK(mesh["delta"] == 0);
     CHECK(mesh["unit"].is_null());
     CHECK(mesh["path"] == a);

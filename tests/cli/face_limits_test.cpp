@@ -81,9 +81,21 @@ TEST_CASE("--face-max: each face its own limit") {
   const json r = json::parse(fail.out);
   CHECK(r["verdict"] == "fail");
   CHECK(r["max"]["faces_a"]["faces"] == 2);
+  if (!r["inputs"][0]["sha256"].is_null())
+    CHECK(r["max"]["faces_a"]["sha256"] ==
+          "a1e3546c2f757b8cffc9b41f001918f8653eb46bd5ba7805d02356f3de430d75");
   CHECK(r["directions"][0]["witness"]["from"]["face"] == 1);
   CHECK(r["words"].get<std::string>().find("face's limit is 0.2") != std::string::npos);
   CHECK(ask("0,8mm\n1,7mm\n", "1mm", {"--unit", "in"}).exit_code == 0);
+  // With the mark of spreadsheets.
+  CHECK(ask("\xef\xbb\xbf"
+            "face,max\r\n0,0.3\r\n1,0.26\r\n",
+            "0.1abs")
+            .exit_code == 0);
+  CHECK(ask("\xef\xbb\xbf"
+            "1,0.2\n",
+            "0.3abs")
+            .exit_code == 1);
   CHECK(ask("1,0.25\n", "0.3abs").exit_code == 3);
   CHECK(ask("1,0.3\n", "0.3abs", {"--symmetric"}).exit_code == 0);
   CHECK(ask("1,0.3\n", "0.2abs", {"--symmetric"}).exit_code == 1);
@@ -96,7 +108,9 @@ TEST_CASE("--face-max: each face its own limit") {
     CHECK(refused.exit_code == 4);
     CHECK(refused.err.find("limits.csv: line ") != std::string::npos);
   }
-  CHECK(gate("0.3abs", {"--face-max", "missing.csv"}).exit_code == 4);
+  const Outcome missing = gate("0.3abs", {"--face-max", "missing.csv"});
+  CHECK(missing.exit_code == 4);
+  CHECK(missing.err.find("missing.csv: no file to be read; expected") != std::string::npos);
   CHECK(gate("0.3abs", {"--face-max-b", "back.csv"}).exit_code == 2);
 }
 
@@ -166,6 +180,8 @@ TEST_CASE("--face-max takes the property max of a PLY's faces") {
     CHECK(json::parse(fail.out)["directions"][0]["witness"]["from"]["face"] == 1);
   }
   CHECK(ask(ascii_ply("0.3", "1.6")).exit_code == 0);
+  CHECK(ask("\xef\xbb\xbf" + ascii_ply("0.3", "1.6")).exit_code == 0);
+  CHECK(ask(ascii_ply("0.3 7", "1.6 7")).exit_code == 0);
   CHECK(ask(ascii_ply("0.3", "1.4")).exit_code == 1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double wrong : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {

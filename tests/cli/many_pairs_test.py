@@ -4,10 +4,12 @@ usage: many_pairs_test.py PROGRAM
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
@@ -67,6 +69,34 @@ class ManyPairs(unittest.TestCase):
                 self.run_program("batch", "list.csv", *words, code=2)
         self.run_program("batch", "one.jsonl", "--out", "one.jsonl", "--resume", code=2)
         self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_a_value_that_is_empty_is_refused(self):
+        """As a script gives it whose variable is not set: less would be asked or written than it says."""
+        self.write_list()
+        self.run_program("batch", "list.csv", "--out", "done.jsonl")
+        before = {path: path.read_bytes() for path in self.folder.iterdir()}
+        for option in ("--csv", "--junit", "--max", "--tol", "--shard", "--against", "--unit", "--time", "--image-dir"):
+            for words in ((option, ""), (option + "=",)):
+                with self.subTest(words):
+                    said = self.run_program("batch", "list.csv", "--out", "out.jsonl", *words, code=2)
+                    self.assertIn(option, said)
+        for option in ("--csv", "--junit", "--list"):
+            with self.subTest(option):
+                self.assertIn(option, self.run_program("merge", "done.jsonl", "--out", "all.jsonl", option, "", code=2))
+        self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_pipes(self):
+        """A list may come from a pipe, whose folder says nothing of the files; results may not, for they are read twice."""
+        (self.folder / "sub").mkdir()
+        pipe = self.folder / "sub/pipe"
+        os.mkfifo(pipe)
+        writer = threading.Thread(target=pipe.write_text, args=('{"id": "x", "a": "0.obj", "b": "1.obj"}\n',), daemon=True)
+        writer.start()
+        self.run_program("batch", "sub/pipe", "--out", "out.jsonl")
+        writer.join(timeout=60)
+        self.assertEqual(list(self.results("out.jsonl")), ["x"])
+        self.assertIn("sub/pipe: is no file", self.run_program("merge", "sub/pipe", "--out", "all.jsonl", code=4))
+        self.assertIn("sub: is no file", self.run_program("merge", "sub", "--out", "all.jsonl", code=4))
 
     def test_what_was_begun_goes_on(self):
         self.write_list()

@@ -66,6 +66,7 @@ TEST_CASE("a rule that is broken is named") {
   const auto none = [](auto&) {};
   const Misuse misuses[] = {
       {"vertexStride: a multiple of 4", [](VkhMesh& m) { m.vertexStride = 13; }, none},
+      {"vertexStride: at least 12", [](VkhMesh& m) { m.vertexStride = 8; }, none},
       {"vertexOffset: a multiple of 4", [](VkhMesh& m) { m.vertexOffset = 2; }, none},
       {"indexType: VK_INDEX_TYPE", [](VkhMesh& m) { m.indexType = VkIndexType(77); }, none},
       {"indexOffset: a multiple", [](VkhMesh& m) { m.indexOffset = 2; }, none},

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/note.h"
 #include "host/read/readers.h"
 #include "tests/fuzz/allocations.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -75,6 +76,7 @@ void require_valid(const Mesh& mesh) {
   }
   for (const std::string& note : mesh.notes) {
     require(note.find('\n') == std::string::npos, "a note is one line");
+    require(!code_of_note(note).empty(), "a note begins with its code");
   }
 }
 
@@ -157,6 +159,19 @@ void check_blocks(const MeshSource& source) {
   require(same(whole, joined), "blocks give the same mesh");
 }
 
+// The files beneath a document are found, or the document is refused; none is opened.
+void check_files(const MeshSource& source) {
+  if (g_reader->parse != parse_gltf) return;
+  MeshSource placed = source;
+  placed.folder = "no such folder";
+  try {
+    for (const FileBeneath& file : files_of_gltf(placed))
+      require(!file.name.empty() && file.path.empty(), "a file beneath has a name alone");
+  } catch (const InputError& error) {
+    require_error_line(error.what());
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
@@ -183,6 +198,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   bool accepted = false;
   read_counted(source, mesh, accepted);
   if (size % 2 == 0) check_blocks(source);  // for speed
+  check_files(source);
   if (!accepted) return 0;
   require_valid(mesh);
   if (size % 4 == 0) {  // for speed

@@ -83,7 +83,8 @@ const std::map<std::string, bool> kAcceptedByChoice = {
     {"obj_1e-200_coords.obj", true},            // the solver's frame rescales
     {"obj_1e200_coords.obj", true},             // likewise
     {"obj_nan_unreferenced.obj", false},        // text that says nan is refused wherever it stands
-    {"real_assimp_concave_polygon.obj", true},  // fanned, and the note says what that means
+    {"real_assimp_concave_polygon.obj", true},  // cut along its outline
+    {"real_assimp_longline.obj", false},        // its first face crosses itself
     {"real_assimp_face_texcoord_oob.ply", false},
     {"real_assimp_malformed2.obj", true},  // an empty face is ignored and noted
     {"stl_count_too_small.stl", false},    // a part of a model must not pass for the whole

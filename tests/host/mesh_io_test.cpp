@@ -11,6 +11,7 @@
 #include <random>
 
 #include "host/base/error.h"
+#include "host/base/note.h"
 #include "host/read/readers.h"
 #include "tests/support/error_line.h"
 
@@ -258,9 +259,9 @@ TEST_CASE("OBJ: what is no surface is noted") {
       "f 1 2 3 4\n",
       "a.obj");
   CHECK(mesh.counts.polygons == 1);
-  CHECK(has_note(mesh, "1 polygon fanned"));
-  CHECK(has_note(mesh, "2 faces of fewer than three corners"));
-  CHECK(has_note(mesh, "2 lines with points, polylines or curves ignored"));
+  CHECK(has_note(mesh, "polygons: 1 face of more than three corners was triangulated"));
+  CHECK(has_note(mesh, "short-faces: 2 faces of fewer than three corners"));
+  CHECK(has_note(mesh, "elements: 2 lines with points, polylines or curves ignored"));
   CHECK(mesh.notes.size() == 3);
 }
 
@@ -272,7 +273,7 @@ TEST_CASE("PLY: types, lists and elements in any order") {
       "property short x\nproperty double y\nend_header\n"
       "1 nan 4 0 1 2 3 -1\n\n0 3 3 1 0 7\n9\n0 0.1 1 0.1\n2 5 6 1e-60 2 2\n0 0 3 3\n0 -1 4 4\n",
       "a.ply");
-  CHECK(mesh.faces == Faces{{0, 1, 2}, {0, 2, 3}, {3, 1, 0}});
+  CHECK(mesh.faces == Faces{{3, 0, 1}, {1, 2, 3}, {3, 1, 0}});
   CHECK(mesh.vertices == Vertices{{1, 0.1, 0.1}, {2, 2, 1e-60}, {3, 3, 0}, {4, 4, -1}});
   CHECK(mesh.counts.polygons == 1);
 }
@@ -330,7 +331,8 @@ TEST_CASE("STL: binary is told by its size, text by its words") {
   binary.replace(0, 5, "solid");
   check_same(parse(binary, "a.stl"), sample);
   check_same(parse(binary, "a.obj"), sample);
-  CHECK(has_note(parse(binary + "litter", "a.stl"), "6 bytes after the last triangle ignored"));
+  CHECK(has_note(parse(binary + "litter", "a.stl"),
+                 "unread: 6 bytes after the last triangle ignored"));
   check_error_line(error_of(binary + std::string(50, 'x'), "a.stl"), "a.stl");
   const std::string text = ascii_stl(sample.vertices, sample.faces);
   CHECK(parse(text + text, "a.stl").counts.duplicate == 3);
@@ -338,6 +340,48 @@ TEST_CASE("STL: binary is told by its size, text by its words") {
         "a.stl: line 22: the file ends; expected 'facet' or 'endsolid'");
   CHECK(error_of(text + "facet", "a.stl") ==
         "a.stl: line 24: 'facet'; expected 'solid' or the end of the file");
+}
+
+TEST_CASE("STL: text as writers vary it") {
+  const Sample sample = random_strip(5, 5, true);
+  const std::string text = ascii_stl(sample.vertices, sample.faces);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string out = text;
+    for (size_t at = 0; (at = out.find(from, at)) != std::string::npos; at += to.size())
+      out.replace(at, from.size(), to);
+    return out;
+  };
+  check_same(parse(with("endloop\nendfacet", "end loop\nEnd Facet"), "a.stl"), sample);
+  check_same(parse(with("endsolid a b", "endsolida b"), "a.stl"), sample);
+  check_same(parse(with("facet normal", "color 1 0.5 0\nfacet normal"), "a.stl"), sample);
+  check_same(parse(with("endfacet\n", "endfacet color 1 0 0\n"), "a.stl"), sample);
+  check_same(parse("solid\n" + text + "endsolid\n", "a.stl"), sample);
+  check_same(parse(text + std::string(3, '\0'), "a.stl"), sample);
+  check_same(parse(text + "\x1a", "a.stl"), sample);
+  check_error_line(error_of(with("endloop", "end facet"), "a.stl"), "a.stl");
+  check_error_line(error_of(text + std::string("\0x", 2), "a.stl"), "a.stl");
+}
+
+TEST_CASE("STL: attribute bytes that follow a triangle are skipped") {
+  const Sample sample = random_strip(5, 5, true);
+  const std::string plain = binary_stl(sample.vertices, sample.faces);
+  std::string bytes = plain.substr(0, 84);
+  size_t all = 0;
+  for (size_t t = 0; t < sample.faces.size(); ++t) {
+    const size_t more = 7 * t % 60;  // none, some, more than a triangle's
+    bytes += plain.substr(84 + 50 * t, 48);
+    append(bytes, static_cast<uint16_t>(more));
+    bytes.append(more, 'x');
+    all += more;
+  }
+  const Mesh mesh = parse(bytes, "a.stl");
+  check_same(mesh, sample);
+  CHECK(has_note(mesh, std::to_string(all) + " attribute bytes behind triangles ignored"));
+  // Where the counts do not make the file's size they are something else: a colour.
+  std::string coloured = plain;
+  coloured.replace(84 + 48, 2, "\x10\x42");
+  check_same(parse(coloured, "a.stl"), sample);
+  check_same(parse(coloured + "litter", "a.stl"), sample);
 }
 
 TEST_CASE("OFF: variants") {
@@ -364,6 +408,78 @@ TEST_CASE("the format is told by content, then by name") {
   check_same(parse("\xef\xbb\xbf" + off(sample.vertices, sample.faces), "pipe"), sample);
   check_same(parse("\xef\xbb\xbf" + obj(sample.vertices, sample.faces), "a.obj"), sample);
   check_error_line(error_of("hello\n", "a.txt"), "a.txt");
+  CHECK(error_of("hello\n", "a.txt").find("neither content nor name") != std::string::npos);
+}
+
+TEST_CASE("formats that are not read are named, with what to do") {
+  struct Known {
+    const char* name;
+    std::string bytes;
+    const char* says;
+  };
+  const std::string iges = std::string(72, ' ') + "S      1\n", rows = "0 0 0\n1 0 0\n0 1 0\n";
+  const std::vector<Known> known = {
+      {"a.step", "ISO-10303-21;\nHEADER;\n", "a STEP file (CAD geometry, no plain triangles)"},
+      {"pipe", "ISO-10303-21;\nHEADER;\n", "a STEP file"},
+      {"A.STP", "\nISO", "a STEP file"},
+      {"a.iges", "x", "an IGES file"},
+      {"pipe", iges, "an IGES file"},
+      {"a.x_t", "**PART1;", "a Parasolid file"},
+      {"a.las", "LASF" + std::string(300, '\0'), "a LAS file (points, no faces)"},
+      {"a.xyz", rows, "a text of points (points, no faces)"},
+      {"a.pcd", "# .PCD v0.7\nVERSION 0.7\n", "a PCD file (points, no faces)"},
+      {"a.dae", "<?xml version=\"1.0\"?>\n<COLLADA>", "a COLLADA file, which is not read"},
+      {"a.obj", "<!DOCTYPE html><html>404</html>", "a web page"},
+      {"a.FCStd", "PK\x03\x04" + std::string(40, '\0'), "a FreeCAD file"},
+      {"a.fbx", "Kaydara FBX Binary  ", "an FBX file, which is not read"},
+      {"a.nii", std::string(400, '\0'), "a NIfTI file (voxels, no faces)"},
+  };
+  for (const Known& file : known) {
+    CAPTURE(file.name);
+    const std::string line = error_of(file.bytes, file.name);
+    check_error_line(line, file.name);
+    CHECK(line.find(std::string(": ") + file.says) != std::string::npos);
+    CHECK(line.find("points", line.find("; expected")) == std::string::npos);
+  }
+  // What reads as a mesh is one, whatever it is called.
+  const Sample sample = random_strip(6, 9, true);
+  check_same(parse(obj(sample.vertices, sample.faces), "a.asc"), sample);
+  check_same(parse(binary_ply<float>(sample.vertices, sample.faces, false), "a.step"), sample);
+}
+
+TEST_CASE("points alone are named as such") {
+  const std::string points = "v 0 0 0\nv 1 0 0\n";
+  CHECK(error_of(points, "a.obj")
+            .starts_with("a.obj: line 2: 2 points and no face; expected a mesh"));
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+      "property float y\nproperty float z\n";
+  CHECK(error_of(header + "end_header\n0 0 0\n1 0 0\n", "a.ply")
+            .starts_with("a.ply: line 7: 2 points and no element 'face'; expected a mesh"));
+}
+
+TEST_CASE("a file that is not there is said to be so, without a place in it") {
+  try {
+    vkh::read_mesh("no such folder/a.obj");
+    FAIL("read");
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()).starts_with("no such folder/a.obj: no such file; expected "));
+  }
+}
+
+TEST_CASE("each note begins with its code") {
+  const std::string tail = "f 1 2 3 4\nf 1 2\nl 1 2\nsurf 1\ncall x\n// x\n";
+  const Mesh mesh = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + tail, "a.obj");
+  CHECK(mesh.notes.size() == 6);
+  for (const std::string& note : mesh.notes) {
+    CAPTURE(note);
+    CHECK(!vkh::code_of_note(note).empty());
+    CHECK(note.find_first_of("0123456789") != std::string::npos);
+  }
+  CHECK(vkh::code_of_note("left out") == "");
+  CHECK(vkh::code_of_note("polygons") == "polygons");
+  CHECK(vkh::is_on_surface("bodies: left out: 1 modifier (12 faces)"));
+  CHECK(!vkh::is_on_surface("unread: 5 bytes after the last triangle ignored"));
 }
 
 TEST_CASE("error lines stay one printable line") {

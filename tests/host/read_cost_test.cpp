@@ -54,6 +54,8 @@ void counted_delete(void* block) {
 
 void* operator new(size_t size) { return counted_new(size); }
 void* operator new[](size_t size) { return counted_new(size); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return counted_new(size); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return counted_new(size); }
 void operator delete(void* block) noexcept { counted_delete(block); }
 void operator delete[](void* block) noexcept { counted_delete(block); }
 void operator delete(void* block, size_t) noexcept { counted_delete(block); }

@@ -38,7 +38,9 @@ std::vector<File> files() {
                rows + faces}};
 }
 
-Mesh parse(const File& file, const ReadLimits& limits) {
+// A face that goes there and back is fanned.
+Mesh parse(const File& file, ReadLimits limits) {
+  limits.odd_polygons = OddPolygons::kFanned;
   return parse_mesh({.name = file.name, .bytes = file.bytes, .limits = limits});
 }
 

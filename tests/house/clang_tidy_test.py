@@ -13,6 +13,8 @@ import subprocess
 import sys
 import tempfile
 
+import alone
+
 FOLDERS = ("engine", "host", "check", "examples")  # not the tests and tools: they would take as long again
 # What the checks must find, so that a configuration that finds nothing is noticed.
 BAIT = """\
@@ -65,6 +67,7 @@ def main() -> int:
     if silent:
         print("clang_tidy_test: finds nothing in a file that breaks", *silent)
         return 1
+    build = alone.configure(build, source)
     files = {entry["file"] for entry in json.loads((build / "compile_commands.json").read_text())}
     ours = [f for f in files if checks(f, source)]
     if len(ours) < 40:

@@ -189,7 +189,8 @@ TEST_CASE("mesh_load of nothing but vertices, or nothing but indices") {
                              .index_count = corners,
                              .index_is_16bit = 0,
                              .has_low = 0,
-                             .low_word = 0};
+                             .low_word = 0,
+                             .fault_word = 0};
     bench.run([&](Recorder& rec) {
       rec.run<k::MeshLoad>(Direct<k::MeshLoad>{{.vertex_words = words,
                                                 .index_words = words,

@@ -14,7 +14,7 @@ import sys
 
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 LAYERS = pathlib.Path("/usr/share/vulkan/explicit_layer.d")
-TEST = [BUILD / "tests" / "kernel_bvh_test", "-tc=built hierarchies*"]
+TEST = [BUILD / "tests" / "kernels_tests", "--source-file=*/kernel_bvh_test.cpp", "-tc=built hierarchies*"]
 TRIED = range(1, 13)  # of the first hierarchy
 LEAST = 4             # 8 of 12 with layer 1.3.239
 

@@ -50,9 +50,9 @@ def face_forms(cases):
         cases.refuse(f'face_{name}', VERTICES + line + '\n', 'line')
     cases.accept('face_before_vertices', 1, 'f 1 2 3\n' + VERTICES)
     cases.accept('face_two_corners_among_good', 1, VERTICES + 'f 1 2\nf 1 2 3\n',
-                 '1 face of fewer than three corners ignored')
+                 'short-faces: 1 face of fewer than three corners ignored')
     cases.refuse('face_negative_without_vertices', 'f -4 -3 -2\n')
-    cases.accept('face_long_line', 1000, VERTICES + 'f 1' + ' 2 3' * 500 + ' 4\n')
+    cases.accept('face_long_line', 1000, VERTICES + 'f 1 2' + ' 3' * 1000 + '\n')
 
 
 def vertex_numbers(cases):
@@ -71,6 +71,9 @@ def vertex_numbers(cases):
         'long_number_short_value': 'v 0.' + '0' * 400 + '1e400 0 0',
         'zero_with_exponent': 'v 0e999999999 0 0',
         'colour': 'v 1 0 0 1 1 1 1',
+        'colour_nan': 'v 1 0 0 nan nan nan',
+        'colour_nan_of_windows': 'v 1 0 0 -nan(ind) 1.#QNAN -1.#IND',
+        'colour_infinite_with_alpha': 'v 1 0 0 inf -Inf 0 1',
         'tabs': 'v\t0\t0\t0',
     }
     refused = ('nan NaN -nan nan(0x1) -1.#IND 1.#QNAN inf Infinity -INF +inf snan 0x1p3 0,5 1e400 '
@@ -83,7 +86,8 @@ def vertex_numbers(cases):
         cases.refuse(f'number_refused_{i}', f'v {word} 0 0' + triangle, 'line 1: ')
     for name, line in {
             'digits_beyond': 'v ' + '9' * 400 + ' 0 0', 'zeros_beyond': 'v 1' + '0' * 400 + ' 0 0',
-            'two': 'v 1 2', 'none': 'v', 'nan_weight': 'v 1 0 0 nan',
+            'two': 'v 1 2', 'none': 'v', 'nan_weight': 'v 1 0 0 nan', 'nan_of_two': 'v 1 0 0 1 nan',
+            'colour_word': 'v 1 0 0 1 0 red', 'colour_and_vertex': 'v 1 0 0 nan 0 0 v 0 0 1',
             'unicode_minus': 'v \xe2\x88\x921 0 0', 'no_break_space': 'v\xc2\xa01 0 0'}.items():
         cases.refuse(f'number_{name}', line + triangle, 'line 1: ')
     cases.refuse('number_nan_unreferenced', 'v 0 0 0' + triangle + 'v nan 0 0\n')
@@ -134,19 +138,32 @@ def keywords(cases):
                'shadow_obj a.obj\ntrace_obj a.obj\nvw 0 1\nt crease 2/1/0\n')
     cases.accept('skipped_keywords', 4, skipped + TETRAHEDRON + skipped)
     cases.accept('points_and_lines', 1, VERTICES + 'p 1\nl 1 2 3\nf 1 3 2\n',
-                 '2 lines with points, polylines or curves ignored')
+                 'elements: 2 lines with points, polylines or curves ignored')
     free_form = ('cstype bezier\ndeg 3 3\nbmat u 1\nstep 1 1\ncurv 0 1 1 2 3\ncurv2 1 2\n'
                  'surf 0 1 0 1 1 2 \\\n3 4\nparm u 0 1\ntrim 0 1 1\nhole 0 1 1\nscrv 0 1 1\nsp 1\n'
                  'end\ncon 1 0 1 1 2 0 1 1\nctech cparm 1\nstech cparma 1 1\n')
     cases.accept('free_form', 1, VERTICES + free_form + 'f 1 3 2\n',
-                 '1 free-form surface not read')
+                 'surfaces: 1 free-form surface not read')
     cases.accept('old_free_form', 1, VERTICES + 'bzp 1 2 3 4\nbsp 1 2 3 4\ncdc 1 2 3 4\n'
                  'cdp 1 2 3 4\nres 1 1\nf 1 3 2\n', '2 free-form surfaces not read')
     cases.accept('calls', 4, 'call /etc/passwd\ncsh touch pwned\n' + TETRAHEDRON,
-                 '2 calls of other files or commands not followed')
+                 'calls: 2 calls of other files or commands not followed')
     cases.accept('material_files_not_opened', 4,
                  'mtllib /dev/zero\nmtllib ../../../../../../etc/passwd\n' + TETRAHEDRON)
-    for name, content in {'texture_only': 'vt 0 0\nvt 1 0\nvn 0 0 1\n', 'vertices_only': VERTICES,
+    remarks = 'taken for remarks and ignored, the first begins with '
+    cases.accept('dollar_line', 4, '$ given to an archive\n' + TETRAHEDRON, 'unread: 1 line ' + remarks + "'$'")
+    cases.accept('slashes_comment', 4, '// exported\n' + TETRAHEDRON + '//f 1 2 3\n$Id$\n',
+                 'unread: 3 lines ' + remarks + "'//'")
+    cases.accept('slashes_comment_ends_in_backslash', 4,
+                 TETRAHEDRON.replace('f', '// path C:\\\nf', 1), remarks)
+    cases.refuse('slashes_behind_a_face', VERTICES + 'f 1 3 2 // first\n', "'//' in a face")
+    cases.refuse('slash_line', VERTICES + '/ a\nf 1 3 2\n', 'line 5: ')
+    cases.accept('material_maps', 2, VERTICES + 'newmtl a\nmap_Kd -s 1 1 1 my picture.png\nmap_ao x\nbump b\n'
+                 'disp d\ndecal e\nrefl -type sphere f\nnorm g\nPr 0.5\nPm 0\nsharpness 60\n'
+                 'map_Kd C:\\tex\\\nf 1 3 2\nf 1 2 4\n')
+    cases.refuse('vertices_only', VERTICES, 'line 4: 4 points and no face; expected a mesh')
+    cases.refuse('points_only', VERTICES + 'p 1 2 3 4\n', '4 points and no face')
+    for name, content in {'texture_only': 'vt 0 0\nvt 1 0\nvn 0 0 1\n',
                           'faces_only': TETRAHEDRON[len(VERTICES):], 'empty': '',
                           'blank': ' \n\t\n', 'one_byte': 'v', 'comment_only': '#'}.items():
         cases.refuse(name, content)
@@ -202,7 +219,7 @@ def geometry(cases):
     two = ('o a\n' + VERTICES + 'f 1 3 2\no b\n' + VERTICES +
            'f 5 7 6\ng x y z\ns 1\nf -4 -2 -3\n')
     cases.accept('two_objects', 3, two)
-    fanned = 'the fan of a concave polygon leaves its outline'
+    fanned = 'polygons: 1 face of more than three corners was triangulated'
     cases.accept('concave', 3, 'v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n', fanned)
     cases.accept('not_planar', 2, 'v 0 0 0\nv 1 0 0\nv 1 1 5\nv 0 1 0\nf 1 2 3 4\n', fanned)
     cases.accept('tiny', 4, TETRAHEDRON.replace('1 0 0\n', '1e-200 0 0\n', 1))

@@ -99,6 +99,22 @@ def trailing(cases):
     cases.accept('ascii_blank_end', 4, ASCII + b'\n \t\r\n\n')
     cases.accept('ascii_words', 4, ASCII + b'junk 1 2\n', 'what follows the last row ignored')
     cases.refuse('ascii_number', ASCII + b'junk\n7\n', 'line 19: ')
+
+    def ascii_faces(rows, vertices=VERTEX_ROWS):
+        return ply('ascii', VERTEX + FACE, vertices + rows)
+
+    words = 'with words behind a face'
+    cases.accept('words_behind_faces', 4, ascii_faces(with_suffix(FACE_ROWS, '9 1 1 1 1 1 1 1 1 1')),
+                 'unread: 4 lines ' + words + "'s properties, which were ignored, the first is line 14")
+    cases.accept('words_behind_one_face', 4, ascii_faces(FACE_ROWS.replace('0 1 3', '0 1 3 red')),
+                 'unread: 1 line ' + words + "'s properties, which were ignored, the first is line 15")
+    cases.refuse('words_behind_vertices', ascii_faces(FACE_ROWS, with_suffix(VERTEX_ROWS, '7')), "line 10: '7'")
+    cases.refuse('words_behind_a_short_face', ascii_faces(FACE_ROWS.replace('3 0 2 1', '2 0 2 1')), "line 14: '1'")
+    # Two faces a line are one too few.
+    cases.refuse('faces_glued', ascii_faces(FACE_ROWS.replace('\n', ' ', 1)), 'the file ends at face 3')
+    edge = ['element edge 1', 'property int vertex1', 'property int vertex2']
+    cases.refuse('words_behind_an_edge', ply('ascii', VERTEX + edge + ['element face 3', CORNERS],
+                                             VERTEX_ROWS + FACE_ROWS), "line 17: '2'")
     for name, size in {'vertex': len(V) + len(F) - 53, 'list': len(V) + len(F) - 1,
                        'count': len(V) + 39, 'faces': len(V) + 12}.items():
         cases.refuse(f'cut_in_{name}', ply(LITTLE, VERTEX + FACE, (V + F)[:size]))
@@ -131,7 +147,7 @@ def list_counts(cases):
     cases.accept('no_corners_ascii', 3, ASCII[:-8] + b'0\n', '1 face of fewer than three')
     cases.refuse('no_corners', ply(LITTLE, VERTEX + FACE, V + F[:39] + b'\0'),
                  'a face of no corners')
-    cases.accept('quads', 2, ply('ascii', VERTEX + ONE_FACE, VERTEX_ROWS + '4 0 1 2 3\n'), 'fanned')
+    cases.accept('quads', 2, ply('ascii', VERTEX + ONE_FACE, VERTEX_ROWS + '4 0 1 2 3\n'), 'polygons: 1 face')
 
 
 def skipped_lists(cases):
@@ -254,9 +270,11 @@ def elements(cases):
     listed = ['element vertex 4', 'property list uchar float x'] + XYZ[1:]
     cases.refuse('x_list', ply('ascii', listed + FACE, '1 0 0 0\n' * 4 + FACE_ROWS))
     cases.refuse('no_z', ply('ascii', VERTEX[:3] + FACE, '0 0\n' * 4 + FACE_ROWS))
-    cases.refuse('no_face_element', ply('ascii', VERTEX, VERTEX_ROWS))
+    cases.refuse('no_face_element', ply('ascii', VERTEX, VERTEX_ROWS),
+                 "line 7: 4 points and no element 'face'; expected a mesh")
     cases.refuse('no_elements', 'ply\nformat ascii 1.0\nend_header\n')
-    cases.refuse('no_faces', ply('ascii', VERTEX + ['element face 0', CORNERS], VERTEX_ROWS))
+    cases.refuse('no_faces', ply('ascii', VERTEX + ['element face 0', CORNERS], VERTEX_ROWS),
+                 '4 points and no face')
     cases.refuse('nothing', ply(LITTLE, ['element vertex 0'] + XYZ + ['element face 0', CORNERS]))
     cases.accept('face_first', 4, ply(LITTLE, FACE + VERTEX, F + V))
     strips = ['element tristrips 1', 'property list int int vertex_indices']
@@ -321,8 +339,13 @@ def coordinates(cases):
     cases.refuse('ascii_beyond_double', ascii_first('1e400 0 0', 'double'))
     cases.accept('ascii_blank_lines', 4, ply('ascii', VERTEX + FACE,
                                              '\n\n' + VERTEX_ROWS + '\n' + FACE_ROWS))
-    cases.refuse('ascii_comment_in_body', ply('ascii', VERTEX + FACE,
-                                              VERTEX_ROWS + 'comment x\n' + FACE_ROWS))
+    cases.accept('ascii_comment_in_body', 4,
+                 ply('ascii', VERTEX + FACE, VERTEX_ROWS + 'comment x\n' + FACE_ROWS),
+                 'unread: 1 line of comment in the body ignored, the first is line 14')
+    cases.accept('ascii_comments_before_rows', 4,
+                 ply('ascii', VERTEX + FACE, 'obj_info x\n ' + (VERTEX_ROWS + FACE_ROWS).replace('\n', '\ncomment\n')),
+                 'unread: 8 lines of comment in the body ignored, the first is line 10')
+    cases.refuse('ascii_comment_glued', ply('ascii', VERTEX + FACE, VERTEX_ROWS + 'comments\n' + FACE_ROWS))
     cases.accept('one_point', 4, ply('ascii', VERTEX + FACE, '0 0 0\n' * 4 + FACE_ROWS))
     cases.accept('one_line', 4, ply('ascii', VERTEX + FACE,
                                     '0 0 0\n1 0 0\n2 0 0\n3 0 0\n' + FACE_ROWS))

@@ -98,6 +98,11 @@ def text(cases):
         'beyond_float': (4, spoiled('vertex 1 0 0', 'vertex 1e39 0 0')),  # no type to contradict
         'below_least_double': (4, spoiled('vertex 1 0 0', 'vertex 1 1e-400 -1e-400')),
         'blank_first': (4, '\n\n  ' + TEXT), 'byte_order_mark': (4, '\xef\xbb\xbf' + TEXT),
+        'zero_byte': (4, TEXT + '\0'), 'ctrl_z': (4, TEXT + '\x1a'),
+        'colour': (4, spoiled('facet normal', 'color 1 0 0\nfacet normal')),
+        'glued_end': (4, TEXT.replace('endsolid a', 'endsolida')),
+        'split_end': (4, TEXT.replace('endloop', 'end loop')),
+        'solid_twice': (4, 'solid\n' + TEXT + 'endsolid\n'),
         'long_name': (4, spoiled('solid a', 'solid ' + 'y' * 5000000)),
     }
     for name, (faces, content) in accepted.items():
@@ -112,11 +117,11 @@ def text(cases):
         'nan': spoiled(vertex, 'vertex nan 0 0'), 'comma': spoiled(vertex, 'vertex 0,5 0 0'),
         'hex': spoiled(vertex, 'vertex 0x1 0 0'),
         'beyond_double': spoiled(vertex, 'vertex 1e309 0 0'),
-        'short_normal': spoiled('normal 0 0 0', 'normal 0 0'), 'zero_byte': TEXT + '\0',
+        'short_normal': spoiled('normal 0 0 0', 'normal 0 0'),
+        'zero_byte_inside': spoiled('endloop', 'endloop\0'),
         'four_numbers': spoiled(vertex, vertex + ' 9'),
         'split_vertex': spoiled(vertex, 'vertex 1\n0 0'),
         'utf16': b'\xff\xfe' + utf16(TEXT), 'solid_only': 'solid', 'no_facet': 'solid\nendsolid\n',
-        'colour': spoiled('facet normal', 'color 1 0 0\nfacet normal'),
         'glued_words': spoiled('endfacet\nfacet', 'endfacetfacet'),
     }
     for name, content in refused.items():

@@ -79,6 +79,16 @@ TEST_CASE("a page carries its answer and says what it says") {
   }
 }
 
+TEST_CASE("a page names every file that was read, by its hash") {
+  Invented pair = small_pair();
+  CHECK(count_of(vkh::to_page(pair.contents()), "files beneath") == 0);
+  pair.answer.inputs[1].files = {{"in/x.bin", std::string(64, 'e')}, {"<y>.bin", ""}};
+  const std::string row =
+      between(vkh::to_page(pair.contents()), "SHA-256 of files beneath</th>", "</tr>");
+  CHECK(row.find("in/x.bin") < row.find(std::string(64, 'e')));
+  CHECK(row.find("&lt;y&gt;.bin") < row.find("not known"));
+}
+
 TEST_CASE("a page has no more elements when texts are odd, and needs no network") {
   Invented pair = small_pair();
   const std::string plain = vkh::to_page(pair.contents());

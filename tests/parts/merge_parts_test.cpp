@@ -163,13 +163,55 @@ TEST_CASE("all parts, each once, of one question") {
   check_refused(spoilt("/part/count", 4), "another number of parts");
   check_refused(spoilt("/part/index", 7), "a part that cannot be");
   check_refused(spoilt("/part/index", "x"), "expected an answer of 'distance --part'");
+  check_refused(spoilt("/part/index", 1.9), "index 1.9 is no whole number");
+  check_refused(spoilt("/part/index", 1.0), "index 1.0 is no whole number");
+  check_refused(spoilt("/part/index", true), "index true is no whole number");
+  check_refused(spoilt("/part/count", 3.5), "count 3.5 is no whole number");
+  check_refused(spoilt("/part/count", -3), "count -3 is no whole number");
+  check_refused(spoilt("/directions/0/counts/candidates", 9.5),
+                "candidates 9.5 is no whole number");
+  check_refused(spoilt("/directions/0/culled/u1", -1), "u1 -1 is no whole number");
   check_refused(spoilt("/directions/0/interval/upper_hex", "0x1.zp+0"), "upper_hex");
   check_refused(spoilt("/directions/0/interval/upper_hex", "-0x1p+0"), "upper_hex");
-  check_refused(spoilt("/directions/0/interval/upper_hex", "0x1p-9"), "lower end is above");
+  check_refused(spoilt("/directions/0/interval/upper_hex", "0x1p-9"),
+                "is another number than upper");
+  check_refused(spoilt("/directions/0/interval/lower", 0.5000001), "is another number than lower");
+  check_refused(spoilt("/interval/lower_hex", "0x1p-9"), "is another number than lower");
+  check_refused(
+      spoilt("/directions/0/interval",
+             {{"lower", 0.5}, {"lower_hex", "0x1p-1"}, {"upper", 0.25}, {"upper_hex", "0x1p-2"}}),
+      "lower end is above");
   check_refused(spoilt("/directions/0/status", "happy"), "status");
   check_refused(spoilt("/directions/0/witness", nullptr), "without a witness");
   check_refused(spoilt("/directions", Json::array()), "expected an answer");
   check_refused(spoilt("/part", 3), "expected an answer");
+}
+
+TEST_CASE("parts are of the same files, those beneath A and B, too") {
+  const auto parts = [](const std::vector<FileHash>& first, const std::vector<FileHash>& second,
+                        size_t input) {
+    std::vector<WrittenAnswer> both;
+    for (uint64_t i = 0; i < 2; ++i) {
+      Answer answer = answer_of(i, 2, 1, 1);
+      answer.inputs[input].files = i == 0 ? first : second;
+      both.push_back(written(answer));
+    }
+    return both;
+  };
+  const FileHash one{"a.bin", std::string(64, '1')}, changed{"a.bin", std::string(64, '2')},
+      other{"b.bin", std::string(64, '1')}, unknown{"a.bin", ""};
+  for (const size_t input : {size_t{0}, size_t{1}}) {
+    const std::string name = input == 0 ? "A" : "B";
+    CHECK(merged(parts({one}, {one}, input))["inputs"][input]["files"][0]["path"] == "a.bin");
+    check_refused(parts({one}, {changed}, input), "another file beneath " + name);
+    check_refused(parts({one}, {other}, input), "another file beneath " + name);
+    check_refused(parts({one}, {}, input), "another file beneath " + name);
+    check_refused(parts({one}, {one, other}, input), "another file beneath " + name);
+    check_refused(parts({unknown}, {unknown}, input), "no SHA-256");
+  }
+  std::vector<WrittenAnswer> old = parts({}, {}, 0);  // as before 0.2.0
+  for (WrittenAnswer& part : old) part.json["inputs"][0].erase("files");
+  check_refused(old, "no word on files that were read besides");
 }
 
 TEST_CASE("what is no part is none") {

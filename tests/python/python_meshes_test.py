@@ -22,14 +22,21 @@ class Meshes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = obj(folder, "ü a.obj", a)
             file.write_text(file.read_text() + "v 9 9 9\nf 1 2 3 4\n")
-            mesh = vkh.read(file)
-            self.assertEqual(repr(vkh.read(str(file))), repr(mesh))
+            for polygons in ({}, {"polygons": "refuse"}):
+                with self.assertRaisesRegex(ValueError, f"face {len(a[1])}: an outline that crosses itself"):
+                    vkh.read(file, **polygons)
+            with self.assertRaisesRegex(ValueError, "^polygons.*expected "):
+                vkh.read(file, polygons="any")
+            self.assertIsInstance(next(vkh.distances([(file, b)])).error, ValueError)
+            self.assertIsNone(next(vkh.distances([(file, b)], polygons="fan")).error)
+            mesh = vkh.read(file, polygons="fan")
+            self.assertEqual(repr(vkh.read(str(file), polygons="fan")), repr(mesh))
         self.assertEqual((mesh.vertices.dtype, mesh.faces.dtype), (np.float64, np.uint32))
         self.assertTrue((mesh.vertices == a[0]).all())
         self.assertEqual(len(mesh.faces), len(a[1]) + 2)
         self.assertEqual((mesh.path, mesh.unit, mesh.delta), (str(file), None, 0))
         self.assertEqual((mesh.counts["unreferenced"], mesh.counts["polygons"], mesh.counts["faces"]), (1, 1, len(a[1]) + 2))
-        self.assertTrue(any("fanned" in note for note in mesh.notes), mesh.notes)
+        self.assertTrue(any(note.startswith("polygons: ") for note in mesh.notes), mesh.notes)
         for array in (mesh.vertices, mesh.faces):
             with self.assertRaises(ValueError):
                 array[0] = 1

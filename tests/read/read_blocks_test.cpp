@@ -57,7 +57,10 @@ std::string outcome_of(const File& file, const ReadLimits& limits, bool* by_bloc
 }
 
 ReadLimits whole(uint64_t most = UINT64_MAX) {
-  return {.max_input_bytes = most, .threads = 1, .block_bytes = SIZE_MAX};
+  return {.max_input_bytes = most,
+          .odd_polygons = OddPolygons::kFanned,
+          .threads = 1,
+          .block_bytes = SIZE_MAX};
 }
 
 std::vector<File> corpus() {
@@ -94,6 +97,8 @@ std::string mutant(std::string bytes, std::mt19937& random) {
                                                    "f -1 -2 -3\n",
                                                    "solid a\n",
                                                    "l 1 2\n",
+                                                   "comment x\n",
+                                                   "// x\n",
                                                    "1e999"};
   const size_t at = random() % (bytes.size() + 1);
   switch (random() % 3) {
@@ -116,8 +121,10 @@ void check(const File& file, const Case& how, uint64_t most = UINT64_MAX) {
   CAPTURE(file.name);
   CAPTURE(how.block_bytes);
   CAPTURE(how.threads);
-  const ReadLimits limits{
-      .max_input_bytes = most, .threads = how.threads, .block_bytes = how.block_bytes};
+  const ReadLimits limits{.max_input_bytes = most,
+                          .odd_polygons = OddPolygons::kFanned,
+                          .threads = how.threads,
+                          .block_bytes = how.block_bytes};
   CHECK(outcome_of(file, limits) == outcome_of(file, whole(most)));
 }
 
@@ -227,7 +234,9 @@ TEST_CASE("good files of every format are read by blocks, and as in one") {
       CAPTURE(how.block_bytes);
       CAPTURE(how.threads);
       bool by_blocks = false;
-      const ReadLimits limits{.threads = how.threads, .block_bytes = how.block_bytes};
+      const ReadLimits limits{.odd_polygons = OddPolygons::kFanned,
+                              .threads = how.threads,
+                              .block_bytes = how.block_bytes};
       CHECK(outcome_of(file, limits, &by_blocks) == expected);
       CHECK(by_blocks);
     }
@@ -242,7 +251,9 @@ TEST_CASE("each triangle has the number that its face has in the file") {
   for (const File& file : files_of(faces, 20)) {
     CAPTURE(file.name);
     for (const Case& how : kCases) {
-      const ReadLimits limits{.threads = how.threads, .block_bytes = how.block_bytes};
+      const ReadLimits limits{.odd_polygons = OddPolygons::kFanned,
+                              .threads = how.threads,
+                              .block_bytes = how.block_bytes};
       bool by_blocks = false;
       const Mesh mesh = parse_mesh(
           {.name = file.name, .bytes = file.bytes, .limits = limits, .by_blocks = &by_blocks});
@@ -258,7 +269,8 @@ TEST_CASE("triangles alone take no map") {
   for (const File& file : files_of(faces, 3)) {
     CAPTURE(file.name);
     for (const size_t block : {size_t{50}, SIZE_MAX}) {
-      const ReadLimits limits{.threads = 2, .block_bytes = block};
+      const ReadLimits limits{
+          .odd_polygons = OddPolygons::kFanned, .threads = 2, .block_bytes = block};
       const Mesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes, .limits = limits});
       CHECK(mesh.file_faces.are_triangles());
     }
@@ -270,10 +282,11 @@ TEST_CASE("files are read by blocks as memory is") {
     const TemporaryFile on_disk(file);
     const InputFile input(on_disk.path);
     REQUIRE(input.is_open());
-    MeshSource source{.name = file.name,
-                      .bytes = {},
-                      .limits = {.threads = 3, .block_bytes = 300},
-                      .file = &input};
+    MeshSource source{
+        .name = file.name,
+        .bytes = {},
+        .limits = {.odd_polygons = OddPolygons::kFanned, .threads = 3, .block_bytes = 300},
+        .file = &input};
     CAPTURE(file.name);
     CHECK(outcome_of(source) == outcome_of(file, whole()));
     source.limits = whole();

@@ -118,6 +118,73 @@ TEST_CASE("a document, one with its buffer embedded, beside it, and a GLB are on
   CHECK(parse("\xef\xbb\xbf \n" + document.text()).vertices == embedded.vertices);
 }
 
+TEST_CASE("escapes of JSON are resolved in data and in names") {
+  const Document document = numbered(4, {0, 1, 2, 2, 1, 4});
+  const Mesh plain = parse(document);
+  std::string escaped;
+  bool is_value = false;  // from the data's mark to the end of its string
+  const std::string text = document.text();
+  for (size_t i = 0; i < text.size(); ++i) {
+    is_value = is_value ? text[i] != '"' : i >= 5 && text.substr(i - 5, 5) == "data:";
+    char code[8];
+    std::snprintf(code, sizeof code, i % 2 == 0 ? "\\u%04x" : "\\u%04X", text[i]);
+    escaped += is_value ? std::string(code) : std::string(1, text[i]);
+  }
+  CHECK(parse(escaped).vertices == plain.vertices);
+  CHECK(parse(escaped).faces == plain.faces);
+  std::string broken = escaped;
+  broken.replace(broken.find("\\u"), 6, "\\ud83d");
+  CHECK(refusal(broken) != "it was read");
+  for (const auto& name :
+       std::vector<std::pair<std::string, std::string>>{{"Geh\\u00e4use.bin", "Geh\u00e4use.bin"},
+                                                        {"\\ud83d\\ude00.bin", "\U0001f600.bin"},
+                                                        {"in\\/x.bin", "in/x.bin"},
+                                                        {"part 10%.bin", "part 10%.bin"},
+                                                        {"a%20b.bin", "a%20b.bin"},
+                                                        {"c%20d.bin", "c d.bin"}}) {
+    const std::string& uri = name.first;
+    CAPTURE(uri);
+    std::filesystem::create_directories(folder() / "in");
+    write_file(name.second, document.binary);
+    Json json = document.json;
+    json["buffers"] = {{{"byteLength", document.binary.size()}, {"uri", "URI"}}};
+    std::string whole = json.dump();
+    whole.replace(whole.find("URI"), 3, uri);
+    CHECK(read_mesh(write_file("escaped.gltf", whole)).vertices == plain.vertices);
+  }
+}
+
+TEST_CASE("of two files that a URI may name, the one with percents resolved is read") {
+  const Document document = triangle_document();
+  write_file("two%20names.bin", std::string(document.binary.size(), '\0'));
+  write_file("two names.bin", document.binary);
+  Json json = document.json;
+  json["buffers"] = {{{"byteLength", document.binary.size()}, {"uri", "two%20names.bin"}}};
+  CHECK(read_mesh(write_file("two.gltf", json.dump())).vertices == parse(document).vertices);
+}
+
+TEST_CASE("hidden nodes are left out with what is below them, and counted") {
+  Document document = triangle_document();
+  const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  document.json["nodes"] = {{{"mesh", 0}},
+                            {{"children", {2}}, {"extensions", hidden}},
+                            {{"mesh", 0}, {"translation", {9, 0, 0}}},
+                            {{"mesh", 0},
+                             {"translation", {0, 0, 1}},
+                             {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}}};
+  document.json["scenes"] = {{{"nodes", {0, 1, 3}}}};
+  document.json["extensionsRequired"] = {"KHR_node_visibility"};
+  const Mesh mesh = parse(document);
+  CHECK(mesh.faces.size() == 2);
+  CHECK(has_note(mesh, "bodies: left out: 1 hidden node and what is below"));
+}
+
+TEST_CASE("extensions that leave a shape alone may be required") {
+  Document document = triangle_document();
+  document.json["extensionsRequired"] = {"KHR_animation_pointer", "EXT_lights_image_based"};
+  CHECK(parse(document).faces.size() == 1);
+}
+
 TEST_CASE("nothing outside the file's folder is opened") {
   const Document document = triangle_document();
   std::filesystem::create_directories(folder() / "jail");
@@ -135,6 +202,83 @@ TEST_CASE("nothing outside the file's folder is opened") {
     CHECK_THROWS_WITH_AS(read_mesh(path), doctest::Contains("buffers[0]: "), InputError);
     CHECK_THROWS_AS(parse(json.dump()), InputError);  // bytes without a folder
   }
+}
+
+TEST_CASE("the files beneath a document are those that reading opens") {
+  Document document = triangle_document();
+  const size_t size = document.binary.size();
+  std::filesystem::create_directories(folder() / "beneath/in");
+  const std::string outside = write_file("beyond.bin", document.binary);
+  std::filesystem::create_symlink(outside, folder() / "beneath/link.bin");
+  for (const char* name : {"beneath/a b.bin", "beneath/in/x.bin", "beneath/unused.bin"})
+    write_file(name, document.binary);
+  const auto beneath = [&](const Json& buffers, const std::string& bytes) {
+    std::string text = document.json.dump();
+    if (!buffers.is_null()) {
+      Json json = document.json;
+      json["buffers"] = buffers;
+      text = json.dump();
+    }
+    if (!bytes.empty()) text = bytes;
+    std::vector<std::pair<std::string, bool>> files;
+    for (const FileBeneath& file : files_beneath(write_file("beneath/file.gltf", text)))
+      files.emplace_back(file.name, !file.path.empty());
+    return files;
+  };
+  using Files = std::vector<std::pair<std::string, bool>>;
+  const auto named = [&](const std::string& uri) {
+    return Json{{"byteLength", size}, {"uri", uri}};
+  };
+  const Json both = {named("a%20b.bin"), named("unused.bin")};
+  CHECK(beneath(both, "") == Files{{"a b.bin", true}});  // no accessor is of the second buffer
+  CHECK(read_mesh(folder() / "beneath/file.gltf").faces.size() == 1);
+  CHECK(beneath(Json::array({named("gone.bin")}), "") == Files{{"gone.bin", false}});
+  CHECK(beneath(Json::array({named("link.bin")}), "") ==
+        Files{{"link.bin", false}});  // is not opened
+  CHECK(beneath(Json::array({named("../beyond.bin")}), "").empty());
+  CHECK(beneath({}, document.text()).empty());  // embedded
+  CHECK(beneath({}, document.glb()).empty());
+  CHECK(beneath({}, "\xef\xbb\xbf" + Json(document.json).dump()).empty());  // without buffers
+  CHECK(beneath({}, "{").empty());
+  CHECK(files_beneath(write_file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).empty());
+  CHECK(files_beneath(folder() / "no such file").empty());
+
+  // Sparse values, indices, and a compressed view's own buffer are read, too, each file once.
+  document.json["accessors"][0]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", 1}, {"componentType", kUbyteType}}},
+      {"values", {{"bufferView", 2}}}};
+  document.json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 1}});
+  document.json["bufferViews"].push_back({{"buffer", 2}, {"byteLength", 12}});
+  const Json three = {named("in/x.bin"), named("unused.bin"), named("in/x.bin")};
+  CHECK(beneath(three, "") == Files{{"in/x.bin", true}, {"unused.bin", true}});
+  document.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+      {"buffer", 1}, {"byteLength", 9}, {"byteStride", 12}, {"count", 3}, {"mode", "ATTRIBUTES"}};
+  document.json["accessors"][0].erase("sparse");
+  CHECK(beneath(three, "") == Files{{"unused.bin", true}});
+
+  // What nothing shows is not read.
+  document.json["nodes"][0]["extensions"]["KHR_node_visibility"] = {{"visible", false}};
+  CHECK(beneath(three, "").empty());
+}
+
+TEST_CASE("a GLB may name files, too") {
+  const Document document = triangle_document();
+  Document outer = document;
+  write_file("of a glb.bin", document.binary);
+  outer.json["buffers"] = {{{"byteLength", document.binary.size()}, {"uri", "of%20a%20glb.bin"}}};
+  const std::string text =
+      outer.json.dump() + std::string(3 - (outer.json.dump().size() + 3) % 4, ' ');
+  const auto word = [](size_t x) { return raw<uint32_t>({static_cast<uint32_t>(x)}); };
+  const std::string glb =
+      "glTF" + word(2) + word(20 + text.size()) + word(text.size()) + "JSON" + text;
+  const std::string path = write_file("names.glb", glb);
+  CHECK(read_mesh(path).vertices == parse(document).vertices);
+  const std::vector<FileBeneath> files = files_beneath(path);
+  REQUIRE(files.size() == 1);
+  CHECK(files[0].name == "of a glb.bin");
+  for (const size_t size : {3u, 4u, 19u, 20u, 40u})  // cut short
+    CHECK(files_beneath(write_file("short.glb", glb.substr(0, size))).empty());
 }
 
 TEST_CASE("strided, offset and sparse accessors") {
@@ -332,7 +476,9 @@ TEST_CASE("documents that are none, or say a thing twice, are refused") {
   CHECK(refusal("{\"scene\":1e400}").find("this is no JSON") != std::string::npos);
   CHECK(refusal("{\"scene\":-1}").find("'scene' is no number") != std::string::npos);
   CHECK(refusal("{\"scene\":0.5}").find("'scene' is no number") != std::string::npos);
-  CHECK(refusal("{\"nodes\":{}}").find("'nodes' of another type") != std::string::npos);
+  CHECK(refusal("{\"nodes\":{}}").find("'nodes' is an object, as in glTF 1.0") !=
+        std::string::npos);
+  CHECK(refusal("{\"nodes\":7}").find("'nodes' of another type") != std::string::npos);
   const std::string digits(5000, '0');
   CHECK(refusal("{\"scene\":1" + digits + "}").find("too many digits") != std::string::npos);
   const std::string glb = triangle_document().glb();

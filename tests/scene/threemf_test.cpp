@@ -169,10 +169,110 @@ TEST_CASE("what has another shape than its triangles is refused by name") {
                 "object 1 is of type other");
   check_refused(package_of(model_of(object_of("1", kTriangleMesh, "type=\"odd\""), item("1"))),
                 "an object of type 'odd'");
-  const Mesh support =
-      parse(package_of(model_of(object_of("1", kTriangleMesh, "type=\"support\""), item("1"))));
-  REQUIRE(support.notes.size() == 1);
-  CHECK(support.notes[0] == "objects of type support are part of it");
+  check_refused(package_of(model_of(kOne + object_of("2", "<x:voxels xmlns:x=\"urn:x\"/>"),
+                                    item("2") + item("1"))),
+                "object 2 has a shape that is not read, 'voxels'");
+  check_refused(package_of(model_of(kOne + object_of("2", "<x:voxels xmlns:x=\"urn:x\"/>") +
+                                        object_of("3", components(component("2") + component("1"))),
+                                    item("3"))),
+                "object 3 has a shape that is not read, 'voxels'");
+}
+
+TEST_CASE("what is no body is left out, and counted by name") {
+  const std::string two = kOne + object_of("2", kTriangleMesh, "type=\"support\"");
+  const Mesh support = parse(package_of(model_of(two, item("1") + item("2"))));
+  CHECK(support.faces.size() == 1);
+  CHECK(support.notes == std::vector<std::string>{"bodies: left out: 1 support object (1 face)"});
+  check_refused(package_of(model_of(two, item("2"))),
+                "it has no bodies, only 1 support object (1 face)");
+  const Mesh printed = parse(package_of(model_of(
+      kOne,
+      item("1") + "<item objectid=\"1\" printable=\"0\" transform=\"1 0 0 0 1 0 0 0 1 9 9 9\"/>")));
+  CHECK(printed.faces.size() == 1);
+  CHECK(printed.notes == std::vector<std::string>{"bodies: left out: 1 unprinted item (1 face)"});
+}
+
+TEST_CASE("Cura's meshes for infill and supports are no bodies") {
+  const auto with = [](const std::string& key, const std::string& value) {
+    const std::string settings = "<metadatagroup><metadata name=\"cura:" + key +
+                                 "\" type=\"xs:string\">" + value + "</metadata></metadatagroup>";
+    return parse(package_of(
+        model_of(kOne + object_of("2", settings + kTriangleMesh), item("1") + item("2"))));
+  };
+  CHECK(with("infill_mesh", "True").notes ==
+        std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
+  CHECK(with("cutting_mesh", "True").faces.size() == 1);
+  CHECK(with("support_mesh", "True").faces.size() == 1);
+  CHECK(with("anti_overhang_mesh", "True").notes ==
+        std::vector<std::string>{"bodies: left out: 1 support blocker (1 face)"});
+  CHECK(with("infill_mesh", "False").faces.size() == 2);
+  CHECK(with("layer_height", "1").faces.size() == 2);
+}
+
+/// PrusaSlicer's: one mesh of two volumes, a face each, the second of some type.
+std::string with_volume(const std::string& metadata,
+                        const std::string& ids = "\"1\" lastid=\"1\"") {
+  std::string mesh = kTriangleMesh;
+  mesh.insert(mesh.find("</triangles>"), "<triangle v1=\"2\" v2=\"1\" v3=\"0\"/>");
+  return package_of(
+      model_of(object_of("1", mesh), item("1")),
+      {{"Metadata/Slic3r_PE_model.config",
+        "<config><object id=\"1\"><metadata type=\"object\" key=\"modifier\" "
+        "value=\"1\"/><volume firstid=\"0\" lastid=\"0\"><metadata key=\"volume_type\" "
+        "value=\"ModelPart\"/></volume><volume firstid=" +
+            ids + ">" + metadata + "</volume></object></config>"}});
+}
+
+TEST_CASE("PrusaSlicer's modifiers are no bodies, and a negative volume is refused") {
+  const auto type = [](const std::string& name) {
+    return with_volume("<metadata key=\"volume_type\" value=\"" + name + "\"/>");
+  };
+  CHECK(parse(type("ModelPart")).faces.size() == 2);
+  for (const auto& [name, says] :
+       std::vector<std::pair<std::string, std::string>>{{"ParameterModifier", "modifier"},
+                                                        {"SupportBlocker", "support blocker"},
+                                                        {"SupportEnforcer", "support enforcer"}}) {
+    const Mesh mesh = parse(type(name));
+    CHECK(mesh.faces == std::vector<glm::uvec3>{{0, 1, 2}});
+    CHECK(mesh.notes == std::vector<std::string>{"bodies: left out: 1 " + says + " (1 face)"});
+  }
+  CHECK(parse(with_volume("<metadata key=\"modifier\" value=\"1\"/>")).faces.size() == 1);
+  check_refused(type("NegativeVolume"), "object 1 has a negative volume");
+  check_refused(type("Novelty"), "a volume of type 'Novelty'");
+  check_refused(with_volume("", "\"0\" lastid=\"1\""), "volumes of object 1 overlap at face 0");
+  check_refused(with_volume("", "\"x\" lastid=\"1\""), "firstid is 'x'");
+}
+
+TEST_CASE("Bambu Studio's parts have their kinds beside the model") {
+  const auto with = [](const std::string& subtype) {
+    const std::string both =
+        object_of("3", components(component("1") + component("2", "1 0 0 0 1 0 0 0 1 9 9 9")));
+    return package_of(model_of(kOne + object_of("2", kTriangleMesh) + both, item("3")),
+                      {{"Metadata/model_settings.config",
+                        "<config><object id=\"3\"><part id=\"1\" subtype=\"normal_part\"/><part "
+                        "id=\"2\" subtype=\"" +
+                            subtype + "\"/></object></config>"}});
+  };
+  CHECK(parse(with("normal_part")).faces.size() == 2);
+  CHECK(parse(with("modifier_part")).notes ==
+        std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
+  CHECK(parse(with("support_blocker")).faces.size() == 1);
+  check_refused(with("negative_part"), "object 2 has a negative volume");
+  check_refused(with("novel_part"), "a volume of type 'novel_part'");
+}
+
+TEST_CASE("names of parts are URIs, or as they are written") {
+  const std::string model = model_of(kOne, item("1"));
+  for (const auto& [target, file] : std::vector<std::pair<std::string, std::string>>{
+           {"/3D/my%20model.model", "3D/my model.model"},
+           {"./3D/3dmodel.model", "3D/3dmodel.model"},
+           {"/3D/x/../m.model", "3D/m.model"},
+           {"/3D/100%.model", "3D/100%.model"},
+           {"/3D/a%20b.model", "3D/a%20b.model"}}) {
+    std::string relations = kRelations;
+    relations.replace(relations.find("/3D/3dmodel.model"), 17, target);
+    CHECK(parse(stored_zip({{"_rels/.rels", relations}, {file, model}})).faces.size() == 1);
+  }
 }
 
 TEST_CASE("models that are none are refused in one line") {

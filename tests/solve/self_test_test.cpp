@@ -7,7 +7,10 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <set>
 
+#include "kernels/all_kernels.h"
+#include "kernels/self_test.h"
 #include "tests/model/composed.h"
 #include "tests/support/kernel_bench.h"
 
@@ -94,6 +97,53 @@ std::string composed_fault(const Cpu& device, uint32_t count) {
   return result.fault;
 }
 
+/// What a device with subgroups of 16 would answer; `keep` decides who is beside whom.
+gpu::SelfTestGroup looked(const std::vector<gpu::SelfTestQuestion>& questions, uint32_t item,
+                          uint32_t turn, bool swaps, const std::function<bool(uint32_t)>& keep) {
+  gpu::SelfTestGroup g{};
+  const uint32_t start = item / kSubgroup * kSubgroup;
+  g.subgroup = item / kSubgroup;
+  g.lane = item - start;
+  for (uint32_t lane = 0; lane < kSubgroup; ++lane) {
+    const uint32_t other = start + lane;
+    if (!keep(other)) continue;
+    const float a = swaps ? questions[other].b : questions[other].a;
+    const float b = swaps ? questions[other].a : questions[other].b;
+    if (g.members++ == 0) {
+      g.first = g.first_lane = lane;
+      g.shuffled = other + turn;
+      g.least = g.highest = a;
+      g.all_least = g.all_highest = {a, b, -a};
+    }
+    g.ballot.x |= 1u << lane;
+    g.rank += lane < g.lane ? 1 : 0;
+    g.sum += lane <= g.lane ? other + turn + 1 : 0;
+    g.least = std::min(g.least, a);
+    g.highest = std::max(g.highest, a);
+    g.all_least = {g.least, std::min(g.all_least.y, b), std::min(g.all_least.z, -a)};
+    g.all_highest = {g.highest, std::max(g.all_highest.y, b), std::max(g.all_highest.z, -a)};
+  }
+  g.elected = g.lane == g.first ? 1 : 0;
+  return g;
+}
+
+std::vector<gpu::SelfTestGroups> looked_around(
+    const std::vector<gpu::SelfTestQuestion>& questions) {
+  std::vector<gpu::SelfTestGroups> all;
+  for (uint32_t i = 0; i < questions.size(); ++i) {
+    const uint32_t turn = questions[i].bits & 3u;
+    const bool larger = questions[i].a > questions[i].b;
+    const auto same_branch = [&](uint32_t j) {
+      return (questions[j].a > questions[j].b) == larger;
+    };
+    const auto still_there = [&](uint32_t j) { return (questions[j].bits & 3u) >= turn; };
+    all.push_back({looked(questions, i, 0, false, [](uint32_t) { return true; }),
+                   looked(questions, i, 0, !larger, same_branch),
+                   looked(questions, i, turn, false, still_there)});
+  }
+  return all;
+}
+
 float stepped(float x, int ulps) {
   for (; ulps > 0; --ulps) x = std::nextafter(x, INFINITY);
   for (; ulps < 0; ++ulps) x = std::nextafter(x, -INFINITY);
@@ -152,11 +202,93 @@ TEST_CASE("the judge names what a device gets wrong") {
   check_fault(good, "atomic sum", [](Answers& a) { a.totals.items -= 1; });
 }
 
+TEST_CASE("the judge names the subgroup operation that is wrong, and where") {
+  const std::vector<gpu::SelfTestQuestion> questions = self_test_questions(3, 256);
+  const auto fault_with = [&](const std::function<void(gpu::SelfTestGroups&)>& break_it) {
+    std::vector<gpu::SelfTestGroups> groups = looked_around(questions);
+    break_it(groups[77]);
+    SelfTestResult result;
+    judge_groups(questions, groups, result);
+    return result.fault;
+  };
+  CHECK(fault_with([](gpu::SelfTestGroups&) {}) == "");
+  using Field = uint32_t gpu::SelfTestGroup::*;
+  const std::pair<Field, const char*> fields[] = {
+      {&gpu::SelfTestGroup::first, "subgroupBroadcastFirst"},
+      {&gpu::SelfTestGroup::first_lane, "first_lane"},
+      {&gpu::SelfTestGroup::elected, "subgroupElect"},
+      {&gpu::SelfTestGroup::members, "subgroupBallotBitCount"},
+      {&gpu::SelfTestGroup::rank, "subgroupBallotExclusiveBitCount"},
+      {&gpu::SelfTestGroup::sum, "subgroupInclusiveAdd"},
+      {&gpu::SelfTestGroup::shuffled, "subgroupShuffle"}};
+  for (const auto& pair : fields) {
+    const Field field = pair.first;
+    const char* name = pair.second;
+    CAPTURE(name);
+    const auto named = [&](const std::string& fault, const char* where) {
+      CHECK(fault.find(name + std::string(" is wrong ") + where) == 0);
+    };
+    named(fault_with([&](auto& g) { g.whole.*field ^= 1; }), "in a whole subgroup");
+    named(fault_with([&](auto& g) { g.branch.*field ^= 1; }), "in a branch");
+    named(fault_with([&](auto& g) { g.loop.*field ^= 1; }), "in a loop");
+  }
+  const auto starts = [](const std::string& text, const char* with) {
+    return text.find(with) == 0;
+  };
+  CHECK(starts(fault_with([](auto& g) { g.branch.least -= 1; }), "subgroupMin"));
+  CHECK(starts(fault_with([](auto& g) { g.loop.all_least.z -= 1; }), "subgroupMin"));
+  CHECK(starts(fault_with([](auto& g) { g.branch.highest += 1; }), "subgroupMax"));
+  CHECK(starts(fault_with([](auto& g) { g.whole.all_highest.y += 1; }), "subgroupMax"));
+  CHECK(starts(fault_with([](auto& g) { g.branch.ballot = g.whole.ballot; }), "subgroupBallot"));
+  CHECK(
+      starts(fault_with([](auto& g) { g.whole.ballot.x &= g.whole.ballot.x - 1; }), "subgroupBa"));
+}
+
+namespace {
+
+// Subgroup operations of a kernel: the opcode, and how one that has kinds combines. 333 to 366 are
+// OpGroupNonUniform* of the SPIR-V specification; those of arithmetic and bit counts have the kind
+// behind the scope.
+std::set<std::pair<uint32_t, uint32_t>> subgroup_operations(std::span<const uint32_t> words) {
+  std::set<std::pair<uint32_t, uint32_t>> found;
+  for (size_t at = 5; at < words.size(); at += words[at] >> 16) {
+    const uint32_t op = words[at] & 0xffffu;
+    if (op < 333 || op > 366) continue;
+    const bool has_kind = op == 342 || (op >= 349 && op <= 364);
+    found.insert({op, has_kind ? words[at + 4] : 0});
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the self-test tries every subgroup operation of every kernel") {
+  const auto tried = subgroup_operations(k::SelfTest::words());
+  constexpr uint32_t kFindLsb = 343, kFindMsb = 344;  // RADV fails on the former
+  size_t used = 0;
+  const auto see = [&](const char* kernel, std::span<const uint32_t> words) {
+    for (const auto& operation : subgroup_operations(words)) {
+      CAPTURE(kernel);
+      CAPTURE(operation.first);
+      CHECK(tried.contains(operation));
+      CHECK(operation.first != kFindLsb);
+      CHECK(operation.first != kFindMsb);
+      ++used;
+    }
+  };
+#define VKH_SEE(K) see(#K, k::K::words());
+  VKH_KERNELS(VKH_SEE)
+#undef VKH_SEE
+  CHECK(used > 10);
+}
+
 TEST_CASE("the device at hand keeps its promises") {
   const SelfTestResult result = run_self_test(test_device());
   CHECK(result.fault == "");
   CHECK(result.items >= 1'000'000);
   CHECK(result.composed >= 50'000);
   CHECK(result.largest_subgroup >= 1);
+  CHECK(result.group_views >= 100'000);
+  CHECK((result.largest_subgroup == 1 || result.partial_views >= 10'000));
   CHECK(result.worst_quotient_ulp <= 2.5);
 }

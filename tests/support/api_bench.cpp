@@ -29,13 +29,19 @@ VkhContext shared_context() {
   return bench.context();
 }
 
+// As in_float32, also of what is no mesh.
+Mesh rounded(Mesh mesh) {
+  for (glm::dvec3& p : mesh.vertices) p = glm::dvec3(glm::vec3(p));
+  return mesh;
+}
+
 void check_engine(VkhResult result) {
   if (result != VKH_SUCCESS) throw std::runtime_error("the engine refused");
 }
 
 }  // namespace
 
-ApiMesh::ApiMesh(const Mesh& mesh, MeshLayout layout) : mesh_(in_float32(mesh)), layout_(layout) {
+ApiMesh::ApiMesh(const Mesh& mesh, MeshLayout layout) : mesh_(rounded(mesh)), layout_(layout) {
   const size_t width = layout.is_16bit ? 2 : 4;
   // No byte more than the contract asks for.
   const size_t index_bytes = (layout.index_offset + 3 * width * mesh.faces.size() + 3) / 4 * 4;
@@ -61,7 +67,7 @@ ApiMesh::ApiMesh(const Mesh& mesh, MeshLayout layout) : mesh_(in_float32(mesh)),
 }
 
 void ApiMesh::move(const Mesh& moved) {
-  mesh_ = in_float32(moved);
+  mesh_ = rounded(moved);
   std::byte* to = vertices_.mapped() + layout_.vertex_offset;
   for (const glm::dvec3& v : mesh_.vertices) {
     const float position[3] = {static_cast<float>(v.x), static_cast<float>(v.y),

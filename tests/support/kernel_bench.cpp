@@ -46,9 +46,10 @@ VkBool32 by_address(const Device& device) {
 VkhContext context_for(uint32_t switches, bool wide) {
   Device& device = test_device();
   VkhContext& context = made()->contexts[{switches, wide}];
-  const VkhContextCreateInfo info{device.engine_info(), VK_NULL_HANDLE, switches | VKH_SWITCH_NONE,
-                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
-                                  by_address(device)};
+  const VkhContextCreateInfo info{
+      device.engine_info(),       VK_NULL_HANDLE,
+      switches | VKH_SWITCH_NONE, wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
+      by_address(device),         VK_FALSE};
   if (context == nullptr && vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw std::runtime_error("no context");
   return context;

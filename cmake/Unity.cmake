@@ -1,0 +1,35 @@
+# The sources of a room are compiled as one translation unit: what most of them cost is the standard library, which is
+# then read and instantiated once (docs/log/build.md). So a name in an anonymous namespace has one meaning in its room.
+# clang and clang-tidy look at each file by itself (tests/house/alone.py).
+option(VKH_UNITY "Compile each room as one translation unit" ON)
+
+# Rooms that share a unit, for what they instantiate is the same: VKH_UNIT_room names it, and a room without is one of its own.
+foreach(unit IN ITEMS "answers:answer;parts;record;page" "pairs:export;pictures;job;batch;many" "program:cli;program"
+                      "meshes:base;system;mesh;source;scene" "scenes:gltf;threemf" "solver:gpu;run;solve")
+  string(REPLACE ":" ";" unit "${unit}")
+  list(POP_FRONT unit name)
+  foreach(room IN LISTS unit)
+    set(VKH_UNIT_${room} ${name})
+  endforeach()
+endforeach()
+
+# vkh_unity(TARGET): groups the target's sources by unit. Call it in the folder that made the target.
+function(vkh_unity target)
+  if(NOT VKH_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "^[^$]*\\.cpp$")
+      get_filename_component(folder "${source}" DIRECTORY)
+      get_filename_component(unit "${folder}" NAME)
+      if(DEFINED VKH_UNIT_${unit})
+        set(unit ${VKH_UNIT_${unit}})
+      endif()
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${unit}")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # GCC takes a file that a unit includes for a header, whose classes should hold no type of an anonymous namespace.
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+endfunction()

@@ -1,0 +1,67 @@
+#include "host/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "host/base/float_environment.h"
+
+namespace vkh {
+
+size_t thread_count() {
+  constexpr size_t kMostThreads = 64;
+  return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+}
+
+size_t threads_for(uint64_t bytes) {
+  constexpr uint64_t kEach = uint64_t{4} << 20;
+  return std::clamp<size_t>(static_cast<size_t>(bytes / kEach), 1, thread_count());
+}
+
+void for_each_index(size_t count, const std::function<void(size_t)>& work, size_t threads) {
+  std::atomic<size_t> next = 0;
+  std::mutex one_at_a_time;
+  size_t least = count;
+  std::exception_ptr error;
+  const auto some = [&] {
+    const FloatEnvironment ours;  // a new thread's is not this one's everywhere
+    for (size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {  // those before it have been taken, and each is ended by who has it
+        const std::lock_guard lock(one_at_a_time);
+        if (i < least) error = std::current_exception();
+        least = std::min(i, least);
+        return;
+      }
+    }
+  };
+  std::vector<std::future<void>> shares = {};
+  shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
+  for (size_t i = 1; i < std::min(threads, count); ++i)
+    shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
+  for (std::future<void>& share : shares) share.wait();
+  for (std::future<void>& share : shares) share.get();
+  if (error) std::rethrow_exception(error);
+}
+
+void for_each_block(size_t count, const RangeWork& work) {
+  for_each_index(block_count(count),
+                 [&](size_t i) { work(i, i * kBlock, std::min((i + 1) * kBlock, count)); });
+}
+
+void copy_together(void* to, const void* from, size_t bytes) {
+  constexpr size_t kPiece = size_t{1} << 22;  // 0.4 ms
+  for_each_index((bytes + kPiece - 1) / kPiece, [&](size_t i) {
+    const size_t at = i * kPiece;
+    std::memcpy(static_cast<std::byte*>(to) + at, static_cast<const std::byte*>(from) + at,
+                std::min(kPiece, bytes - at));
+  });
+}
+
+}  // namespace vkh

@@ -1,0 +1,93 @@
+// Sums and signs without rounding, of products of doubles.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace vkh {
+
+/// Sums products of doubles without rounding, whatever their exponents. Every finite double is an
+/// integer times 2^-1074, so a product is one times 2^-2148, less than 2^2048 in size; the sum is
+/// held in two's complement with bit 0 worth 2^-2148 and at least 60 bits to spare at the top.
+class ExactSum {
+ public:
+  void add_product(double a, double b, bool negative) {
+    int exponent_a = 0, exponent_b = 0;
+    const auto mantissa_a = mantissa(a, exponent_a);
+    const auto mantissa_b = mantissa(b, exponent_b);
+    const unsigned __int128 product = static_cast<unsigned __int128>(mantissa_a) * mantissa_b;
+    add(product, static_cast<unsigned>(exponent_a + exponent_b + 2148),
+        negative != (std::signbit(a) != std::signbit(b)));
+  }
+
+  bool is_zero() const {
+    return std::all_of(limbs_.begin(), limbs_.end(), [](uint64_t limb) { return limb == 0; });
+  }
+  /// -1, 0 or 1.
+  int sign() const { return limbs_.back() >> 63 != 0 ? -1 : is_zero() ? 0 : 1; }
+
+ private:
+  // |x| = result * 2^exponent, exponent in [-1074, 971], result < 2^53.
+  static uint64_t mantissa(double x, int& exponent) {
+    const auto bits = std::bit_cast<uint64_t>(x);
+    const auto field = static_cast<int>(bits >> 52 & 0x7ff);
+    const uint64_t fraction = bits & ((uint64_t{1} << 52) - 1);
+    exponent = std::max(field, 1) - 1075;
+    return field == 0 ? fraction : fraction | uint64_t{1} << 52;
+  }
+
+  // A product has at most 106 bits; shifted by up to 63 it covers three limbs.
+  void add(unsigned __int128 product, unsigned shift, bool negative) {
+    const unsigned bit = shift % 64;
+    const std::array<uint64_t, 3> parts = {
+        static_cast<uint64_t>(product << bit), static_cast<uint64_t>(product >> (64 - bit)),
+        bit == 0 ? 0 : static_cast<uint64_t>(product >> 64 >> (64 - bit))};
+    uint64_t carry = negative ? 1 : 0;
+    for (size_t i = shift / 64, part = 0; i < limbs_.size(); ++i, ++part) {
+      const uint64_t added = part < parts.size() ? parts[part] : 0;
+      const unsigned __int128 sum =
+          static_cast<unsigned __int128>(limbs_[i]) + (negative ? ~added : added) + carry;
+      limbs_[i] = static_cast<uint64_t>(sum);
+      carry = static_cast<uint64_t>(sum >> 64);
+    }
+  }
+
+  std::array<uint64_t, 67> limbs_{};
+};
+
+using Point2 = std::array<double, 2>;
+
+/// Sign of (a-c) x (b-c), multiplied out so that every term is a product of given coordinates.
+inline int exact_turn(const Point2& a, const Point2& b, const Point2& c) {
+  ExactSum sum;
+  sum.add_product(a[0], b[1], false);
+  sum.add_product(a[0], c[1], true);
+  sum.add_product(c[0], b[1], true);
+  sum.add_product(a[1], b[0], true);
+  sum.add_product(a[1], c[0], false);
+  sum.add_product(c[1], b[0], false);
+  return sum.sign();
+}
+
+/// Sign of (a-c) x (b-c) without exact arithmetic: 0 where rounding leaves it open.
+inline int sure_turn(const Point2& a, const Point2& b, const Point2& c) {
+  const double left = (a[0] - c[0]) * (b[1] - c[1]);
+  const double right = (a[1] - c[1]) * (b[0] - c[0]);
+  const double size = std::abs(left) + std::abs(right);
+  // Seven roundings of 2^-53 at most lie between left - right and the true value, relative to size;
+  // 1e-15 is nine. Above 1e-280 what underflow adds (2^-1074 a product) is far below that.
+  // Overflow gives inf or nan and fails the comparison.
+  if (!(size > 1e-280 && std::abs(left - right) > 1e-15 * size)) return 0;
+  return left > right ? 1 : -1;
+}
+
+/// 1 where a, b, c turn left, -1 where they turn right, 0 where they lie on a line: exact.
+inline int turn_of(const Point2& a, const Point2& b, const Point2& c) {
+  const int sure = sure_turn(a, b, c);
+  return sure != 0 ? sure : exact_turn(a, b, c);
+}
+
+}  // namespace vkh

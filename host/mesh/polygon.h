@@ -1,0 +1,22 @@
+// Triangles of a polygon that a file gives by its corners.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+struct PolygonResult {
+  PolygonKind kind = PolygonKind::kFan;
+  /// Any triangulation with this outline is as near to this one, both ways; 0 for a flat one whose
+  /// plane an axis is normal to.
+  double ambiguity = 0;
+};
+
+/// Replaces a polygon's fan by its triangles. `fan` has the triangles (c0, c1, c2), (c0, c2, c3)
+/// and so on of finite corners, two at least. A convex polygon keeps its fan bit for bit.
+PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<glm::uvec3> fan);
+
+}  // namespace vkh

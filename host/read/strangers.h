@@ -1,0 +1,20 @@
+// Formats that are not read, by name: what a file is, and what to give in its place.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace vkh {
+
+/// What to say about a file of such a format. `what` is empty where it is none that is known.
+struct Stranger {
+  std::string what;      ///< "a STEP file (CAD surfaces, no triangles)"
+  std::string expected;  ///< "a mesh: export the part as STL, OBJ, PLY, OFF, glTF or 3MF"
+};
+
+/// By how a file begins.
+Stranger stranger_by_content(std::string_view head);
+/// By the extension of its name, in lower case and with its point.
+Stranger stranger_by_extension(std::string_view extension);
+
+}  // namespace vkh

@@ -1,0 +1,58 @@
+# One program per folder of tests, and one per test file where the file needs a process, macros or flags of its own. doctest
+# picks a file's cases by --source-file, so that ctest names each file either way, and moving a file is all that it takes.
+set(VKH_TESTS_ALONE
+  "/(math|field)/"        # at the build's own optimization, and rebuilt one by one by tools/mutation.py
+  "/faults/"              # layers and failing allocations, from before main on
+  "/frame_test"           # as math's
+  "/read_cost_test"       # replaces operator new
+  "/aligned_glm_test")    # macros of GLM
+list(JOIN VKH_TESTS_ALONE "|" VKH_TESTS_ALONE)
+
+# Their time is the compiler's (docs/log/build.md). The precompiled headers are read by GCC alone, and not where each file
+# is looked at by itself.
+add_library(vkh_test_flags INTERFACE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  target_compile_options(vkh_test_flags INTERFACE -Og)
+endif()
+if(VKH_SANITIZE)  # -O1 takes twice as long, and what tests compute is in vkh_test_support
+  target_compile_options(vkh_test_flags INTERFACE -O0)
+endif()
+set(VKH_TEST_HEADERS <doctest/doctest.h> <glm/glm.hpp> <nlohmann/json.hpp> <algorithm> <array> <filesystem> <fstream>
+                     <functional> <map> <memory> <optional> <random> <span> <sstream> <string> <vector>)
+
+# vkh_test_program(SOURCE OUT): sets OUT to the program that has the source's cases; makes it with its first source.
+function(vkh_test_program source out)
+  get_filename_component(name ${source} NAME_WE)
+  if(source MATCHES "${VKH_TESTS_ALONE}")
+    add_executable(${name} ${source})
+    target_link_libraries(${name} PRIVATE vkh_test_support)
+    set(${out} ${name} PARENT_SCOPE)
+    return()
+  endif()
+  get_filename_component(room ${source} DIRECTORY)
+  get_filename_component(room ${room} NAME)
+  set(program ${room}_tests)
+  set(${out} ${program} PARENT_SCOPE)
+  if(TARGET ${program})
+    target_sources(${program} PRIVATE ${source})
+    return()
+  endif()
+  add_executable(${program} ${source})
+  target_link_libraries(${program} PRIVATE vkh_test_support vkh_test_flags)
+  vkh_precompile(${program})
+endfunction()
+
+# The first program makes the precompiled header, and the others read it.
+function(vkh_precompile program)
+  if(NOT VKH_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  target_compile_options(${program} PRIVATE -fpch-preprocess)  # for ccache
+  get_property(first GLOBAL PROPERTY VKH_PRECOMPILED)
+  if(first)
+    target_precompile_headers(${program} REUSE_FROM ${first})
+  else()
+    target_precompile_headers(${program} PRIVATE ${VKH_TEST_HEADERS})
+    set_property(GLOBAL PROPERTY VKH_PRECOMPILED ${program})
+  endif()
+endfunction()
