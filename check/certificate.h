@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -20,7 +21,24 @@ struct Broken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Triangles of a polygon that are not the fan of a convex one.
+struct Triangulation {
+  static constexpr unsigned kOnlyFan = 3;  ///< the fan, whatever that covers
+
+  uint64_t face, corners;
+  unsigned axis;  ///< kOnlyFan, or along which the triangles tile the outline: 0, 1, 2
+  std::vector<std::array<uint32_t, 3>> triangles;  ///< corners by their place
+};
+
+/// How the corners came from the file.
+struct Description {
+  double ambiguity = 0;  ///< what another triangulation may be off: stated, not proven
+  uint64_t ambiguous_face = 0;
+  std::vector<Triangulation> polygons;  ///< in the order of their faces
+};
+
 struct Direction {
+  unsigned cut_bits;  ///< of a point on an edge
   double lower, upper;
   uint32_t witness, e;
   uint64_t j, k;
@@ -35,13 +53,14 @@ struct Certificate {
   std::array<uint64_t, 2> faces;
   std::array<double, 2> delta;
   std::array<std::string, 2> file, corners;  ///< SHA-256; an empty one of a file: there is none
+  std::optional<std::array<Description, 2>> read;  ///< from version 2 on
   std::vector<Direction> directions;
 };
 
-/// Corner o of a part, and bytes s and t of the points on its edges.
+/// Corner o of a part, and the points on its edges, in units of 2^-bits.
 struct Cut {
   size_t o;
-  unsigned s, t;
+  unsigned s, t, bits;
 };
 
 class Bytes {
@@ -78,8 +97,8 @@ class Bytes {
     }
     return out;
   }
-  /// A triangle's number, coded as its difference from `before`.
-  uint32_t triangle(uint32_t before, uint64_t triangles) {
+  /// In groups of seven bits, the lowest first.
+  uint64_t count() {
     uint64_t code = 0, group = 128;
     for (unsigned i = 0; group >= 128; ++i) {
       expect(i < 5, "a number of more than five bytes");
@@ -87,6 +106,11 @@ class Bytes {
       code |= (group & 127) << (7 * i);
       expect(i == 0 || group != 0, "a number that is longer than it needs to be");
     }
+    return code;
+  }
+  /// A triangle's number, coded as its difference from `before`.
+  uint32_t triangle(uint32_t before, uint64_t triangles) {
+    const uint64_t code = count();
     const auto half = static_cast<int64_t>(code >> 1);
     const int64_t number = before + (code % 2 == 0 ? half : -half - 1);
     expect(number >= 0 && number < static_cast<int64_t>(triangles), "a triangle that is not there");
@@ -101,7 +125,8 @@ class Bytes {
 /// Tells `visitor` what a block says: face(f), halve(corner), leaf(S), cut(S, R, Cut). The part
 /// that is spoken of is the last that was added; a halving leaves two in its place, first on top.
 template <class Visitor>
-void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, Visitor& visitor) {
+void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, unsigned cut_bits,
+          Visitor& visitor) {
   std::array<unsigned, kDeepest + 1> waiting;  // how deep the parts are that are still to come
   uint32_t number = 0;
   for (uint64_t f = 0; f < block.faces; ++f) {
@@ -125,8 +150,9 @@ void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, Visito
         continue;
       }
       const uint32_t r = number = bytes.triangle(number, triangles);
-      const auto p = static_cast<unsigned>(bytes.take(1));
-      visitor.cut(s, r, Cut{kind - 4, p, static_cast<unsigned>(bytes.take(1))});
+      const auto p = static_cast<unsigned>(bytes.take(cut_bits / 8));
+      const auto q = static_cast<unsigned>(bytes.take(cut_bits / 8));
+      visitor.cut(s, r, Cut{kind - 4, p, q, cut_bits});
     }
   }
   bytes.expect(bytes.left() == 0, "a block with more bytes than its faces have");
@@ -142,8 +168,9 @@ struct Count {
 };
 
 inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& bytes,
-                                uint64_t faces, uint64_t triangles) {
+                                uint64_t faces, uint64_t triangles, unsigned cut_bits) {
   Direction out{};
+  out.cut_bits = cut_bits;
   out.lower = bytes.real();
   out.upper = bytes.real();
   bytes.expect(out.lower <= out.upper, "lower is more than upper");
@@ -162,7 +189,7 @@ inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& b
     bytes.expect(in_block >= 1 && in_block <= faces - done, "a block of no, or too many, faces");
     bytes.expect(size <= bytes.left(), "a block that is longer than the file");
     out.blocks.push_back({done, in_block, bytes.at(), bytes.at() + size});
-    walk(Bytes(file, bytes.at(), bytes.at() + size), out.blocks.back(), triangles, count);
+    walk(Bytes(file, bytes.at(), bytes.at() + size), out.blocks.back(), triangles, cut_bits, count);
     bytes.skip(size);
   }
   out.leaves = count.leaves;
@@ -170,11 +197,61 @@ inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& b
   return out;
 }
 
+/// Of the polygon after those of lower faces than `next`.
+inline Triangulation read_triangulation(Bytes& bytes, uint64_t next) {
+  Triangulation out{};
+  out.face = next + bytes.count();
+  out.corners = bytes.count();
+  bytes.expect(out.corners >= 4 && out.corners <= UINT32_MAX,
+               "a polygon of other than four corners or more");
+  out.axis = static_cast<unsigned>(std::min<uint64_t>(bytes.count(), 4));
+  bytes.expect(out.axis <= Triangulation::kOnlyFan, "a triangulation of no kind");
+  if (out.axis == Triangulation::kOnlyFan) return out;
+  bytes.expect(3 * (out.corners - 2) <= bytes.left(),
+               "a triangulation that is longer than the file");
+  for (uint64_t i = 2; i < out.corners; ++i) {
+    std::array<uint32_t, 3>& triangle = out.triangles.emplace_back();
+    for (uint32_t& corner : triangle) {
+      const uint64_t place = bytes.count();
+      bytes.expect(place < out.corners, "a corner that is not there");
+      corner = static_cast<uint32_t>(place);
+    }
+  }
+  return out;
+}
+
+inline Description read_description(Bytes& bytes) {
+  Description out;
+  bytes.expect(bytes.word() == 0, "not read as a surface");
+  bytes.expect(bytes.word() == 0, "not of the bodies that are printed");
+  out.ambiguity = bytes.real();
+  out.ambiguous_face = bytes.take(8);
+  bytes.expect(out.ambiguity > 0 || out.ambiguous_face == 0, "a face of no ambiguity");
+  const double numerator = bytes.real(), denominator = bytes.real();
+  bytes.expect(numerator == 1 && denominator == 1, "in another unit");
+  bytes.expect(bytes.take(8) == 0, "placed by a matrix");
+  const uint64_t count = bytes.take(8);
+  bytes.expect(count <= bytes.left(), "more polygons than bytes");
+  for (uint64_t i = 0, next = 0; i < count; ++i) {
+    out.polygons.push_back(read_triangulation(bytes, next));
+    next = out.polygons.back().face + 1;
+  }
+  return out;
+}
+
+/// 1 or 2.
+inline unsigned read_version(Bytes& bytes) {
+  constexpr uint64_t kMagic = 0x3030'5452'4543'4856;  // "VHCERT00"
+  const uint64_t version = bytes.left() >= 8 ? bytes.take(8) - kMagic : 0;
+  bytes.expect(version == uint64_t{1} << 56 || version == uint64_t{2} << 56,
+               "no certificate of version 01 or 02");
+  return static_cast<unsigned>(version >> 56);
+}
+
 /// Throws Broken at the first byte that is not as the format says.
 inline Certificate read_certificate(const std::vector<unsigned char>& file) {
   Bytes bytes(file, 0, file.size());
-  constexpr uint64_t kMagic = 0x3130'5452'4543'4856;  // "VHCERT01"
-  bytes.expect(bytes.left() >= 8 && bytes.take(8) == kMagic, "no certificate of version 01");
+  const unsigned version = read_version(bytes);
   const uint32_t directions = bytes.word();
   bytes.expect(directions == 1 || directions == 2, "neither one direction nor two");
   bytes.expect(bytes.word() == 0, "not 0");
@@ -189,8 +266,14 @@ inline Certificate read_certificate(const std::vector<unsigned char>& file) {
     if (hash == std::string(64, '0')) hash.clear();
   }
   for (std::string& hash : out.corners) hash = bytes.hash();
-  for (size_t x = 0; x < directions; ++x)
-    out.directions.push_back(read_direction(file, bytes, out.faces[x], out.faces[1 - x]));
+  if (version >= 2) {
+    out.read.emplace();
+    for (Description& description : *out.read) description = read_description(bytes);
+  }
+  for (size_t x = 0; x < directions; ++x) {
+    out.directions.push_back(
+        read_direction(file, bytes, out.faces[x], out.faces[1 - x], version >= 2 ? 16 : 8));
+  }
   bytes.expect(bytes.left() == 0, "more bytes after the last block");
   return out;
 }

@@ -68,15 +68,16 @@ class Leaves {
     done();
   }
 
-  /// p and q are multiplied by 256 more.
+  /// p and q are multiplied by 2^bits more.
   void cut(uint32_t s, uint32_t r, const Cut& cut) {
     const auto& [corner, depth] = parts_.back();
     const Point &o = corner[cut.o], &j = corner[(cut.o + 1) % 3], &k = corner[(cut.o + 2) % 3];
-    const Point p = sum(256 - cut.s, o, cut.s, j), q = sum(256 - cut.t, o, cut.t, k);
+    const unsigned whole = 1U << cut.bits;
+    const Point p = sum(whole - cut.s, o, cut.s, j), q = sum(whole - cut.t, o, cut.t, k);
     check(o, depth, s);
     for (const uint32_t each : {s, r}) {
-      check(p, depth + 8, each);
-      check(q, depth + 8, each);
+      check(p, depth + cut.bits, each);
+      check(q, depth + cut.bits, each);
     }
     check(j, depth, r);
     check(k, depth, r);
@@ -145,7 +146,7 @@ inline Fraction largest_of_leaves(const Question& question, const Fraction& limi
   const auto one_block = [&](size_t i) {
     Leaves leaves(question, limit);
     walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i], question.y.faces.size(),
-         leaves);
+         question.claim.cut_bits, leaves);
     const std::lock_guard lock(one_at_a_time);
     largest = std::max(largest, leaves.largest);
   };

@@ -2,6 +2,7 @@
 // proven, and why this proves it, is in docs/certificate-file.md. In the order of the argument:
 //   exact.h        squared distances of points to triangles, as fractions of integers
 //   certificate.h  the file's bytes: faces of X, halved to leaves, and a triangle of Y for each
+//   polygons.h     how the corners came from the file, where it has polygons
 //   proof.h        upper: every corner of a leaf is near enough; lower: the witness is far enough
 //   this page      whether the meshes are those that the file is of; what is printed
 #include <CLI/CLI.hpp>
@@ -10,7 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "check/proof.h"
+#include "check/polygons.h"
 #include "host/base/decimal.h"
 #include "host/read/mesh_io.h"
 #include "host/source/corners_hash.h"
@@ -41,11 +42,17 @@ std::vector<unsigned char> read_file(const std::string& name) {
 
 /// The mesh, if it is that which the certificate is of.
 Mesh read(const Certificate& certificate, size_t which, const std::string& name) {
-  // The run may have had --polygons fan. Which corners the certificate is of, their hash tells.
-  Mesh mesh = read_mesh(path_of(name), {.odd_polygons = OddPolygons::kFanned});
   const auto expect = [&](bool is_so, const char* otherwise) {
     if (!is_so) throw Refused(name + otherwise);
   };
+  // Version 1 does not say how polygons became triangles: their corners' hash tells.
+  ReadLimits limits{.odd_polygons = OddPolygons::kFanned};
+  static const std::vector<Triangulation> kNone;
+  const auto& polygons = certificate.read ? (*certificate.read)[which].polygons : kNone;
+  if (certificate.read) limits.triangulate = GivenPolygons(polygons, name);
+  Mesh mesh = read_mesh(path_of(name), limits);
+  expect(!certificate.read || mesh.polygons.triangulations.size() == polygons.size(),
+         ": has no such polygons");
   const std::string& file = certificate.file[which];
   expect(mesh.faces.size() == certificate.faces[which], ": has another number of faces");
   expect(file.empty() || sha256_of(path_of(name), [] { return true; }) == file,
@@ -121,6 +128,28 @@ std::array<std::string, 2> check_direction(const Question& question,
           how};
 }
 
+/// What the proof takes from the file's description, for people.
+std::string polygons_of(const Certificate& certificate, size_t which) {
+  if (!certificate.read) return "";
+  const Description& read = (*certificate.read)[which];
+  const auto fans = static_cast<size_t>(
+      std::count_if(read.polygons.begin(), read.polygons.end(),
+                    [](const Triangulation& t) { return t.axis == Triangulation::kOnlyFan; }));
+  const std::string name = which == 0 ? "  A: " : "  B: ";
+  std::string out;
+  if (read.polygons.size() > fans)
+    out += name + std::to_string(read.polygons.size() - fans) + " polygons, tiled by triangles\n";
+  if (fans > 0)
+    out +=
+        name + std::to_string(fans) + " polygons as the fan of their corners, whatever it covers\n";
+  if (read.ambiguity > 0) {
+    out += name + "stated, not proven: another triangulation is at most " +
+           decimal(read.ambiguity, kJsonDigits, Rounding::kUp) + " away, at face " +
+           std::to_string(read.ambiguous_face) + "\n";
+  }
+  return out;
+}
+
 void check_all(const Arguments& arguments) {
   const Clock::time_point start = Clock::now();
   const std::vector<unsigned char> file = read_file(arguments.certificate);
@@ -147,6 +176,7 @@ void check_all(const Arguments& arguments) {
   std::printf("%s", answer.c_str());
   if (arguments.is_quiet) return;
   const auto spent = std::chrono::duration<double>(Clock::now() - start).count();
+  for (const size_t which : {0U, 1U}) how += polygons_of(certificate, which);
   std::printf("%s  %zu bytes checked in %.2f s\n", how.c_str(), file.size(), spent);
   std::printf("  trusted: the readers of meshes, GMP %s, SHA-256, the compiler, this program\n",
               gmp_version);

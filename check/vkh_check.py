@@ -13,31 +13,92 @@ import struct
 import sys
 from fractions import Fraction
 
-DEEPEST = 100  # halvings; a cut takes 8 more bits, the witness at most 62 instead
+DEEPEST = 100  # halvings; a cut takes 16 more bits, the witness at most 62 instead
 
 
-def is_fanned(corners):
-    """Whether the product keeps a polygon's fan for sure: convex along the axis where its normal is largest."""
-    points = [tuple(map(Fraction, corner)) for corner in corners]
-    edges = list(zip(points, points[1:] + points[:1]))
-    normal = [sum(p[k - 2] * q[k - 1] - p[k - 1] * q[k - 2] for p, q in edges) for k in range(3)]
-    axis = max(range(3), key=lambda k: abs(normal[k]))
-    steps = [(q[axis - 2] - p[axis - 2], q[axis - 1] - p[axis - 1]) for p, q in edges]
-    steps = [step for step in steps if step != (0, 0)]
-    pairs = list(zip(steps, steps[1:] + steps[:1]))
-    turns = [a[0] * b[1] - a[1] * b[0] for a, b in pairs]
-    changes = [(a < (0, 0)) != (b < (0, 0)) for a, b in pairs]
-    if not any(turns) or (min(turns) < 0 < max(turns)):
-        return False
-    return sum(changes) == 2 and not any(change and turn == 0 for change, turn in zip(changes, turns))
+def along(corners, axis):
+    return [(p[axis - 2], p[axis - 1]) for p in corners]
 
 
-def fanned(points, polygons):
+def turn(a, b, c):
+    return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+
+
+def area(ring):
+    return sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(ring, ring[1:] + ring[:1]))
+
+
+def is_across(corners, axis):
+    """Whether Newell's normal is at most about 70 degrees off the axis."""
+    normal = [abs(area(along(corners, k))) for k in range(3)]
+    return 2 * normal[axis] >= max(normal) > 0 < normal[axis]
+
+
+def is_convex(ring):
+    ring = [p for p, before in zip(ring, ring[-1:] + ring[:-1]) if p != before]
+    triples = list(zip(ring, ring[1:] + ring[:1], ring[2:] + ring[:2]))
+    turns = [turn(*triple) for triple in triples]
+    changes = [(a < b) != (b < c) for a, b, c in triples]
+    return (any(turns) and not min(turns) < 0 < max(turns) and sum(changes) == 2
+            and not any(change and t == 0 for change, t in zip(changes, turns)))
+
+
+def is_line(corners):
+    along_it = next((d for d in (minus(p, corners[0]) for p in corners) if any(d)), (0, 0, 0))
+    return not any(any(cross(along_it, minus(p, corners[0]))) for p in corners)
+
+
+def do_overlap(triangles):
+    """Of triangles that turn to the left: whether two have an inner point in common."""
+    def is_outside(a, b):  # b on the outer side of an edge of a
+        return any(all(turn(a[i - 1], a[i], p) <= 0 for p in b) for i in range(3))
+    order = sorted(triangles, key=lambda t: min(p[0] for p in t))
+    for i, a in enumerate(order):
+        for b in order[i + 1:]:
+            if min(p[0] for p in b) >= max(p[0] for p in a):
+                break
+            if not is_outside(a, b) and not is_outside(b, a):
+                return True
+    return False
+
+
+def do_tile(ring, triangles):
+    """Triangles that turn to one side, whose edges add up to the outline, cover a point as often as that winds round it."""
+    side, count, edges = (area(ring) > 0) - (area(ring) < 0), len(ring), {}
+    for corners, sign in [*((t, 1) for t in triangles), (range(count), -1)]:
+        for a, b in zip(corners, [*corners[1:], corners[0]]):
+            edges[min(a, b), max(a, b)] = edges.get((min(a, b), max(a, b)), 0) + (sign if a < b else -sign if a > b else 0)
+    turns = [side * turn(*(ring[i] for i in t)) for t in triangles]
+    solid = [[ring[i] for i in t][::side] for t, turned in zip(triangles, turns) if turned > 0]
+    return side != 0 and min(turns) >= 0 and not any(edges.values()) and not do_overlap(solid)
+
+
+class Other(ValueError):
+    """Well formed, but not of these files."""
+
+
+def triangles_of(points, polygons, given):
+    """Of each face its triangles; given says them where the face is not the fan of a convex one, and None of no face."""
     if any(len(polygon) < 3 or min(polygon) < 0 for polygon in polygons):
         raise ValueError("a face has fewer than three corners, or a corner that is not there")
-    if not all(is_fanned([points[i] for i in polygon]) for polygon in polygons if len(polygon) > 3):
-        raise ValueError("a polygon is not convex: write triangles, this checker does not cut polygons")
-    return [tuple(points[i] for i in (p[0], p[n - 1], p[n])) for p in polygons for n in range(2, len(p))]
+    out, left = [], dict(given or {})
+    for face, polygon in enumerate(polygons):
+        fan = [(0, n - 1, n) for n in range(2, len(polygon))]
+        if len(polygon) > 3:
+            corners = [tuple(map(Fraction, points[i])) for i in polygon]
+            count, axis, listed = left.pop(face, (len(polygon), None, fan))
+            if count != len(polygon):
+                raise Other(f"face {face} has another number of corners")
+            if axis is None and not any(is_across(corners, k) and is_convex(along(corners, k)) for k in range(3)) and not is_line(corners):
+                raise ValueError(f"face {face} is not convex: this certificate does not say its triangles") if given is None else Other(
+                    f"face {face} is not convex, and its triangles are not said")
+            if axis in (0, 1, 2) and not (is_across(corners, axis) and do_tile(along(corners, axis), listed)):
+                raise Other(f"face {face} is not tiled by its triangles")
+            fan = fan if axis == 3 else listed
+        out += [tuple(points[polygon[i]] for i in t) for t in fan]
+    if left:
+        raise Other("there are no such polygons")
+    return out
 
 
 def read_obj(data):
@@ -48,7 +109,7 @@ def read_obj(data):
             points.append(tuple(map(float, words[1:4])))
         elif words[:1] == ["f"]:
             polygons.append([n - 1 if n >= 0 else n + len(points) for n in (int(word.split("/")[0]) for word in words[1:])])
-    return fanned(points, polygons)
+    return points, polygons
 
 
 def read_off(data):
@@ -58,22 +119,25 @@ def read_off(data):
     rows = list(filter(None, rows))
     vertices, faces = int(rows[0][0]), int(rows[0][1])
     polygons = [list(map(int, rows[1 + vertices + i])) for i in range(faces)]
-    return fanned([tuple(map(float, row[:3])) for row in rows[1:1 + vertices]], [row[1:1 + row[0]] for row in polygons])
+    return [tuple(map(float, row[:3])) for row in rows[1:1 + vertices]], [row[1:1 + row[0]] for row in polygons]
 
 
 def read_stl(data):
     if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
-        return [(f[0:3], f[3:6], f[6:9]) for f in struct.iter_unpack("<12x9f2x", data[84:])]
+        points = [p for f in struct.iter_unpack("<12x9f2x", data[84:]) for p in (f[0:3], f[3:6], f[6:9])]
+        return points, [(i, i + 1, i + 2) for i in range(0, len(points), 3)]
     words = data.decode("ascii", "replace").split()
     points = [tuple(map(float, words[i + 1:i + 4])) for i, word in enumerate(words) if word == "vertex"]
-    return fanned(points, [(i, i + 1, i + 2) for i in range(0, len(points), 3)])
+    return points, [(i, i + 1, i + 2) for i in range(0, len(points), 3)]
 
 
-def read_mesh(path):
+def read_mesh(path, given):
     try:
         data = pathlib.Path(path).read_bytes()
-        faces = {"obj": read_obj, "off": read_off, "stl": read_stl}[path.rsplit(".", 1)[-1].lower()](data)
+        faces = triangles_of(*{"obj": read_obj, "off": read_off, "stl": read_stl}[path.rsplit(".", 1)[-1].lower()](data), given)
         corners = [Fraction(p[i]) for face in faces for p in face for i in range(3)]  # raises where it is NaN or infinity
+    except Other as other:
+        raise Other(f"{path}: {other}") from None
     except Exception as error:
         raise ValueError(f"{path}: cannot be read: {error!r}") from None
     flat = struct.pack(f"<{len(corners)}d", *corners)  # -0 has become 0
@@ -119,20 +183,25 @@ def root(square, up):
 
 
 class Certificate:
-    def __init__(self, data, meshes):
+    def __init__(self, data, paths, reader=read_mesh):
         self.data, self.at, self.refusal, self.said = data, 0, "", []
         magic, directions, zero, *counts = self.take("<8sIIQQdd")
         self.faces, deltas, hashes = counts[:2], counts[2:], self.take("<32s32s32s32s")
-        self.need(magic == b"VHCERT01" and directions in (1, 2) and zero == 0 and all(1 <= n <= 1 << 28 for n in self.faces)
+        self.cut_bits = {b"VHCERT01": 8, b"VHCERT02": 16}.get(magic)
+        self.need(self.cut_bits and directions in (1, 2) and zero == 0 and all(1 <= n <= 1 << 28 for n in self.faces)
                   and all(0 <= d < math.inf and math.copysign(1, d) == 1 for d in deltas), "the header")
         self.delta = sum(map(Fraction, deltas))
+        given = [self.description() if self.cut_bits == 16 else None for _ in paths]
+        fans = [sum(axis == 3 for _, axis, _ in (one or {}).values()) for one in given]
+        meshes = [self.read(reader, path, one) for path, one in zip(paths, given)]
         for (faces, _, of_file, of_corners), count, file_hash, corner_hash in zip(meshes, self.faces, hashes, hashes[2:]):
             self.hold(len(faces) == count and corner_hash == of_corners and file_hash in (bytes(32), of_file), "it is of another mesh")
-        self.scale = max(denominator for _, denominator, _, _ in meshes) << DEEPEST + 8  # all points become integers
+        self.scale = max(denominator for _, denominator, _, _ in meshes) << DEEPEST + 16  # all points become integers
         self.scaled = [[[tuple(int(Fraction(x) * self.scale) for x in p) for p in face] for face in mesh[0]] for mesh in meshes]
         for x in range(directions):
             self.direction(x, 1 - x)
         self.need(self.at == len(data), "bytes after the end")
+        self.said += [f"  {name}: {count} polygons as the fan of their corners, whatever it covers" for name, count in zip("AB", fans) if count]
 
     def need(self, holds, what):
         if not holds:
@@ -145,6 +214,29 @@ class Certificate:
         self.at += struct.calcsize(form)
         self.need(self.at <= len(self.data), "it ends early")
         return struct.unpack_from(form, self.data, self.at - struct.calcsize(form))
+
+    def description(self):
+        """How a mesh was read: the triangles of its polygons, by their faces."""
+        *zeros, ambiguity, at, over, under, matrix, count = self.take("<IIdQddQQ")
+        self.need(not any(zeros) and matrix == 0 and over == under == 1, "points, other bodies, a unit or a matrix")
+        self.need(0 <= ambiguity < math.inf and math.copysign(1, ambiguity) == 1 and (ambiguity or not at), "an ambiguity")
+        given, face = {}, -1
+        for _ in range(count):
+            face += 1 + self.count()
+            corners, axis = self.count(), self.count()
+            self.need(4 <= corners < 1 << 32 and axis <= 3, "a polygon")
+            self.need(axis == 3 or 3 * (corners - 2) <= len(self.data) - self.at, "a triangulation that ends early")
+            places = [] if axis == 3 else [self.count() for _ in range(3 * (corners - 2))]
+            self.need(all(i < corners for i in places), "a corner that is not there")
+            given[face] = corners, axis, list(zip(places[0::3], places[1::3], places[2::3]))
+        return given
+
+    def read(self, reader, path, given):
+        try:
+            return reader(path, given)
+        except Other as other:
+            self.hold(False, str(other))
+            return [], 1, b"", b""
 
     def direction(self, x, y):
         lower, upper, face, e, j, k = self.take("<ddIIQQ")
@@ -172,14 +264,18 @@ class Certificate:
                       for word, (low, high) in (("proven", bounds), ("  at best", best))]
 
     def number(self, y):
+        code = self.count()
+        self.number_before += -(code // 2) - 1 if code % 2 else code // 2
+        self.need(0 <= self.number_before < self.faces[y], "a triangle that is not there")
+        return self.number_before
+
+    def count(self):
         code, shift, byte = 0, 0, 128
         while byte >= 128:
             byte, = self.take("<B")
             self.need(shift < 35 and (byte or not shift), "a number of more than five bytes, or of more than it takes")
             code, shift = code | (byte & 127) << shift, shift + 7
-        self.number_before += -(code // 2) - 1 if code % 2 else code // 2
-        self.need(0 <= self.number_before < self.faces[y], "a triangle that is not there")
-        return self.number_before
+        return code
 
     def part(self, v, depth, y):
         op, = self.take("<B")
@@ -192,9 +288,9 @@ class Certificate:
         elif op == 3:
             self.near(v, y, self.number(y))
         else:
-            first, second, (s, t) = self.number(y), self.number(y), self.take("<BB")
-            p = tuple(a + s * (b - a) // 256 for a, b in zip(v[i], v[j]))
-            q = tuple(a + t * (b - a) // 256 for a, b in zip(v[i], v[k]))
+            first, second, (s, t) = self.number(y), self.number(y), self.take("<BB" if self.cut_bits == 8 else "<HH")
+            p = tuple(a + s * (b - a) // 2 ** self.cut_bits for a, b in zip(v[i], v[j]))
+            q = tuple(a + t * (b - a) // 2 ** self.cut_bits for a, b in zip(v[i], v[k]))
             self.near([v[i], p, q], y, first)
             self.near([p, q, v[j], v[k]], y, second)
 
@@ -206,7 +302,7 @@ class Certificate:
 
 def checked(path, path_a, path_b):
     try:
-        certificate = Certificate(pathlib.Path(path).read_bytes(), [read_mesh(path_a), read_mesh(path_b)])
+        certificate = Certificate(pathlib.Path(path).read_bytes(), (path_a, path_b))
     except (ValueError, OSError) as error:
         return 4, f"broken: {error}"
     return (1, f"refused: {certificate.refusal}") if certificate.refusal else (0, "\n".join(certificate.said))

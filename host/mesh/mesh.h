@@ -46,6 +46,17 @@ constexpr bool has_only_fan(PolygonKind kind) {
   return kind != PolygonKind::kFan && kind != PolygonKind::kClipped;
 }
 
+/// Triangles of a face of more than three corners that are not the fan of a convex one.
+struct Triangulation {
+  /// Says that the triangles are a fan because no others are known.
+  static constexpr int kOnlyFan = 3;
+
+  uint64_t face = 0;     ///< as the file counts from 0
+  uint32_t corners = 0;  ///< of the face
+  int axis = kOnlyFan;   ///< the triangles tile the outline as it is seen along this: 0, 1, 2
+  std::vector<UVec3> triangles = {};  ///< corners by their place in the face; none of an only fan
+};
+
 /// How the faces of more than three corners became triangles.
 struct Polygons {
   uint64_t clipped = 0;       ///< not convex: triangulated by their outline
@@ -57,6 +68,8 @@ struct Polygons {
   /// lie in no plane leave open. Those that have only a fan are not among them.
   double ambiguity = 0;
   uint64_t ambiguous_face = 0;  ///< the first with this ambiguity, as the file counts from 0
+  /// Those that were clipped or fanned, in the order of their faces: a certificate holds them.
+  std::vector<Triangulation> triangulations = {};
 };
 
 /// Coordinates are float64, so that float32 and float64 input are both held exactly. Face i is the

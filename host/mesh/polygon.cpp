@@ -427,16 +427,24 @@ PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<gl
   const Corners corners(vertices, fan);
   const glm::dvec3 normal = newell(corners);
   const Outline outline = outline_of(corners, normal);
-  if (has_only_fan(outline.kind)) return {outline.kind, 0};
-  const double ambiguity = ambiguity_of(corners, normal, outline.axis);
-  if (outline.kind == PolygonKind::kFan) return {outline.kind, ambiguity};
+  PolygonResult result{.kind = outline.kind, .axis = outline.axis};
+  if (has_only_fan(outline.kind)) return result;
+  result.ambiguity = ambiguity_of(corners, normal, outline.axis);
+  if (outline.kind == PolygonKind::kFan) return result;
+  result.triangles.reserve(fan.size());
+  for (const Triangle& t : outline.triangles) result.triangles.emplace_back(t[0], t[1], t[2]);
+  place_triangles(result.triangles, fan);
+  return result;
+}
+
+void place_triangles(std::span<const UVec3> triangles, std::span<glm::uvec3> fan) {
+  const Corners corners({}, fan);
   std::vector<uint32_t> numbers(corners.size());
   for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = corners.number(i);
   for (size_t i = 0; i < fan.size(); ++i) {
-    const Triangle& t = outline.triangles[i];
-    fan[i] = {numbers[t[0]], numbers[t[1]], numbers[t[2]]};
+    const UVec3& t = triangles[i];
+    fan[i] = {numbers[t.x], numbers[t.y], numbers[t.z]};
   }
-  return {outline.kind, ambiguity};
 }
 
 }  // namespace vkh

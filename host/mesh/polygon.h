@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "host/mesh/mesh.h"
 
@@ -13,10 +14,16 @@ struct PolygonResult {
   /// Any triangulation with this outline is as near to this one, both ways; 0 for a flat one whose
   /// plane an axis is normal to.
   double ambiguity = 0;
+  /// What is clipped, with the axis along which it was looked at: corners by their place.
+  std::vector<UVec3> triangles = {};
+  int axis = 0;
 };
 
 /// Replaces a polygon's fan by its triangles. `fan` has the triangles (c0, c1, c2), (c0, c2, c3)
 /// and so on of finite corners, two at least. A convex polygon keeps its fan bit for bit.
 PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<glm::uvec3> fan);
+
+/// Replaces a fan by triangles of its corners that are named by their place, as many as it has.
+void place_triangles(std::span<const UVec3> triangles, std::span<glm::uvec3> fan);
 
 }  // namespace vkh

@@ -21,6 +21,11 @@ class Bytes {
     for (int i = 0; i < bytes; ++i) text += static_cast<char>((x >> (8 * i)) & 255);
   }
   void number(double x) { unsigned_number(std::bit_cast<uint64_t>(x == 0 ? 0.0 : x), 8); }
+  /// In groups of seven bits, the lowest first.
+  void count(uint64_t x) {
+    for (; x >= 128; x >>= 7) unsigned_number(128 | (x & 127), 1);
+    unsigned_number(x, 1);
+  }
   // 64 digits as 32 bytes; none: as many zeros.
   void digest(const std::string& digits) {
     const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
@@ -48,6 +53,32 @@ unsigned bits_of(const glm::dvec3& barycentric) {
   return is_coarse(barycentric.y) && is_coarse(barycentric.z) ? kWitnessBits : kMostWitnessBits;
 }
 
+void add_triangulations(Bytes& out, const std::vector<Triangulation>& triangulations) {
+  out.unsigned_number(triangulations.size(), 8);
+  uint64_t next = 0;
+  for (const Triangulation& one : triangulations) {
+    out.count(one.face - next);
+    next = one.face + 1;
+    out.count(one.corners);
+    out.count(static_cast<uint64_t>(one.axis));
+    for (const UVec3& triangle : one.triangles) {
+      for (int i = 0; i < 3; ++i) out.count(triangle[i]);
+    }
+  }
+}
+
+// How the file was read: what follows is fixed until points, units and transforms can be asked for.
+void add_description(Bytes& out, const Mesh& mesh) {
+  constexpr uint64_t kSurface = 0, kSolidBodies = 0, kNoMatrix = 0;
+  out.unsigned_number(kSurface, 4);
+  out.unsigned_number(kSolidBodies, 4);
+  out.number(mesh.polygons.ambiguity);
+  out.unsigned_number(mesh.polygons.ambiguous_face, 8);
+  for (int i = 0; i < 2; ++i) out.number(1);  // the unit, a fraction
+  out.unsigned_number(kNoMatrix, 8);
+  add_triangulations(out, mesh.polygons.triangulations);
+}
+
 void add_direction(Bytes& out, const CertifiedDirection& direction) {
   const Report& r = direction.report;
   const bool has_witness = r.has_witness && r.lower > 0;
@@ -67,13 +98,14 @@ std::string certificate_of(const CertifiedMesh& a, const CertifiedMesh& b,
                            const CertifiedDirection& a_to_b,
                            const std::optional<CertifiedDirection>& b_to_a) {
   Bytes out;
-  out.text = "VHCERT01";
+  out.text = "VHCERT02";
   out.unsigned_number(b_to_a ? 2 : 1, 4);
   out.unsigned_number(0, 4);
   for (const CertifiedMesh* one : {&a, &b}) out.unsigned_number(one->mesh.faces.size(), 8);
   for (const CertifiedMesh* one : {&a, &b}) out.number(one->mesh.delta);
   for (const CertifiedMesh* one : {&a, &b}) out.digest(one->sha256);
   for (const CertifiedMesh* one : {&a, &b}) out.digest(corners_digest(one->mesh));
+  for (const CertifiedMesh* one : {&a, &b}) add_description(out, one->mesh);
   add_direction(out, a_to_b);
   if (b_to_a) add_direction(out, *b_to_a);
   return std::move(out.text);

@@ -24,7 +24,8 @@ struct TwoDoubles {
 
 TwoDoubles sum(double a, double b) { return {a + b, sum_error(a, b)}; }
 
-// x + t (y - x): t is a multiple of 2^-8 of at most eight bits, so its products lose little.
+// x + t (y - x): t is a multiple of 2^-16 of at most sixteen bits. fma makes t d exact; what is
+// rounded is t d_lo, and the sums of low parts.
 TwoDoubles between(TwoDoubles x, TwoDoubles y, double t) {
   const TwoDoubles d = sum(y.hi, -x.hi);
   const double d_lo = d.lo + (y.lo - x.lo);
@@ -56,7 +57,9 @@ Row row_of(const Part& part, const ScaledMesh& b, uint32_t face) {
   return row;
 }
 
-// A cut between two faces on the edge from `from` to `to`, both in 256ths.
+constexpr int kCutUnits = 1 << 16;
+
+// A cut between two faces on the edge from `from` to `to`.
 class Cutting {
  public:
   Cutting(const Part& part, const Row& near, const Row& far, double upper)
@@ -64,17 +67,17 @@ class Cutting {
 
   // Where both are within reach: `near` is from the start of the edge to some place, `far` from
   // some place to the end, for both distances are convex.
-  std::optional<uint8_t> on(size_t from, size_t to) const {
+  std::optional<uint16_t> on(size_t from, size_t to) const {
     const double falls = near_.distance[to] - far_.distance[to];
     const double rises = far_.distance[from] - near_.distance[from];
     const double guess = rises + falls > 0 ? rises / (rises + falls) : 0.5;
-    int low = 0, high = 256;
-    int at = static_cast<int>(std::clamp(256 * guess, 1.0, 255.0));
+    int low = 0, high = kCutUnits;
+    int at = static_cast<int>(std::clamp(kCutUnits * guess, 1.0, kCutUnits - 1.0));
     while (low + 1 < high) {
-      const Point2 p = between(part_[from], part_[to], at / 256.0);
+      const Point2 p = between(part_[from], part_[to], at / double{kCutUnits});
       const bool near = distance_up(p, near_.corners) <= upper_;
       const bool far = distance_up(p, far_.corners) <= upper_;
-      if (near && far) return static_cast<uint8_t>(at);
+      if (near && far) return static_cast<uint16_t>(at);
       if (!near && !far) return {};
       (near ? low : high) = at;
       at = (low + high) / 2;
@@ -118,9 +121,9 @@ std::optional<Leaf> cut_of(const Part& part, const Rows& rows, double upper) {
     for (const Row* near : nears) {
       for (const Row* far : fars) {
         const Cutting cutting(part, *near, *far, upper);
-        const std::optional<uint8_t> next = cutting.on(o, j);
+        const std::optional<uint16_t> next = cutting.on(o, j);
         if (!next) continue;
-        const std::optional<uint8_t> last = cutting.on(o, k);
+        const std::optional<uint16_t> last = cutting.on(o, k);
         if (last)
           return Leaf{.alone = static_cast<uint8_t>(o),
                       .first = near->face,

@@ -17,7 +17,7 @@ namespace vkh {
 struct Point2 {
   glm::dvec3 hi{}, lo{};
 };
-/// x + t (y - x), for t in [0, 1] of eight bits.
+/// x + t (y - x), for t in [0, 1] of sixteen bits.
 Point2 between(const Point2& x, const Point2& y, double t);
 
 /// Corners of a part.
@@ -43,7 +43,8 @@ struct Leaf {
   static constexpr uint8_t kUncut = 3;  ///< all of it is within reach of `first`
   uint8_t alone = kUncut;               ///< else: the corner on the side of `first`
   uint32_t first = 0, second = 0;       ///< faces of B
-  uint8_t cut_next = 0, cut_last = 0;   ///< on the edges from that corner, in 256ths
+  /// On the edges from that corner, in units of 2^-16.
+  uint16_t cut_next = 0, cut_last = 0;
 };
 
 /// Faces of B that may be near a part.

@@ -16,6 +16,10 @@ class NumberWriter {
   std::string bytes;
 
   void byte(uint32_t x) { bytes += static_cast<char>(x); }
+  void pair(uint32_t x) {
+    byte(x & 255);
+    byte(x >> 8);
+  }
   void number(uint32_t x) {
     const int64_t step = static_cast<int64_t>(x) - last_;
     last_ = x;
@@ -56,8 +60,8 @@ void ProofTree::write_face(uint32_t face, NumberWriter& out) const {
     out.byte(4u + leaf.alone);
     out.number(leaf.first);
     out.number(leaf.second);
-    out.byte(leaf.cut_next);
-    out.byte(leaf.cut_last);
+    out.pair(leaf.cut_next);
+    out.pair(leaf.cut_last);
   }
 }
 

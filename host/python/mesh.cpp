@@ -170,6 +170,52 @@ FileFaces file_faces_from(const py::object& state, size_t triangle_count) {
   return faces;
 }
 
+py::array triangles_of(const Triangulation& one) {
+  return py::array_t<uint32_t>({static_cast<py::ssize_t>(one.triangles.size()), py::ssize_t{3}},
+                               reinterpret_cast<const uint32_t*>(one.triangles.data()));
+}
+
+// For pickles.
+py::tuple polygons_state(const Polygons& p) {
+  py::list triangulations;
+  for (const Triangulation& one : p.triangulations)
+    triangulations.append(py::make_tuple(one.face, one.corners, one.axis, triangles_of(one)));
+  return py::make_tuple(p.clipped, p.fanned, p.first_fanned, static_cast<int>(p.first_kind),
+                        p.ambiguity, p.ambiguous_face, triangulations);
+}
+
+Triangulation triangulation_from(const py::tuple& state) {
+  Triangulation one{.face = py::cast<uint64_t>(state[0]),
+                    .corners = py::cast<uint32_t>(state[1]),
+                    .axis = py::cast<int>(state[2])};
+  const auto triangles = py::cast<py::array_t<uint32_t, py::array::c_style>>(state[3]);
+  const py::ssize_t count = one.axis == Triangulation::kOnlyFan ? 0 : py::ssize_t{one.corners} - 2;
+  bool is_valid = one.corners > 3 && one.axis >= 0 && one.axis <= Triangulation::kOnlyFan &&
+                  triangles.ndim() == 2 && triangles.shape(0) == count && triangles.shape(1) == 3;
+  for (py::ssize_t i = 0; is_valid && i < count; ++i) {
+    const UVec3 t{triangles.at(i, 0), triangles.at(i, 1), triangles.at(i, 2)};
+    is_valid = t.x < one.corners && t.y < one.corners && t.z < one.corners;
+    one.triangles.push_back(t);
+  }
+  if (!is_valid) throw py::value_error("this pickle has polygons that no mesh of a file has");
+  return one;
+}
+
+Polygons polygons_from(const py::tuple& state) {
+  const int kind = py::cast<int>(state[3]);
+  if (kind < 0 || kind > static_cast<int>(PolygonKind::kIntricate))
+    throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  Polygons p{.clipped = py::cast<uint64_t>(state[0]),
+             .fanned = py::cast<uint64_t>(state[1]),
+             .first_fanned = py::cast<uint64_t>(state[2]),
+             .first_kind = static_cast<PolygonKind>(kind),
+             .ambiguity = py::cast<double>(state[4]),
+             .ambiguous_face = py::cast<uint64_t>(state[5])};
+  for (const py::handle& one : py::cast<py::list>(state[6]))
+    p.triangulations.push_back(triangulation_from(py::cast<py::tuple>(one)));
+  return p;
+}
+
 const Mesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
 
 py::dict file_counts_of(const MeshCounts& c) {
@@ -188,12 +234,12 @@ py::tuple state_of(const py::object& self) {
   const Mesh& mesh = mesh_in(self);
   return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
                         mesh.unit, mesh.notes, mesh.counts.unreferenced, mesh.counts.polygons,
-                        runs_of(mesh.file_faces));
+                        runs_of(mesh.file_faces), polygons_state(mesh.polygons));
 }
 
 FileMesh mesh_from_state(const py::tuple& state) {
   const Call call;
-  if (state.size() != 9) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  if (state.size() != 10) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
   Mesh mesh = mesh_from("a pickled Mesh", state[1], state[2]);
   mesh.name = py::cast<std::string>(state[0]);
   mesh.delta = py::cast<double>(state[3]);
@@ -202,6 +248,7 @@ FileMesh mesh_from_state(const py::tuple& state) {
   mesh.counts.unreferenced = py::cast<uint64_t>(state[6]);
   mesh.counts.polygons = py::cast<uint64_t>(state[7]);
   mesh.file_faces = file_faces_from(state[8], mesh.faces.size());
+  mesh.polygons = polygons_from(state[9]);
   return {std::make_shared<const Mesh>(std::move(mesh))};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host/base/decimal.h"
 #include "host/base/note.h"
@@ -18,6 +19,14 @@ std::string what_is_odd(PolygonKind kind) {
   if (kind == PolygonKind::kNoArea) return "encloses no area";
   if (kind == PolygonKind::kIntricate) return "is too intricate to be triangulated in time";
   return "crosses itself";
+}
+
+Triangulation of_face(uint64_t face, uint32_t triangles, PolygonResult& result) {
+  Triangulation out{.face = face, .corners = triangles + 2};
+  if (has_only_fan(result.kind)) return out;
+  out.axis = result.axis;
+  out.triangles = std::move(result.triangles);
+  return out;
 }
 
 }  // namespace
@@ -124,8 +133,11 @@ Polygons MeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::
   for (uint32_t i = 0; i < end.faces - begin.faces; ++i) {
     const std::span fan(&faces_[begin.triangles + size_t{i} * each], each);
     if (!is_measurable(fan)) continue;
-    const PolygonResult result = triangulate_fan(vertices_, fan);
     const uint64_t face = begin.faces + i;
+    PolygonResult result = limits_.triangulate ? limits_.triangulate(face, vertices_, fan)
+                                               : triangulate_fan(vertices_, fan);
+    if (result.kind != PolygonKind::kFan)
+      found.triangulations.push_back(of_face(face, each, result));
     if (result.kind == PolygonKind::kClipped) ++found.clipped;
     if (has_only_fan(result.kind) && found.fanned++ == 0) {
       found.first_fanned = face;
@@ -158,7 +170,9 @@ Polygons MeshBuilder::triangulate(const Crew& crew) {
   crew.for_each(parts.size(),
                 [&](size_t i) { found[i] = triangulate(parts[i].first, parts[i].second); });
   Polygons all;
-  for (const Polygons& part : found) {
+  for (Polygons& part : found) {
+    std::move(part.triangulations.begin(), part.triangulations.end(),
+              std::back_inserter(all.triangulations));
     if (all.fanned == 0) {
       all.first_fanned = part.first_fanned;
       all.first_kind = part.first_kind;
@@ -215,13 +229,13 @@ Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
   if (faces_.size() + short_faces_ >= UINT32_MAX)
     reject(name_, place, "too many faces", "fewer than 2^32 - 1");
   const Crew crew = crew_of({.name = name_, .bytes = {}, .limits = limits_});
-  const Polygons polygons = triangulate(crew);
+  Polygons polygons = triangulate(crew);
   refuse_odd(polygons);
   Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_), crew, positions);
-  mesh.polygons = polygons;
   mesh.file_faces = std::move(file_faces_);
   mesh.counts.polygons = polygons_;
   if (polygons_ > 0) note_polygons(polygons);
+  mesh.polygons = std::move(polygons);
   mesh.notes = std::move(notes);
   if (short_faces_ > 0) {
     mesh.notes.push_back(

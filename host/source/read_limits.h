@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
+
+#include "host/mesh/polygon.h"
 
 namespace vkh {
 
@@ -21,6 +24,11 @@ struct ReadLimits {
   /// six times this (read_cost_test), besides a megabyte.
   uint64_t max_input_bytes = UINT64_MAX;
   OddPolygons odd_polygons = OddPolygons::kRefused;
+  /// Makes triangles of a polygon, in place of triangulate_fan: of the file's face with this
+  /// number, whose fan it replaces. Called by several threads; what it throws ends the reading.
+  std::function<PolygonResult(uint64_t face, std::span<const glm::dvec3> vertices,
+                              std::span<glm::uvec3> fan)>
+      triangulate = {};
   /// Asked now and then while a file is read, by one thread at a time, perhaps another than that
   /// which waits: false ends it with an Interrupted.
   std::function<bool()> keep_going = {};

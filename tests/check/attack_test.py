@@ -34,7 +34,8 @@ class Attack:
         size = max(abs(x) for mesh in (self.a, self.b) for face in mesh for p in face for x in p)
         deltas = [rng.choice((0.0, 0.0, size * 1e-9, size * 0.1)) for _ in range(2)] if rng.random() < 0.3 else (0.0, 0.0)
         self.model = make_certificate.make(self.a, self.b, rng, rng.random() < 0.5, rng.choice((0.0, 0.01, 0.2)),
-                                           rng.choice((3, 20, 60)), deltas, [f if rng.random() < 0.5 else None for f in files])
+                                           rng.choice((3, 20, 60)), deltas, [f if rng.random() < 0.5 else None for f in files],
+                                           rng.choice((1, 2, 2)))
         if self.model is None:
             return
         self.model.counts = list(self.model.faces)
@@ -155,11 +156,14 @@ class Cases(unittest.TestCase):
 
     def test_polygons_that_are_not_convex(self):
         corners = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n"
-        convex = vkh_check.read_obj((corners + "f 1 2 4\n").encode())
+        convex = vkh_check.triangles_of(*vkh_check.read_obj((corners + "f 1 2 4\n").encode()), None)
         self.assertEqual(len(convex), 1)
         for face in ("1 2 3 4", "1 2 4 3", "2 1 4 3", "1 4 2 3"):
-            with self.assertRaisesRegex(ValueError, "not convex"):
-                vkh_check.read_obj((corners + f"f {face}\n").encode())
+            points_and_polygons = vkh_check.read_obj((corners + f"f {face}\n").encode())
+            with self.assertRaisesRegex(ValueError, "not convex"):  # version 1
+                vkh_check.triangles_of(*points_and_polygons, None)
+            with self.assertRaisesRegex(vkh_check.Other, "not convex"):
+                vkh_check.triangles_of(*points_and_polygons, {})
 
     def test_a_part_too_far_from_all(self):
         """h(A,B) is the height of a peak in a part that the tree may not leave out."""
@@ -171,7 +175,7 @@ class Cases(unittest.TestCase):
         direction = model.directions[0]
         direction.lower, direction.upper, direction.witness = 1.0, 5.0, [0, 0, 0, 0]
         for op in range(3):
-            for tree in ([op, [3, 0], [3, 0]], [4 + op, 0, 0, 255, 255], [4 + op, 0, 0, 0, 0], [4 + op, 0, 0, 0, 255]):
+            for tree in ([op, [3, 0], [3, 0]], [4 + op, 0, 0, 65535, 65535], [4 + op, 0, 0, 0, 0], [4 + op, 0, 0, 0, 65535]):
                 direction.blocks = [[tree]]
                 self.checkers.ask(make_certificate.encode(model), {1}, f"{tree}")
         self.settle()

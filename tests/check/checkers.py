@@ -34,7 +34,19 @@ class Checkers:
         self.paths = [self.folder / f"{name}.{ending}" for name in "ab"]
         for path, data in zip(self.paths, (a, b)):
             path.write_bytes(data)
-        self.read = [vkh_check.read_mesh(str(path)) for path in self.paths]
+        self.meshes_read = {}
+
+    def read(self, path, given):
+        """As vkh_check.read_mesh, once for what is asked often."""
+        key = path, repr(given)
+        if key not in self.meshes_read:
+            try:
+                self.meshes_read[key] = vkh_check.read_mesh(path, given)
+            except ValueError as error:
+                self.meshes_read[key] = error
+        if isinstance(self.meshes_read[key], ValueError):
+            raise self.meshes_read[key]
+        return self.meshes_read[key]
 
     def fault(self, what):
         folder = self.keep / f"{len(self.faults):04}"
@@ -47,7 +59,7 @@ class Checkers:
     def python(self, data):
         """The exit code, the text and the certificate."""
         try:
-            certificate = vkh_check.Certificate(data, self.read)
+            certificate = vkh_check.Certificate(data, [str(path) for path in self.paths], self.read)
         except ValueError as error:
             return 4, str(error), None
         return (1, certificate.refusal, None) if certificate.refusal else (0, "\n".join(certificate.said), certificate)

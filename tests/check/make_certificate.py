@@ -12,11 +12,29 @@ from fractions import Fraction
 import truth
 
 
+class Read:
+    """How a mesh was read: from version 2 on. A polygon is [face, corners, axis, triangles]."""
+
+    def __init__(self, polygons=()):
+        self.points = self.bodies = self.face = self.matrix = 0
+        self.ambiguity, self.over, self.under, self.polygons, self.count = 0.0, 1.0, 1.0, list(polygons), None
+
+    def encode(self):
+        count = len(self.polygons) if self.count is None else self.count
+        out, after = struct.pack("<IIdQddQQ", self.points, self.bodies, self.ambiguity, self.face, self.over, self.under, self.matrix, count), 0
+        for face, corners, axis, triangles in self.polygons:
+            out += b"".join(counted(x) for x in (face - after, corners, axis, *itertools.chain(*triangles)))
+            after = face + 1
+        return out
+
+
 class Model:
     """All that a file says. A tree is [op, first, second], [3, S] or [4 + corner, S, R, s, t]."""
 
-    def __init__(self, a, b, deltas=(0.0, 0.0), files=(None, None)):
-        self.magic, self.zero, self.deltas, self.directions = b"VHCERT01", 0, list(deltas), []
+    def __init__(self, a, b, deltas=(0.0, 0.0), files=(None, None), version=2):
+        self.magic, self.zero, self.deltas, self.directions = b"VHCERT0%d" % version, 0, list(deltas), []
+        self.read = [Read(), Read()] if version > 1 else []
+        self.cut_bits = 16 if version > 1 else 8
         self.count = None  # of directions, where it is not theirs
         self.faces = [len(a), len(b)]
         self.hashes = [bytes(32) if f is None else hashlib.sha256(f).digest() for f in files] + [corner_hash(a), corner_hash(b)]
@@ -32,7 +50,12 @@ def corner_hash(mesh):
 
 
 def number(difference, padding=0):
-    code = 2 * difference if difference >= 0 else -2 * difference - 1
+    return counted(2 * difference if difference >= 0 else -2 * difference - 1, padding)
+
+
+def counted(code, padding=0):
+    if code < 0:
+        raise struct.error("not a number that the format has")
     out = bytearray()
     while True:
         out.append(code & 127)
@@ -43,7 +66,7 @@ def number(difference, padding=0):
     return bytes(x | 128 for x in out[:-1]) + out[-1:]
 
 
-def encode_block(trees, padding=0):
+def encode_block(trees, padding=0, cut_bits=16):
     """Its bytes; padding makes the first number longer than it needs to be."""
     out, before = bytearray(), 0
     waiting = list(reversed(trees))
@@ -56,18 +79,18 @@ def encode_block(trees, padding=0):
         for value in rest[:1 if op == 3 else 2]:
             out += number(value - before, padding)
             before, padding = value, 0
-        out += bytes(x & 255 for x in rest[2:]) if op > 3 else b""
+        out += b"".join(struct.pack("<B" if cut_bits == 8 else "<H", x) for x in rest[2:]) if op > 3 else b""
     return bytes(out)
 
 
 def encode(model, padding=0):
     count = len(model.directions) if model.count is None else model.count
     out = struct.pack("<8sIIQQdd", model.magic, count, model.zero, *model.faces, *model.deltas)
-    out += b"".join(model.hashes)
+    out += b"".join(model.hashes) + b"".join(read.encode() for read in model.read)
     for direction in model.directions:
         out += struct.pack("<ddIIQQ", direction.lower, direction.upper, *direction.witness)
         for trees in direction.blocks:
-            body = encode_block(trees, padding)
+            body = encode_block(trees, padding, model.cut_bits)
             out += struct.pack("<II", len(trees), len(body)) + body
     return out
 
@@ -79,7 +102,8 @@ def middle(p, q):
 class Prover:
     """One direction: faces are halved, the worst part first, until it is good enough or there are enough parts."""
 
-    def __init__(self, x, y, rng, slack, parts):
+    def __init__(self, x, y, rng, slack, parts, cut_bits=16):
+        self.whole = 2 ** cut_bits
         (self.x, self.y), unit = truth.scaled(x, y)
         self.unit, self.rng, self.slack, self.known = Fraction(unit) ** 2, rng, slack, {}
         self.low, self.witness = Fraction(-1), None
@@ -133,10 +157,12 @@ class Prover:
         """Makes the part a leaf that is cut, where two triangles are good enough."""
         for o in self.rng.sample(range(3), 3):
             a, b, c = (v[(o + n) % 3][0] for n in range(3))
-            for s, t in ((128, 128), (self.rng.choice((0, 1, 255, 64)), self.rng.choice((0, 1, 255, 192))),
-                         (self.rng.randrange(256), self.rng.randrange(256))):
-                p = tuple(x + (y - x) * s // 256 for x, y in zip(a, b))
-                q = tuple(x + (y - x) * t // 256 for x, y in zip(a, c))
+            whole = self.whole
+            for s, t in ((whole // 2, whole // 2),
+                         (self.rng.choice((0, 1, whole - 1, whole // 4)), self.rng.choice((0, 1, whole - 1, whole * 3 // 4))),
+                         (self.rng.randrange(whole), self.rng.randrange(whole))):
+                p = tuple(x + (y - x) * s // whole for x, y in zip(a, b))
+                q = tuple(x + (y - x) * t // whole for x, y in zip(a, c))
                 (first, one), (second, other) = self.best([a, p, q]), self.best([p, q, b, c])
                 if max(first, second) <= enough:
                     tree[:] = [4 + o, one, other, s, t]
@@ -155,11 +181,11 @@ class Prover:
         return Direction(lower, upper, witness, self.trees)
 
 
-def make(a, b, rng, both=False, slack=0.05, parts=60, deltas=(0.0, 0.0), files=(None, None)):
+def make(a, b, rng, both=False, slack=0.05, parts=60, deltas=(0.0, 0.0), files=(None, None), version=2):
     """A certificate's Model, as tight as its trees are; None where no double is an upper bound."""
-    model = Model(a, b, deltas, files)
+    model = Model(a, b, deltas, files, version)
     for x, y in ((a, b), (b, a))[:1 + both]:
-        model.directions.append(Prover(x, y, rng, slack, parts).direction(sum(map(Fraction, deltas))))
+        model.directions.append(Prover(x, y, rng, slack, parts, model.cut_bits).direction(sum(map(Fraction, deltas))))
         if model.directions[-1] is None:
             return None
         if len(x) > 1 and rng.random() < 0.5:  # in two blocks

@@ -13,6 +13,7 @@ import tempfile
 import unittest
 
 PROGRAM, CHECK = sys.argv[1:3]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def sheet(name, n, height, seed):
@@ -32,6 +33,11 @@ FILES["wide.off"] = "OFF\n4 2 0\n-1 -1 0\n2 -1 0\n2 2 0.1\n-1 2 0\n3 0 1 2\n3 2 
 # The farthest point of the one from the other's three points is at thirds of its edges.
 FILES["face.obj"] = "v 0 0 0\nv 4 0 0\nv 1 3 0\nf 1 2 3\n"
 FILES["points.obj"] = "v 0 0 0\nv 4 0 0\nv 1 3 0\nf 1 1 1\nf 2 2 2\nf 3 3 3\n"
+# A plate with a hole, to which an edge leads, off its plane at a corner; quads; a bow tie.
+FILES["plate.obj"] = ("v 0 0 0\nv 9 0 0\nv 9 9 0.25\nv 0 9 0\nv 3 3 0\nv 3 6 0\nv 6 6 0\nv 6 3 0\nv 9 9 9\n"
+                      "f 1 2 9\nf 1 2 3 4 1 5 6 7 8 5\n")
+FILES["quads.off"] = "OFF\n6 2 0\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n2 0 0\n2 1 0\n4 0 1 2 3\n4 1 4 5 2\n"
+FILES["bow.obj"] = "v 0 0 0\nv 4 4 0\nv 4 0 0\nv 0 4 0\nf 1 2 3 4\n"
 FILES["scene.gltf"] = json.dumps({
     "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0, "rotation": [0.1, 0.2, 0.3, 0.9], "scale": [1.1, 0.7, 1.3], "translation": [0.1, 0.2, 0.3]}],
@@ -93,6 +99,16 @@ class Program(unittest.TestCase):
             self.assertEqual(done.returncode == 6, not certificate.exists(), done.stderr)
             if certificate.exists():
                 self.assertEqual(self.run_here(CHECK, "out.vhc", "fine.obj", "b.obj").returncode, 0)
+
+    def test_polygons(self):
+        for words, said in ((["plate.obj", "b.obj", "--symmetric"], "A: 1 polygons, tiled by triangles"),
+                            (["b.obj", "plate.obj"], "B: 1 polygons, tiled"), (["quads.off", "plate.obj", "--tol", "1e-4"], "B: 1 polygons, tiled"),
+                            (["quads.off", "b.obj"], "A: stated, not proven"), (["bow.obj", "b.obj", "--polygons", "fan"], "A: 1 polygons as the fan")):
+            with self.subTest(words):
+                self.certify("distance", *words)
+                self.assertIn(said, self.run_here(CHECK, "out.vhc", *words[:2]).stdout)
+                other = self.run_here(sys.executable, "-B", ROOT / "check" / "vkh_check.py", "out.vhc", *words[:2])
+                self.assertEqual(other.returncode, 0, other.stderr)
 
     def test_of_other_meshes_it_proves_nothing(self):
         self.certify("distance", "a.obj", "b.obj")

@@ -94,6 +94,11 @@ def long_number(rng, model):
     return BROKEN
 
 
+def some_cut(rng, model):
+    whole = 2 ** model.cut_bits
+    return rng.choice([0, 1, whole // 2 - 1, whole // 2, whole - 2, whole - 1, rng.randrange(whole)])
+
+
 def swap_triangles(rng, model):
     node = some_node(rng, model, lambda n: n[0] > 3)
     if node:
@@ -104,7 +109,7 @@ def swap_triangles(rng, model):
 def move_cut(rng, model):
     node = some_node(rng, model, lambda n: n[0] > 3)
     if node:
-        node[rng.randrange(3, 5)] = rng.choice([0, 1, 127, 128, 254, 255, rng.randrange(256)])
+        node[rng.randrange(3, 5)] = some_cut(rng, model)
         return ANY
 
 
@@ -126,7 +131,7 @@ def cut_whole(rng, model):
     """Where one triangle does, it does for both pieces of any cut."""
     node = some_node(rng, model, lambda n: n[0] == 3)
     if node:
-        node[:] = [4 + rng.randrange(3), node[1], node[1], rng.randrange(256), rng.randrange(256)]
+        node[:] = [4 + rng.randrange(3), node[1], node[1], some_cut(rng, model), some_cut(rng, model)]
         return PROVEN
 
 
@@ -257,13 +262,45 @@ def swap_hashes(rng, model):
 def header(rng, model):
     which = rng.randrange(4)
     if which == 0:
-        model.magic = rng.choice([b"VHCERT02", b"VHCERT00", b"vhcert01", bytes(8)])
+        model.magic = rng.choice([b"VHCERT01" if model.read else b"VHCERT02", b"VHCERT03", b"VHCERT00", b"vhcert01", bytes(8)])
     elif which == 1:
         model.zero = rng.choice([1, 2 ** 31, 2 ** 32 - 1])
     elif which == 2:
         model.count = rng.choice([n for n in (0, 3, 2 ** 32 - 1, 3 - len(model.directions)) if n != len(model.directions)])
     else:
         model.faces[rng.randrange(2)] = rng.choice([0, 2 ** 28 + 1, 2 ** 32 + 1, 2 ** 64 - 1])
+    return BROKEN
+
+
+def description(rng, model):
+    """What is not known is broken, and a polygon that is not there is of another mesh."""
+    if not model.read:
+        return None
+    one = rng.choice(model.read)
+    how = rng.choice(["points", "bodies", "over", "under", "matrix", "count", "ambiguity", "face", "polygon", "polygon"])
+    if how == "ambiguity":
+        one.ambiguity, one.face = rng.choice([(1e-9, 0), (5e-324, 2 ** 64 - 1), (1e308, 7)])
+        return PROVEN
+    if how == "polygon":
+        corners = rng.choice([4, 5, 9])
+        axis = rng.randrange(4)
+        triangles = [[0, i - 1, i] for i in range(2, corners)] if axis < 3 else []
+        one.polygons = [[rng.choice([0, 1, 2 ** 34]), corners, axis, triangles]]
+        if rng.random() < 0.3:
+            one.polygons.append([one.polygons[0][0] + 1, 4, 3, []])
+        return {1}
+    setattr(one, how, rng.choice([1, 2, 2 ** 31]) if how in ("points", "bodies", "matrix", "face") else
+            rng.choice([0.0, -1.0, 25.4, math.nan, math.inf]) if how != "count" else rng.choice([1, 2 ** 40, 2 ** 64 - 1]))
+    return BROKEN
+
+
+def polygon_of_bytes(rng, model):
+    """Numbers that a polygon cannot have."""
+    if not model.read:
+        return None
+    polygon = rng.choice([[0, 3, 3, []], [0, 0, 3, []], [0, 2 ** 32, 3, []], [0, 4, 4, []], [0, 4, 0, [[0, 1, 2]]], [0, 4, 1, [[0, 1, 4], [0, 2, 3]]],
+                          [2 ** 35, 4, 3, []], [0, 2 ** 31, 2, [[0, 1, 2]]]])
+    rng.choice(model.read).polygons = [polygon]
     return BROKEN
 
 
@@ -312,7 +349,7 @@ def lose_face(rng, model):
 
 MODELS = [drop_leaf, drop_half, swap_halves, turn_halving, other_op, other_triangle, other_triangle, no_triangle, long_number,
           swap_triangles, move_cut, move_cut, turn_cut, uncut, cut_whole, deep, chain, lower_upper, lower_upper, raise_upper, raise_lower, raise_lower,
-          lower_lower, no_number, move_witness, move_witness, no_witness, flip_hash, swap_hashes, header, face_counts, delta,
+          lower_lower, no_number, move_witness, move_witness, no_witness, flip_hash, swap_hashes, header, description, description, polygon_of_bytes, face_counts, delta,
           swap_directions, regroup, lose_face]
 
 
@@ -320,12 +357,12 @@ MODELS = [drop_leaf, drop_half, swap_halves, turn_halving, other_op, other_trian
 
 def block_places(model):
     """Where blocks start."""
-    at = 176
+    at = 176 + sum(len(read.encode()) for read in model.read)
     for d in model.directions:
         at += 40
         for trees in d.blocks:
             yield at
-            at += 8 + len(encode_block(trees))
+            at += 8 + len(encode_block(trees, 0, model.cut_bits))
 
 
 def block_head(rng, model):

@@ -56,7 +56,11 @@ def leaf(difference=0):
 
 
 def cut(corner, s, r, p, q):
-    return bytes([4 + corner]) + number(s) + number(r) + bytes([p, q])
+    """p and q in 256ths."""
+    return bytes([4 + corner]) + number(s) + number(r) + struct.pack("<HH", 256 * p, 256 * q)
+
+
+READ_AS_IT_IS = struct.pack("<IIdQddQQ", 0, 0, 0, 0, 1, 1, 0, 0)
 
 
 def halved(corner, first, second):
@@ -102,8 +106,8 @@ class Check(unittest.TestCase):
         """The bytes, for meshes that are written down, too."""
         names = [self.file("a.off", a), self.file("b.off", b)]
         files = files or [hashlib.sha256(name.read_bytes()).digest() for name in names]
-        return (struct.pack("<8sIIQQdd", b"VHCERT01", len(directions), 0, len(a), len(b), *delta) + b"".join(files) +
-                corners_hash(a) + corners_hash(b) + b"".join(directions))
+        return (struct.pack("<8sIIQQdd", b"VHCERT02", len(directions), 0, len(a), len(b), *delta) + b"".join(files) +
+                corners_hash(a) + corners_hash(b) + 2 * READ_AS_IT_IS + b"".join(directions))
 
     def run_it(self, data, *more, names=("a.off", "b.off")):
         path = self.folder / "c.vhc"
@@ -300,7 +304,7 @@ class Check(unittest.TestCase):
             self.assertEqual(self.run_it(good[:size]).returncode, BROKEN)
         self.expect(BROKEN, good + b"\0", "more bytes")
         for name, data in [
-                ("VHCERT02", b"VHCERT02" + good[8:]), ("directions 0", good[:8] + b"\0" + good[9:]),
+                ("VHCERT03", b"VHCERT03" + good[8:]), ("VHCERT00", b"VHCERT00" + good[8:]), ("directions 0", good[:8] + b"\0" + good[9:]),
                 ("directions 3", good[:8] + b"\3" + good[9:]), ("not 0", good[:12] + b"\1" + good[13:]),
                 ("no faces", good[:16] + bytes(8) + good[24:]), ("many faces", good[:16] + struct.pack("<Q", 2**28 + 1) + good[24:]),
                 ("delta < 0", good[:32] + struct.pack("<d", -1) + good[40:]), ("delta -0", good[:32] + struct.pack("<d", -0.0) + good[40:]),
@@ -315,7 +319,7 @@ class Check(unittest.TestCase):
                 ("bytes many", of(struct.pack("<II", 1, 2**32 - 1) + leaf())), ("kind 7", of(block(b"\7\0"))),
                 ("no such triangle", of(block(leaf(1)))), ("negative triangle", of(block(leaf(-1)))),
                 ("six bytes", of(block(b"\3" + b"\x80" * 5 + b"\0"))), ("too long a number", of(block(b"\3\x80\0"))),
-                ("half a halving", of(block(b"\0" + leaf()))), ("half a cut", of(block(b"\4\0\0\0")))]:
+                ("half a halving", of(block(b"\0" + leaf()))), ("half a cut", of(block(b"\4\0\0\0\0\0")))]:
             with self.subTest(name):
                 self.expect(BROKEN, data, "c.vhc: byte ")
 

@@ -33,9 +33,9 @@ Tracked tracked(const glm::dvec3& p) { return {{p, {}}, scaled(p)}; }
 
 Tracked between(const Tracked& x, const Tracked& y, unsigned t) {
   const auto mixed = [t](const Integer& p, const Integer& q) {
-    return Integer((p * (256 - t) + q * t) / 256);
+    return Integer((p * (65536 - t) + q * t) / 65536);
   };
-  return {between(x.point, y.point, t / 256.0),
+  return {between(x.point, y.point, t / 65536.0),
           {mixed(x.exact.x, y.exact.x), mixed(x.exact.y, y.exact.y), mixed(x.exact.z, y.exact.z)}};
 }
 
@@ -114,8 +114,8 @@ TEST_CASE("a roof needs both of its sides, and the cut is between them") {
   CHECK(leaf->alone == 0);
   CHECK(leaf->first == 0);
   CHECK(leaf->second == 1);
-  CHECK(leaf->cut_next > 64);
-  CHECK(leaf->cut_next < 255);
+  CHECK(leaf->cut_next > 64 * 256);
+  CHECK(leaf->cut_next < 255 * 256);
   CHECK_FALSE(proof_of(part, b, hints, 0.45));
   const std::optional<Leaf> whole = proof_of(part, b, hints, 2);
   REQUIRE(whole);

@@ -68,7 +68,24 @@ class Meshes(unittest.TestCase):
         state = mixed.__getstate__()
         for runs in ([[9, 1]], [[2, 0]], [1, 2]):
             with self.assertRaises(ValueError):
-                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:8], np.array(runs, np.uint32)))
+                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:8], np.array(runs, np.uint32), state[9]))
+
+    def test_pickles_keep_how_polygons_became_triangles(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "concave.obj"
+            file.write_text("v 0 0 0\nv 4 0 0\nv 1 1 0.5\nv 0 4 0\nv 9 9 9\nf 1 2 5\nf 2 3 4 1\n")
+            mesh = vkh.read(file)
+        state = mesh.__getstate__()
+        again = pickle.loads(pickle.dumps(mesh)).__getstate__()
+        clipped, fanned, first, kind, ambiguity, face, triangulations = state[9]
+        self.assertEqual((clipped, fanned, face, len(triangulations)), (1, 0, 1, 1))
+        self.assertGreater(ambiguity, 0)
+        self.assertEqual(again[9][:6], state[9][:6])
+        (number, corners, axis, triangles), (*numbers, others) = triangulations[0], again[9][6][0]
+        self.assertEqual((numbers, others.tolist()), ([number, corners, axis], triangles.tolist()))
+        for wrong in ((1, 3, 2, triangles[:1]), (1, 4, 4, triangles), (1, 4, 2, triangles + np.uint32(2)), (1, 4, 2, triangles[:1]), (1, 4, 3, triangles)):
+            with self.assertRaises(ValueError):
+                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:9], (*state[9][:6], [wrong])))
 
     def test_wherever_a_mesh_goes(self):
         a, b = PAIRS[4]
