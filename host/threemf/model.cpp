@@ -224,7 +224,7 @@ void Part::open_object(const Attributes& attributes) {
   constexpr std::pair<std::string_view, Role> kKinds[] = {{"model", Role::kBody},
                                                           {"solidsupport", Role::kSupport},
                                                           {"support", Role::kSupport},
-                                                          {"surface", Role::kBody},
+                                                          {"surface", Role::kSurface},
                                                           {"other", Role::kOther}};
   const auto* const found = std::find_if(std::begin(kKinds), std::end(kKinds),
                                          [&](const auto& pair) { return pair.first == kind; });
