@@ -302,7 +302,8 @@ Use Part::use(const Attributes& attributes) {
           .transform = kNone,
           .line = line};
   const char* printable = attributes.find("printable");
-  out.is_printed = printable == nullptr || trimmed(printable) != "0";
+  const std::string_view printed = printable == nullptr ? "1" : trimmed(printable);
+  out.is_printed = printed != "0" && printed != "false";
   const char* text = attributes.find("transform");
   if (text == nullptr) return out;
   std::array<double, 12> numbers{};
