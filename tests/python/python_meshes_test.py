@@ -53,6 +53,26 @@ class Meshes(unittest.TestCase):
         gc.collect()
         self.assertTrue((vertices == a[0]).all())  # which has kept it
 
+    def test_bodies(self):
+        triangle = base64.b64encode(np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]).tobytes()).decode()
+        hidden = {"mesh": 0, "translation": [0, 0, 9], "extensions": {"KHR_node_visibility": {"visible": False}}}
+        scene = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, hidden],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+                 "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                 "buffers": [{"byteLength": 36, "uri": "data:;base64," + triangle}]}
+        b = np.float64([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.uint32([[0, 1, 2]])
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "scene.gltf"
+            file.write_text(json.dumps(scene))
+            for bodies, count, fate in (({}, 1, "left out"), ({"bodies": "solid"}, 1, "left out"), ({"bodies": "all"}, 2, "included")):
+                mesh = vkh.read(file, **bodies)
+                self.assertEqual(len(mesh.faces), count)
+                self.assertTrue(mesh.notes[0].startswith(f"bodies: {fate}"), mesh.notes)
+                self.assertEqual(next(vkh.distances([(file, b)], **bodies)).lower > 8.9, count == 2)
+            with self.assertRaisesRegex(ValueError, "^bodies.*expected "):
+                vkh.read(file, bodies="none")
+
     def test_faces_of_the_file(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "mixed.obj"
