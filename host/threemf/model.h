@@ -39,7 +39,6 @@ struct Object {
   uint64_t face_count = 0;      ///< with its components'; at most 2^40
   uint64_t measured_count = 0;  ///< of these, those that are read where it is a body
   uint32_t others = kNone;      ///< the number of the counts of what is no body in it
-  bool has_negative = false;    ///< a negative volume, which is refused
 };
 
 /// All parts of one package; what objects refer to stands before them.

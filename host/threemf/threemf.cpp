@@ -105,6 +105,13 @@ class Builder {
 
   static void add(uint64_t& sum, uint64_t faces) { sum = std::min(kManyFaces, sum + faces); }
 
+  // It gives faces, or ends in a refusal.
+  bool is_looked_at(const Object& object) const {
+    return object.measured_count > 0 ||
+           (object.others != kNone &&
+            others_[object.others][static_cast<size_t>(Role::kNegative)].shapes > 0);
+  }
+
   // Adds what an object gives, in some role, to what uses it, and returns whether that is read.
   bool add_use(Object& user, Role role, const Object& object) {
     if (object.face_count == 0) return false;
@@ -119,8 +126,7 @@ class Builder {
         count_other(user, static_cast<Role>(r), others_[object.others][r]);
     }
     add(user.measured_count, object.measured_count);
-    user.has_negative = user.has_negative || object.has_negative;
-    return object.measured_count > 0 || object.has_negative;
+    return is_looked_at(object);
   }
 
   void count_other(Object& user, Role role, const Count& count) {
@@ -132,7 +138,6 @@ class Builder {
     Count& sum = others_[user.others][static_cast<size_t>(role)];
     add(sum.shapes, count.shapes);
     add(sum.faces, count.faces);
-    if (role == Role::kNegative && !is_all()) user.has_negative = true;
   }
   void count_other(Object& user, Role role, uint64_t faces) {
     count_other(user, role, Count{.shapes = 1, .faces = faces});
@@ -166,7 +171,7 @@ class Builder {
       return;
     }
     if (object.lacks_shape) refuse_shape(use, object);
-    if (object.measured_count == 0 && !object.has_negative) return;
+    if (!is_looked_at(object)) return;
     if (levels_.size() == kMostLevels) {
       reject(source_.name, "line " + std::to_string(use.line),
              "components lie " + std::to_string(kMostLevels) + " levels deep", "fewer levels");

@@ -128,7 +128,7 @@ class Package:
         self.random = random
         self.has_parts, self.is_bambu, self.is_prusa, self.is_cura = (random.random() < 0.4 for _ in range(4))
         # Most slicers write no negative volume; with many in each, hardly a package would be read.
-        self.negative = random.choice((0, 0, 0.2))
+        self.negative = random.choice((0, 0, 0, 0.2, 1))
         self.objects = []
         for id in range(1, random.randint(2, 9)):
             self.objects.append(self._leaf(id) if id == 1 or random.random() < 0.6 else self._composite(id))
@@ -163,7 +163,8 @@ class Package:
         made.uses = [(used, self._map()) for used in below]
         self._add_kind(made)
         if self.is_bambu:
-            made.subtypes = {used.id: self._kind(BAMBU) for used in below if self.random.random() < 0.7}
+            kinds = [self._kind(BAMBU)] * 3 if self.random.random() < 0.3 else [self._kind(BAMBU) for _ in below]
+            made.subtypes = {used.id: kind for used, kind in zip(below, kinds) if self.random.random() < 0.7}
         return made
 
     def _add_kind(self, made):
