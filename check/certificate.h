@@ -32,7 +32,8 @@ struct Triangulation {
 
 /// How the corners came from the file.
 struct Description {
-  double ambiguity = 0;  ///< what another triangulation may be off: stated, not proven
+  bool has_all_bodies = false;  ///< of a scene every shape, whether it is printed or not
+  double ambiguity = 0;         ///< what another triangulation may be off: stated, not proven
   uint64_t ambiguous_face = 0;
   std::vector<Triangulation> polygons;  ///< in the order of their faces
 };
@@ -223,7 +224,9 @@ inline Triangulation read_triangulation(Bytes& bytes, uint64_t next) {
 inline Description read_description(Bytes& bytes) {
   Description out;
   bytes.expect(bytes.word() == 0, "not read as a surface");
-  bytes.expect(bytes.word() == 0, "not of the bodies that are printed");
+  const uint32_t bodies = bytes.word();
+  bytes.expect(bodies <= 1, "bodies of no kind");
+  out.has_all_bodies = bodies == 1;
   out.ambiguity = bytes.real();
   out.ambiguous_face = bytes.take(8);
   bytes.expect(out.ambiguity > 0 || out.ambiguous_face == 0, "a face of no ambiguity");

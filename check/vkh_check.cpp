@@ -47,11 +47,11 @@ Mesh read(const Certificate& certificate, size_t which, const std::string& name)
   };
   // Version 1 does not say how polygons became triangles: their corners' hash tells.
   ReadLimits limits{.odd_polygons = OddPolygons::kFanned};
-  static const std::vector<Triangulation> kNone;
-  const auto& polygons = certificate.read ? (*certificate.read)[which].polygons : kNone;
-  if (certificate.read) limits.triangulate = GivenPolygons(polygons, name);
+  const Description how = certificate.read ? (*certificate.read)[which] : Description{};
+  if (certificate.read) limits.triangulate = GivenPolygons(how.polygons, name);
+  if (how.has_all_bodies) limits.bodies = Bodies::kAll;
   Mesh mesh = read_mesh(path_of(name), limits);
-  expect(!certificate.read || mesh.polygons.triangulations.size() == polygons.size(),
+  expect(!certificate.read || mesh.polygons.triangulations.size() == how.polygons.size(),
          ": has no such polygons");
   const std::string& file = certificate.file[which];
   expect(mesh.faces.size() == certificate.faces[which], ": has another number of faces");
@@ -129,7 +129,7 @@ std::array<std::string, 2> check_direction(const Question& question,
 }
 
 /// What the proof takes from the file's description, for people.
-std::string polygons_of(const Certificate& certificate, size_t which) {
+std::string described(const Certificate& certificate, size_t which) {
   if (!certificate.read) return "";
   const Description& read = (*certificate.read)[which];
   const auto fans = static_cast<size_t>(
@@ -137,6 +137,7 @@ std::string polygons_of(const Certificate& certificate, size_t which) {
                     [](const Triangulation& t) { return t.axis == Triangulation::kOnlyFan; }));
   const std::string name = which == 0 ? "  A: " : "  B: ";
   std::string out;
+  if (read.has_all_bodies) out += name + "all shapes of a scene, whether they are printed or not\n";
   if (read.polygons.size() > fans)
     out += name + std::to_string(read.polygons.size() - fans) + " polygons, tiled by triangles\n";
   if (fans > 0)
@@ -176,7 +177,7 @@ void check_all(const Arguments& arguments) {
   std::printf("%s", answer.c_str());
   if (arguments.is_quiet) return;
   const auto spent = std::chrono::duration<double>(Clock::now() - start).count();
-  for (const size_t which : {0U, 1U}) how += polygons_of(certificate, which);
+  for (const size_t which : {0U, 1U}) how += described(certificate, which);
   std::printf("%s  %zu bytes checked in %.2f s\n", how.c_str(), file.size(), spent);
   std::printf("  trusted: the readers of meshes, GMP %s, SHA-256, the compiler, this program\n",
               gmp_version);

@@ -217,8 +217,8 @@ class Certificate:
 
     def description(self):
         """How a mesh was read: the triangles of its polygons, by their faces."""
-        *zeros, ambiguity, at, over, under, matrix, count = self.take("<IIdQddQQ")
-        self.need(not any(zeros) and matrix == 0 and over == under == 1, "points, other bodies, a unit or a matrix")
+        points, bodies, ambiguity, at, over, under, matrix, count = self.take("<IIdQddQQ")
+        self.need(points == matrix == 0 and bodies < 2 and over == under == 1, "points, bodies of no kind, a unit or a matrix")
         self.need(0 <= ambiguity < math.inf and math.copysign(1, ambiguity) == 1 and (ambiguity or not at), "an ambiguity")
         given, face = {}, -1
         for _ in range(count):

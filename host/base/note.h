@@ -11,7 +11,7 @@ namespace vkh {
 enum class NoteCode {
   // on a file
   kPolygons,    ///< faces of more than three corners became triangles
-  kBodies,      ///< what a file holds beside its bodies was left out
+  kBodies,      ///< a file holds more than bodies, which was left out, or included
   kShortFaces,  ///< faces of fewer than three corners were left out
   kElements,    ///< points, lines and curves were left out
   kSurfaces,    ///< free-form surfaces were left out

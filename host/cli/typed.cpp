@@ -107,6 +107,10 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
     check_names("--polygons", {typed.polygons}, {"fan"});
     job.limits.odd_polygons = OddPolygons::kFanned;
   }
+  if (!typed.bodies.empty()) {
+    check_names("--bodies", {typed.bodies}, {"solid", "all"});
+    if (typed.bodies == "all") job.limits.bodies = Bodies::kAll;
+  }
   return job;
 }
 
@@ -209,6 +213,11 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
                   "fan: measure the fan of a polygon's corners where its outline crosses itself or "
                   "encloses no area [such a file is refused]")
       ->type_name("fan");
+  command
+      .add_option("--bodies", typed.bodies,
+                  "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
+                  "as it lies, such as modifiers, negative volumes and hidden nodes [solid]")
+      ->type_name("solid|all");
 }
 
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {

@@ -20,7 +20,7 @@ struct Typed {
   std::string tolerance, max, face_max_a, face_max_b, unit, device;
   std::optional<std::string> memory, time, waves, max_input, part, known_lower;
   std::vector<std::string> enabled, disabled;
-  std::string preset, polygons;
+  std::string preset, polygons, bodies;
   std::string json, junit, area, field_tolerance;
   TypedPictures pictures;
   std::vector<std::string> bands;

@@ -110,9 +110,10 @@ void Scene::note_hidden() {
     if (is_hidden(node)) ++count;
     return !is_hidden(node);
   });
-  if (count > 0)
-    notes_.push_back(note_of(NoteCode::kBodies,
-                             "left out: " + counted(count, "hidden node") + " and what is below"));
+  if (count == 0) return;
+  const char* fate = is_all() ? "included, though not shown: " : "left out: ";
+  notes_.push_back(
+      note_of(NoteCode::kBodies, fate + counted(count, "hidden node") + " and what is below"));
 }
 
 scene::Affine Scene::map_of(uint32_t node) const {
@@ -144,7 +145,7 @@ scene::Affine Scene::map_of(uint32_t node) const {
 
 void Scene::for_each(const std::function<void(const Instance&)>& use) const {
   walk([&](uint32_t node, const scene::Affine& outer, scene::Affine& map) {
-    if (is_hidden(node)) return false;
+    if (is_hidden(node) && !is_all()) return false;
     map = scene::compose(outer, map_of(node));
     const NodeDetail* detail = detail_of(node);
     if (detail == nullptr || detail->mesh == kNone) return true;

@@ -24,7 +24,7 @@ class Scene {
   /// Rejects a document without a scene, and nodes that are no trees.
   Scene(const MeshSource& source, const Model& model);
 
-  /// Each node with a mesh that is not hidden, a parent before its children, in the order of the
+  /// Each node with a mesh that is not left out, a parent before its children, in the order of the
   /// file.
   void for_each(const std::function<void(const Instance&)>& use) const;
   /// What people should know of it.
@@ -43,6 +43,7 @@ class Scene {
   void note_hidden();
   const NodeDetail* detail_of(uint32_t node) const;
   bool is_hidden(uint32_t node) const;
+  bool is_all() const { return source_.limits.bodies == Bodies::kAll; }
   scene::Affine map_of(uint32_t node) const;
   /// Calls enter(node, level) for each, which says whether to go on to its children.
   template <class Enter>

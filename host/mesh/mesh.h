@@ -86,6 +86,7 @@ struct Mesh {
   /// such as a scene's transforms. h is 1-Lipschitz in it, and the certified interval is wider by
   /// it.
   double delta = 0;
+  bool has_all_bodies = false;  ///< of a scene every shape was read, whether it is printed or not
   std::string unit = {};  ///< of the coordinates, where the file says: "m", "mm", "in"; else empty
   std::vector<std::string> notes;  ///< one line each, for people: "polygons: 3 faces of more than
                                    ///< three corners were triangulated"

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/base/note.h"
 #include "host/base/rounding.h"
 #include "host/base/text_scanner.h"
 #include "host/parts/joined.h"
@@ -26,6 +27,7 @@ struct Part {
   uint64_t index, count;
   std::string version;
   std::array<std::vector<FileHash>, 2> files;  ///< of A and B, the mesh file first, by its hash
+  std::string reading;                         ///< which faces of the files were read
   Report report;                               ///< interval, status, tolerance, what was known
 };
 
@@ -69,6 +71,21 @@ std::vector<FileHash> files_of(const Json& input) {
   return files;
 }
 
+/// Describes what was read of both files: the faces, and the notes on polygons and bodies, which
+/// options decide.
+std::string reading_of(const Json& json) {
+  std::string text;
+  for (const Json& input : json.at("inputs")) {
+    text += input.at("faces").dump();
+    for (const Json& note : input.at("notes")) {
+      const auto line = note.get<std::string>();
+      if (is_on_surface(line)) text += '\n' + line;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 /// Checks that what is added up over parts are whole numbers.
 void check_counts(const Json& direction) {
   std::vector<const Json*> objects{&direction.at("counts")};
@@ -92,6 +109,7 @@ Part parsed(const WrittenAnswer& written) {
             .count = count_in(json.at("part"), "count"),
             .version = json.at("version"),
             .files = {files_of(json.at("inputs").at(0)), files_of(json.at("inputs").at(1))},
+            .reading = reading_of(json),
             .report = report_of(json)};
   } catch (const Json::exception& error) {
     reject(written.file, written.place, error.what(), "an answer of 'distance --part'");
@@ -113,6 +131,7 @@ void check_alike(const Part& part, const Part& first) {
     same(part.files[i].front(), first.files[i].front(), name);
     same(part.files[i], first.files[i], (std::string("file beneath ") + name).c_str());
   }
+  same(part.reading, first.reading, "choice of --bodies or --polygons");
   same(part.report.tolerance, first.report.tolerance, "tolerance");
   same(at.json.at("tolerance").at("unit"), first.written->json.at("tolerance").at("unit"), "unit");
   same(part.version, first.version, "version");

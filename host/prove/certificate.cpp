@@ -69,9 +69,9 @@ void add_triangulations(Bytes& out, const std::vector<Triangulation>& triangulat
 
 // How the file was read: what follows is fixed until points, units and transforms can be asked for.
 void add_description(Bytes& out, const Mesh& mesh) {
-  constexpr uint64_t kSurface = 0, kSolidBodies = 0, kNoMatrix = 0;
+  constexpr uint64_t kSurface = 0, kNoMatrix = 0;
   out.unsigned_number(kSurface, 4);
-  out.unsigned_number(kSolidBodies, 4);
+  out.unsigned_number(mesh.has_all_bodies ? 1 : 0, 4);
   out.number(mesh.polygons.ambiguity);
   out.unsigned_number(mesh.polygons.ambiguous_face, 8);
   for (int i = 0; i < 2; ++i) out.number(1);  // the unit, a fraction

@@ -97,7 +97,7 @@ PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) 
   static const auto* signature = new Signature{
       "distances",
       {"against", "tol", "symmetric", "max", "device", "time", "waves", "memory", "disable",
-       "enable", "preset", "together", "lanes", "ahead", "max_input", "polygons"},
+       "enable", "preset", "together", "lanes", "ahead", "max_input", "polygons", "bodies"},
       0,
       0};
   const Call call;

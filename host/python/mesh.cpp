@@ -234,12 +234,13 @@ py::tuple state_of(const py::object& self) {
   const Mesh& mesh = mesh_in(self);
   return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
                         mesh.unit, mesh.notes, mesh.counts.unreferenced, mesh.counts.polygons,
-                        runs_of(mesh.file_faces), polygons_state(mesh.polygons));
+                        runs_of(mesh.file_faces), polygons_state(mesh.polygons),
+                        mesh.has_all_bodies);
 }
 
 FileMesh mesh_from_state(const py::tuple& state) {
   const Call call;
-  if (state.size() != 10) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  if (state.size() != 11) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
   Mesh mesh = mesh_from("a pickled Mesh", state[1], state[2]);
   mesh.name = py::cast<std::string>(state[0]);
   mesh.delta = py::cast<double>(state[3]);
@@ -249,11 +250,13 @@ FileMesh mesh_from_state(const py::tuple& state) {
   mesh.counts.polygons = py::cast<uint64_t>(state[7]);
   mesh.file_faces = file_faces_from(state[8], mesh.faces.size());
   mesh.polygons = polygons_from(state[9]);
+  mesh.has_all_bodies = py::cast<bool>(state[10]);
   return {std::make_shared<const Mesh>(std::move(mesh))};
 }
 
 FileMesh read(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{"read", {"path", "max_input", "polygons"}, 1, 1};
+  static const auto* signature =
+      new Signature{"read", {"path", "max_input", "polygons", "bodies"}, 1, 1};
   const Call call;
   const Arguments given(*signature, positional, named);
   const py::object& path = given.at("path");
@@ -308,12 +311,15 @@ void define_mesh(py::module_& m) {
                       [](const py::tuple& state) { return mesh_from_state(state); }));
   m.def(
       "read", read,
-      "read(path, *, max_input=None, polygons='refuse')\n--\n\n"
+      "read(path, *, max_input=None, polygons='refuse', bodies='solid')\n--\n\n"
       "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
       "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
       "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
       "and one whose mesh takes more, 24 bytes a vertex and 12 a face. polygons: 'fan' measures\n"
-      "the fan of a polygon whose outline crosses itself or encloses no area; else it is refused.");
+      "the fan of a polygon whose outline crosses itself or encloses no area; else it is refused.\n"
+      "bodies: 'all' measures everything as it lies, also modifiers, negative volumes, what is "
+      "not\n"
+      "printed, and hidden nodes; 'solid' what is printed as body, or shown.");
 }
 
 void raise(const FileFault& fault) {
@@ -346,6 +352,11 @@ ReadLimits limits_of(const Arguments& given) {
   if (polygons == "fan") limits.odd_polygons = OddPolygons::kFanned;
   if (!polygons.empty() && polygons != "fan" && polygons != "refuse")
     refuse_value("polygons", kPolygons, given.at("polygons"));
+  constexpr const char* kBodies = "'solid', or 'all' for everything as it lies";
+  const std::string bodies = given.text("bodies", kBodies);
+  if (bodies == "all") limits.bodies = Bodies::kAll;
+  if (!bodies.empty() && bodies != "all" && bodies != "solid")
+    refuse_value("bodies", kBodies, given.at("bodies"));
   return limits;
 }
 

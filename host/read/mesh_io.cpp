@@ -178,7 +178,9 @@ std::string folder_beside(const std::filesystem::path& path) {
 Mesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
   const Told told = told_format(file);
-  return told.parse(told.source);
+  Mesh mesh = told.parse(told.source);
+  mesh.has_all_bodies = file.limits.bodies == Bodies::kAll;
+  return mesh;
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {

@@ -17,6 +17,12 @@ enum class OddPolygons {
   kFanned,   ///< the fan of its corners is measured, whatever that covers, and noted
 };
 
+/// Which shapes of a scene are measured.
+enum class Bodies {
+  kSolid,  ///< those that are printed as bodies, or shown; the others are counted in a note
+  kAll,    ///< every shape as it lies; a note counts those that are no bodies
+};
+
 /// What a file may cost and hold, and who may call its reading off.
 struct ReadLimits {
   /// Bytes that a file may have, and that its mesh may take (mesh_bytes). A file that breaks it is
@@ -29,6 +35,7 @@ struct ReadLimits {
   std::function<PolygonResult(uint64_t face, std::span<const glm::dvec3> vertices,
                               std::span<glm::uvec3> fan)>
       triangulate = {};
+  Bodies bodies = Bodies::kSolid;
   /// Asked now and then while a file is read, by one thread at a time, perhaps another than that
   /// which waits: false ends it with an Interrupted.
   std::function<bool()> keep_going = {};

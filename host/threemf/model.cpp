@@ -224,7 +224,7 @@ void Part::open_object(const Attributes& attributes) {
   constexpr std::pair<std::string_view, Role> kKinds[] = {{"model", Role::kBody},
                                                           {"solidsupport", Role::kSupport},
                                                           {"support", Role::kSupport},
-                                                          {"surface", Role::kBody},
+                                                          {"surface", Role::kSurface},
                                                           {"other", Role::kOther}};
   const auto* const found = std::find_if(std::begin(kKinds), std::end(kKinds),
                                          [&](const auto& pair) { return pair.first == kind; });
@@ -302,7 +302,8 @@ Use Part::use(const Attributes& attributes) {
           .transform = kNone,
           .line = line};
   const char* printable = attributes.find("printable");
-  out.is_printed = printable == nullptr || trimmed(printable) != "0";
+  const std::string_view printed = printable == nullptr ? "1" : trimmed(printable);
+  out.is_printed = printed != "0" && printed != "false";
   const char* text = attributes.find("transform");
   if (text == nullptr) return out;
   std::array<double, 12> numbers{};

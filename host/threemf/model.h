@@ -33,10 +33,12 @@ struct Object {
   Range vertices, faces;  ///< of its mesh
   Range components;
   Role role = Role::kBody;
-  bool has_shape = false;    ///< a mesh, or components
-  bool lacks_shape = false;  ///< it has none, or one of its components has none
-  std::string foreign;       ///< the last element in it that is none of the core's
-  uint64_t face_count = 0;   ///< with its components'; at most 2^40
+  bool has_shape = false;       ///< a mesh, or components
+  bool lacks_shape = false;     ///< it has none, or one of its components has none
+  std::string foreign;          ///< the last element in it that is none of the core's
+  uint64_t face_count = 0;      ///< with its components'; at most 2^40
+  uint64_t measured_count = 0;  ///< of these, those that are read where it is a body
+  uint32_t others = kNone;      ///< the number of the counts of what is no body in it
 };
 
 /// All parts of one package; what objects refer to stands before them.

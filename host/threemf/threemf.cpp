@@ -6,7 +6,8 @@
 
 #ifdef VKH_HAS_3MF
 #include <algorithm>
-#include <map>
+#include <array>
+#include <deque>
 
 #include "host/threemf/model.h"
 
@@ -14,6 +15,7 @@ namespace vkh {
 namespace threemf {
 namespace {
 
+constexpr const char* kOrAll = "--bodies all, which measures everything as it lies";
 constexpr size_t kMostLevels = 256;
 // More than any mesh can have, and no sum of two of them wraps.
 constexpr uint64_t kManyFaces = uint64_t{1} << 40;
@@ -25,20 +27,17 @@ class Builder {
 
   Mesh build() {
     count_faces();
-    uint64_t faces = 0;
-    for (const Use& item : model_.items) {
-      if (item.is_printed) faces = std::min(kManyFaces, faces + built(item).face_count);
-    }
-    if (faces >= UINT32_MAX) {
-      reject(source_.name, "byte 0", std::to_string(faces) + " faces, each object at each place",
+    if (build_.face_count >= UINT32_MAX) {
+      reject(source_.name, "byte 0",
+             std::to_string(build_.face_count) + " faces, each object at each place",
              "fewer than 2^32 - 1");
     }
-    builder_.reserve(0, faces);
+    builder_.reserve(0, build_.measured_count);
     size_t most = 0;
     for (const Object& object : model_.objects)
       most = std::max(most, object.vertices.end - object.vertices.begin);
     slots_.resize(most);
-    for (const Use& item : model_.items) add(item);
+    for (const Use& item : model_.items) add_item(item);
     add_note();
     const std::string unit = model_.unit;
     slots_ = {};
@@ -57,55 +56,122 @@ class Builder {
     scene::Affine map;
   };
 
+  /// Shapes that are no bodies, and their faces.
+  struct Count {
+    uint64_t shapes = 0, faces = 0;
+  };
+  using Counts = std::array<Count, kRoleCount>;
+
   /// Where a position of an object went, for the use that is being added.
   struct Slot {
     uint64_t use = 0;
     uint32_t vertex = 0;
   };
 
-  const Object& built(const Use& item) {
-    const Object& object = model_.objects[model_.find(source_, item, kNone)];
-    if (object.role == Role::kOther) {
-      reject(source_.name, "line " + std::to_string(item.line),
-             "object " + std::to_string(item.id) + " is of type other", "one that can be built");
-    }
-    return object;
-  }
+  bool is_all() const { return source_.limits.bodies == Bodies::kAll; }
 
-  // Those of other parts first: the root uses them. Components without a face are left out: an
-  // object may be used often, and each time what is looked at shall give some.
+  // Objects of other parts come first: the root uses them.
   void count_faces() {
     for (const bool is_root : {false, true}) {
       for (uint32_t i = 0; i < model_.objects.size(); ++i) {
-        Object& object = model_.objects[i];
-        if ((object.part == 0) != is_root) continue;
-        object.face_count = object.faces.end - object.faces.begin;
-        object.lacks_shape = !object.has_shape;
-        size_t kept = object.components.begin;
-        for (size_t c = object.components.begin; c < object.components.end; ++c) {
-          const Object& other = model_.objects[model_.find(source_, model_.components[c], i)];
-          if (other.lacks_shape) {
-            object.lacks_shape = true;
-            object.foreign = other.foreign;
-          }
-          if (other.face_count == 0) continue;
-          object.face_count = std::min(kManyFaces, object.face_count + other.face_count);
-          model_.components[kept++] = model_.components[c];
-        }
-        object.components.end = kept;
+        if ((model_.objects[i].part == 0) == is_root) count_object(i);
       }
     }
+    for (const Use& item : model_.items) {
+      const Object& object = model_.objects[model_.find(source_, item, kNone)];
+      add_use(build_, role_of(item, kNone, object), object);
+    }
+  }
+
+  // Components that give no face are left out: an object may be used often, and each time what is
+  // looked at shall give some.
+  void count_object(uint32_t number) {
+    Object& object = model_.objects[number];
+    object.face_count = object.measured_count = object.faces.end - object.faces.begin;
+    object.lacks_shape = !object.has_shape;
+    count_volumes(object);
+    size_t kept = object.components.begin;
+    for (size_t c = object.components.begin; c < object.components.end; ++c) {
+      const Use& use = model_.components[c];
+      const Object& other = model_.objects[model_.find(source_, use, number)];
+      if (other.lacks_shape) {
+        object.lacks_shape = true;
+        object.foreign = other.foreign;
+      }
+      if (add_use(object, role_of(use, number, other), other)) model_.components[kept++] = use;
+    }
+    object.components.end = kept;
+  }
+
+  static void add(uint64_t& sum, uint64_t faces) { sum = std::min(kManyFaces, sum + faces); }
+
+  // It gives faces, or ends in a refusal.
+  bool is_looked_at(const Object& object) const {
+    return object.measured_count > 0 ||
+           (object.others != kNone &&
+            others_[object.others][static_cast<size_t>(Role::kNegative)].shapes > 0);
+  }
+
+  // Adds what an object gives, in some role, to what uses it, and returns whether that is read.
+  bool add_use(Object& user, Role role, const Object& object) {
+    if (object.face_count == 0) return false;
+    add(user.face_count, object.face_count);
+    if (role != Role::kBody) {
+      count_other(user, role, object.face_count);
+      if (is_all()) add(user.measured_count, object.face_count);
+      return is_all() || role == Role::kNegative;
+    }
+    if (object.others != kNone) {
+      for (size_t r = 0; r < kRoleCount; ++r)
+        count_other(user, static_cast<Role>(r), others_[object.others][r]);
+    }
+    add(user.measured_count, object.measured_count);
+    return is_looked_at(object);
+  }
+
+  void count_other(Object& user, Role role, const Count& count) {
+    if (count.shapes == 0) return;
+    if (user.others == kNone) {
+      user.others = static_cast<uint32_t>(others_.size());
+      others_.emplace_back();
+    }
+    Count& sum = others_[user.others][static_cast<size_t>(role)];
+    add(sum.shapes, count.shapes);
+    add(sum.faces, count.faces);
+  }
+  void count_other(Object& user, Role role, uint64_t faces) {
+    count_other(user, role, Count{.shapes = 1, .faces = faces});
+  }
+
+  // A slicer makes one mesh of an object's volumes: calls use(range, end) for each that is no body.
+  template <class Use>
+  void for_others(const Object& object, const Use& use) const {
+    const auto found = volumes_.ranges.find(object.id);
+    if (object.part != 0 || found == volumes_.ranges.end()) return;
+    const size_t count = object.faces.end - object.faces.begin;
+    for (const Volumes::Range& range : found->second) {
+      if (range.first >= count) break;
+      if (range.role != Role::kBody) use(range, std::min<uint64_t>(range.last + 1ull, count));
+    }
+  }
+
+  void count_volumes(Object& object) {
+    for_others(object, [&](const Volumes::Range& range, uint64_t end) {
+      count_other(object, range.role, end - range.first);
+      if (!is_all()) object.measured_count -= end - range.first;
+    });
   }
 
   void enter(const Use& use, uint32_t user, const scene::Affine& outer) {
     const uint32_t number = model_.find(source_, use, user);
     const Object& object = model_.objects[number];
-    if (!use.is_printed) return leave_out("unprinted item", object.face_count);
     const Role role = role_of(use, user, object);
-    if (role == Role::kNegative) refuse_negative("line " + std::to_string(use.line), use.id);
-    if (role != Role::kBody) return leave_out(name_of(role), object.face_count);
+    if (role != Role::kBody && !is_all()) {
+      if (role == Role::kNegative) refuse_negative("line " + std::to_string(use.line), use.id);
+      return;
+    }
     if (object.lacks_shape) refuse_shape(use, object);
-    if (object.face_count == 0) return;
+    if (!is_looked_at(object)) return;
     if (levels_.size() == kMostLevels) {
       reject(source_.name, "line " + std::to_string(use.line),
              "components lie " + std::to_string(kMostLevels) + " levels deep", "fewer levels");
@@ -115,7 +181,7 @@ class Builder {
     if (object.faces.begin != object.faces.end) add_mesh(object, levels_.back().map);
   }
 
-  void add(const Use& item) {
+  void add_item(const Use& item) {
     enter(item, kNone, {});
     while (!levels_.empty()) {
       Level& level = levels_.back();
@@ -131,6 +197,7 @@ class Builder {
 
   // What a slicer says of a component stands with the object of the root that has it.
   Role role_of(const Use& use, uint32_t user, const Object& object) const {
+    if (!use.is_printed) return Role::kUnprinted;
     if (user != kNone && model_.objects[user].part == 0) {
       const auto found = volumes_.components.find({model_.objects[user].id, use.id});
       if (found != volumes_.components.end() && found->second != Role::kBody) return found->second;
@@ -138,16 +205,10 @@ class Builder {
     return object.role;
   }
 
-  void leave_out(const std::string& what, uint64_t faces) {
-    LeftOut& left = left_out_[what];
-    ++left.count;
-    left.faces += faces;
-  }
-
   [[noreturn]] void refuse_negative(const std::string& place, uint32_t id) const {
     reject(source_.name, place,
            "object " + std::to_string(id) + " has a negative volume, which a slicer subtracts",
-           "bodies alone: subtract it there, and export again");
+           std::string("bodies alone: subtract it there, and export again; or ") + kOrAll);
   }
 
   [[noreturn]] void refuse_shape(const Use& use, const Object& object) const {
@@ -157,19 +218,13 @@ class Builder {
            "objects of triangles alone");
   }
 
-  // Of the volumes that a slicer made one mesh of, those that are no bodies.
-  std::vector<Volumes::Range> left_out_of(const Object& object) {
+  std::vector<Volumes::Range> left_out_of(const Object& object) const {
     std::vector<Volumes::Range> left;
-    const auto found = volumes_.ranges.find(object.id);
-    if (object.part != 0 || found == volumes_.ranges.end()) return left;
-    const size_t count = object.faces.end - object.faces.begin;
-    for (const Volumes::Range& range : found->second) {
-      if (range.first >= count) break;
-      if (range.role == Role::kBody) continue;
+    if (is_all()) return left;
+    for_others(object, [&](const Volumes::Range& range, uint64_t /*end*/) {
       if (range.role == Role::kNegative) refuse_negative("byte 0", object.id);
-      leave_out(name_of(range.role), std::min<uint64_t>(range.last + 1ull, count) - range.first);
       left.push_back(range);
-    }
+    });
     return left;
   }
 
@@ -198,20 +253,20 @@ class Builder {
 
   // "bodies: left out: 1 modifier (12 faces), 2 support blockers (24 faces)".
   void add_note() {
-    if (left_out_.empty()) return;
-    std::string all;
-    for (const auto& [what, left] : left_out_) {
-      all += (all.empty() ? "" : ", ") + counted(left.count, what) + " (" +
-             counted(left.faces, "face") + ")";
+    if (build_.others == kNone) return;
+    std::string list;
+    for (size_t r = 0; r < kRoleCount; ++r) {
+      const Count& count = others_[build_.others][r];
+      if (count.shapes == 0) continue;
+      list += (list.empty() ? "" : ", ") + counted(count.shapes, name_of(static_cast<Role>(r))) +
+              " (" + counted(count.faces, "face") + ")";
     }
     if (builder_.face_count() == 0)
-      reject(source_.name, "byte 0", "it has no bodies, only " + all, "a body");
-    builder_.notes.push_back(note_of(NoteCode::kBodies, "left out: " + all));
+      reject(source_.name, "byte 0", "it has no bodies, only " + list,
+             std::string("a body, or ") + kOrAll);
+    const char* fate = is_all() ? "included, though not printed as body: " : "left out: ";
+    builder_.notes.push_back(note_of(NoteCode::kBodies, fate + list));
   }
-
-  struct LeftOut {
-    uint64_t count = 0, faces = 0;
-  };
 
   const MeshSource& source_;
   Model& model_;
@@ -220,7 +275,8 @@ class Builder {
   std::vector<Level> levels_;
   std::vector<Slot> slots_;
   uint64_t use_ = 0;
-  std::map<std::string, LeftOut> left_out_;  // by what they are
+  Object build_;               // which uses the items
+  std::deque<Counts> others_;  // by role, of objects that have shapes which are no bodies
   double delta_ = 0;
 };
 

@@ -70,6 +70,10 @@ class Config : public XmlReader {
 
   void open_volume(const Attributes& attributes) {
     range_ = {.first = number(attributes, "firstid"), .last = number(attributes, "lastid")};
+    if (range_.last < range_.first)
+      fail("a volume of faces " + std::to_string(range_.first) + " to " +
+               std::to_string(range_.last),
+           "firstid to lastid, which is not less");
     is_volume_ = true;
   }
 
@@ -128,8 +132,12 @@ std::string name_of(Role role) {
       return "negative volume";
     case Role::kSupport:
       return "support object";
+    case Role::kSurface:
+      return "surface object";
     case Role::kOther:
       return "other object";
+    case Role::kUnprinted:
+      return "unprinted item";
   }
   return "";
 }

@@ -1,6 +1,7 @@
 // What slicers keep beside a 3MF model: which of its volumes are no bodies.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -12,7 +13,18 @@
 namespace vkh::threemf {
 
 /// What a shape is for. Only bodies are printed as they lie; a negative volume is subtracted.
-enum class Role { kBody, kModifier, kBlocker, kEnforcer, kNegative, kSupport, kOther };
+enum class Role {
+  kBody,
+  kModifier,
+  kBlocker,
+  kEnforcer,
+  kNegative,
+  kSupport,
+  kSurface,
+  kOther,
+  kUnprinted
+};
+constexpr size_t kRoleCount = static_cast<size_t>(Role::kUnprinted) + 1;
 
 /// "modifier", "support blocker".
 std::string name_of(Role role);

@@ -258,6 +258,13 @@ class Interrupted(Folder):
         self.assertEqual([line["id"] for line in self.results()[8:]], ["pair 2"])
         self.assertEqual(len(self.merged().splitlines()), 4)
 
+    def test_other_bodies_are_done_again(self):
+        self.make_pairs(2)
+        for number, more in enumerate(([], ["--bodies", "solid"], ["--bodies", "all"], ["--bodies", "all"])):
+            done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume", *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(self.results()), 2 if number < 2 else 4)
+
     def test_a_failure_that_is_kept_keeps_its_reason(self):
         self.make_pairs(2)
         (self.folder / "0_a.obj").write_text("v 0 0 zero\n")

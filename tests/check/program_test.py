@@ -102,8 +102,10 @@ class Program(unittest.TestCase):
 
     def test_polygons(self):
         for words, said in ((["plate.obj", "b.obj", "--symmetric"], "A: 1 polygons, tiled by triangles"),
-                            (["b.obj", "plate.obj"], "B: 1 polygons, tiled"), (["quads.off", "plate.obj", "--tol", "1e-4"], "B: 1 polygons, tiled"),
-                            (["quads.off", "b.obj"], "A: stated, not proven"), (["bow.obj", "b.obj", "--polygons", "fan"], "A: 1 polygons as the fan")):
+                            (["b.obj", "plate.obj"], "B: 1 polygons, tiled"),
+                            (["quads.off", "plate.obj", "--tol", "1e-4"], "B: 1 polygons, tiled"),
+                            (["quads.off", "b.obj"], "A: stated, not proven"),
+                            (["bow.obj", "b.obj", "--polygons", "fan"], "A: 1 polygons as the fan")):
             with self.subTest(words):
                 self.certify("distance", *words)
                 self.assertIn(said, self.run_here(CHECK, "out.vhc", *words[:2]).stdout)

@@ -289,7 +289,10 @@ def description(rng, model):
         if rng.random() < 0.3:
             one.polygons.append([one.polygons[0][0] + 1, 4, 3, []])
         return {1}
-    setattr(one, how, rng.choice([1, 2, 2 ** 31]) if how in ("points", "bodies", "matrix", "face") else
+    if how == "bodies" and rng.random() < 0.5:
+        one.bodies = 1  # which these files do not have
+        return PROVEN
+    setattr(one, how, rng.choice([2, 3, 2 ** 31]) if how in ("points", "bodies", "matrix", "face") else
             rng.choice([0.0, -1.0, 25.4, math.nan, math.inf]) if how != "count" else rng.choice([1, 2 ** 40, 2 ** 64 - 1]))
     return BROKEN
 
@@ -298,8 +301,8 @@ def polygon_of_bytes(rng, model):
     """Numbers that a polygon cannot have."""
     if not model.read:
         return None
-    polygon = rng.choice([[0, 3, 3, []], [0, 0, 3, []], [0, 2 ** 32, 3, []], [0, 4, 4, []], [0, 4, 0, [[0, 1, 2]]], [0, 4, 1, [[0, 1, 4], [0, 2, 3]]],
-                          [2 ** 35, 4, 3, []], [0, 2 ** 31, 2, [[0, 1, 2]]]])
+    polygon = rng.choice([[0, 3, 3, []], [0, 0, 3, []], [0, 2 ** 32, 3, []], [0, 4, 4, []], [0, 4, 0, [[0, 1, 2]]],
+                          [0, 4, 1, [[0, 1, 4], [0, 2, 3]]], [2 ** 35, 4, 3, []], [0, 2 ** 31, 2, [[0, 1, 2]]]])
     rng.choice(model.read).polygons = [polygon]
     return BROKEN
 
@@ -349,8 +352,8 @@ def lose_face(rng, model):
 
 MODELS = [drop_leaf, drop_half, swap_halves, turn_halving, other_op, other_triangle, other_triangle, no_triangle, long_number,
           swap_triangles, move_cut, move_cut, turn_cut, uncut, cut_whole, deep, chain, lower_upper, lower_upper, raise_upper, raise_lower, raise_lower,
-          lower_lower, no_number, move_witness, move_witness, no_witness, flip_hash, swap_hashes, header, description, description, polygon_of_bytes, face_counts, delta,
-          swap_directions, regroup, lose_face]
+          lower_lower, no_number, move_witness, move_witness, no_witness, flip_hash, swap_hashes, header, description, description,
+          polygon_of_bytes, face_counts, delta, swap_directions, regroup, lose_face]
 
 
 # ---- Of bytes.

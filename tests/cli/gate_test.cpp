@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "tests/scene/gltf_document.h"
 #include "tests/support/program.h"
 
 namespace {
@@ -215,6 +216,31 @@ TEST_CASE("build servers are told what became of polygons and bodies") {
   const size_t at = xml.find(begin);
   REQUIRE(at != std::string::npos);
   CHECK(xml.substr(at, xml.find("</system-out>") - at).find("\n" + note) != std::string::npos);
+}
+
+TEST_CASE("--bodies all measures what a scene hides, and build servers are told") {
+  Document scene = triangle_document();
+  const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  scene.json["scenes"] = {{{"nodes", {0, 1}}}};
+  scene.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 9}}, {"extensions", hidden}});
+  const std::string a = write_file("hidden.gltf", scene.text()),
+                    b = write_file("shown.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto told = [&](const Words& more) {
+    return run(Words{"gate", a, b, "--max", "1m", "--github"} + more);
+  };
+  const std::string left = "A: bodies: left out: 1 hidden node",
+                    included = "A: bodies: included, though not shown: 1 hidden node";
+  for (const Words& solid : {Words{}, Words{"--bodies", "solid"}}) {
+    const Outcome outcome = told(solid);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.out.find("%0A" + left) != std::string::npos);
+  }
+  const Outcome all = told({"--bodies", "all"});
+  CHECK(all.exit_code == 1);
+  CHECK(all.out.find("%0A" + included) != std::string::npos);
+  const Outcome wrong = told({"--bodies", "none"});
+  CHECK(wrong.exit_code == 2);
+  CHECK(wrong.err.find("--bodies 'none': expected one of solid, all") != std::string::npos);
 }
 
 TEST_CASE("names that would break a line, a terminal or XML are escaped") {

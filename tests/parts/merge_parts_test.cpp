@@ -157,6 +157,9 @@ TEST_CASE("all parts, each once, of one question") {
   check_refused(spoilt("/inputs/0/sha256", std::string(64, 'c')), "another A");
   check_refused(spoilt("/inputs/1/sha256", std::string(64, 'c')), "another B");
   check_refused(spoilt("/inputs/1/sha256", nullptr), "no SHA-256");
+  check_refused(spoilt("/inputs/0/faces", 7), "another choice of --bodies");
+  check_refused(spoilt("/inputs/1/notes", {"bodies: left out: 1 modifier (12 faces)"}),
+                "another choice of --bodies");
   check_refused(spoilt("/tolerance/absolute", 0.5), "another tolerance");
   check_refused(spoilt("/tolerance/unit", nullptr), "another unit");
   check_refused(spoilt("/version", "9.9"), "another version");

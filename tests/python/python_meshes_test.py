@@ -53,6 +53,26 @@ class Meshes(unittest.TestCase):
         gc.collect()
         self.assertTrue((vertices == a[0]).all())  # which has kept it
 
+    def test_bodies(self):
+        triangle = base64.b64encode(np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]).tobytes()).decode()
+        hidden = {"mesh": 0, "translation": [0, 0, 9], "extensions": {"KHR_node_visibility": {"visible": False}}}
+        scene = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, hidden],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+                 "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                 "buffers": [{"byteLength": 36, "uri": "data:;base64," + triangle}]}
+        b = np.float64([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.uint32([[0, 1, 2]])
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "scene.gltf"
+            file.write_text(json.dumps(scene))
+            for bodies, count, fate in (({}, 1, "left out"), ({"bodies": "solid"}, 1, "left out"), ({"bodies": "all"}, 2, "included")):
+                mesh = vkh.read(file, **bodies)
+                self.assertEqual(len(mesh.faces), count)
+                self.assertTrue(mesh.notes[0].startswith(f"bodies: {fate}"), mesh.notes)
+                self.assertEqual(next(vkh.distances([(file, b)], **bodies)).lower > 8.9, count == 2)
+            with self.assertRaisesRegex(ValueError, "^bodies.*expected "):
+                vkh.read(file, bodies="none")
+
     def test_faces_of_the_file(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "mixed.obj"
@@ -68,7 +88,7 @@ class Meshes(unittest.TestCase):
         state = mixed.__getstate__()
         for runs in ([[9, 1]], [[2, 0]], [1, 2]):
             with self.assertRaises(ValueError):
-                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:8], np.array(runs, np.uint32), state[9]))
+                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:8], np.array(runs, np.uint32), *state[9:]))
 
     def test_pickles_keep_how_polygons_became_triangles(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -85,7 +105,7 @@ class Meshes(unittest.TestCase):
         self.assertEqual((numbers, others.tolist()), ([number, corners, axis], triangles.tolist()))
         for wrong in ((1, 3, 2, triangles[:1]), (1, 4, 4, triangles), (1, 4, 2, triangles + np.uint32(2)), (1, 4, 2, triangles[:1]), (1, 4, 3, triangles)):
             with self.assertRaises(ValueError):
-                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:9], (*state[9][:6], [wrong])))
+                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:9], (*state[9][:6], [wrong]), *state[10:]))
 
     def test_wherever_a_mesh_goes(self):
         a, b = PAIRS[4]

@@ -177,6 +177,10 @@ TEST_CASE("hidden nodes are left out with what is below them, and counted") {
   const Mesh mesh = parse(document);
   CHECK(mesh.faces.size() == 2);
   CHECK(has_note(mesh, "bodies: left out: 1 hidden node and what is below"));
+  const Mesh all = parse(document.text(), {.bodies = Bodies::kAll});
+  REQUIRE(all.faces.size() == 3);
+  CHECK(all.vertices[3] == glm::dvec3(9, 0, 0));
+  CHECK(has_note(all, "bodies: included, though not shown: 1 hidden node and what is below"));
 }
 
 TEST_CASE("extensions that leave a shape alone may be required") {
@@ -260,6 +264,7 @@ TEST_CASE("the files beneath a document are those that reading opens") {
   // What nothing shows is not read.
   document.json["nodes"][0]["extensions"]["KHR_node_visibility"] = {{"visible", false}};
   CHECK(beneath(three, "").empty());
+  CHECK(files_beneath(folder() / "beneath/file.gltf", {.bodies = Bodies::kAll}).size() == 1);
 }
 
 TEST_CASE("a GLB may name files, too") {

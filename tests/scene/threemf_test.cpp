@@ -37,6 +37,10 @@ void check_refused(const std::string& bytes, const std::string& says) {
   CHECK(said.find(says) != std::string::npos);
 }
 
+Mesh all_of(const std::string& bytes) { return parse(bytes, {.bodies = Bodies::kAll}); }
+
+const std::string kIncluded = "bodies: included, though not printed as body: ";
+
 std::string item(const std::string& id, const std::string& transform = "") {
   return "<item objectid=\"" + id + "\"" +
          (transform.empty() ? "" : " transform=\"" + transform + "\"") + "/>";
@@ -165,8 +169,6 @@ TEST_CASE("what has another shape than its triangles is refused by name") {
   check_refused(package_of(model_of(object_of("1", kTriangleMesh, "s:slicestackid=\"3\""),
                                     item("1"), slices)),
                 "an object with slices");
-  check_refused(package_of(model_of(object_of("1", kTriangleMesh, "type=\"other\""), item("1"))),
-                "object 1 is of type other");
   check_refused(package_of(model_of(object_of("1", kTriangleMesh, "type=\"odd\""), item("1"))),
                 "an object of type 'odd'");
   check_refused(package_of(model_of(kOne + object_of("2", "<x:voxels xmlns:x=\"urn:x\"/>"),
@@ -190,6 +192,56 @@ TEST_CASE("what is no body is left out, and counted by name") {
       item("1") + "<item objectid=\"1\" printable=\"0\" transform=\"1 0 0 0 1 0 0 0 1 9 9 9\"/>")));
   CHECK(printed.faces.size() == 1);
   CHECK(printed.notes == std::vector<std::string>{"bodies: left out: 1 unprinted item (1 face)"});
+}
+
+TEST_CASE("surfaces and other objects are no bodies") {
+  for (const std::string type : {"surface", "other"}) {
+    const std::string two = kOne + object_of("2", kTriangleMesh, "type=\"" + type + "\"");
+    const std::string both = package_of(model_of(two, item("1") + item("2")));
+    const std::string list = "1 " + type + " object (1 face)";
+    CHECK(parse(both).faces.size() == 1);
+    CHECK(parse(both).notes == std::vector<std::string>{"bodies: left out: " + list});
+    CHECK(all_of(both).faces.size() == 2);
+    CHECK(all_of(both).notes == std::vector<std::string>{kIncluded + list});
+    check_refused(package_of(model_of(two, item("2"))), "it has no bodies, only " + list);
+  }
+}
+
+TEST_CASE("--bodies all measures what is no body, as it lies, and counts it by name") {
+  const std::string two = kOne + object_of("2", kTriangleMesh, "type=\"support\"");
+  const std::string away =
+      "<item objectid=\"1\" printable=\"0\" transform=\"1 0 0 0 1 0 0 0 1 9 9 9\"/>";
+  const Mesh mesh = all_of(package_of(model_of(two, item("1") + item("2") + away)));
+  REQUIRE(mesh.faces.size() == 3);
+  CHECK(mesh.vertices[7] == glm::dvec3(10, 9, 9));
+  CHECK(mesh.notes == std::vector<std::string>{
+                          kIncluded + "1 support object (1 face), 1 unprinted item (1 face)"});
+  CHECK(all_of(package_of(model_of(two, item("2")))).faces.size() == 1);
+  // Inside what is no body nothing is counted again.
+  const std::string three =
+      two + object_of("3", components(component("2") + component("1")), "type=\"solidsupport\"");
+  CHECK(all_of(package_of(model_of(three, item("3")))).notes ==
+        std::vector<std::string>{kIncluded + "1 support object (2 faces)"});
+  // A shape that is not read is refused, whatever it is for.
+  const std::string voxels = object_of("2", "<x:voxels xmlns:x=\"urn:x\"/>", "type=\"support\"");
+  const std::string package = package_of(model_of(kOne + voxels, item("1") + item("2")));
+  CHECK(parse(package).faces.size() == 1);
+  CHECK(refusal(package, {.bodies = Bodies::kAll}).find("has a shape that is not read, 'voxels'") !=
+        std::string::npos);
+}
+
+TEST_CASE("uses of what is left out take neither time nor room") {
+  std::string objects = object_of("1", kTriangleMesh, "type=\"support\"");
+  for (int i = 2; i <= 31; ++i) {
+    const std::string before = component(std::to_string(i - 1));
+    objects += object_of(std::to_string(i), components(before + before));
+  }
+  const std::string bytes =
+      package_of(model_of(objects + object_of("99", kTriangleMesh), item("99") + item("31")));
+  const Mesh mesh = parse(bytes, {.max_input_bytes = bytes.size()});
+  CHECK(mesh.faces.size() == 1);
+  CHECK(mesh.notes == std::vector<std::string>{
+                          "bodies: left out: 1073741824 support objects (1073741824 faces)"});
 }
 
 TEST_CASE("Cura's meshes for infill and supports are no bodies") {
@@ -223,6 +275,14 @@ std::string with_volume(const std::string& metadata,
             ids + ">" + metadata + "</volume></object></config>"}});
 }
 
+TEST_CASE("an item is printed unless printable is 0 or false") {
+  for (const auto& [value, count] :
+       std::vector<std::pair<std::string, size_t>>{{"0", 1}, {"false", 1}, {"1", 2}, {"true", 2}}) {
+    const std::string second = "<item objectid=\"1\" printable=\"" + value + "\"/>";
+    CHECK(parse(package_of(model_of(kOne, item("1") + second))).faces.size() == count);
+  }
+}
+
 TEST_CASE("PrusaSlicer's modifiers are no bodies, and a negative volume is refused") {
   const auto type = [](const std::string& name) {
     return with_volume("<metadata key=\"volume_type\" value=\"" + name + "\"/>");
@@ -235,12 +295,19 @@ TEST_CASE("PrusaSlicer's modifiers are no bodies, and a negative volume is refus
     const Mesh mesh = parse(type(name));
     CHECK(mesh.faces == std::vector<glm::uvec3>{{0, 1, 2}});
     CHECK(mesh.notes == std::vector<std::string>{"bodies: left out: 1 " + says + " (1 face)"});
+    CHECK(all_of(type(name)).faces == std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 0}});
+    CHECK(all_of(type(name)).notes ==
+          std::vector<std::string>{kIncluded + "1 " + says + " (1 face)"});
   }
   CHECK(parse(with_volume("<metadata key=\"modifier\" value=\"1\"/>")).faces.size() == 1);
   check_refused(type("NegativeVolume"), "object 1 has a negative volume");
+  check_refused(type("NegativeVolume"), "or --bodies all, which measures everything as it lies");
+  CHECK(all_of(type("NegativeVolume")).notes ==
+        std::vector<std::string>{kIncluded + "1 negative volume (1 face)"});
   check_refused(type("Novelty"), "a volume of type 'Novelty'");
   check_refused(with_volume("", "\"0\" lastid=\"1\""), "volumes of object 1 overlap at face 0");
   check_refused(with_volume("", "\"x\" lastid=\"1\""), "firstid is 'x'");
+  check_refused(with_volume("", "\"2\" lastid=\"1\""), "a volume of faces 2 to 1");
 }
 
 TEST_CASE("Bambu Studio's parts have their kinds beside the model") {
@@ -258,6 +325,9 @@ TEST_CASE("Bambu Studio's parts have their kinds beside the model") {
         std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
   CHECK(parse(with("support_blocker")).faces.size() == 1);
   check_refused(with("negative_part"), "object 2 has a negative volume");
+  CHECK(all_of(with("negative_part")).vertices.size() == 6);
+  CHECK(all_of(with("negative_part")).notes ==
+        std::vector<std::string>{kIncluded + "1 negative volume (1 face)"});
   check_refused(with("novel_part"), "a volume of type 'novel_part'");
 }
 

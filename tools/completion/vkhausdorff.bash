@@ -19,16 +19,17 @@ _vkhausdorff() {
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --polygons) mapfile -t COMPREPLY < <(compgen -W "fan" -- "$current"); return ;;
+    --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
       --area | --bands | --field-tol | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
       --part | --known-lower) return ;;
   esac
   case $command in
-    distance) options="$search $outputs --unit --max-input --polygons --certificate --part --known-lower" ;;
-    gate) options="$search $outputs --unit --max-input --polygons --certificate --max --area --face-max --face-max-b --junit --github" ;;
+    distance) options="$search $outputs --unit --max-input --polygons --bodies --certificate --part --known-lower" ;;
+    gate) options="$search $outputs --unit --max-input --polygons --bodies --certificate --max --area --face-max --face-max-b --junit --github" ;;
     batch)
-      options="$search $tables --against --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons"
+      options="$search $tables --against --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons --bodies"
       options+=" --image-dir --report-dir $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help" ;;
     demo) options="$search $outputs" ;;

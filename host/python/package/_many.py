@@ -5,7 +5,7 @@ from vkhausdorff import _core
 
 def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, device="", time=None, waves=None, memory=None,
               disable=(), enable=(), preset="", together=None, lanes=None, ahead=None, max_input=None,
-              polygons="refuse"):
+              polygons="refuse", bodies="solid"):
     """The distance of each of many pairs: an iterator of results, in the order in which pairs end.
 
     pairs: an iterable, which may be endless, of (a, b) or (id, a, b). Each of a and b is a mesh: what read() returns, the
@@ -34,7 +34,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     named = {} if tol is None else {"tol": tol}
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
-                           max_input=max_input, polygons=polygons, **named)
+                           max_input=max_input, polygons=polygons, bodies=bodies, **named)
     first = getattr(pairs, "first_index", 0)  # of vkhausdorff.dask's shards
     return _Results(stream, _results(stream, items, _with_one if against is not None else _with_two, first))
 
