@@ -88,41 +88,71 @@ bool load_functions(const VkhDeviceInfo& info, const Limits& limits, DeviceFunct
   return complete;
 }
 
+bool counts_fit(uint32_t vertex_count, uint32_t face_count) {
+  return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
+         face_count <= gpu::kMaxTriangles;
+}
+
+// 0 for NaN, too: a run does more then, and its interval is as true.
+float not_negative(float x) { return x > 0 ? x : 0; }
+
+// Counts that no mesh has are taken for those of a mesh of one face, or of a B that was not built:
+// their run records nothing but a report that says so.
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   check_problem(context, p);
-  const Workspace ws = view_workspace(p.workspace, context.limits, p.a.vertexCount, p.a.faceCount);
+  const bool has_a = counts_fit(p.a.vertexCount, p.a.faceCount);
+  const uint32_t vertex_count = has_a ? p.a.vertexCount : 1, face_count = has_a ? p.a.faceCount : 1;
+  VkhHierarchy b = p.b;
+  if (!counts_fit(b.vertexCount, b.faceCount)) b.vertexCount = b.faceCount = 0;
+  const Workspace ws = view_workspace(p.workspace, context.limits, vertex_count, face_count);
   // For more room than the device's limits let it have, a run would wait for ever.
   const bool can_grow = ws.capacity < largest_capacity(context.limits);
-  return {.vertex_count = p.a.vertexCount,
-          .face_count = p.a.faceCount,
-          .cull_tolerance = p.cullTolerance,
-          .known_lower = p.knownLower,
-          .limit = p.limit,
-          .limit_up = p.limitUp,
+  return {.vertex_count = vertex_count,
+          .face_count = face_count,
+          .cull_tolerance = not_negative(p.cullTolerance),
+          .known_lower = not_negative(p.knownLower),
+          .limit = not_negative(p.limit),
+          .limit_up = not_negative(p.limitUp),
           .sort_from = p.sortFrom,
           .switches = context.limits.switches,
           .wide = context.limits.wide,
           .two_float = p.twoFloat != VK_FALSE,
           .warm = p.warm != VK_FALSE,
           .pauses = can_grow && p.pauseWhenFull != VK_FALSE,
+          .has_a = has_a,
           .input_fault = layout_fault(p.a),
-          .b = view_hierarchy(p.b, context.limits),
+          .b = view_hierarchy(b, context.limits),
           .ws = ws,
-          .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * p.a.faceCount}};
+          .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * face_count}};
 }
 
-// Its counts are known once it is built: before anything reads them.
+// Its counts are known once it is built: before anything reads them. A mesh without faces or
+// vertices leaves it as one that was not.
 void record_hierarchy(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
                       VkhHierarchy& hierarchy, const VkhMemory& scratch) {
   check_build(limits, mesh, hierarchy, &scratch);
-  hierarchy.faceCount = mesh.faceCount;
-  hierarchy.vertexCount = mesh.vertexCount;
+  const bool fits = counts_fit(mesh.vertexCount, mesh.faceCount);
+  hierarchy.faceCount = fits ? mesh.faceCount : 0;
+  hierarchy.vertexCount = fits ? mesh.vertexCount : 0;
+  if (!fits) return;
   record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy, limits));
+}
+
+void record_any_refit(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
+                      const VkhHierarchy& hierarchy) {
+  check_build(limits, mesh, hierarchy, nullptr);
+  if (!counts_fit(hierarchy.vertexCount, hierarchy.faceCount)) return;  // a run says so
+  const Hierarchy h = view_hierarchy(hierarchy, limits);
+  if (mesh.vertexCount == hierarchy.vertexCount && mesh.faceCount == hierarchy.faceCount) {
+    record_refit(rec, mesh, h);
+  } else {
+    rec.fill(h.fault, gpu::kFaultLayout);  // it has no room for another mesh
+  }
 }
 
 // A hierarchy that was copied before its build has no counts: a run has no B, and its report says
 // so.
-bool is_built(const Problem& p) { return p.b.face_count > 0; }
+bool is_built(const Problem& p) { return p.has_a && p.b.face_count > 0; }
 
 // `p`: a view of `problem`.
 void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
@@ -161,8 +191,7 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
   if (task.mesh != nullptr && task.scratch != nullptr) {
     record_hierarchy(rec, context.limits, *task.mesh, problem.b, *task.scratch);
   } else if (task.mesh != nullptr) {
-    check_build(context.limits, *task.mesh, problem.b, nullptr);
-    record_refit(rec, *task.mesh, view_hierarchy(problem.b, context.limits));
+    record_any_refit(rec, context.limits, *task.mesh, problem.b);
   }
   const Problem p = view_problem(context, problem);
   if (task.begin != VK_FALSE) record_begin(rec, problem, p);
@@ -197,9 +226,11 @@ VkDeviceSize largest_of_a(const Limits& limits, uint32_t vertex_count, uint32_t 
   return std::max(of_vertex * vertex_count, of_face * face_count);
 }
 
-bool counts_fit(uint32_t vertex_count, uint32_t face_count) {
-  return vertex_count >= 1 && face_count >= 1 && vertex_count <= gpu::kMaxTriangles &&
-         face_count <= gpu::kMaxTriangles;
+// Into its own range, or apart from it and with the room that it has.
+bool can_move(const VkhProblem& p, const VkhMemory& to) {
+  const bool stays = to.buffer == p.workspace.buffer && to.offset == p.workspace.offset;
+  if (stays) return to.size == p.workspace.size;
+  return to.size >= p.workspace.size && !overlap(to, p.workspace);
 }
 
 }  // namespace
@@ -288,9 +319,8 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile) {
-  vkh::check_build(context->limits, *mesh, *hierarchy, nullptr);
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_refit(rec, *mesh, vkh::view_hierarchy(*hierarchy, context->limits));
+  vkh::record_any_refit(rec, context->limits, *mesh, *hierarchy);
 }
 
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
@@ -310,6 +340,7 @@ void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem
   vkh::check_move(*problem, *workspace);
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem from = vkh::view_problem(*context, *problem);
+  if (!vkh::can_move(*problem, *workspace)) return;
   problem->workspace = *workspace;
   if (!vkh::is_built(from)) return;
   vkh::record_move(rec, from, vkh::view_problem(*context, *problem));
@@ -328,13 +359,16 @@ void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const V
   vkh::check_cells(*context, *problem, *cells);
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem p = vkh::view_problem(*context, *problem);
-  if (!vkh::is_built(p)) return;
-  vkh::record_cells(
-      rec, p,
-      {.cells = {cells->cellBuffer, cells->cellOffset, cells->count * sizeof(VkhCell)},
-       .bounds = {cells->boundsBuffer, cells->boundsOffset, cells->count * sizeof(VkhCellBounds)},
-       .first = cells->first,
-       .count = cells->count});
+  const bool has_kernel = vkh::gpu::bounds_cells(context->limits.switches, context->limits.wide);
+  if (!has_kernel || cells->count == 0) return;
+  vkh::record_cells(rec, p,
+                    {.cells = {cells->cellBuffer, cells->cellOffset,
+                               VkDeviceSize{cells->count} * sizeof(VkhCell)},
+                     .bounds = {cells->boundsBuffer, cells->boundsOffset,
+                                VkDeviceSize{cells->count} * sizeof(VkhCellBounds)},
+                     .first = cells->first,
+                     .count = cells->count,
+                     .has_run = vkh::is_built(p)});
 }
 
 void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,

@@ -128,11 +128,15 @@ void record_fault(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
 
 uint32_t layout_fault(const VkhMesh& m) {
   const bool is_16bit = m.indexType == VK_INDEX_TYPE_UINT16;
-  const bool has_layout = m.vertexStride >= 12 && m.vertexStride % 4 == 0 &&
-                          m.vertexOffset % 4 == 0 && m.vertexLowOffset % 4 == 0 &&
-                          (is_16bit || m.indexType == VK_INDEX_TYPE_UINT32) &&
-                          m.indexOffset % (is_16bit ? 2 : 4) == 0;
-  return has_layout ? gpu::kNone : gpu::kFaultLayout;
+  const bool has_buffers = m.vertexBuffer != VK_NULL_HANDLE && m.indexBuffer != VK_NULL_HANDLE;
+  const bool has_vertices = m.vertexCount >= 1 && m.vertexCount <= gpu::kMaxTriangles &&
+                            m.vertexStride >= 12 && m.vertexStride % 4 == 0 &&
+                            uint64_t{m.vertexCount} * m.vertexStride <= kMostVertexBytes &&
+                            m.vertexOffset % 4 == 0 && m.vertexLowOffset % 4 == 0;
+  const bool has_faces = m.faceCount >= 1 && m.faceCount <= gpu::kMaxTriangles &&
+                         (is_16bit || m.indexType == VK_INDEX_TYPE_UINT32) &&
+                         m.indexOffset % (is_16bit ? 2 : 4) == 0;
+  return has_buffers && has_vertices && has_faces ? gpu::kNone : gpu::kFaultLayout;
 }
 
 void record_check(Recorder& rec, const VkhMesh& mesh, const Slice<uint32_t>& words, uint32_t word) {
@@ -144,6 +148,11 @@ void record_check(Recorder& rec, const VkhMesh& mesh, const Slice<uint32_t>& wor
 
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces) {
+  if (layout_fault(mesh) != gpu::kNone) {
+    rec.fill(vertices, 0);
+    rec.fill(faces, 0, Order::kIndependent);
+    return;
+  }
   rec.run<k::MeshLoad>(Load{words_of(mesh), vertices, as<uint32_t>(faces)},
                        Items{std::max(mesh.vertexCount, 3 * mesh.faceCount)});
 }

@@ -25,10 +25,6 @@ void check_memory(const VkhMemory& memory) {
   VKH_RULE("VkhMemory::offset: a multiple of 256 bytes", memory.offset % 256 == 0);
 }
 
-bool overlap(const VkhMemory& a, const VkhMemory& b) {
-  return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
-}
-
 bool overlap(const VkhMemory& memory, const VkhHierarchy& hierarchy) {
   const auto with_it = [&](const VkhMemory& range) { return overlap(memory, range); };
   return with_it(hierarchy.memory) ||
@@ -45,9 +41,6 @@ void check_ranges(const VkhHierarchy& hierarchy, const StreamSizes& needed) {
         range.size >= needed.ranges[i]);
   }
 }
-
-// What words of vertices an index of 31 bits reaches.
-constexpr uint64_t kMostVertexBytes = uint64_t{8} << 30;
 
 void check_mesh(const VkhMesh& m) {
   VKH_RULE("VkhMesh::vertexBuffer: not null", m.vertexBuffer != VK_NULL_HANDLE);

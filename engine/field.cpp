@@ -18,7 +18,7 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
                    .given = given ? 1u : 0u,
                    .first = asked.first,
                    .face_count = p.face_count,
-                   .triangle_count = p.b.face_count}};
+                   .triangle_count = asked.has_run ? p.b.face_count : 0}};
   rec.run<k::CellBounds>(all, Items{asked.count});
   rec.stage("cells");
 }

@@ -32,7 +32,8 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
   ReportBuffers run(p, report);
-  run.push = {0, 0};
+  // Which of them is none, as the kernel takes it where nothing is built.
+  run.push = {(p.has_a ? 0u : 1u) | (p.b.face_count > 0 ? 0u : 2u), 0};
   rec.run<k::ReportWrite>(run, Groups{1});
   rec.stage("report");
 }

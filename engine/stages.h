@@ -7,12 +7,13 @@
 
 namespace vkh {
 
-// A mesh of the caller's into packed positions and indices.
+// A mesh of the caller's into packed positions and indices; zeros where layout_fault is not kNone:
+// what it reads could be anywhere.
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
 // kNone, or kFaultLayout where a VkhMesh cannot describe one, as far as that costs the host
-// nothing: strides and offsets, the type of indices.
+// nothing: counts, strides and offsets, the type of indices, and whether there are buffers.
 uint32_t layout_fault(const VkhMesh& mesh);
 // With a context that checks: whether the caller's buffers hold a mesh, into a word of `words`,
 // which holds what is known already.
@@ -50,6 +51,7 @@ struct Problem {
   bool two_float = false;
   bool warm = false;  // the workspace holds an earlier run to start from
   bool pauses = false;
+  bool has_a = true;                  // false: no mesh has its counts
   uint32_t input_fault = gpu::kNone;  // of A: layout_fault
   Hierarchy b;
   Workspace ws;
@@ -100,6 +102,7 @@ struct AskedCells {
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;
   uint32_t first = 0, count = 0;
+  bool has_run = true;  // false: there are no distances, and bounds are NaN
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);

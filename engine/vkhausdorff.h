@@ -310,7 +310,8 @@ typedef struct VkhProblem {
   VkhMesh a;
   VkhHierarchy b;
   VkhMemory workspace;
-  /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. */
+  /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. Here and
+   * below, NaN and what is under 0 stand for 0. */
   float cullTolerance;
   /* Use the vertices' low parts, and steer by 48-bit positions: where there are low parts, and for
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
@@ -376,8 +377,9 @@ void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhP
 
 /* Between two waves: the run goes on in `workspace`, as a rule a larger one, at least as large as
  * its own and apart from it, and problem->workspace becomes that; or, where it is the run's own
- * range, in that. From now on problem->pauseWhenFull and knownLower hold. Reads the old workspace
- * and writes the new one in transfers; once they have run, the old one is free. */
+ * range, in that. Any other changes nothing, and problem->workspace stays. From now on
+ * problem->pauseWhenFull and knownLower hold. Reads the old workspace and writes the new one in
+ * transfers; once they have run, the old one is free. */
 void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
                    const VkhMemory* workspace, VkhProfile* profile);
 
@@ -389,10 +391,12 @@ typedef enum VkhStatus {
   VKH_STATUS_WITHIN = 4,    /* with VkhProblem::limit: upper is at most that */
   VKH_STATUS_BEYOND = 5,    /* with VkhProblem::limit: lower is more than limit and limitUp */
   /* A or B is no mesh, and nothing is known: lower 0, upper infinite, certified 0. Always where a
-   * stride is under 12, a stride or offset is no multiple of what it must be, or an index type is
-   * unknown, and where VkhProblem::b is a copy that was made before the build; of what the buffers
-   * hold with VkhContextCreateInfo::checkInput. witnessFaceA and witnessFaceB are then the least
-   * face of A and of B that is at fault; 0xffffffff: none is; 0xfffffffe: the VkhMesh is, or b. */
+   * count is 0 or above 2^28, a buffer is null, a stride is under 12 or makes more than 8 GiB, a
+   * stride or offset is no multiple of what it must be, or an index type is unknown; where a refit
+   * has other counts than the build; and where VkhProblem::b is a copy that was made before the
+   * build. Of what the buffers hold with VkhContextCreateInfo::checkInput. witnessFaceA and
+   * witnessFaceB are then the least face of A and of B that is at fault; 0xffffffff: none is;
+   * 0xfffffffe: the VkhMesh is, or b. */
   VKH_STATUS_INPUT = 6
 } VkhStatus;
 
@@ -474,7 +478,8 @@ typedef struct VkhCells {
 
 /* Bounds of d(x, B) over cells of A: for a picture, for statistics, for choosing what to refine.
  * With a context of VKH_SWITCH_FIELD; from vkhCmdBegin on, as long as the workspace holds the run.
- * It changes nothing of the run. A cell's result does not depend on the others. Buffers: usage
+ * It changes nothing of the run. A cell's result does not depend on the others. Where a report
+ * would be of VKH_STATUS_INPUT, bounds are NaN, and faces and starts 0xffffffff. Buffers: usage
  * STORAGE_BUFFER, offsets multiples of 256 bytes; read and written in COMPUTE_SHADER. */
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhCells* cells, VkhProfile* profile);

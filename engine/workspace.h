@@ -10,6 +10,13 @@
 
 namespace vkh {
 
+// What words of vertices an index of 31 bits reaches.
+constexpr uint64_t kMostVertexBytes = uint64_t{8} << 30;
+
+inline bool overlap(const VkhMemory& a, const VkhMemory& b) {
+  return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
+}
+
 // B's hierarchy, kept between runs.
 struct Hierarchy {
   Slice<gpu::Branch> branches;

@@ -1,4 +1,5 @@
-// Compiles every kernel for cards that are not here: RADV, AMD's driver of Mesa, does so where
+// Compiles every kernel, in both of its forms (bound and by address), and the shaders that draw
+// pictures, for cards that are not here: RADV, AMD's driver of Mesa, does so where
 // RADV_FORCE_FAMILY names one. The driver returns VK_SUCCESS whatever becomes of a kernel, so that
 // a kernel fails where the driver writes to stderr. Nothing runs on the device.
 //   vkh_compile          all families; exits 77 where RADV is not installed
@@ -14,9 +15,11 @@
 #include <set>
 #include <string>
 
+#include "engine/by_address.h"
 #include "engine/kernels.h"
 #include "host/base/error.h"
 #include "host/check/self_test.h"
+#include "host/draw/raster.h"
 #include "host/gpu/device.h"
 
 namespace {
@@ -24,10 +27,14 @@ namespace {
 constexpr const char* kDriver = "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json";
 constexpr std::array kFamilies{"bonaire", "tonga",  "polaris10", "vega10",
                                "navi10",  "navi21", "gfx1100"};
-constexpr std::array kKernelNames{
-#define VKH_NAME(K) #K,
-    VKH_KERNELS(VKH_NAME)
-#undef VKH_NAME
+struct KernelForms {
+  const char* name;
+  bool has_addresses;  // its words differ in a context that is byAddress
+};
+constexpr std::array kKernels{
+#define VKH_FORMS(K) KernelForms{#K, vkh::bindings_by_address(vkh::k::K::kBindings) != 0},
+    VKH_KERNELS(VKH_FORMS)
+#undef VKH_FORMS
 };
 
 // The switches that bring in what others leave out; VKH_SWITCH_NONE: the rest is off.
@@ -37,41 +44,68 @@ constexpr uint32_t kPaper = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4 | VKH_SWITCH_SOR
 constexpr std::array kSwitchSets{uint32_t{VKH_SWITCH_DEFAULT_WIDE}, VKH_SWITCH_DEFAULT_WIDE | kRest,
                                  uint32_t{VKH_SWITCH_DEFAULT_NARROW} | kRest, kPaper};
 
+using Names = std::set<std::string>;
+
 // Names of the kernels that were compiled.
-std::set<std::string> compile(const VkhContextCreateInfo& info) {
+Names compile(const VkhContextCreateInfo& info) {
   VkhContext context = nullptr;
   if (vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw vkh::DeviceError("the driver refuses the kernels of switches " +
                            std::to_string(info.switches));
-  std::set<std::string> names;
-  for (size_t i = 0; i < kKernelNames.size(); ++i) {
-    if (context->kernels[i].pipeline != VK_NULL_HANDLE) names.insert(kKernelNames[i]);
+  Names names;
+  for (size_t i = 0; i < kKernels.size(); ++i) {
+    if (context->kernels[i].pipeline != VK_NULL_HANDLE) names.insert(kKernels[i].name);
   }
   vkhDestroyContext(context);
   return names;
 }
 
-// The device is never destroyed: RADV crashes where it waits for a card that is not there.
-int compile_here() {
-  const vkh::Device& device = *new vkh::Device;
-  std::set<std::string> compiled;
+Names compile_all(const vkh::Device& device, VkBool32 by_address) {
+  Names compiled;
   for (const uint32_t switches : kSwitchSets) {
     for (const VkhDeviceKind kind : {VKH_DEVICE_KIND_WIDE, VKH_DEVICE_KIND_NARROW}) {
       VkhContextCreateInfo info{};
       info.device = device.engine_info();
       info.switches = switches;
       info.deviceKind = kind;
+      info.byAddress = by_address;
       info.checkInput = VK_TRUE;
       compiled.merge(compile(info));
     }
   }
-  vkh::compile_self_test(device);
-  std::cout << device.description().name << ": " << compiled.size() + 1 << " kernels\n";
-  if (compiled.size() == kKernelNames.size()) return 0;
-  for (const char* name : kKernelNames) {
-    if (!compiled.contains(name)) std::cerr << name << " is not compiled by any switches\n";
+  return compiled;
+}
+
+// How many of the kernels that have this form were compiled by no switches.
+int missing(const Names& compiled, VkBool32 by_address) {
+  int count = 0;
+  for (const KernelForms& kernel : kKernels) {
+    const bool has_form = by_address == VK_FALSE || kernel.has_addresses;
+    if (!has_form || compiled.contains(kernel.name)) continue;
+    std::cerr << kernel.name << " is not compiled by any switches\n";
+    ++count;
   }
-  return 1;
+  return count;
+}
+
+// mesh.vert and mesh.frag; a Raster creates their pipeline.
+const char* compile_pictures(const vkh::Device& device) {
+  if (!device.has_graphics()) return "no pictures: its queue has no graphics";
+  const vkh::drawing::Raster raster(device, 1, 1);
+  return "and those of pictures";
+}
+
+// The device is never destroyed: RADV crashes where it waits for a card that is not there.
+int compile_here() {
+  const vkh::Device& device = *new vkh::Device;
+  int failed = missing(compile_all(device, VK_FALSE), VK_FALSE);
+  const bool has_addresses = device.has_addresses();
+  if (has_addresses) failed += missing(compile_all(device, VK_TRUE), VK_TRUE);
+  vkh::compile_self_test(device);
+  const char* pictures = compile_pictures(device);
+  std::cout << device.description().name << ": " << kKernels.size() + 1 << " kernels, "
+            << (has_addresses ? "also by address, " : "none by address, ") << pictures << '\n';
+  return failed == 0 ? 0 : 1;
 }
 
 // What the child wrote to stderr; `status` as waitpid has it.

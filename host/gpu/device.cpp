@@ -367,6 +367,11 @@ void Device::read_limits() {
   timestamp_period_ns_ = static_cast<double>(properties.properties.limits.timestampPeriod);
 }
 
+bool Device::is_lost() const {
+  const std::lock_guard lock(queue_mutex());  // waiting for the device touches its queue
+  return vk_.DeviceWaitIdle(device_) == VK_ERROR_DEVICE_LOST;
+}
+
 VkhDeviceInfo Device::engine_info() const {
   return {vk_.GetInstanceProcAddr, instance_, physical_, device_};
 }

@@ -71,6 +71,9 @@ class Device {
   bool has_addresses() const { return has_addresses_; }
   bool maps_memory() const { return maps_memory_; }
   double timestamp_period_ns() const { return timestamp_period_ns_; }
+  /// Waits until the device has nothing to do, and returns whether it was lost. Not of one that was
+  /// adopted: other threads may use its queues.
+  bool is_lost() const;
   /// For the engine's C API.
   VkhDeviceInfo engine_info() const;
 

@@ -88,9 +88,7 @@ void Lane::solve_all(const Group& group) {
 }
 
 bool Lane::find_lost() {
-  const Device& device = device_.device;
-  const std::lock_guard lock(device.queue_mutex());  // which waiting for the device touches
-  if (device.vk().DeviceWaitIdle(device.handle()) == VK_ERROR_DEVICE_LOST) device_.is_lost = true;
+  if (device_.device.is_lost()) device_.is_lost = true;
   return device_.is_lost;
 }
 

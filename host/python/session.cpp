@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "host/base/error.h"
 #include "host/gpu/device.h"
 #include "host/python/interpreter.h"
 
@@ -70,7 +71,7 @@ class Session::Turn {
   std::thread::id& owner_;
 };
 
-Session::Session(const std::string& device) {
+Session::Session(const std::string& device) : selector_(device) {
   mark_used();
   const WithoutGil outside;
   parts_ = std::make_unique<Parts>(device);
@@ -89,11 +90,33 @@ void Session::prepare(Mesh b) {
   use([&](Solver& solver) { parts_->b.emplace(solver.prepare(std::move(b))); });
 }
 
+// Each step may throw and be tried again by the next call.
+void Session::reopen() {
+  if (parts_ != nullptr && parts_->b) lost_b_ = parts_->b->mesh();
+  parts_.reset();
+  parts_ = std::make_unique<Parts>(selector_);
+  if (lost_b_) parts_->b.emplace(parts_->solver.prepare(*lost_b_));
+  lost_b_.reset();
+  is_lost_ = false;
+}
+
+// A lost device may show itself by another error first, so that it is asked after each.
+void Session::run(const std::function<void(Solver&)>& work) {
+  try {
+    if (is_lost_) reopen();
+    work(parts_->solver);
+  } catch (const DeviceError& error) {
+    if (parts_ != nullptr) is_lost_ = parts_->device.is_lost();
+    if (!is_lost_) throw;
+    throw DeviceError(std::string(error.what()) + "; the next call opens a device anew");
+  }
+}
+
 void Session::use(const std::function<void(Solver&)>& work) {
   try {
     const WithoutGil outside;
     const Turn turn(*this);
-    work(parts_->solver);
+    run(work);
     if (is_ending()) throw Ended{};
   } catch (const Raised&) {
     throw py::error_already_set();

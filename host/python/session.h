@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -26,7 +27,8 @@ class Session {
 
   /// Runs `work` without the GIL, one caller at a time. Between submissions of a run, what
   /// `listen_to` put into its options hears of signals. A RuntimeError, not a deadlock, if called
-  /// from within itself, by a progress callback. A ValueError once closed.
+  /// from within itself, by a progress callback. A ValueError once closed. Where the device is lost
+  /// meanwhile, a DeviceError; the next call opens it anew, with what was prepared.
   void use(const std::function<void(Solver&)>& work);
   /// From a mesh to what was prepared.
   using ToPrepared = std::function<Report(const Mesh&, const SolveOptions&)>;
@@ -44,7 +46,13 @@ class Session {
  private:
   struct Parts;
   class Turn;
-  std::unique_ptr<Parts> parts_;
+  void reopen();
+  void run(const std::function<void(Solver&)>& work);
+
+  std::string selector_;
+  std::unique_ptr<Parts> parts_;  // null where a lost device could not be opened anew
+  std::optional<Mesh> lost_b_;    // what was prepared on a device that was lost
+  bool is_lost_ = false;
   std::thread::id owner_;
   bool is_closed_ = false;
 };

@@ -2,7 +2,8 @@
 // push.first and after where none are given. In: cells; A and B's hierarchy. Out: bounds[cell].
 // One walk finds the triangle nearest to the cell's middle; another looks at all that may be
 // closest somewhere on the cell (field/cell.h), kCellTriangles of them at most; boxes stand for
-// what is left. Each result is its cell's alone.
+// what is left. Each result is its cell's alone. Where A or B is no mesh, and where there is no run
+// (push.triangle_count is 0), bounds are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,6 +19,7 @@ layout(scalar, binding = 5) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
 layout(scalar, binding = 7) readonly buffer Cells { Cell cells[]; };
 layout(scalar, binding = 8) writeonly buffer Bounds { CellBounds bounds[]; };
+layout(scalar, binding = 9) readonly buffer BFault { uint b_fault; };
 layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 
 #include "shaders/base/root.glsl"
@@ -142,9 +144,23 @@ CellBounds bounds_of(Gathered g, CellFrame t) {
   return b;
 }
 
+bool is_of_meshes() {
+  return push.triangle_count != 0u && control.input_fault == kNone && b_fault == kNone;
+}
+
+CellBounds nothing_known() {
+  float nan = uintBitsToFloat(0x7fc00000u);
+  return CellBounds(nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, kNone, kNone, kNone, kNone,
+                    kNone);
+}
+
 void main() {
   uint i = item_index();
   if (i >= push.count) return;
+  if (!is_of_meshes()) {
+    bounds[i] = nothing_known();
+    return;
+  }
   Cell cell = cell_at(i);
   CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
   bounds[i] = bounds_of(with_pairs(gather(t, cell.start), t), t);

@@ -169,7 +169,8 @@ void write_fault(uint a_fault, uint fault_of_b) {
   report.witness_face = fault_of_b;
 }
 
-// Nothing but the report is valid: no run, and no triangles.
+// Nothing but the report is valid: no run, and no triangles. push.count says which mesh is none: 1
+// is A, 2 is B, 3 is both.
 void write_unbuilt() {
   report.wave = 0u;
   report.witness = Witness(vec3(0.0), 0.0, kNone, 0u, 0u, kNone);
@@ -183,7 +184,8 @@ void write_unbuilt() {
   for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = 0u;
   for (uint w = 0u; w < kMaxWaveRecords; ++w)
     report.waves[w] = WaveRecord(0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
-  write_fault(kNone, kFaultLayout);
+  write_fault((push.count & 1u) != 0u ? kFaultLayout : kNone,
+              (push.count & 2u) != 0u ? kFaultLayout : kNone);
 }
 
 void main() {

@@ -136,6 +136,7 @@ shared bool group_asked;
 Nearest find_nearest(Query q, uint start, bool asked, bool by_group) {
   Nearest best = nothing_near();
   walk_at = kNone;
+  left_count = tied_count = 0u;
   if (asked) best = begin_walk(q, start);
   if (by_group) {
     bool first = gl_LocalInvocationID.x == 0u;

@@ -93,6 +93,13 @@ TEST_CASE("a rule that is broken is named") {
     CHECK(end.signal == SIGABRT);
     CHECK(end.said.find(misuse.rule) != std::string::npos);
   }
+  const Ended refit = ended([&] {
+    VkhMesh other = b.view();
+    other.faceCount -= 1;
+    vkhCmdRefitHierarchy(pair.context(), VK_NULL_HANDLE, &other, &pair.problem().b, nullptr);
+  });
+  CHECK(refit.signal == SIGABRT);
+  CHECK(refit.said.find("a mesh with the counts of the build") != std::string::npos);
   const Misuse moves[] = {
       {"vkhCmdMoveRun: the run's own workspace, or one apart", none,
        [](VkhProblem& p) { p.workspace.offset += 256; }},

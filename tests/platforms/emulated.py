@@ -196,5 +196,6 @@ class Lavapipe(Driver):
 
     def __init__(self, bits: int, source: pathlib.Path, build: pathlib.Path):
         super().__init__(f"lavapipe{bits}", source, build)
-        self.environment["LP_NATIVE_VECTOR_WIDTH"] = str(bits)
+        # Mesa 22.3 caches machine code by words that leave the width out: it would run what another width left there.
+        self.environment |= {"LP_NATIVE_VECTOR_WIDTH": str(bits), "MESA_SHADER_CACHE_DIR": str(build / f"mesa{bits}")}
         self.subgroup = bits // 32

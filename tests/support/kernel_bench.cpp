@@ -78,14 +78,16 @@ uint32_t validation_messages() {
 }
 
 KernelBench::KernelBench(uint32_t switches, bool wide)
-    : submitter_(test_device()), context_(context_for(switches, wide)) {}
+    : guard_bytes_(*environment("VKH_TEST_GUARDED") == '\0' ? 4096 : 0),
+      submitter_(test_device()),
+      context_(context_for(switches, wide)) {}
 
 VkBuffer KernelBench::reserve_bytes(const void* content, size_t bytes) {
   constexpr VkBufferUsageFlags usage =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  buffers_.emplace_back(test_device(), bytes + kGuardBytes, usage, Placement::kReadback);
-  std::memset(buffers_.back().mapped(), kGarbage, bytes + kGuardBytes);
+  buffers_.emplace_back(test_device(), bytes + guard_bytes_, usage, Placement::kReadback);
+  std::memset(buffers_.back().mapped(), kGarbage, bytes + guard_bytes_);
   if (content != nullptr) std::memcpy(buffers_.back().mapped(), content, bytes);
   return buffers_.back().handle();
 }
@@ -100,9 +102,10 @@ const std::byte* KernelBench::mapped(VkBuffer buffer) const {
 void KernelBench::check_guards() const {
   for (const Buffer& b : buffers_) {
     const std::byte* end = b.mapped() + b.size();
-    if (std::any_of(end - kGuardBytes, end, [](std::byte x) { return x != std::byte{kGarbage}; }))
-      throw std::runtime_error("a kernel wrote behind the end of a buffer of " +
-                               std::to_string(b.size() - kGuardBytes) + " bytes");
+    if (std::any_of(end - static_cast<std::ptrdiff_t>(guard_bytes_), end,
+                    [](std::byte x) { return x != std::byte{kGarbage}; }))
+      throw std::runtime_error("a kernel wrote beyond the end of a buffer of " +
+                               std::to_string(b.size() - guard_bytes_) + " bytes");
   }
 }
 

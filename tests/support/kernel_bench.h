@@ -72,14 +72,16 @@ class KernelBench {
     return content;
   }
 
-  /// Records with `record`, submits and waits. Throws if anything wrote behind the end of a buffer.
+  /// Records with `record`, submits and waits. Throws if anything wrote beyond the end of a buffer.
+  /// With VKH_TEST_GUARDED, a read beyond it ends the program, too (sanitize/guarded_malloc.c).
   void run(const std::function<void(Recorder&)>& record);
   VkhContext context() const { return context_; }
 
  private:
   static constexpr int kGarbage = 0xa5;
-  // Behind every buffer, within its allocation: a stray write is seen, not lost.
-  static constexpr size_t kGuardBytes = 4096;
+  // Beyond the end of every buffer, within its allocation: a stray write is seen, not lost. None
+  // where an allocation ends at memory that nothing may touch.
+  const size_t guard_bytes_;
 
   template <class T>
   Slice<T> reserve(const T* content, size_t count) {

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "tests/support/bus_error.h"
 #include "tests/support/kernel_bench.h"
 
 namespace {
@@ -36,6 +37,7 @@ REGISTER_LISTENER("counter", 1, Counter);
 }  // namespace
 
 int main(int argc, char** argv) {
+  vkh::test::explain_bus_errors();
   const int result = doctest::Context(argc, argv).run();
   if (g_cases == 0) {
     std::fprintf(stderr, "no test case is named so\n");
