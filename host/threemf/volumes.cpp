@@ -9,14 +9,19 @@
 namespace vkh::threemf {
 namespace {
 
-constexpr const char* kSlic3rConfig = "Metadata/Slic3r_PE_model.config";
+// PrusaSlicer's, and what relatives write in its place or, saying the same, beside it.
+constexpr const char* kSlic3rConfigs[] = {"Metadata/Slic3r_PE_model.config",
+                                          "Metadata/SuperSlicer_model.config",
+                                          "Metadata/Slic3r_model.config"};
 constexpr const char* kBambuConfig = "Metadata/model_settings.config";
 
 struct NamedRole {
   std::string_view name;
   Role role;
 };
-constexpr NamedRole kRoles[] = {{"ModelPart", Role::kBody},
+constexpr NamedRole kRoles[] = {{"0", Role::kBody},  // before they had names
+                                {"1", Role::kModifier},
+                                {"ModelPart", Role::kBody},
                                 {"ParameterModifier", Role::kModifier},
                                 {"SupportBlocker", Role::kBlocker},
                                 {"SupportEnforcer", Role::kEnforcer},
@@ -102,14 +107,14 @@ class Config : public XmlReader {
   bool is_volume_ = false;
 };
 
-void sort_ranges(const MeshSource& source, Volumes& volumes) {
+void sort_ranges(const MeshSource& source, const char* part, Volumes& volumes) {
   for (auto& [id, ranges] : volumes.ranges) {
     std::sort(ranges.begin(), ranges.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     for (size_t i = 1; i < ranges.size(); ++i) {
       if (ranges[i - 1].last < ranges[i].first) continue;
       reject(source.name, "byte 0",
-             "part " + vkh::quoted(kSlic3rConfig) + ": volumes of object " + std::to_string(id) +
+             "part " + vkh::quoted(part) + ": volumes of object " + std::to_string(id) +
                  " overlap at face " + std::to_string(ranges[i].first),
              "volumes of different faces");
     }
@@ -144,12 +149,17 @@ std::string name_of(Role role) {
 
 Volumes read_volumes(const MeshSource& source, Package& package) {
   Volumes volumes;
-  for (const char* part : {kSlic3rConfig, kBambuConfig}) {
-    if (!package.has(part)) continue;
+  const auto read = [&](const char* part) {
+    if (!package.has(part)) return false;
     Config config(source, part, volumes);
     read_xml(source, package, part, config);
+    sort_ranges(source, part, volumes);
+    return true;
+  };
+  for (const char* part : kSlic3rConfigs) {
+    if (read(part)) break;
   }
-  sort_ranges(source, volumes);
+  read(kBambuConfig);
   return volumes;
 }
 

@@ -29,7 +29,7 @@ constexpr size_t kRoleCount = static_cast<size_t>(Role::kUnprinted) + 1;
 /// "modifier", "support blocker".
 std::string name_of(Role role);
 
-/// By PrusaSlicer (Metadata/Slic3r_PE_model.config, and its descendants) and by Bambu Studio
+/// Kinds by PrusaSlicer (Metadata/Slic3r_PE_model.config, and its descendants) and by Bambu Studio
 /// (Metadata/model_settings.config, and OrcaSlicer).
 struct Volumes {
   /// Triangles `first` to `last` of an object's mesh.

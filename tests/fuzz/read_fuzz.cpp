@@ -24,9 +24,19 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-// A 3MF file's model part; what a zip archive is made of is libzip's, and `any` has it.
+// A 3MF file's model part and, behind a zero byte, what a slicer keeps beside it; what a zip
+// archive is made of is libzip's, and `any` has it.
 Mesh parse_3mf_model(const MeshSource& model) {
-  const std::string package = package_of(std::string(model.bytes));
+  const std::string_view bytes = model.bytes;
+  const size_t end = std::min(bytes.find('\0'), bytes.size());
+  Parts others;
+  if (end < bytes.size()) {
+    const std::string config(bytes.substr(end + 1));
+    const bool is_bambu = config.find("<part") != std::string::npos;
+    others.emplace_back(
+        is_bambu ? "Metadata/model_settings.config" : "Metadata/Slic3r_PE_model.config", config);
+  }
+  const std::string package = package_of(std::string(bytes.substr(0, end)), others);
   MeshSource source = model;
   source.bytes = package;
   return parse_3mf(source);
@@ -159,6 +169,19 @@ void check_blocks(const MeshSource& source) {
   require(same(whole, joined), "blocks give the same mesh");
 }
 
+// All of a scene is no less than what is solid of it; and null: that was refused.
+void check_bodies(const MeshSource& source, const Mesh* solid) {
+  MeshSource whole = source;
+  whole.limits.bodies = Bodies::kAll;
+  Mesh mesh;
+  bool accepted = false;
+  read_counted(whole, mesh, accepted);
+  if (!accepted) return;
+  require_valid(mesh);
+  require(solid == nullptr || mesh.faces.size() >= solid->faces.size(),
+          "all is no less than solid");
+}
+
 // The files beneath a document are found, or the document is refused; none is opened.
 void check_files(const MeshSource& source) {
   if (g_reader->parse != parse_gltf) return;
@@ -199,6 +222,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   read_counted(source, mesh, accepted);
   if (size % 2 == 0) check_blocks(source);  // for speed
   check_files(source);
+  const bool is_scene = g_reader->parse == parse_gltf || g_reader->parse == parse_3mf_model;
+  if (is_scene && size % 2 == 1) check_bodies(source, accepted ? &mesh : nullptr);  // for speed
   if (!accepted) return 0;
   require_valid(mesh);
   if (size % 4 == 0) {  // for speed

@@ -32,6 +32,18 @@ def of_model(model, method=zipfile.ZIP_DEFLATED):
 
 
 WHOLE = of_model(MODEL)
+CONFIGS = {
+    'prusa': '<config><object id="1"><volume firstid="0" lastid="1"><metadata key="volume_type" value="ModelPart"/></volume>'
+             '<volume firstid="2" lastid="3"><metadata key="volume_type" value="ParameterModifier"/></volume></object></config>',
+    'prusa_negative': '<config><object id="1"><volume firstid="1" lastid="2"><metadata key="volume_type" '
+                      'value="NegativeVolume"/></volume></object></config>',
+    'prusa_old': '<config><object id="1"><volume firstid="0" lastid="0"><metadata key="modifier" value="1"/></volume></object></config>',
+    'bambu': '<config><object id="2"><part id="1" subtype="support_blocker"/></object></config>',
+    'bambu_negative': '<config><object id="2"><part id="1" subtype="negative_part"/></object></config>',
+}
+# Object 2 has object 1 as its component.
+COMPOSITE = MODEL.replace('</object>', '</object><object id="2"><components><component objectid="1"/></components></object>').replace(
+    '<item objectid="1"/>', '<item objectid="2"/><item objectid="1"/>')
 
 
 def changes():
@@ -43,7 +55,8 @@ def changes():
         'v_wraps': ('v1="1"', 'v1="4294967297"'), 'v_fraction': ('v1="1"', 'v1="1.5"'),
         'no_v2': (' v2="3"', ''), 'id_word': ('id="1" type', 'id="a" type'),
         'no_id': ('<object id="1"', '<object'), 'type_other': ('type="model"', 'type="other"'),
-        'type_odd': ('type="model"', 'type="odd"'), 'item_missing': ('objectid="1"', 'objectid="2"'),
+        'type_odd': ('type="model"', 'type="odd"'),
+        'surface': ('type="model"', 'type="surface"'), 'item_missing': ('objectid="1"', 'objectid="2"'),
         'no_item': ('<item objectid="1"/>', ''), 'no_build': ('<build><item objectid="1"/></build>', ''),
         'no_triangles': (TRIANGLES, ''), 'no_vertices': (VERTICES, ''), 'no_mesh': (MESH, ''),
         'two_meshes': (MESH, MESH + MESH), 'no_namespace': (f' xmlns="{CORE}"', ''),
@@ -62,7 +75,7 @@ def changes():
     }
     accepted = {
         'plain': ('', ''), 'blank_numbers': ('x="1"', 'x=" 1\n"'), 'comment': ('<build>', '<!--a--><build>'),
-        'surface': ('type="model"', 'type="surface"'), 'no_unit': (' unit="millimeter"', ''),
+        'no_unit': (' unit="millimeter"', ''),
         'metadata': ('<resources>', '<metadata name="a">b</metadata><resources>'),
         'foreign': ('<resources>', '<a:b xmlns:a="urn:a"><a:c/></a:b><resources>'),
         'colours': ('v3="1"', 'v3="1" pid="9" p1="0"'),
@@ -78,6 +91,8 @@ def models():
         yield name, model
     for cut in range(0, len(MODEL), 150):
         yield f'cut_{cut}', MODEL[:cut]
+    for name, config in CONFIGS.items():  # of slicers, behind a zero byte
+        yield f'config_{name}', COMPOSITE + '\0' + config
 
 
 def packages(cases):
@@ -103,6 +118,11 @@ def packages(cases):
                  'a tag of more than')
 
 
+def with_config(name):
+    part = 'Metadata/model_settings.config' if name.startswith('bambu') else 'Metadata/Slic3r_PE_model.config'
+    return package({'_rels/.rels': RELATIONS, '3D/3dmodel.model': COMPOSITE, part: CONFIGS[name]})
+
+
 def all_cases():
     cases = Cases('3mf')
     for name, outcome, model in changes():
@@ -113,4 +133,8 @@ def all_cases():
     for cut in range(0, len(MODEL), 61):
         cases.refuse(f'model_cut_{cut}', of_model(MODEL[:cut]))
     packages(cases)
+    for name, faces in (('prusa', 4), ('prusa_old', 6), ('bambu', 4)):
+        cases.accept(f'config_{name}', faces, with_config(name), 'bodies: left out: 1 ' if name == 'bambu' else 'bodies: left out: 2 ')
+    for name in ('prusa_negative', 'bambu_negative'):
+        cases.refuse(f'config_{name}', with_config(name), 'has a negative volume')
     return cases

@@ -196,7 +196,9 @@ class Package:
         if self.has_parts:
             parts[OTHER_PART[1:]] = self._model(False)
         if self.is_prusa:
-            parts["Metadata/Slic3r_PE_model.config"] = self._prusa_config()
+            config = self._prusa_config()
+            for name in self.random.choice((("Slic3r_PE",), ("Slic3r_PE", "SuperSlicer", "Slic3r"), ("SuperSlicer",), ("Slic3r",))):
+                parts[f"Metadata/{name}_model.config"] = config
         if self.is_bambu:
             parts["Metadata/model_settings.config"] = self._bambu_config()
         names = list(parts)

@@ -262,13 +262,13 @@ TEST_CASE("Cura's meshes for infill and supports are no bodies") {
 }
 
 /// PrusaSlicer's: one mesh of two volumes, a face each, the second of some type.
-std::string with_volume(const std::string& metadata,
-                        const std::string& ids = "\"1\" lastid=\"1\"") {
+std::string with_volume(const std::string& metadata, const std::string& ids = "\"1\" lastid=\"1\"",
+                        const std::string& program = "Slic3r_PE") {
   std::string mesh = kTriangleMesh;
   mesh.insert(mesh.find("</triangles>"), "<triangle v1=\"2\" v2=\"1\" v3=\"0\"/>");
   return package_of(
       model_of(object_of("1", mesh), item("1")),
-      {{"Metadata/Slic3r_PE_model.config",
+      {{"Metadata/" + program + "_model.config",
         "<config><object id=\"1\"><metadata type=\"object\" key=\"modifier\" "
         "value=\"1\"/><volume firstid=\"0\" lastid=\"0\"><metadata key=\"volume_type\" "
         "value=\"ModelPart\"/></volume><volume firstid=" +
@@ -308,6 +308,21 @@ TEST_CASE("PrusaSlicer's modifiers are no bodies, and a negative volume is refus
   check_refused(with_volume("", "\"0\" lastid=\"1\""), "volumes of object 1 overlap at face 0");
   check_refused(with_volume("", "\"x\" lastid=\"1\""), "firstid is 'x'");
   check_refused(with_volume("", "\"2\" lastid=\"1\""), "a volume of faces 2 to 1");
+}
+
+TEST_CASE("relatives of PrusaSlicer keep volumes in files of their own, or in all of them") {
+  const std::string modifier = "<metadata key=\"volume_type\" value=\"1\"/>";
+  for (const char* program : {"SuperSlicer", "Slic3r"})
+    CHECK(parse(with_volume(modifier, "\"1\" lastid=\"1\"", program)).faces.size() == 1);
+  std::string mesh = kTriangleMesh;
+  mesh.insert(mesh.find("</triangles>"), "<triangle v1=\"2\" v2=\"1\" v3=\"0\"/>");
+  const std::string config = "<config><object id=\"1\"><volume firstid=\"1\" lastid=\"1\">" +
+                             modifier + "</volume></object></config>";
+  Parts configs;
+  for (const char* program : {"Slic3r", "Slic3r_PE", "SuperSlicer"})
+    configs.emplace_back("Metadata/" + std::string(program) + "_model.config", config);
+  CHECK(parse(package_of(model_of(object_of("1", mesh), item("1")), configs)).notes ==
+        std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
 }
 
 TEST_CASE("Bambu Studio's parts have their kinds beside the model") {

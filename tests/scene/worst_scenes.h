@@ -125,7 +125,22 @@ inline SceneFiles worst_3mf(size_t size) {
   std::string objects;
   for (size_t i = 2; objects.size() < size; ++i)
     objects += object_of(std::to_string(i), "<components>" + component + "</components>");
+  const std::string support = object_of("2", kTriangleMesh, "type=\"support\"");
+  std::string others, volumes;
+  for (size_t i = 3; others.size() < size; ++i)
+    others += object_of(std::to_string(i), "<components><component objectid=\"2\"/></components>");
+  for (size_t i = 0; volumes.size() < size; ++i) {
+    const std::string face = "=\"" + std::to_string(i) + "\"";
+    volumes += "<volume firstid" + face + " lastid" + face + "/>";
+  }
   return {
+      {"others.3mf", package(support + others, "")},
+      {"supports.3mf",
+       package(object_of("2", mesh_of(vertex, times(triangle, size / 70)), "type=\"support\""),
+               times("<item objectid=\"2\"/>", size / 42))},
+      {"volumes.3mf", package_of(model_of(object_of("1", kTriangleMesh), "<item objectid=\"1\"/>"),
+                                 {{"Metadata/Slic3r_PE_model.config",
+                                   "<config><object id=\"1\">" + volumes + "</object></config>"}})},
       {"vertices.3mf", package(object_of("2", mesh_of(rows(vertex), "")), "")},
       {"triangles.3mf",
        package(object_of("2", mesh_of(vertex, rows(triangle))), "<item objectid=\"2\"/>")},

@@ -19,7 +19,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     have verdict, and tol is 1e-7. tol is 1e-6 else; it, symmetric, memory, waves, disable, enable and preset are those of
     distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
-    pays there.
+    pays there. max_input, polygons and bodies are those of read().
 
     Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or
     one that was not asked for. That is 2 * lanes * together of a GPU (96) a device if None. No pair is taken while meshes
