@@ -183,12 +183,16 @@ class Run:
         """Ctrl-C: exit code 3 and a true interval. Asked again later where the program had not yet begun."""
         words = self.platform.words("vkhausdorff", ["distance", *meshes.write_long(self.platform.build), "--tol", "1e-13", "--json"])
         seen = ""
-        for wait in (1.5, 2.5, 4, 6, 12):
+        for wait in (1.5, 2.5, 4, 6, 12, 30, 60):
             running = subprocess.Popen(words, env=self.platform.environment, cwd=self.platform.build,
                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             time.sleep(wait)
             running.send_signal(signal.SIGINT)
-            out, err = running.communicate(timeout=120)
+            try:
+                out, err = running.communicate(timeout=60)
+            except subprocess.TimeoutExpired:  # a signal that comes before anybody listens is lost
+                running.kill()
+                out, err = running.communicate()
             if running.returncode == 3 and CANCELLED in out:
                 answer = json.loads(out)
                 interval = answer["interval"]
