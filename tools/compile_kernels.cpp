@@ -88,10 +88,10 @@ int missing(const Names& compiled, VkBool32 by_address) {
   return count;
 }
 
-// mesh.vert and mesh.frag; a Raster creates their pipeline.
+// mesh.vert and mesh.frag.
 const char* compile_pictures(const vkh::Device& device) {
   if (!device.has_graphics()) return "no pictures: its queue has no graphics";
-  const vkh::drawing::Raster raster(device, 1, 1);
+  const vkh::drawing::RasterPipeline pipeline(device);
   return "and those of pictures";
 }
 

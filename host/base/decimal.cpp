@@ -4,8 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace vkh {
 namespace {
@@ -95,11 +93,19 @@ int digits_that_matter(double value, double gap) {
   return static_cast<int>(std::clamp(past_gap + 3, 3.0, static_cast<double>(kJsonDigits)));
 }
 
+std::string number_text(double value, std::chars_format format, int digits) {
+  std::array<char, 400> text;  // 309 digits before the point, at most
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
+  return {text.data(), end};
+}
+
 std::string shortest_decimal(double value) {
-  char text[40] = "";
+  std::string text;
   for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
+    text = number_text(value, std::chars_format::general, digits);
+    double read = 0;
+    std::from_chars(text.data(), text.data() + text.size(), read);
+    if (read == value) break;
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // Doubles as decimals that never lie: rounded exactly, in the direction that is asked for.
 #pragma once
 
+#include <charconv>
 #include <string>
 
 namespace vkh {
@@ -13,6 +14,10 @@ inline constexpr int kJsonDigits = 18;  ///< rounded outward, and read back as t
 /// zeros. Exact: the printed decimal is <= value (kDown) or >= value (kUp), by less than one unit
 /// of its last digit, and equal where it can be. "inf", "-inf" or "nan" for what is no number.
 std::string decimal(double value, int digits, Rounding rounding);
+
+/// As printf has it with %.{digits}f, e or g in the C locale. printf itself takes the program's
+/// locale, whose decimal point may be a comma.
+std::string number_text(double value, std::chars_format format, int digits);
 
 /// The shortest decimal, of six digits or more, that is read back as the same double.
 std::string shortest_decimal(double value);

@@ -186,28 +186,33 @@ Raster::Raster(const Device& device, Empty, uint32_t width, uint32_t height)
       corners_(device, 3 * kFacesAtOnce * sizeof(Corner), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
                Placement::kUpload),
       read_(device, VkDeviceSize{4} * extent_.width * extent_.height,
-            VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback) {}
+            VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback),
+      pipeline_(device) {}
 
-// Delegating: what was created is destroyed if a later step throws.
+// Delegating, here and below: what was created is destroyed if a later step throws.
 Raster::Raster(const Device& device, uint32_t width, uint32_t height)
     : Raster(device, Empty{}, width, height) {
+  make_framebuffer();
+}
+
+Raster::~Raster() { device_.vk().DestroyFramebuffer(device_.handle(), framebuffer_, nullptr); }
+
+RasterPipeline::RasterPipeline(const Device& device) : RasterPipeline(device, Empty{}) {
   clearing_ = make_pass(true);
   keeping_ = make_pass(false);
-  make_framebuffer();
   make_layout();
   make_pipeline();
 }
 
-Raster::~Raster() {
+RasterPipeline::~RasterPipeline() {
   const VulkanApi& vk = device_.vk();
   vk.DestroyPipeline(device_.handle(), pipeline_, nullptr);
   vk.DestroyPipelineLayout(device_.handle(), layout_, nullptr);
-  vk.DestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
   vk.DestroyRenderPass(device_.handle(), keeping_, nullptr);
   vk.DestroyRenderPass(device_.handle(), clearing_, nullptr);
 }
 
-VkRenderPass Raster::make_pass(bool clears) {
+VkRenderPass RasterPipeline::make_pass(bool clears) {
   const std::array<VkAttachmentDescription, 2> attachments = {
       description_of(kColour, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, clears),
       description_of(kDepth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, clears)};
@@ -237,7 +242,7 @@ void Raster::make_framebuffer() {
   const std::array<VkImageView, 2> views = {colour_.view(), depth_.view()};
   VkFramebufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-  info.renderPass = clearing_;  // the other one is compatible
+  info.renderPass = pipeline_.clearing();  // the other one is compatible
   info.attachmentCount = static_cast<uint32_t>(views.size());
   info.pAttachments = views.data();
   info.width = extent_.width;
@@ -247,7 +252,7 @@ void Raster::make_framebuffer() {
              framebuffer_, "creating a framebuffer");
 }
 
-void Raster::make_layout() {
+void RasterPipeline::make_layout() {
   const VkPushConstantRange constants{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Constants)};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -257,7 +262,7 @@ void Raster::make_layout() {
              "creating a pipeline layout");
 }
 
-void Raster::make_pipeline() {
+void RasterPipeline::make_pipeline() {
   const Shader vertex(device_, k_mesh_vert), fragment(device_, k_mesh_frag);
   const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
       vertex.stage(VK_SHADER_STAGE_VERTEX_BIT), fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
@@ -281,13 +286,13 @@ void Raster::draw_some(VkExtent2D samples, double line, size_t face_count, bool 
   clear[1].depthStencil = {1, 0};
   VkRenderPassBeginInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-  info.renderPass = first ? clearing_ : keeping_;
+  info.renderPass = first ? pipeline_.clearing() : pipeline_.keeping();
   info.framebuffer = framebuffer_;
   info.renderArea.extent = samples;
   info.clearValueCount = static_cast<uint32_t>(clear.size());
   info.pClearValues = clear.data();
   vk.CmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.pipeline());
   const VkViewport viewport{
       0, 0, static_cast<float>(samples.width), static_cast<float>(samples.height), 0, 1};
   const VkRect2D scissor{{0, 0}, samples};
@@ -295,8 +300,8 @@ void Raster::draw_some(VkExtent2D samples, double line, size_t face_count, bool 
   vk.CmdSetScissor(commands, 0, 1, &scissor);
   const Constants constants{static_cast<float>(line * samples_ / 2),
                             static_cast<float>(line * samples_ * kHatchLines)};
-  vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
-                      &constants);
+  vk.CmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                      sizeof(constants), &constants);
   const VkBuffer corners = corners_.handle();
   const VkDeviceSize offset = 0;
   vk.CmdBindVertexBuffers(commands, 0, 1, &corners, &offset);

@@ -25,6 +25,32 @@ struct Layer {
   std::vector<uint8_t> rgba;
 };
 
+/// What draws, without memory: passes, layout and pipeline of mesh.vert and mesh.frag.
+class RasterPipeline {
+ public:
+  explicit RasterPipeline(const Device& device);
+  ~RasterPipeline();
+  RasterPipeline(const RasterPipeline&) = delete;
+  RasterPipeline& operator=(const RasterPipeline&) = delete;
+
+  VkRenderPass clearing() const { return clearing_; }
+  VkRenderPass keeping() const { return keeping_; }  ///< what earlier passes drew
+  VkPipelineLayout layout() const { return layout_; }
+  VkPipeline pipeline() const { return pipeline_; }
+
+ private:
+  struct Empty {};
+  RasterPipeline(const Device& device, Empty) : device_(device) {}
+  VkRenderPass make_pass(bool clears);
+  void make_layout();
+  void make_pipeline();
+
+  const Device& device_;
+  VkRenderPass clearing_ = VK_NULL_HANDLE, keeping_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
 /// Draws layers, each of up to width x height pixels, with several samples a side of a pixel.
 class Raster {
  public:
@@ -40,10 +66,7 @@ class Raster {
  private:
   struct Empty {};
   Raster(const Device& device, Empty, uint32_t width, uint32_t height);
-  VkRenderPass make_pass(bool clears);
   void make_framebuffer();
-  void make_layout();
-  void make_pipeline();
   void draw_some(VkExtent2D samples, double line, size_t face_count, bool first);
   void read_back(VkExtent2D samples);
   Layer averaged(VkExtent2D pixels) const;
@@ -54,10 +77,8 @@ class Raster {
   Attachment colour_, depth_;
   Submitter submitter_;
   Buffer corners_, read_;
-  VkRenderPass clearing_ = VK_NULL_HANDLE, keeping_ = VK_NULL_HANDLE;
+  RasterPipeline pipeline_;
   VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
-  VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
 }  // namespace vkh::drawing

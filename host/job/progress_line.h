@@ -38,11 +38,11 @@ class ProgressLine {
     const std::lock_guard lock(mutex_);
     if (!is_time()) return;
     std::array<char, 160> line{};
-    std::snprintf(line.data(), line.size(), "%s  wave %u  %llu candidates  [%s, %s]  gap %.2e",
-                  p.back ? "h(B,A)" : "h(A,B)", p.wave,
-                  static_cast<unsigned long long>(p.candidates),
-                  decimal(p.lower, 7, Rounding::kDown).c_str(),
-                  decimal(p.upper, 7, Rounding::kUp).c_str(), p.gap);
+    std::snprintf(
+        line.data(), line.size(), "%s  wave %u  %llu candidates  [%s, %s]  gap %s",
+        p.back ? "h(B,A)" : "h(A,B)", p.wave, static_cast<unsigned long long>(p.candidates),
+        decimal(p.lower, 7, Rounding::kDown).c_str(), decimal(p.upper, 7, Rounding::kUp).c_str(),
+        number_text(p.gap, std::chars_format::scientific, 2).c_str());
     show_line(line.data());
   }
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
@@ -25,16 +23,15 @@ constexpr double kNiceFactors[] = {5, 2, 1};
 
 // The double nearest to a decimal of few digits. The decimal itself lies between its neighbours.
 Step step_of(double digits, int exponent) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.0fe%d", digits, exponent);
+  const std::string text =
+      number_text(digits, std::chars_format::fixed, 0) + "e" + std::to_string(exponent);
   Step step;
-  step.value = std::strtod(text.data(), nullptr);
+  std::from_chars(text.data(), text.data() + text.size(), step.value);
   if (step.value > 0) {
     step.limit = {std::nextafter(step.value, 0.0),
                   std::nextafter(step.value, std::numeric_limits<double>::infinity())};
   }
-  std::snprintf(text.data(), text.size(), "%.6g", step.value);
-  step.label = text.data();
+  step.label = number_text(step.value, std::chars_format::general, 6);
   return step;
 }
 

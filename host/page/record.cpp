@@ -76,11 +76,9 @@ std::string command_text(const Json& json) {
 }
 
 std::string duration_text(double ms) {
-  std::array<char, 32> text{};
   const bool is_short = ms < 1000;
-  std::snprintf(text.data(), text.size(), is_short ? "%.3g\u00a0ms" : "%.3g\u00a0s",
-                is_short ? ms : ms / 1e3);
-  return text.data();
+  return number_text(is_short ? ms : ms / 1e3, std::chars_format::general, 3) +
+         (is_short ? "\u00a0ms" : "\u00a0s");
 }
 
 std::string times_text(const PageText& page) {

@@ -1,7 +1,6 @@
 #include "host/record/tables.h"
 
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "host/base/decimal.h"
@@ -30,11 +29,7 @@ std::string bound(double value, Rounding rounding) {
   return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
 }
 
-std::string milliseconds(double ms) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", ms);
-  return text;
-}
+std::string milliseconds(double ms) { return number_text(ms, std::chars_format::fixed, 3); }
 
 }  // namespace
 
