@@ -25,7 +25,7 @@ void check_memory(const VkhMemory& memory) {
   VKH_RULE("VkhMemory::offset: a multiple of 256 bytes", memory.offset % 256 == 0);
 }
 
-bool overlap(const VkhMemory& memory, const VkhHierarchy& hierarchy) {
+bool overlaps_any(const VkhMemory& memory, const VkhHierarchy& hierarchy) {
   const auto with_it = [&](const VkhMemory& range) { return overlap(memory, range); };
   return with_it(hierarchy.memory) ||
          std::any_of(std::begin(hierarchy.more), std::end(hierarchy.more), with_it);
@@ -72,7 +72,7 @@ void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& 
   check_memory(*scratch);
   VKH_RULE("scratch: at least scratchSize bytes",
            scratch->size >= scratch_size(mesh.faceCount).all);
-  VKH_RULE("scratch and hierarchy: apart", !overlap(*scratch, hierarchy));
+  VKH_RULE("scratch and hierarchy: apart", !overlaps_any(*scratch, hierarchy));
 }
 
 void check_begin(const VkhProblem& p) {
@@ -93,7 +93,7 @@ void check_problem(const VkhContext_T& context, const VkhProblem& p) {
   VKH_RULE("VkhProblem::workspace: at least VkhWorkspaceRequirements::minimum bytes",
            p.workspace.size >= workspace_size(p.a.vertexCount, p.a.faceCount, kSmallestCapacity,
                                               context.limits.switches));
-  VKH_RULE("VkhProblem::workspace and ::b: apart", !overlap(p.workspace, p.b));
+  VKH_RULE("VkhProblem::workspace and ::b: apart", !overlaps_any(p.workspace, p.b));
   const bool covers = gpu::covers_area(context.limits.switches, context.limits.wide);
   VKH_RULE("VkhProblem::coverageBuffer: with a context of VKH_SWITCH_COVERAGE, and with no other",
            (p.coverageBuffer != VK_NULL_HANDLE) == covers);
@@ -105,7 +105,7 @@ void check_move(const VkhProblem& p, const VkhMemory& to) {
   const bool stays = to.buffer == p.workspace.buffer && to.offset == p.workspace.offset;
   VKH_RULE("vkhCmdMoveRun: the run's own workspace, or one apart from it",
            stays || !overlap(to, p.workspace));
-  VKH_RULE("vkhCmdMoveRun: a workspace apart from VkhProblem::b", !overlap(to, p.b));
+  VKH_RULE("vkhCmdMoveRun: a workspace apart from VkhProblem::b", !overlaps_any(to, p.b));
   VKH_RULE("vkhCmdMoveRun: at least as large as the run's workspace",
            stays ? to.size == p.workspace.size : to.size >= p.workspace.size);
 }
