@@ -68,7 +68,7 @@ void explain_bus_errors() {
   backtrace(first.data(), 1);  // loads what it needs
   struct sigaction action {};
   action.sa_sigaction = explain;
-  action.sa_flags = SA_SIGINFO | SA_RESETHAND;
+  action.sa_flags = static_cast<int>(SA_SIGINFO | SA_RESETHAND);
   sigaction(SIGBUS, &action, nullptr);
 }
 
