@@ -198,7 +198,7 @@ inline Direction read_direction(const std::vector<unsigned char>& file, Bytes& b
   return out;
 }
 
-/// Of the polygon after those of lower faces than `next`.
+/// Reads the next polygon, whose face is at least `next`.
 inline Triangulation read_triangulation(Bytes& bytes, uint64_t next) {
   Triangulation out{};
   out.face = next + bytes.count();

@@ -128,7 +128,7 @@ std::array<std::string, 2> check_direction(const Question& question,
           how};
 }
 
-/// What the proof takes from the file's description, for people.
+/// Tells people how a mesh was read: bodies, polygons, ambiguity.
 std::string described(const Certificate& certificate, size_t which) {
   if (!certificate.read) return "";
   const Description& read = (*certificate.read)[which];

@@ -118,7 +118,7 @@ Words words_of(const VkhMesh& mesh) {
   return {push, high.words, indices.words, low.words};
 }
 
-// What a build or a refit takes B from: whether it is a mesh stays with the hierarchy.
+// Keeps with the hierarchy whether B, as a build or a refit takes it, is a mesh.
 void record_fault(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   rec.fill(h.fault, layout_fault(b), Order::kIndependent);
   record_check(rec, b, h.fault, 0);

@@ -106,7 +106,7 @@ struct AskedCells {
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
-// Of a run whose B was never built: that, and nothing else.
+// Reports that A or B is no mesh, where nothing was built, and nothing else.
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-// What words of vertices an index of 31 bits reaches.
+// Limits vertices to the words that an index of 31 bits reaches.
 constexpr uint64_t kMostVertexBytes = uint64_t{8} << 30;
 
 inline bool overlap(const VkhMemory& a, const VkhMemory& b) {

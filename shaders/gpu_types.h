@@ -204,8 +204,8 @@ VKH_CONST uint kMaxWaveRecords = 64u;
 // cell_bounds: triangles of B that are looked at for one cell before boxes stand for the rest.
 VKH_CONST uint kCellTriangles = 128u;
 
-// What is wrong with a mesh: kNone, the least face of it that is no triangle, or, known when it is
-// recorded, that its VkhMesh describes none.
+// A mesh's fault is kNone, the least face of it that is no triangle, or this: its VkhMesh describes
+// none, which is known when it is recorded.
 VKH_CONST uint kFaultLayout = 0xfffffffeu;
 // Coordinates that the analysis of errors covers, as the bits of a float: 2^15.
 VKH_CONST uint kLargestCoordinate = 0x47000000u;
@@ -449,8 +449,8 @@ struct SelfTestAnswer {
   uint rank;      // and of them those before this one
 };
 
-// What the invocations of a subgroup that ran one piece of code together saw of each other: each
-// subgroup operation that a kernel uses, of the invocations in `ballot`.
+// Results of each subgroup operation that a kernel uses, over the invocations in `ballot`, which
+// ran one piece of code together.
 struct SelfTestGroup {
   uvec4 ballot;
   uint subgroup, lane;

@@ -108,7 +108,7 @@ int compile_here() {
   return failed == 0 ? 0 : 1;
 }
 
-// What the child wrote to stderr; `status` as waitpid has it.
+// Returns what the child wrote to stderr, and its `status` as waitpid has it.
 std::string run_for(const char* family, int& status) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");

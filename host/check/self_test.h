@@ -33,7 +33,7 @@ void judge_self_test(std::span<const gpu::SelfTestQuestion> questions,
                      std::span<const gpu::SelfTestAnswer> answers,
                      const gpu::SelfTestTotals& totals, SelfTestResult& result);
 
-/// Of the first items: what their subgroups saw. Which invocations run together in divergent
+/// Judges what the subgroups of the first items saw. Which invocations run together in divergent
 /// control flow is the device's to choose; each operation must agree with the ballot about it.
 void judge_groups(std::span<const gpu::SelfTestQuestion> questions,
                   std::span<const gpu::SelfTestGroups> groups, SelfTestResult& result);

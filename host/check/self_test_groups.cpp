@@ -26,13 +26,13 @@ uint32_t last_turn(const Question& q) { return q.bits & 3u; }
 enum class Flow { kWhole, kBranch, kLoop };
 constexpr std::array kFlowNames{"in a whole subgroup", "in a branch", "in a loop"};
 
-/// What an invocation gave its subgroup.
+/// Holds an invocation's operands, which its subgroup combines.
 struct Given {
   uint32_t item;
   float a, b;
 };
 
-/// What all operations should have given one invocation.
+/// Holds the results that one invocation should have had of each operation.
 struct Expected {
   uint32_t members = 0, first = 0, first_item = 0, rank = 0, sum = 0;
   gpu::vec3 least{}, highest{};

@@ -25,7 +25,7 @@ struct Layer {
   std::vector<uint8_t> rgba;
 };
 
-/// What draws, without memory: passes, layout and pipeline of mesh.vert and mesh.frag.
+/// Owns the passes, layout and pipeline of mesh.vert and mesh.frag, and no memory to draw into.
 class RasterPipeline {
  public:
   explicit RasterPipeline(const Device& device);
@@ -34,7 +34,7 @@ class RasterPipeline {
   RasterPipeline& operator=(const RasterPipeline&) = delete;
 
   VkRenderPass clearing() const { return clearing_; }
-  VkRenderPass keeping() const { return keeping_; }  ///< what earlier passes drew
+  VkRenderPass keeping() const { return keeping_; }  ///< keeps what earlier passes drew
   VkPipelineLayout layout() const { return layout_; }
   VkPipeline pipeline() const { return pipeline_; }
 

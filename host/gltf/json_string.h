@@ -1,4 +1,4 @@
-// What a string of JSON says, of the bytes that the document writes.
+// Decodes strings of JSON, escapes included, from the bytes of the document.
 #pragma once
 
 #include <array>

@@ -68,7 +68,7 @@ struct Polygons {
   /// lie in no plane leave open. Those that have only a fan are not among them.
   double ambiguity = 0;
   uint64_t ambiguous_face = 0;  ///< the first with this ambiguity, as the file counts from 0
-  /// Those that were clipped or fanned, in the order of their faces: a certificate holds them.
+  /// Holds one for each face that was clipped or fanned, in their order: a certificate has them.
   std::vector<Triangulation> triangulations = {};
 };
 

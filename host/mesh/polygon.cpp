@@ -323,7 +323,8 @@ class Clipper {
     return false;
   }
 
-  // Of the outline's width, summed: how much triangles lie beside each other along an axis.
+  // Sums the triangles' widths along an axis, as a multiple of the outline's: the less, the fewer
+  // lie beside each other.
   double extent(const std::vector<Triangle>& triangles, size_t k) const {
     double sum = 0;
     for (const Triangle& t : triangles) sum += most(t, k) / 2 - least(t, k) / 2;

@@ -14,7 +14,7 @@ struct PolygonResult {
   /// Any triangulation with this outline is as near to this one, both ways; 0 for a flat one whose
   /// plane an axis is normal to.
   double ambiguity = 0;
-  /// What is clipped, with the axis along which it was looked at: corners by their place.
+  /// Triangles of a clipped polygon, corners by their place, and the axis along which they tile it.
   std::vector<UVec3> triangles = {};
   int axis = 0;
 };

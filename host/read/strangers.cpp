@@ -79,7 +79,7 @@ Stranger told(const Format& format) {
   return {name + ", which is not read", "the mesh exported" + as};
 }
 
-// Of formats in XML the root element tells, behind a declaration and comments.
+// Tells a format in XML by its root element, behind a declaration and comments.
 Stranger stranger_in_xml(std::string_view head) {
   struct Root {
     std::string_view begin, extension;

@@ -6,7 +6,7 @@
 
 namespace vkh {
 
-/// What to say about a file of such a format. `what` is empty where it is none that is known.
+/// Says what such a file is, and what to do. `what` is empty where the format is not known.
 struct Stranger {
   std::string what;      ///< "a STEP file (CAD surfaces, no triangles)"
   std::string expected;  ///< "a mesh: export the part as STL, OBJ, PLY, OFF, glTF or 3MF"

@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// What is expected in place of points alone.
+/// Ends an error about points alone: it says what was expected.
 inline constexpr const char* kAMesh = "a mesh: export the surface as triangles (STL, OBJ, PLY)";
 
 /// "1 face", "2 faces": for notes and errors.

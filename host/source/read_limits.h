@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// What becomes of a polygon whose outline crosses itself, encloses no area or is too intricate.
+/// Chooses for polygons whose outline crosses itself, encloses no area or is too intricate.
 enum class OddPolygons {
   kRefused,  ///< its face is named in an InputError
   kFanned,   ///< the fan of its corners is measured, whatever that covers, and noted
@@ -23,7 +23,7 @@ enum class Bodies {
   kAll,    ///< every shape as it lies; a note counts those that are no bodies
 };
 
-/// What a file may cost and hold, and who may call its reading off.
+/// Limits what a file may cost, chooses what of it is read, and lets reading be called off.
 struct ReadLimits {
   /// Bytes that a file may have, and that its mesh may take (mesh_bytes). A file that breaks it is
   /// refused before the work. Reading takes at most six times the larger of both, and so at most

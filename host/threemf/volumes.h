@@ -1,4 +1,4 @@
-// What slicers keep beside a 3MF model: which of its volumes are no bodies.
+// Reads what slicers keep beside a 3MF model: which of its volumes are no bodies.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace vkh::threemf {
 
-/// What a shape is for. Only bodies are printed as they lie; a negative volume is subtracted.
+/// Tells what a shape is for. Only bodies are printed as they lie; a negative volume is subtracted.
 enum class Role {
   kBody,
   kModifier,

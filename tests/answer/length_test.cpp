@@ -54,7 +54,7 @@ TEST_CASE("what is no length is refused, and a limit is no number alone") {
                        "--unit 'miles': expected um, mm, cm, m, in or ft", UsageError);
 }
 
-/// What is to be written in place of it; empty where nothing is proposed.
+/// Returns what an error proposes to write; empty where it proposes nothing.
 std::string proposed(const std::string& text, PlainNumber plain = PlainNumber::kRefused) {
   try {
     parse_length("--max", text, plain);

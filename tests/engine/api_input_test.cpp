@@ -67,7 +67,7 @@ void check_refused(const VkhReport& r, uint32_t face_a, uint32_t face_b) {
   });
 }
 
-// Of A's first `count` faces.
+// Bounds A's first `count` faces, a cell each.
 std::vector<VkhCellBounds> cells_of(ApiPair& pair, uint32_t count, bool builds = true) {
   const size_t bytes = std::max(count, 1u) * sizeof(VkhCellBounds);
   Buffer buffer(test_device(), bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kReadback);

@@ -1,5 +1,5 @@
-// What a caller may write into a vkh::Mesh, which is an open struct: each is an answer, or an
-// InputError that names the element.
+// A caller may write anything into a vkh::Mesh, which is an open struct: the solver gives an
+// answer, or an InputError that names the element.
 #include <doctest/doctest.h>
 
 #include <chrono>

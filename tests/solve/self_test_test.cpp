@@ -28,7 +28,7 @@ struct Answers {
 
 constexpr uint32_t kSubgroup = 16;
 
-/// What a device with subgroups of 16 would answer in this arithmetic.
+/// Answers as a device with subgroups of 16 would in this arithmetic.
 Answers answered(const Cpu& device) {
   Answers out;
   out.questions = self_test_questions(7, 1024);
@@ -97,7 +97,7 @@ std::string composed_fault(const Cpu& device, uint32_t count) {
   return result.fault;
 }
 
-/// What a device with subgroups of 16 would answer; `keep` decides who is beside whom.
+/// Answers as a device with subgroups of 16 would; `keep` decides who is beside whom.
 gpu::SelfTestGroup looked(const std::vector<gpu::SelfTestQuestion>& questions, uint32_t item,
                           uint32_t turn, bool swaps, const std::function<bool(uint32_t)>& keep) {
   gpu::SelfTestGroup g{};

@@ -73,7 +73,8 @@ void explain_bus_errors() {
 }
 
 }  // namespace vkh::test
-// As the C library's, but for the signals of faults.
+
+// Replaces the C library's, so that nobody blocks the signals of faults.
 extern "C" __attribute__((visibility("default"))) int pthread_sigmask(int how, const sigset_t* set,
                                                                       sigset_t* old) noexcept {
   static const auto next =

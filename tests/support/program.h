@@ -37,7 +37,7 @@ Outcome finish(const Running& running);
 void wait_until_caught(const Running& running, int signal);
 /// So far, of all its threads.
 double processor_seconds(const Running& running);
-/// Of all programs that finish() has waited for.
+/// Sums over all programs that finish() has waited for.
 double processor_seconds_of_ended();
 
 /// start and finish; a death by signal fails the test.
