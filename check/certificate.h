@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -54,7 +53,8 @@ struct Certificate {
   std::array<uint64_t, 2> faces;
   std::array<double, 2> delta;
   std::array<std::string, 2> file, corners;  ///< SHA-256; an empty one of a file: there is none
-  std::optional<std::array<Description, 2>> read;  ///< from version 2 on
+  unsigned version = 0;
+  std::array<Description, 2> read;  ///< empty in version 1
   std::vector<Direction> directions;
 };
 
@@ -254,11 +254,11 @@ inline unsigned read_version(Bytes& bytes) {
 /// Throws Broken at the first byte that is not as the format says.
 inline Certificate read_certificate(const std::vector<unsigned char>& file) {
   Bytes bytes(file, 0, file.size());
-  const unsigned version = read_version(bytes);
+  Certificate out;
+  out.version = read_version(bytes);
   const uint32_t directions = bytes.word();
   bytes.expect(directions == 1 || directions == 2, "neither one direction nor two");
   bytes.expect(bytes.word() == 0, "not 0");
-  Certificate out;
   for (uint64_t& faces : out.faces) {
     faces = bytes.take(8);
     bytes.expect(faces >= 1 && faces <= uint64_t{1} << 28, "no face, or too many");
@@ -269,13 +269,12 @@ inline Certificate read_certificate(const std::vector<unsigned char>& file) {
     if (hash == std::string(64, '0')) hash.clear();
   }
   for (std::string& hash : out.corners) hash = bytes.hash();
-  if (version >= 2) {
-    out.read.emplace();
-    for (Description& description : *out.read) description = read_description(bytes);
+  if (out.version > 1) {
+    for (Description& description : out.read) description = read_description(bytes);
   }
   for (size_t x = 0; x < directions; ++x) {
     out.directions.push_back(
-        read_direction(file, bytes, out.faces[x], out.faces[1 - x], version >= 2 ? 16 : 8));
+        read_direction(file, bytes, out.faces[x], out.faces[1 - x], out.version > 1 ? 16 : 8));
   }
   bytes.expect(bytes.left() == 0, "more bytes after the last block");
   return out;

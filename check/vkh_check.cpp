@@ -47,16 +47,27 @@ Mesh read(const Certificate& certificate, size_t which, const std::string& name)
   };
   // Version 1 does not say how polygons became triangles: their corners' hash tells.
   ReadLimits limits{.odd_polygons = OddPolygons::kFanned};
-  const Description how = certificate.read ? (*certificate.read)[which] : Description{};
-  if (certificate.read) limits.triangulate = GivenPolygons(how.polygons, name);
+  const Description& how = certificate.read[which];
+  if (certificate.version > 1) limits.triangulate = GivenPolygons(how.polygons, name);
   if (how.has_all_bodies) limits.bodies = Bodies::kAll;
-  Mesh mesh = read_mesh(path_of(name), limits);
-  expect(!certificate.read || mesh.polygons.triangulations.size() == how.polygons.size(),
+  const auto expect_file = [&] {
+    const std::string& file = certificate.file[which];
+    expect(file.empty() || sha256_of(path_of(name), [] { return true; }) == file,
+           ": is another file (SHA-256)");
+  };
+  const auto read_it = [&] {
+    try {
+      return read_mesh(path_of(name), limits);
+    } catch (const Refused&) {  // over polygons, but another file has others
+      expect_file();
+      throw;
+    }
+  };
+  Mesh mesh = read_it();
+  expect(certificate.version == 1 || mesh.polygons.triangulations.size() == how.polygons.size(),
          ": has no such polygons");
-  const std::string& file = certificate.file[which];
   expect(mesh.faces.size() == certificate.faces[which], ": has another number of faces");
-  expect(file.empty() || sha256_of(path_of(name), [] { return true; }) == file,
-         ": is another file (SHA-256)");
+  expect_file();
   expect(sha256_of_corners(mesh) == certificate.corners[which], ": has other corners (SHA-256)");
   expect(mesh.delta <= certificate.delta[which], ": is read less exactly than delta says");
   return mesh;
@@ -130,8 +141,7 @@ std::array<std::string, 2> check_direction(const Question& question,
 
 /// Tells people how a mesh was read: bodies, polygons, ambiguity.
 std::string described(const Certificate& certificate, size_t which) {
-  if (!certificate.read) return "";
-  const Description& read = (*certificate.read)[which];
+  const Description& read = certificate.read[which];
   const auto fans = static_cast<size_t>(
       std::count_if(read.polygons.begin(), read.polygons.end(),
                     [](const Triangulation& t) { return t.axis == Triangulation::kOnlyFan; }));

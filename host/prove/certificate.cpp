@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "host/base/error.h"
+#include "host/prove/bytes.h"
 #include "host/source/corners_hash.h"
 
 namespace vkh {
@@ -17,15 +18,9 @@ class Bytes {
  public:
   std::string text;
 
-  void unsigned_number(uint64_t x, int bytes) {
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>((x >> (8 * i)) & 255);
-  }
+  void unsigned_number(uint64_t x, int bytes) { append_unsigned(text, x, bytes); }
   void number(double x) { unsigned_number(std::bit_cast<uint64_t>(x == 0 ? 0.0 : x), 8); }
-  /// In groups of seven bits, the lowest first.
-  void count(uint64_t x) {
-    for (; x >= 128; x >>= 7) unsigned_number(128 | (x & 127), 1);
-    unsigned_number(x, 1);
-  }
+  void count(uint64_t x) { append_count(text, x); }
   // 64 digits as 32 bytes; none: as many zeros.
   void digest(const std::string& digits) {
     const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };

@@ -1,32 +1,21 @@
 #include "host/prove/proof_tree.h"
 
+#include "host/prove/bytes.h"
+
 namespace vkh {
-
-namespace {
-
-void append_u32(std::string& out, uint64_t x) {
-  for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>((x >> shift) & 255);
-}
-
-}  // namespace
 
 /// Bytes, and numbers as differences from the one before.
 class NumberWriter {
  public:
   std::string bytes;
 
-  void byte(uint32_t x) { bytes += static_cast<char>(x); }
-  void pair(uint32_t x) {
-    byte(x & 255);
-    byte(x >> 8);
-  }
+  void byte(uint32_t x) { append_unsigned(bytes, x, 1); }
+  void pair(uint32_t x) { append_unsigned(bytes, x, 2); }
   void number(uint32_t x) {
     const int64_t step = static_cast<int64_t>(x) - last_;
     last_ = x;
-    uint64_t code =
-        step >= 0 ? 2 * static_cast<uint64_t>(step) : 2 * static_cast<uint64_t>(-step) - 1;
-    for (; code >= 128; code >>= 7) byte(128 | (code & 127));
-    byte(static_cast<uint32_t>(code));
+    append_count(
+        bytes, step >= 0 ? 2 * static_cast<uint64_t>(step) : 2 * static_cast<uint64_t>(-step) - 1);
   }
 
  private:
@@ -72,8 +61,8 @@ std::string ProofTree::written() const {
     NumberWriter block;
     const uint32_t first = face;
     while (face < face_count_ && block.bytes.size() < kBlockBytes) write_face(face++, block);
-    append_u32(all, face - first);
-    append_u32(all, block.bytes.size());
+    append_unsigned(all, face - first, 4);
+    append_unsigned(all, block.bytes.size(), 4);
     all += block.bytes;
   }
   return all;

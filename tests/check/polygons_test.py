@@ -14,6 +14,7 @@ import unittest
 from fractions import Fraction
 
 import make_certificate
+import pairs
 from checkers import PROGRAM, Checkers
 
 KEEP = os.environ.get("VKH_ATTACK_KEEP", os.path.join(tempfile.gettempdir(), "vkh_polygons"))
@@ -216,7 +217,7 @@ class Cases(unittest.TestCase):
         for n in range(OPTIONS.cases):
             case = Case(random.Random(f"{OPTIONS.seed} {n}"))
             count, fan = len(case.ring), [(0, i - 1, i) for i in range(2, len(case.ring))]
-            self.checkers.meshes(case.obj(), obj_of(OTHER))
+            self.checkers.meshes(case.obj(), pairs.obj(OTHER))
             is_good = do_edges_meet(count, case.triangles) and tiles(case.ring, case.triangles, case.rng)
             good += is_good
             self.ask(case, case.triangles, [[1, count, case.axis, case.triangles]], {0} if is_good else {1}, "triangles")
@@ -235,7 +236,7 @@ class Cases(unittest.TestCase):
                      [(0, 0), (4, 0), (4, 0), (4, 4), (0, 0)]):
             case = Case(rng)
             case.ring, case.corners = ring, [case.placed(p, 0) for p in ring]
-            self.checkers.meshes(case.obj(), obj_of(OTHER))
+            self.checkers.meshes(case.obj(), pairs.obj(OTHER))
             self.ask(case, [(0, i - 1, i) for i in range(2, len(ring))], [], {0}, "convex")
         self.settle()
 
@@ -245,16 +246,11 @@ class Cases(unittest.TestCase):
         flat = [(0, 0), (8, 0), (8, 8), (0, 8), (0, 7), (7, 7), (7, 1), (0, 1)]
         case.ring, case.corners = flat, [(float(x), float(y), 0.0 if x + y < 16 else 0.125) for x, y in flat]
         case.corners[0] = (0.0, 0.0, 0.125)
-        self.checkers.meshes(case.obj(), obj_of(OTHER))
+        self.checkers.meshes(case.obj(), pairs.obj(OTHER))
         for axis in (0, 1):
             for triangles in [by_chance(flat, random.Random(n)) for n in range(200)]:
                 self.ask(case, triangles, [[1, 8, axis, triangles]], {1}, "along the surface")
         self.settle()
-
-
-def obj_of(mesh):
-    return "".join("v " + " ".join(map(repr, p)) + "\n" for face in mesh for p in face).encode() + b"".join(
-        b"f %d %d %d\n" % (3 * i + 1, 3 * i + 2, 3 * i + 3) for i in range(len(mesh)))
 
 
 if __name__ == "__main__":
