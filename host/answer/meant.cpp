@@ -4,9 +4,10 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <cstdio>
 #include <string_view>
 #include <system_error>
+
+#include "host/base/decimal.h"
 
 namespace vkh {
 namespace {
@@ -105,9 +106,7 @@ std::string as_parsed(const std::string& number, const TypedUnit& unit) {
   const auto [rest, error] = std::from_chars(number.data(), end, value);
   if (error != std::errc() || rest != end || !(value > 0)) return "";
   if (unit.of == 1) return number + std::string(unit.unit);
-  char product[32] = "";
-  std::snprintf(product, sizeof product, "%.12g", value * unit.of);
-  return product + std::string(unit.unit);
+  return number_text(value * unit.of, std::chars_format::general, 12) + std::string(unit.unit);
 }
 
 std::string without_commas(std::string number) {

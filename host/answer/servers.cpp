@@ -1,8 +1,10 @@
 // An answer as build servers take it. JUnit: the schema that Jenkins and GitLab read, one test case
 // for the pair. GitHub: docs.github.com, "Workflow commands for GitHub Actions".
+
 #include <cstdio>
 
 #include "host/answer/answer.h"
+#include "host/base/decimal.h"
 #include "host/base/note.h"
 
 namespace vkh {
@@ -117,9 +119,7 @@ std::string pair_name(const Answer& answer) {
 }
 
 std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", seconds);
-  return text;
+  return number_text(seconds, std::chars_format::fixed, 3);
 }
 
 std::string case_xml(const JunitCase& one) {

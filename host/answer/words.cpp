@@ -1,6 +1,5 @@
 // An answer's first line, and what its parts are called.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -18,10 +17,8 @@ std::string with_unit(std::string number, const Answer& answer) {
 }
 
 std::string point_text(const SurfacePoint& p) {
-  char text[160];
-  std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g) on face %llu", p.point.x, p.point.y,
-                p.point.z, static_cast<unsigned long long>(p.file_face));
-  return text;
+  return "(" + coordinates_text(p.point.x, p.point.y, p.point.z) + ") on face " +
+         std::to_string(p.file_face);
 }
 
 // Of upper, in percent.
@@ -85,9 +82,8 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const std::string where = r.has_witness ? point_text(r.witness_a) + " of " : "a point of ";
   std::string text = "FAIL  " + where + from + " is at least " + far + " from " + to;
   if (!faces) return text;
-  std::array<char, 32> of_face{};
-  std::snprintf(of_face.data(), of_face.size(), "%.9g", limit.within);
-  return text + ", and its face's limit is " + with_unit(of_face.data(), answer);
+  return text + ", and its face's limit is " +
+         with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
 }
 
 // Of what was counted: a polygon's triangles are more than it.

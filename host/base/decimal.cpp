@@ -99,6 +99,11 @@ std::string number_text(double value, std::chars_format format, int digits) {
   return {text.data(), end};
 }
 
+std::string coordinates_text(double x, double y, double z) {
+  const auto nine = [](double value) { return number_text(value, std::chars_format::general, 9); };
+  return nine(x) + ", " + nine(y) + ", " + nine(z);
+}
+
 std::string shortest_decimal(double value) {
   std::string text;
   for (int digits = 6; digits <= 17; ++digits) {

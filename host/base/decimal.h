@@ -19,6 +19,9 @@ std::string decimal(double value, int digits, Rounding rounding);
 /// locale, whose decimal point may be a comma.
 std::string number_text(double value, std::chars_format format, int digits);
 
+/// "x, y, z" in nine digits, for people.
+std::string coordinates_text(double x, double y, double z);
+
 /// The shortest decimal, of six digits or more, that is read back as the same double.
 std::string shortest_decimal(double value);
 

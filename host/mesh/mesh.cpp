@@ -1,12 +1,11 @@
 #include "host/mesh/mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 
+#include "host/base/decimal.h"
 #include "host/base/float_environment.h"
 #include "host/base/text_scanner.h"
 #include "host/mesh/make_mesh.h"
@@ -53,9 +52,8 @@ bool is_finite(const glm::dvec3& p) {
 
 [[noreturn]] void reject_vertex(const Mesh& mesh, size_t vertex) {
   const glm::dvec3& p = mesh.vertices[vertex];
-  std::array<char, 96> text;
-  std::snprintf(text.data(), text.size(), "(%.9g, %.9g, %.9g) is not finite", p.x, p.y, p.z);
-  reject(mesh.name, "vertex " + std::to_string(vertex), text.data(), "finite coordinates");
+  reject(mesh.name, "vertex " + std::to_string(vertex),
+         "(" + coordinates_text(p.x, p.y, p.z) + ") is not finite", "finite coordinates");
 }
 
 // Exponents of all ones, without a branch: compilers make vectors of it.
