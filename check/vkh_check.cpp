@@ -15,6 +15,7 @@
 #include "host/base/decimal.h"
 #include "host/read/mesh_io.h"
 #include "host/source/corners_hash.h"
+#include "host/source/mesh_builder.h"
 #include "host/system/input_file.h"
 #include "host/system/sha256.h"
 #include "host/system/system.h"
@@ -149,10 +150,9 @@ std::string described(const Certificate& certificate, size_t which) {
   std::string out;
   if (read.has_all_bodies) out += name + "all shapes of a scene, whether they are printed or not\n";
   if (read.polygons.size() > fans)
-    out += name + std::to_string(read.polygons.size() - fans) + " polygons, tiled by triangles\n";
+    out += name + counted(read.polygons.size() - fans, "polygon") + ", tiled by triangles\n";
   if (fans > 0)
-    out +=
-        name + std::to_string(fans) + " polygons as the fan of their corners, whatever it covers\n";
+    out += name + counted(fans, "polygon") + " as a fan of corners, whatever that covers\n";
   if (read.ambiguity > 0) {
     out += name + "stated, not proven: another triangulation is at most " +
            decimal(read.ambiguity, kJsonDigits, Rounding::kUp) + " away, at face " +

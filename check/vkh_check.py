@@ -201,7 +201,7 @@ class Certificate:
         for x in range(directions):
             self.direction(x, 1 - x)
         self.need(self.at == len(data), "bytes after the end")
-        self.said += [f"  {name}: {count} polygons as the fan of their corners, whatever it covers" for name, count in zip("AB", fans) if count]
+        self.said += [f"  {name}: {count} polygon{'s' * (count > 1)} as a fan of corners, whatever that covers" for name, count in zip("AB", fans) if count]
 
     def need(self, holds, what):
         if not holds:

@@ -101,11 +101,11 @@ class Program(unittest.TestCase):
                 self.assertEqual(self.run_here(CHECK, "out.vhc", "fine.obj", "b.obj").returncode, 0)
 
     def test_polygons(self):
-        for words, said in ((["plate.obj", "b.obj", "--symmetric"], "A: 1 polygons, tiled by triangles"),
-                            (["b.obj", "plate.obj"], "B: 1 polygons, tiled"),
-                            (["quads.off", "plate.obj", "--tol", "1e-4"], "B: 1 polygons, tiled"),
+        for words, said in ((["plate.obj", "b.obj", "--symmetric"], "A: 1 polygon, tiled by triangles"),
+                            (["b.obj", "plate.obj"], "B: 1 polygon, tiled"),
+                            (["quads.off", "plate.obj", "--tol", "1e-4"], "B: 1 polygon, tiled"),
                             (["quads.off", "b.obj"], "A: stated, not proven"),
-                            (["bow.obj", "b.obj", "--polygons", "fan"], "A: 1 polygons as the fan")):
+                            (["bow.obj", "b.obj", "--polygons", "fan"], "A: 1 polygon as a fan of corners")):
             with self.subTest(words):
                 self.certify("distance", *words)
                 self.assertIn(said, self.run_here(CHECK, "out.vhc", *words[:2]).stdout)
