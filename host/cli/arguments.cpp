@@ -137,6 +137,11 @@ std::string listed(const Words& words, const char* last) {
   return text;
 }
 
+std::string hint_without_blank(const std::string& option, const std::string& given,
+                               const std::string& meant) {
+  return option + " '" + given + "': write " + meant + ", without a blank";
+}
+
 /// Says what to write for "--max 0.1 mm" and "--max=0.1 mm"; nothing where no number and unit are
 /// so apart.
 std::string blank_hint(const Words& words) {
@@ -150,8 +155,7 @@ std::string blank_hint(const Words& words) {
     if (option == "--time" || number.find_first_not_of("0123456789.,+-eE") != std::string::npos)
       continue;
     const std::string meant = length_meant(number + words[i]);
-    if (!meant.empty())
-      return option + " '" + number + " " + words[i] + "': write " + meant + ", without a blank";
+    if (!meant.empty()) return hint_without_blank(option, number + " " + words[i], meant);
   }
   return "";
 }
@@ -177,7 +181,7 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
            (meant.empty() ? " (see vkhausdorff --help)" : ": did you mean " + meant + "?");
   }
   const bool stray = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  if (const std::string hint = stray ? blank_hint(words) : ""; !hint.empty()) return hint;
+  if (std::string hint = stray ? blank_hint(words) : ""; !hint.empty()) return hint;
   if (stray && std::find(words.begin(), words.end(), "--json") != words.end()) {
     return std::string(error.what()) + "; JSON goes into a file by --json=FILE, without a space";
   }
