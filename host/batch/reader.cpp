@@ -42,6 +42,7 @@ std::string key_of(const PairJob& job, const Answer& known, bool shares_b) {
   add(job.max ? job.max->requested : "");
   add(job.unit);
   if (job.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
+  if (job.limits.any_triangulation) add("polygons any");
   if (job.limits.bodies == Bodies::kAll) add("bodies all");
   add(job.symmetric ? "symmetric" : "");
   add(shares_b ? "prepared" : "");

@@ -58,6 +58,12 @@ void check_together(const Typed& typed) {
     throw UsageError("--area: faces with limits of their own are asked about whole");
   if (!typed.pictures.certificate.empty() && (by_face || !typed.area.empty()))
     throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
+  const bool is_of_triangles = typed.statistics || !typed.bands.empty() || !typed.area.empty() ||
+                               typed.pictures.is_of_triangles();
+  if (typed.polygons == "any" && is_of_triangles)
+    throw UsageError(
+        "--polygons any: areas and certificates are of one triangulation: no --stats, --bands, "
+        "--area, --report or --certificate");
 }
 
 void check_part(const Typed& typed) {
@@ -104,8 +110,9 @@ PairJob job_of(const Typed& typed, const Words& words, const char* command) {
   job.options = options_of(typed);
   if (typed.max_input) job.limits.max_input_bytes = parse_size("--max-input", *typed.max_input);
   if (!typed.polygons.empty()) {
-    check_names("--polygons", {typed.polygons}, {"fan"});
-    job.limits.odd_polygons = OddPolygons::kFanned;
+    check_names("--polygons", {typed.polygons}, {"fan", "any"});
+    if (typed.polygons == "fan") job.limits.odd_polygons = OddPolygons::kFanned;
+    job.limits.any_triangulation = typed.polygons == "any";
   }
   if (!typed.bodies.empty()) {
     check_names("--bodies", {typed.bodies}, {"solid", "all"});
@@ -211,8 +218,9 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
   command
       .add_option("--polygons", typed.polygons,
                   "fan: measure the fan of a polygon's corners where its outline crosses itself or "
-                  "encloses no area [such a file is refused]")
-      ->type_name("fan");
+                  "encloses no area [such a file is refused]; any: answer for every triangulation "
+                  "of corners that lie in no plane [the one that is made]")
+      ->type_name("fan|any");
   command
       .add_option("--bodies", typed.bodies,
                   "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "

@@ -164,6 +164,8 @@ Field field_within(size_t face_count, double upper) {
 
 Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
   return [&options, &result](const SurveyedPair& on_device, const BoundCells& bound) {
+    if (options.statistics)
+      refuse_any_triangulation(on_device.a, on_device.b, "statistics of an area");
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;

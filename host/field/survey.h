@@ -51,7 +51,8 @@ struct SurveyResult {
 /// Of a run that ended before its survey began: no distance is above `upper`.
 Field field_within(size_t face_count, double upper);
 
-/// Sets options.survey, which writes `result` when the run has ended. Both must outlive it.
+/// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The
+/// survey throws UsageError for statistics of meshes of any triangulation.
 Survey survey_with(const SurveyOptions& options, SurveyResult& result);
 
 }  // namespace vkh

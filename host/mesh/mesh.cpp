@@ -174,6 +174,14 @@ void check_mesh(const Mesh& mesh) {
            "those of " + std::to_string(mesh.faces.size()) + " triangles");
 }
 
+void refuse_any_triangulation(const Mesh& a, const Mesh& b, const std::string& what) {
+  for (const Mesh* mesh : {&a, &b}) {
+    if (mesh->polygons.any_triangulation)
+      throw UsageError(
+          what + ": is of one triangulation, and polygons of any were asked for: " + mesh->name);
+  }
+}
+
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces,
                const Crew& crew, Positions positions) {
   const FloatEnvironment ours;

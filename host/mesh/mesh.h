@@ -67,7 +67,8 @@ struct Polygons {
   /// Any triangulation of the same outlines is as near to this mesh, both ways: what corners that
   /// lie in no plane leave open. Those that have only a fan are not among them.
   double ambiguity = 0;
-  uint64_t ambiguous_face = 0;  ///< the first with this ambiguity, as the file counts from 0
+  uint64_t ambiguous_face = 0;     ///< the first with this ambiguity, as the file counts from 0
+  bool any_triangulation = false;  ///< Mesh::delta has the ambiguity: ReadLimits has the same
   /// Holds one for each face that was clipped or fanned, in their order: a certificate has them.
   std::vector<Triangulation> triangulations = {};
 };
@@ -82,9 +83,10 @@ struct Mesh {
   FileFaces file_faces = {};  ///< which face of the file each of them is of, for people
   MeshCounts counts;
   Polygons polygons = {};
-  /// No vertex is farther than this from its exact place: what a reader rounded beyond "as given",
-  /// such as a scene's transforms. h is 1-Lipschitz in it, and the certified interval is wider by
-  /// it.
+  /// The surface is at most this far from the exact one, both ways: what a reader rounded beyond
+  /// "as given", such as a scene's transforms, moves each vertex by at most this, and polygons of
+  /// any triangulation add their ambiguity. h is 1-Lipschitz in it, and the certified interval is
+  /// wider by it.
   double delta = 0;
   bool has_all_bodies = false;  ///< of a scene every shape was read, whether it is printed or not
   std::string unit = {};  ///< of the coordinates, where the file says: "m", "mm", "in"; else empty
@@ -105,6 +107,10 @@ inline uint64_t mesh_bytes(const Mesh& mesh) {
 /// those of so many triangles. Solver asks this of every mesh, for anything may be written into
 /// one.
 void check_mesh(const Mesh& mesh);
+
+/// Throws UsageError where the interval is of every triangulation of A's or B's polygons, and
+/// `what`, such as an area, would be of the one that was made.
+void refuse_any_triangulation(const Mesh& a, const Mesh& b, const std::string& what);
 
 /// Checks and cleans a mesh: drops unreferenced vertices, counts degenerate and duplicate faces.
 /// Throws InputError that names the element if a referenced coordinate is not finite, an index is

@@ -335,6 +335,7 @@ class Prover {
 }  // namespace
 
 Proof prove(Solver& solver, const ProofJob& job) {
+  refuse_any_triangulation(job.a, job.b, "certificate");
   Proof proof;
   SolveOptions again = job.options;
   again.limit = {};

@@ -181,7 +181,7 @@ py::tuple polygons_state(const Polygons& p) {
   for (const Triangulation& one : p.triangulations)
     triangulations.append(py::make_tuple(one.face, one.corners, one.axis, triangles_of(one)));
   return py::make_tuple(p.clipped, p.fanned, p.first_fanned, static_cast<int>(p.first_kind),
-                        p.ambiguity, p.ambiguous_face, triangulations);
+                        p.ambiguity, p.ambiguous_face, triangulations, p.any_triangulation);
 }
 
 Triangulation triangulation_from(const py::tuple& state) {
@@ -210,7 +210,8 @@ Polygons polygons_from(const py::tuple& state) {
              .first_fanned = py::cast<uint64_t>(state[2]),
              .first_kind = static_cast<PolygonKind>(kind),
              .ambiguity = py::cast<double>(state[4]),
-             .ambiguous_face = py::cast<uint64_t>(state[5])};
+             .ambiguous_face = py::cast<uint64_t>(state[5]),
+             .any_triangulation = py::cast<bool>(state[7])};
   for (const py::handle& one : py::cast<py::list>(state[6]))
     p.triangulations.push_back(triangulation_from(py::cast<py::tuple>(one)));
   return p;
@@ -347,10 +348,12 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const py::ob
 ReadLimits limits_of(const Arguments& given) {
   ReadLimits limits;
   limits.max_input_bytes = size_of(given, "max_input").value_or(limits.max_input_bytes);
-  constexpr const char* kPolygons = "'refuse', or 'fan' for the fan of what has no triangulation";
+  constexpr const char* kPolygons =
+      "'refuse', 'fan' for the fan of what has no triangulation, or 'any' for all triangulations";
   const std::string polygons = given.text("polygons", kPolygons);
   if (polygons == "fan") limits.odd_polygons = OddPolygons::kFanned;
-  if (!polygons.empty() && polygons != "fan" && polygons != "refuse")
+  limits.any_triangulation = polygons == "any";
+  if (!polygons.empty() && polygons != "fan" && polygons != "any" && polygons != "refuse")
     refuse_value("polygons", kPolygons, given.at("polygons"));
   constexpr const char* kBodies = "'solid', or 'all' for everything as it lies";
   const std::string bodies = given.text("bodies", kBodies);

@@ -20,6 +20,7 @@ struct CellBatch {
 /// A pair whose run has ended, while it still lies on the device.
 struct SurveyedPair {
   const Mesh& a;
+  const Mesh& b;
   Frame frame;
   double displacement;  ///< of both meshes, in the frame
   double farthest;      ///< the run's upper bound: no distance is larger, in the files' units

@@ -123,6 +123,7 @@ struct Watch {
 
 SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu) {
   return {.a = pair.a,
+          .b = pair.b,
           .frame = pair.frame,
           .displacement = pair.displacement,
           .farthest = to_files(report, pair).upper,

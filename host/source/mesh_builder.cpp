@@ -195,6 +195,7 @@ void MeshBuilder::note_polygons(const Polygons& polygons) {
     note += "; corners off a plane leave the surface open by up to " +
             decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
             std::to_string(polygons.ambiguous_face);
+    if (limits_.any_triangulation) note += ", and the interval is wider by it";
   }
   notes.push_back(note_of(NoteCode::kPolygons, note));
   if (polygons.fanned == 0) return;
@@ -236,6 +237,8 @@ Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
   mesh.counts.polygons = polygons_;
   if (polygons_ > 0) note_polygons(polygons);
   mesh.polygons = std::move(polygons);
+  mesh.polygons.any_triangulation = limits_.any_triangulation;
+  if (limits_.any_triangulation) mesh.delta = mesh.polygons.ambiguity;
   mesh.notes = std::move(notes);
   if (short_faces_ > 0) {
     mesh.notes.push_back(

@@ -30,6 +30,8 @@ struct ReadLimits {
   /// six times this (read_cost_test), besides a megabyte.
   uint64_t max_input_bytes = UINT64_MAX;
   OddPolygons odd_polygons = OddPolygons::kRefused;
+  /// Adds Polygons::ambiguity to Mesh::delta: the answer is of every triangulation of the outlines.
+  bool any_triangulation = false;
   /// Makes triangles of a polygon, in place of triangulate_fan: of the file's face with this
   /// number, whose fan it replaces. Called by several threads; what it throws ends the reading.
   std::function<PolygonResult(uint64_t face, std::span<const glm::dvec3> vertices,

@@ -218,6 +218,27 @@ TEST_CASE("build servers are told what became of polygons and bodies") {
   CHECK(xml.substr(at, xml.find("</system-out>") - at).find("\n" + note) != std::string::npos);
 }
 
+TEST_CASE("--polygons any answers for every triangulation, and not for figures of one") {
+  const std::string bent =
+      write_file("bent.obj", "v 0 0 0\nv 1 0 0.1\nv 1 1 0\nv 0 1 0.1\nf 1 2 3 4\n");
+  const Words pair = {"distance", bent, bent, "--polygons", "any"};
+  const Outcome outcome = run(pair);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.find(
+            "the surface is within 0.101 of the exact one: the interval is wider by it") !=
+        std::string::npos);
+  CHECK(run({"gate", bent, bent, "--max", "0.15abs"}).exit_code == 0);
+  CHECK(run({"gate", bent, bent, "--max", "0.15abs", "--polygons", "any"}).exit_code == 3);
+  CHECK(run({"gate", bent, bent, "--max", "0.3abs", "--polygons", "any"}).exit_code == 0);
+  for (const Words& more : {Words{"--stats"}, Words{"--report", folder() / "bent.html"},
+                            Words{"--certificate", folder() / "bent.vhc"}}) {
+    const Outcome refused = run(pair + more);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("--polygons any: areas and certificates are of one triangulation") !=
+          std::string::npos);
+  }
+}
+
 TEST_CASE("--bodies all measures what a scene hides, and build servers are told") {
   Document scene = triangle_document();
   const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};

@@ -28,6 +28,8 @@ def first_line(*words: str) -> str:
 class Platform:
     """A cross-build of this tree, by its preset, and what its programs are run by."""
 
+    is_emulated = False  # another processor's instructions
+
     def __init__(self, name: str, source: pathlib.Path, native: pathlib.Path):
         self.name = name
         self.source = source
@@ -123,6 +125,7 @@ class Arm64(Platform):
     """By a cross-compiler, under qemu-user, with ARM64's own loader and lavapipe in a folder."""
 
     limit = 1200  # twenty times slower than the machine itself
+    is_emulated = True
 
     def __init__(self, source: pathlib.Path, native: pathlib.Path):
         super().__init__("arm64", source, native)

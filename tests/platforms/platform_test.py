@@ -110,9 +110,10 @@ class Run:
             return "left out: no folder ../shared/pairs"
         with open(PAIRS / "manifest.csv") as file:
             rows = {row["pair"]: row for row in csv.DictReader(file)}
-        for name in NAMES:
+        names = NAMES[::3] if self.platform.is_emulated else NAMES
+        for name in names:
             self.same("distance", rows[name]["file_a"], rows[name]["file_b"], folder=PAIRS)
-        return f"{len(NAMES)} pairs, all bits and counts equal"
+        return f"{len(names)} pairs, all bits and counts equal"
 
     def generated(self) -> str:
         folder = self.platform.build / "pairs"
@@ -257,7 +258,7 @@ def main() -> int:
         groups = {name: every[name] for name in arguments.only.split(",")}
     try:
         platform = PLATFORMS[arguments.platform](SOURCE, arguments.native.resolve())
-        run = Run(platform, arguments.native.resolve(), arguments.sweep or (20 if arguments.platform == "arm64" else 60))
+        run = Run(platform, arguments.native.resolve(), arguments.sweep or (8 if platform.is_emulated else 60))
         start = time.time()
         platform.compile(["vkhausdorff", *(target for name in groups for target in NEEDS.get(name, []))])
         print(f"{platform.name}: built in {time.time() - start:.0f} s", flush=True)

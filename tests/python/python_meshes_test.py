@@ -16,6 +16,28 @@ import vkhausdorff as vkh
 from python_distances_test import B, PAIRS, obj
 
 
+def quads(random, height):
+    """Vertices and faces of 4 x 4 squares with corners off any plane, seen from above convex."""
+    x, y = np.meshgrid(np.arange(5.0), np.arange(5.0))
+    vertices = np.stack([x.ravel(), y.ravel(), height + random.uniform(-0.2, 0.2, 25)], axis=1)
+    first = (5 * np.arange(4)[:, None] + np.arange(4)).ravel()
+    return vertices, np.stack([first, first + 1, first + 6, first + 5], axis=1)
+
+
+def split(random, mesh):
+    """Each quad by one of its diagonals, by chance."""
+    vertices, faces = mesh
+    turned = np.array([np.roll(face, random.integers(2)) for face in faces])
+    return vertices, np.concatenate([turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]]).astype(np.uint32)
+
+
+def write_quads(folder, name, mesh):
+    file = pathlib.Path(folder) / name
+    rows = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in mesh[0].tolist()] + ["f {} {} {} {}\n".format(*face) for face in (mesh[1] + 1).tolist()]
+    file.write_text("".join(rows))
+    return file
+
+
 class Meshes(unittest.TestCase):
     def test_read(self):
         a, b = PAIRS[3]
@@ -26,7 +48,7 @@ class Meshes(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, f"face {len(a[1])}: an outline that crosses itself"):
                     vkh.read(file, **polygons)
             with self.assertRaisesRegex(ValueError, "^polygons.*expected "):
-                vkh.read(file, polygons="any")
+                vkh.read(file, polygons="all")
             self.assertIsInstance(next(vkh.distances([(file, b)])).error, ValueError)
             self.assertIsNone(next(vkh.distances([(file, b)], polygons="fan")).error)
             mesh = vkh.read(file, polygons="fan")
@@ -97,15 +119,43 @@ class Meshes(unittest.TestCase):
             mesh = vkh.read(file)
         state = mesh.__getstate__()
         again = pickle.loads(pickle.dumps(mesh)).__getstate__()
-        clipped, fanned, first, kind, ambiguity, face, triangulations = state[9]
-        self.assertEqual((clipped, fanned, face, len(triangulations)), (1, 0, 1, 1))
+        clipped, fanned, first, kind, ambiguity, face, triangulations, is_any = state[9]
+        self.assertEqual((clipped, fanned, face, len(triangulations), is_any), (1, 0, 1, 1, False))
         self.assertGreater(ambiguity, 0)
         self.assertEqual(again[9][:6], state[9][:6])
         (number, corners, axis, triangles), (*numbers, others) = triangulations[0], again[9][6][0]
         self.assertEqual((numbers, others.tolist()), ([number, corners, axis], triangles.tolist()))
         for wrong in ((1, 3, 2, triangles[:1]), (1, 4, 4, triangles), (1, 4, 2, triangles + np.uint32(2)), (1, 4, 2, triangles[:1]), (1, 4, 3, triangles)):
             with self.assertRaises(ValueError):
-                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:9], (*state[9][:6], [wrong]), *state[10:]))
+                vkh.Mesh.__new__(vkh.Mesh).__setstate__((*state[:9], (*state[9][:6], [wrong], False), *state[10:]))
+
+    def test_any_triangulation(self):
+        """h of other triangulations of the same quads, each within what "any" says and not all within what is said without."""
+        random = np.random.default_rng(14)
+        without = 0
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(30):
+                a, b = quads(random, 0), quads(random, 0.4)
+                files = [write_quads(folder, name, one) for name, one in (("a.obj", a), ("b.obj", b))]
+                plain = vkh.distance(*(vkh.read(file) for file in files))
+                meshes = [vkh.read(file, polygons="any") for file in files]
+                ours = vkh.distance(*meshes)
+                self.assertTrue(all(0 < m.delta < 1 and m.notes[0].endswith("the interval is wider by it") for m in meshes))
+                for _ in range(4):
+                    other = vkh.distance(*split(random, a), *split(random, b))
+                    self.assertLessEqual(ours.lower, other.upper)
+                    self.assertLessEqual(other.lower, ours.upper)
+                    without += other.lower > plain.upper or other.upper < plain.lower
+            self.assertGreater(without, 20)  # else the test would not notice an interval that is no wider
+            for more in ({"statistics": True}, {"certificate": pathlib.Path(folder) / "c.vhc"}):
+                with self.assertRaisesRegex(ValueError, "of one triangulation, and polygons of any were asked for"):
+                    vkh.distance(*meshes, **more)
+                with self.assertRaisesRegex(ValueError, "of one triangulation"):
+                    vkh.distance(split(random, a), meshes[1], **more)
+            self.assertIsNotNone(vkh.distance(*meshes, field=True).field)
+            kept = pickle.loads(pickle.dumps(meshes[0]))
+            with self.assertRaisesRegex(ValueError, "of one triangulation"):
+                vkh.distance(kept, split(random, b), statistics=True)
 
     def test_wherever_a_mesh_goes(self):
         a, b = PAIRS[4]

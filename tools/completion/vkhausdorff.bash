@@ -18,7 +18,7 @@ _vkhausdorff() {
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
-    --polygons) mapfile -t COMPREPLY < <(compgen -W "fan" -- "$current"); return ;;
+    --polygons) mapfile -t COMPREPLY < <(compgen -W "fan any" -- "$current"); return ;;
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
