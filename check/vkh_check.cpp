@@ -13,12 +13,12 @@
 
 #include "check/polygons.h"
 #include "host/base/decimal.h"
+#include "host/base/input_file.h"
+#include "host/base/sha256.h"
+#include "host/base/system.h"
+#include "host/read/corners_hash.h"
+#include "host/read/mesh_builder.h"
 #include "host/read/mesh_io.h"
-#include "host/source/corners_hash.h"
-#include "host/source/mesh_builder.h"
-#include "host/system/input_file.h"
-#include "host/system/sha256.h"
-#include "host/system/system.h"
 
 namespace vkh::check {
 namespace {

@@ -56,94 +56,46 @@ if(VKH_ZLIB_HEADER AND VKH_ZLIB_LIBRARY)
 else()
   message(STATUS "Not here: deflated meshes in reports, which need zlib1g-dev")
 endif()
-file(GLOB VKH_HOST_SOURCES CONFIGURE_DEPENDS host/*/*.cpp)
-list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/(cli|program|python)/.*$")
-if(NOT VKH_HAS_3MF)
-  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "host/threemf/(model|package|volumes|xml)\\.cpp$")
-endif()
-if(WIN32)  # what operating systems do differently stands in host/system
-  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_posix\\.cpp$")
-else()
-  list(FILTER VKH_HOST_SOURCES EXCLUDE REGEX "_windows\\.cpp$")
-endif()
-# What reads meshes is of no engine, so that vkh_check takes it in without one.
-set(VKH_READER_SOURCES ${VKH_HOST_SOURCES})
-list(FILTER VKH_READER_SOURCES INCLUDE REGEX "host/(base|system|mesh|source|read|scene|gltf|threemf)/[^/]*$")
-list(REMOVE_ITEM VKH_HOST_SOURCES ${VKH_READER_SOURCES})
-add_library(vkh_reader OBJECT ${VKH_READER_SOURCES})
-target_link_libraries(vkh_reader PRIVATE vkh_flags vkh_hardening glm::glm nlohmann_json::nlohmann_json)
-target_compile_features(vkh_reader PUBLIC cxx_std_20)
-vkh_unity(vkh_reader)
-vkh_add_kernel(self_test ${PROJECT_SOURCE_DIR}/shaders/doctor/self_test.comp ${PROJECT_BINARY_DIR}/generated/kernels)
-# What pictures are drawn with: generated/draw/NAME.h with an array each, k_mesh_vert and k_mesh_frag, and kFont.
-if(NOT VKH_GLSLANG)
-  message(FATAL_ERROR "glslang was not found, which the shaders of pictures are compiled with (Debian: glslang-tools); VKH_HOST=OFF needs none")
-endif()
-set(VKH_DRAW_OUT ${PROJECT_BINARY_DIR}/generated/draw)
-file(MAKE_DIRECTORY ${VKH_DRAW_OUT})
-foreach(stage IN ITEMS vert frag)
-  add_custom_command(
-    OUTPUT ${VKH_DRAW_OUT}/mesh_${stage}.h
-    COMMAND ${VKH_GLSLANG} --quiet --target-env vulkan1.2 --vn k_mesh_${stage} -o ${VKH_DRAW_OUT}/mesh_${stage}.h
-            ${PROJECT_SOURCE_DIR}/host/draw/mesh.${stage}
-    DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/mesh.${stage}
-    COMMENT "Compiling mesh.${stage}"
-    VERBATIM)
+include(Room)
+# Calls go down: each room's code calls the rooms before it alone (tests/house/rooms_test.py, tests/house/links_test.py).
+set(VKH_LIBRARY_ROOMS base mesh read gpu solve survey write answer)
+set(VKH_PROGRAM_ROOMS show batch app)
+foreach(room IN LISTS VKH_LIBRARY_ROOMS VKH_PROGRAM_ROOMS)
+  add_subdirectory(host/${room})
 endforeach()
-add_custom_command(
-  OUTPUT ${VKH_DRAW_OUT}/font.h
-  COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
-          ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${VKH_DRAW_OUT}/font.h
-  DEPENDS ${PROJECT_SOURCE_DIR}/host/draw/font/OpenSans-subset.ttf ${PROJECT_SOURCE_DIR}/tools/draw/embed_font.py
-  COMMENT "Embedding the font"
-  VERBATIM)
-# Nothing of what words, tables and pages are made by is hot, and it is half of the host's compile time: -Og (docs/log/build.md).
-add_library(vkh_cold INTERFACE)
-target_compile_options(vkh_cold INTERFACE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Og>)
-if(VKH_SANITIZE)
-  target_compile_options(vkh_cold INTERFACE -O0)
-endif()
-set(VKH_COLD_SOURCES ${VKH_HOST_SOURCES})
-list(FILTER VKH_COLD_SOURCES INCLUDE REGEX "host/(answer|parts|record|page|export|pictures|job|batch|many)/[^/]*$")
-list(REMOVE_ITEM VKH_HOST_SOURCES ${VKH_COLD_SOURCES})
+
+# vkh_room_objects(OUT ROOM...)
+function(vkh_room_objects out)
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_OBJECTS:vkh_\\1>")
+  set(${out} ${ARGN} PARENT_SCOPE)
+endfunction()
+
 # An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
-include(Page)
-add_library(vkh_answers OBJECT ${VKH_COLD_SOURCES})
-add_library(vkh_host STATIC ${VKH_HOST_SOURCES} $<TARGET_OBJECTS:vkh_reader> $<TARGET_OBJECTS:vkh_answers> ${VKH_PAGE_ASSETS} ${PROJECT_BINARY_DIR}/generated/kernels/self_test.cpp
-            ${VKH_DRAW_OUT}/mesh_vert.h ${VKH_DRAW_OUT}/mesh_frag.h ${VKH_DRAW_OUT}/font.h)
+vkh_room_objects(objects ${VKH_LIBRARY_ROOMS})
+add_library(vkh_host STATIC ${objects})
 if(BUILD_SHARED_LIBS)
   target_sources(vkh_host PRIVATE $<TARGET_OBJECTS:vkh_shaders>)  # a shared engine keeps its kernels to itself
 endif()
-target_link_libraries(vkh_host PRIVATE $<BUILD_INTERFACE:vkh_flags> $<BUILD_INTERFACE:vkh_hardening>
-                      $<BUILD_INTERFACE:vkh_shaders> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> ${CMAKE_DL_LIBS} PUBLIC vkh_engine glm::glm)
-target_link_libraries(vkh_host PRIVATE ${VKH_FORMAT_LIBRARIES})
-target_link_libraries(vkh_answers PRIVATE vkh_flags vkh_hardening vkh_cold vkh_shaders nlohmann_json::nlohmann_json Vulkan::Headers
-                      glm::glm)
-foreach(target IN ITEMS vkh_reader vkh_answers vkh_host)
-  target_compile_definitions(${target} PRIVATE $<$<BOOL:${VKH_HAS_MESHOPTIMIZER}>:VKH_HAS_MESHOPTIMIZER>
-                             $<$<BOOL:${VKH_HAS_3MF}>:VKH_HAS_3MF> $<$<BOOL:${VKH_HAS_CRYPTO}>:VKH_HAS_CRYPTO>
-                             $<$<BOOL:${VKH_HAS_STB}>:VKH_HAS_STB> $<$<BOOL:${VKH_HAS_ZLIB}>:VKH_HAS_ZLIB>
-                             $<$<BOOL:${WIN32}>:NOMINMAX>)
-endforeach()
-foreach(target IN ITEMS vkh_answers vkh_host)
-  target_compile_definitions(${target} PRIVATE VK_NO_PROTOTYPES)
-  vkh_unity(${target})
-endforeach()
+target_link_libraries(vkh_host PRIVATE ${CMAKE_DL_LIBS} ${VKH_FORMAT_LIBRARIES} PUBLIC vkh_engine glm::glm)
 target_compile_features(vkh_host PUBLIC cxx_std_20)
-set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host)
+set_target_properties(vkh_host PROPERTIES OUTPUT_NAME vkhausdorff_host EXPORT_NAME host LINKER_LANGUAGE CXX)
 add_library(VkHausdorff::host ALIAS vkh_host)
 
-file(GLOB VKH_PROGRAM_SOURCES CONFIGURE_DEPENDS host/cli/*.cpp host/program/*.cpp)
-add_executable(vkhausdorff ${VKH_PROGRAM_SOURCES})
+# The program's own rooms, for it, tests and tools; not installed.
+vkh_room_objects(objects ${VKH_PROGRAM_ROOMS})
+add_library(vkh_program STATIC ${objects})
+target_link_libraries(vkh_program PUBLIC vkh_host)
+set_target_properties(vkh_program PROPERTIES LINKER_LANGUAGE CXX)
+add_executable(vkhausdorff host/app/main.cpp)
 if(WIN32)
-  target_sources(vkhausdorff PRIVATE host/program/windows.rc)
+  target_sources(vkhausdorff PRIVATE host/app/windows.rc)
 endif()
-vkh_unity(vkhausdorff)
-target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_cold vkh_host CLI11::CLI11 nlohmann_json::nlohmann_json)
+target_link_libraries(vkhausdorff PRIVATE vkh_flags vkh_hardening vkh_cold vkh_program)
 
 if(VKH_GMP_HEADER AND VKH_GMP_LIBRARY AND (VKH_HAS_CRYPTO OR WIN32))
   file(GLOB VKH_CHECK_SOURCES CONFIGURE_DEPENDS check/*.cpp)
-  add_executable(vkh_check ${VKH_CHECK_SOURCES} $<TARGET_OBJECTS:vkh_reader>)
+  vkh_room_objects(objects base mesh read)  # without an engine
+  add_executable(vkh_check ${VKH_CHECK_SOURCES} ${objects})
   target_link_libraries(vkh_check PRIVATE vkh_flags vkh_hardening glm::glm CLI11::CLI11 ${VKH_FORMAT_LIBRARIES} gmp ${CMAKE_DL_LIBS}
                         Threads::Threads)
 else()

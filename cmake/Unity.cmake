@@ -3,16 +3,6 @@
 # clang and clang-tidy look at each file by itself (tests/house/alone.py).
 option(VKH_UNITY "Compile each room as one translation unit" ON)
 
-# Rooms that share a unit, for what they instantiate is the same: VKH_UNIT_room names it, and a room without is one of its own.
-foreach(unit IN ITEMS "answers:answer;parts;record;page" "pairs:export;pictures;job;batch;many" "program:cli;program"
-                      "meshes:base;system;mesh;source;scene" "scenes:gltf;threemf" "solver:gpu;run;solve")
-  string(REPLACE ":" ";" unit "${unit}")
-  list(POP_FRONT unit name)
-  foreach(room IN LISTS unit)
-    set(VKH_UNIT_${room} ${name})
-  endforeach()
-endforeach()
-
 # vkh_unity(TARGET): groups the target's sources by unit. Call it in the folder that made the target.
 function(vkh_unity target)
   if(NOT VKH_UNITY)
@@ -23,8 +13,8 @@ function(vkh_unity target)
     if(source MATCHES "^[^$]*\\.cpp$")
       get_filename_component(folder "${source}" DIRECTORY)
       get_filename_component(unit "${folder}" NAME)
-      if(DEFINED VKH_UNIT_${unit})
-        set(unit ${VKH_UNIT_${unit}})
+      if(source MATCHES "/read/(gltf|threemf)[a-z0-9_]*\\.cpp$")  # two halves: one unit of them would be half of the host's
+        set(unit scenes)
       endif()
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${unit}")
     endif()

@@ -432,7 +432,7 @@ struct Area {
   uint lo, hi;
 };
 
-// self_test: what a device is asked, and what it answers (host/check/self_test.cpp judges).
+// self_test: what a device is asked, and what it answers (host/app/self_test.cpp judges).
 struct SelfTestQuestion {
   float a, b;
   uint bits;  // of a normal float

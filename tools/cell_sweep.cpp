@@ -11,8 +11,8 @@
 #include <cstdio>
 
 #include "host/base/parallel.h"
-#include "host/field/survey.h"
 #include "host/solve/solver.h"
+#include "host/survey/survey.h"
 #include "tests/field/cell_check.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/hard_pairs.h"

@@ -17,10 +17,10 @@
 
 #include "engine/by_address.h"
 #include "engine/kernels.h"
+#include "host/app/self_test.h"
 #include "host/base/error.h"
-#include "host/check/self_test.h"
-#include "host/draw/raster.h"
 #include "host/gpu/device.h"
+#include "host/show/raster.h"
 
 namespace {
 

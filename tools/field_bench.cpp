@@ -18,9 +18,9 @@
 
 #include "host/answer/options.h"
 #include "host/base/parallel.h"
-#include "host/field/survey.h"
 #include "host/read/mesh_io.h"
 #include "host/solve/solver.h"
+#include "host/survey/survey.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tools/bench/manifest.h"

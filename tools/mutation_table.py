@@ -13,7 +13,7 @@ BARY = "shaders/math/bary.h"
 DYADIC = "shaders/math/dyadic.h"
 CELL = "shaders/field/cell.h"
 LOWER = "shaders/math/lower.h"
-FRAME = "host/run/frame.cpp"
+FRAME = "host/solve/frame.cpp"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
 ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
@@ -202,7 +202,7 @@ ROWS = [
     row("coarse_distance_down's rounding", LOWER, "lowered(quotient_down(reach, length) - s.base)",
         ["(quotient_down(reach, length) - s.base)", "reach * (1.0f / length) - s.base"], ON_LOWER),
 
-    # host/run/frame.cpp
+    # host/solve/frame.cpp
     row("what two floats leave", FRAME, "return left + subtraction", ["return 0.5 * left + subtraction",
                                                                        "return subtraction"], ON_FRAME),
     row("the frame's subtraction", FRAME, "std::abs(exact) * 0x1p-52",

@@ -17,9 +17,9 @@
 #include <map>
 #include <random>
 
-#include "host/prove/certificate.h"
+#include "host/base/sha256.h"
 #include "host/solve/solver.h"
-#include "host/system/sha256.h"
+#include "host/survey/certificate.h"
 #include "tests/shapes/hard_pairs.h"
 
 namespace {

@@ -20,8 +20,8 @@
 #include <thread>
 
 #include "host/base/decimal.h"
-#include "host/check/verify.h"
 #include "host/solve/solver.h"
+#include "host/solve/verify.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/hard_pairs.h"
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/length.h"
-#include "host/field/survey.h"
-#include "host/prove/prover.h"
+#include "host/base/length.h"
+#include "host/base/sha256.h"
 #include "host/solve/report.h"
-#include "host/system/sha256.h"
+#include "host/survey/prover.h"
+#include "host/survey/survey.h"
 
 namespace vkh {
 

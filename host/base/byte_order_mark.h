@@ -9,11 +9,18 @@ namespace vkh {
 
 inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// Reads past the mark, where the text begins with one. No other text begins with its first byte
-/// alone and is UTF-8.
+/// Reads past the mark if the text, which can be searched, begins with one.
 inline void skip_byte_order_mark(std::istream& text) {
-  if (text.peek() != static_cast<unsigned char>(kByteOrderMark.front())) return;
-  text.ignore(static_cast<std::streamsize>(kByteOrderMark.size()));
+  const std::istream::pos_type begin = text.tellg();
+  for (const char expected : kByteOrderMark) {
+    if (text.peek() == static_cast<unsigned char>(expected)) {
+      text.ignore(1);
+      continue;
+    }
+    text.clear();  // of a text that ends there
+    text.seekg(begin);
+    return;
+  }
 }
 
 }  // namespace vkh

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/quad.h"
+#include "host/base/float128.h"
 
 namespace vkh {
 
@@ -40,16 +40,16 @@ inline bool is_within(double lower, double upper, double tolerance) {
 /// x * y of finite numbers, neither negative, rounded down. A product of two doubles is exact in
 /// 113 bits.
 inline double multiply_down(double x, double y) {
-  const Quad exact = quad(x) * quad(y);
+  const Float128 exact = float128(x) * float128(y);
   const double product = static_cast<double>(exact);
-  return quad(product) > exact ? std::nextafter(product, 0.0) : product;
+  return float128(product) > exact ? std::nextafter(product, 0.0) : product;
 }
 
 /// x / y of a number that is not negative by a positive one, rounded up.
 inline double divide_up(double x, double y) {
   const double quotient = x / y;
   if (!std::isfinite(quotient)) return quotient;
-  return quad(quotient) * quad(y) < quad(x)
+  return float128(quotient) * float128(y) < float128(x)
              ? std::nextafter(quotient, std::numeric_limits<double>::infinity())
              : quotient;
 }

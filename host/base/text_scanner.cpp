@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "host/base/reject.h"
+
 namespace vkh {
 
 // Deciding once keeps a binary body's first LF out of it.
@@ -12,57 +14,6 @@ char line_terminator(std::string_view text) {
   if (end == std::string_view::npos) return '\n';
   const size_t after = text.find_first_not_of('\r', end);
   return after != std::string_view::npos && text[after] == '\n' ? '\n' : '\r';
-}
-
-void reject(std::string_view name, const std::string& place, const std::string& what,
-            const std::string& expected) {
-  std::string line(name);
-  if (!place.empty()) line += ": " + place;
-  line += ": " + what + "; expected " + expected;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
-  throw InputError(line);
-}
-
-std::string place_in(std::string_view line, std::string_view name) {
-  if (!line.starts_with(name)) return "";
-  const size_t begin = std::min(name.size() + 2, line.size());
-  const size_t end = std::min(line.find(": ", begin), line.size());
-  return end < line.find("; expected ", begin) && end < line.size()
-             ? std::string(line.substr(begin, end - begin))
-             : std::string();
-}
-
-std::string quoted(std::string_view word) {
-  constexpr size_t kLongest = 32;
-  constexpr const char* kHex = "0123456789abcdef";
-  std::string out = "'";
-  for (const char c : word.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte < 0x7f) {
-      out += c;
-    } else {
-      out += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};
-    }
-  }
-  return out + (word.size() > kLongest ? "...'" : "'");
-}
-
-// By the decade of its first digit: what is no double is far from 1 on one side or the other.
-bool is_tiny_decimal(std::string_view word) {
-  constexpr int64_t kFar = int64_t{1} << 62;  // beyond the digits of any file
-  const size_t e = std::min(word.find_first_of("eE"), word.size());
-  const size_t point = std::min(word.find('.'), e);
-  const size_t first = std::min(word.find_first_of("123456789"), e);
-  std::string_view power = word.substr(std::min(e + 1, word.size()));
-  if (power.starts_with('+')) power.remove_prefix(1);
-  int64_t exponent = 0;
-  if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec ==
-      std::errc::result_out_of_range) {
-    exponent = power.starts_with('-') ? -kFar : kFar;
-  }
-  const auto decade = static_cast<int64_t>(point) - static_cast<int64_t>(first);
-  return std::clamp(exponent, -kFar, kFar) + decade < 0;
 }
 
 TextScanner::TextScanner(std::string_view part, std::string_view name, char comment,

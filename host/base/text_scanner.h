@@ -2,50 +2,14 @@
 // that name the file and the line.
 #pragma once
 
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <type_traits>
 
-#include "host/base/error.h"
+#include "host/base/parse_number.h"
 
 namespace vkh {
-
-/// Throws "name: place: what; expected so and so", on one line whatever the name holds. `place` is
-/// empty where nothing of the file was read.
-[[noreturn]] void reject(std::string_view name, const std::string& place, const std::string& what,
-                         const std::string& expected);
-
-/// The place in a line that reject() made for that name; empty where there is none.
-std::string place_in(std::string_view line, std::string_view name);
-
-/// A word of a file for an error line: quoted, at most 32 bytes, unprintable bytes as \xNN.
-std::string quoted(std::string_view word);
-
-/// Of a decimal that is no double: true if it lies below the least one, not beyond the largest.
-bool is_tiny_decimal(std::string_view word);
-
-/// Reads all of `word` as a decimal number of type T, correctly rounded; false if any of it is
-/// left over (1/3, 1,5, 0x1p3), if it is nan or inf, or if it is too large for T. What lies below
-/// the least double is a zero of its sign. The leading plus that from_chars refuses is accepted.
-template <class T>
-bool parse_number(std::string_view word, T& value) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  const size_t sign = !word.empty() && word[0] == '-' ? 1 : 0;
-  // Without this, from_chars takes the words nan and inf.
-  if (word.size() == sign || word[sign] > '9') return false;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size()) return false;
-  if constexpr (std::is_same_v<T, double>) {
-    if (error == std::errc::result_out_of_range && is_tiny_decimal(word)) {
-      value = sign == 1 ? -0.0 : 0.0;
-      return true;
-    }
-  }
-  return error == std::errc();
-}
 
 /// What to do with a line of text that holds the other terminator in its midst: a carriage return
 /// among lines that end in LF, or the reverse. What stands behind it is a line of its own to some

@@ -6,13 +6,14 @@
 #include <thread>
 #include <unordered_map>
 
+#include "host/answer/progress_line.h"
+#include "host/base/begin_now.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/base/output_file.h"
 #include "host/base/parallel.h"
-#include "host/base/text_scanner.h"
-#include "host/job/progress_line.h"
-#include "host/many/budget.h"
-#include "host/system/output_file.h"
+#include "host/base/reject.h"
+#include "host/solve/budget.h"
 
 namespace vkh {
 namespace {
@@ -23,7 +24,7 @@ double seconds_since(Clock::time_point start) {
 
 constexpr uint64_t kReadAhead = uint64_t{2} << 30;
 
-/// What went wrong with a pair, its files as its list names them.
+/// The error of a pair, with its files as its list names them.
 Failure failure_of(const std::exception_ptr& error, const Entry& entry) {
   Failure failure{.code = code_of(error), .message = "no memory", .file = {}, .place = {}};
   try {
@@ -56,9 +57,9 @@ class Batch {
         job_.devices, [this](StreamResult&& result) { take(std::move(result)); });
   }
 
-  /// None: it was to stop, and something in it does not: threads of it are left behind.
+  /// Returns nothing if it was to stop but a part of it does not: its threads are left behind.
   std::optional<ExitCode> run(std::ostream& out) {
-    constexpr double kGrace = 10;  // s: a submission on a slow device
+    constexpr double kGrace = 10;  // seconds for a submission on a slow device
     PairStream& stream = *stream_;
     auto working = begin_now([this, &stream] {
       for_each_index(thread_count(), [&](size_t) { read_some(stream); });
@@ -115,7 +116,7 @@ class Batch {
       ++number;
       try {
         Record record = read_record(line);
-        if (!record.status.empty()) record.words.clear();  // which nobody asks for any more
+        if (!record.status.empty()) record.words.clear();  // not needed any more
         older_.insert_or_assign(record.name.id, std::move(record));
       } catch (const InputError& error) {
         throw InputError(job_.results + ": line " + std::to_string(number) + ": " + error.what());
@@ -144,7 +145,7 @@ class Batch {
     stopped_ = true;
   }
 
-  // Entries in the list's order, on each of the reading threads.
+  // Reads entries in the list's order, on each of the reading threads.
   void read_some(PairStream& stream) {
     for (;;) {
       size_t number = 0;
@@ -241,7 +242,7 @@ class Batch {
     return running_.at(number);
   }
 
-  // On a lane's thread, before the result is delivered.
+  // Runs on a worker's thread, before the result is delivered.
   void draw(Solver& solver, const StreamResult& result) {
     const Running& one = running(result.number);
     Answer answer = answer_of(one.entry, result);
@@ -256,7 +257,7 @@ class Batch {
     return std::move(node.mapped());
   }
 
-  // On the stream's delivering thread.
+  // Runs on the stream's delivering thread.
   void take(StreamResult&& result) {
     const Running running = taken(result.number);
     try {
@@ -308,7 +309,7 @@ class Batch {
 
   void show() {
     const size_t done = totals_.pairs(), all = job_.entries.size();
-    const size_t now = done - kept_.size();  // by this run
+    const size_t now = done - kept_.size();  // pairs that this run did
     if (now == 1) first_ = Clock::now();
     const double each = now < 2 ? 0 : seconds_since(first_) / static_cast<double>(now - 1);
     line_.show_batch(done, all, totals_.failed(), each * static_cast<double>(all - done));
@@ -316,7 +317,7 @@ class Batch {
 
   const BatchJob job_;
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point first_ = start_;  // when the first pair of this run was done
+  Clock::time_point first_ = start_;  // the end of the first pair of this run
   LineFile file_;
   Budget budget_;
   EntryReader reader_;
@@ -330,7 +331,7 @@ class Batch {
   std::map<size_t, Running> running_;
   std::set<std::string> kept_;
   Totals totals_;
-  std::unique_ptr<PairStream> stream_;  // ends before what it delivers to
+  std::unique_ptr<PairStream> stream_;  // destroyed before the members that it delivers to
 };
 
 }  // namespace
@@ -339,7 +340,7 @@ ExitCode run_batch(const BatchJob& job, std::ostream& out) {
   auto batch = std::make_unique<Batch>(job);
   const std::optional<ExitCode> code = batch->run(out);
   if (code) return *code;
-  (void)batch.release();  // threads still look at it
+  (void)batch.release();  // threads still read it
   return kExitNotClosed;
 }
 

@@ -9,7 +9,7 @@
 #include "host/batch/folders.h"
 #include "host/batch/reader.h"
 #include "host/batch/totals.h"
-#include "host/many/stream.h"
+#include "host/solve/stream.h"
 
 namespace vkh {
 

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <exception>
 
+#include "host/answer/merge.h"
+#include "host/answer/survey_wish.h"
 #include "host/base/decimal.h"
 #include "host/base/error.h"
+#include "host/base/system.h"
 #include "host/batch/index.h"
-#include "host/job/survey_wish.h"
-#include "host/record/merge.h"
-#include "host/system/system.h"
 
 namespace vkh {
 namespace {
 
 // All that a picture depends on besides its answer.
-std::string text_of(const Look& look) {
+std::string text_of(const PictureStyle& look) {
   const PictureOptions& o = look.options;
   const glm::dvec3& from = o.view.direction;
   std::string text = std::to_string(o.width) + "x" + std::to_string(o.height);

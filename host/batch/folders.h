@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "host/batch/pair_folder.h"
 #include "host/batch/reader.h"
-#include "host/pictures/drawn.h"
-#include "host/pictures/folder.h"
+#include "host/show/drawn.h"
 #include "host/solve/solver.h"
 
 namespace vkh {
 
 struct FoldersAsked {
   std::optional<std::string> images = {}, reports = {};
-  Look look;
+  PictureStyle look;
   bool any() const { return images || reports; }
 };
 

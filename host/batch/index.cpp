@@ -6,8 +6,8 @@
 
 #include "host/base/decimal.h"
 #include "host/batch/totals.h"
-#include "host/page/escape.h"
-#include "host/page/markup.h"
+#include "host/show/escape.h"
+#include "host/show/page_markup.h"
 
 namespace vkh {
 namespace {

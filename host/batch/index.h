@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/pictures/drawn.h"
-#include "host/record/record.h"
+#include "host/answer/record.h"
+#include "host/show/drawn.h"
 
 namespace vkh {
 
@@ -19,7 +19,7 @@ struct IndexRow {
 struct IndexContents {
   std::vector<IndexRow> rows;
   const std::string& results;  ///< the file that they are from
-  const Look& look;
+  const PictureStyle& look;
   size_t left = 0;  ///< pairs without a result
   bool has_limit = false;
   bool has_pictures = false, has_reports = false;  ///< the folder is one of those

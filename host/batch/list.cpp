@@ -8,12 +8,12 @@
 #include <set>
 #include <unordered_map>
 
+#include "host/answer/csv.h"
 #include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
-#include "host/base/text_scanner.h"
-#include "host/pictures/folder.h"
-#include "host/record/csv.h"
-#include "host/system/system.h"
+#include "host/base/id_hash.h"
+#include "host/base/parse_number.h"
+#include "host/base/system.h"
 
 namespace vkh {
 namespace {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/sha256.h"
+#include "host/base/system.h"
 #include "host/read/mesh_io.h"
-#include "host/system/sha256.h"
-#include "host/system/system.h"
 
 namespace vkh {
 namespace {

@@ -8,10 +8,10 @@
 #include <set>
 #include <string>
 
+#include "host/answer/input_hashes.h"
+#include "host/answer/reading.h"
+#include "host/answer/record.h"
 #include "host/batch/list.h"
-#include "host/job/input_hashes.h"
-#include "host/job/reading.h"
-#include "host/record/record.h"
 
 namespace vkh {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/many/stream.h"
-#include "host/record/record.h"
+#include "host/answer/record.h"
+#include "host/solve/stream.h"
 
 namespace vkh {
 

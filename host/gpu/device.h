@@ -62,7 +62,7 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   VkPhysicalDevice physical() const { return physical_; }
-  /// Its family draws, too; pictures need that (host/draw).
+  /// Its family draws, too; pictures need that (host/show).
   bool has_graphics() const { return has_graphics_; }
   std::mutex& queue_mutex() const { return *queue_mutex_; }
   /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.

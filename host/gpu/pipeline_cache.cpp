@@ -6,7 +6,7 @@
 #include <fstream>
 #include <vector>
 
-#include "host/system/system.h"
+#include "host/base/system.h"
 #include "kernels/all_kernels.h"
 
 namespace vkh {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/system/system.h"
+#include "host/base/system.h"
 
 namespace vkh {
 

@@ -9,11 +9,11 @@ namespace vkh {
 namespace {
 
 // A vertex at the same position, the same for all of them. Nothing where all positions differ.
-Array<uint32_t> one_at_position(const std::vector<glm::dvec3>& vertices, const Crew& crew) {
+Array<uint32_t> one_at_position(const std::vector<glm::dvec3>& vertices, const ThreadPool& pool) {
   const auto position = [&vertices](uint32_t v) -> const glm::dvec3& { return vertices[v]; };
-  PositionIndex index(crew, vertices.size(), position);
+  PositionIndex index(pool, vertices.size(), position);
   Array<uint32_t> one(vertices.size());
-  const size_t own = crew.sum_parts(vertices.size(), [&](size_t begin, size_t end) {
+  const size_t own = pool.sum_parts(vertices.size(), [&](size_t begin, size_t end) {
     return index.insert(static_cast<uint32_t>(begin), static_cast<uint32_t>(end),
                         one.begin() + begin);
   });
@@ -25,17 +25,17 @@ Array<uint32_t> one_at_position(const std::vector<glm::dvec3>& vertices, const C
 // it slow.
 class FaceGroups {
  public:
-  FaceGroups(const Mesh& mesh, Array<uint32_t> one, const Crew& crew)
+  FaceGroups(const Mesh& mesh, Array<uint32_t> one, const ThreadPool& pool)
       : faces_(mesh.faces),
         one_(std::move(one)),
-        crew_(crew),
-        end_(filled(crew, mesh.vertices.size(), uint32_t{0})) {}
+        pool_(pool),
+        end_(filled(pool, mesh.vertices.size(), uint32_t{0})) {}
 
   uint64_t duplicates() {
     count();
     counts_to_begins();
     bring_together();
-    return crew_.sum_parts(end_.size(), [&](size_t begin, size_t end) {
+    return pool_.sum_parts(end_.size(), [&](size_t begin, size_t end) {
       uint64_t sum = 0;
       for (size_t v = begin; v < end; ++v)
         sum += duplicates_among(v == 0 ? 0 : end_[v - 1], end_[v]);
@@ -60,7 +60,7 @@ class FaceGroups {
   // Faces that follow each other often share their least corner; a fan's all do, and threads would
   // wait for each other.
   void count() {
-    crew_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
+    pool_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
       uint32_t vertex = 0, run = 0;
       for (size_t f = begin; f < end; ++f) {
         const uint32_t least = corners_of(faces_[f])[0];
@@ -73,12 +73,12 @@ class FaceGroups {
   }
 
   void counts_to_begins() {
-    std::vector<size_t> starts(Crew::parts_of(end_.size()));
-    crew_.for_parts(end_.size(), [&](size_t part, size_t begin, size_t end) {
+    std::vector<size_t> starts(ThreadPool::parts_of(end_.size()));
+    pool_.for_parts(end_.size(), [&](size_t part, size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) starts[part] += end_[v];
     });
     starts_of(starts);
-    crew_.for_parts(end_.size(), [&](size_t part, size_t begin, size_t end) {
+    pool_.for_parts(end_.size(), [&](size_t part, size_t begin, size_t end) {
       auto sum = static_cast<uint32_t>(starts[part]);
       for (size_t v = begin; v < end; ++v) sum += std::exchange(end_[v], sum);
     });
@@ -87,7 +87,7 @@ class FaceGroups {
   // Of each vertex's faces the other two corners; its begin becomes its end.
   void bring_together() {
     others_ = Array<uint64_t>(faces_.size());
-    crew_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
+    pool_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
       std::array<uint64_t, 64> run;
       uint32_t vertex = 0, length = 0;
       const auto put = [&] {
@@ -115,17 +115,17 @@ class FaceGroups {
 
   const std::vector<glm::uvec3>& faces_;
   const Array<uint32_t> one_;
-  const Crew& crew_;
+  const ThreadPool& pool_;
   Array<uint32_t> end_;  // where a vertex's faces end, and the next one's are
   Array<uint64_t> others_;
 };
 
 }  // namespace
 
-uint64_t count_duplicates(const Mesh& mesh, Positions positions, const Crew& crew) {
+uint64_t count_duplicates(const Mesh& mesh, Positions positions, const ThreadPool& pool) {
   Array<uint32_t> one;
-  if (positions == Positions::kAny) one = one_at_position(mesh.vertices, crew);
-  return FaceGroups(mesh, std::move(one), crew).duplicates();
+  if (positions == Positions::kAny) one = one_at_position(mesh.vertices, pool);
+  return FaceGroups(mesh, std::move(one), pool).duplicates();
 }
 
 }  // namespace vkh

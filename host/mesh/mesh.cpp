@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "host/base/decimal.h"
+#include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/text_scanner.h"
+#include "host/base/reject.h"
 #include "host/mesh/make_mesh.h"
 
 namespace vkh {
@@ -29,11 +30,11 @@ class Least {
   std::atomic<uint64_t> least_ = kNone;
 };
 
-void check_indices(const Mesh& mesh, const Crew& crew) {
+void check_indices(const Mesh& mesh, const ThreadPool& pool) {
   const size_t vertex_count = mesh.vertices.size();
   const auto greatest = [](const glm::uvec3& f) { return std::max({f.x, f.y, f.z}); };
   Least wrong;
-  crew.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
+  pool.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       if (greatest(mesh.faces[f]) >= vertex_count) return wrong.see(f);
     }
@@ -56,7 +57,7 @@ bool is_finite(const glm::dvec3& p) {
          "(" + coordinates_text(p.x, p.y, p.z) + ") is not finite", "finite coordinates");
 }
 
-// Exponents of all ones, without a branch: compilers make vectors of it.
+// Tests for exponents of all ones, without a branch: compilers vectorise it.
 uint64_t not_finite(const glm::dvec3& p) {
   constexpr uint64_t kExponent = uint64_t{0x7ff} << 52;
   const auto is_it = [](double x) {
@@ -65,9 +66,9 @@ uint64_t not_finite(const glm::dvec3& p) {
   return is_it(p.x) | is_it(p.y) | is_it(p.z);
 }
 
-void check_finite(const Mesh& mesh, const Crew& crew) {
+void check_finite(const Mesh& mesh, const ThreadPool& pool) {
   Least wrong;
-  crew.for_parts(mesh.vertices.size(), [&](size_t, size_t begin, size_t end) {
+  pool.for_parts(mesh.vertices.size(), [&](size_t, size_t begin, size_t end) {
     uint64_t any = 0;
     for (size_t v = begin; v < end; ++v) any |= not_finite(mesh.vertices[v]);
     for (size_t v = begin; any != 0 && v < end; ++v) {
@@ -77,11 +78,11 @@ void check_finite(const Mesh& mesh, const Crew& crew) {
   if (wrong.found()) reject_vertex(mesh, wrong.number());
 }
 
-// 1 for each vertex that a face uses, else 0. Looked at before it is set: a line of memory that
-// nobody writes to is every core's.
-Array<uint8_t> used_vertices(const Mesh& mesh, const Crew& crew) {
-  Array<uint8_t> used = filled(crew, mesh.vertices.size(), uint8_t{0});
-  crew.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
+// Returns 1 for each vertex that a face uses, else 0. Reads a flag before setting it: a line of
+// memory that no thread writes to is every core's.
+Array<uint8_t> used_vertices(const Mesh& mesh, const ThreadPool& pool) {
+  Array<uint8_t> used = filled(pool, mesh.vertices.size(), uint8_t{0});
+  pool.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       for (int i = 0; i < 3; ++i) {
         const std::atomic_ref<uint8_t> flag(used[mesh.faces[f][i]]);
@@ -92,10 +93,10 @@ Array<uint8_t> used_vertices(const Mesh& mesh, const Crew& crew) {
   return used;
 }
 
-// Each part's vertices to the part's begin, on all threads; then the parts to the front.
-void drop_unused(Mesh& mesh, const Array<uint8_t>& used, const Crew& crew) {
-  std::vector<size_t> starts(Crew::parts_of(used.size()));
-  crew.for_parts(used.size(), [&](size_t part, size_t begin, size_t end) {
+// Moves each part's vertices to the part's begin, on all threads; then the parts to the front.
+void drop_unused(Mesh& mesh, const Array<uint8_t>& used, const ThreadPool& pool) {
+  std::vector<size_t> starts(ThreadPool::parts_of(used.size()));
+  pool.for_parts(used.size(), [&](size_t part, size_t begin, size_t end) {
     size_t to = begin;
     for (size_t v = begin; v < end; ++v) {
       if (used[v] != 0) mesh.vertices[to++] = mesh.vertices[v];
@@ -105,16 +106,16 @@ void drop_unused(Mesh& mesh, const Array<uint8_t>& used, const Crew& crew) {
   const size_t kept = starts_of(starts);
   for (size_t part = 0; part < starts.size(); ++part) {
     const size_t next = part + 1 < starts.size() ? starts[part + 1] : kept;
-    const auto from = mesh.vertices.begin() + static_cast<std::ptrdiff_t>(part * Crew::kPart);
+    const auto from = mesh.vertices.begin() + static_cast<std::ptrdiff_t>(part * ThreadPool::kPart);
     std::copy_n(from, next - starts[part],
                 mesh.vertices.begin() + static_cast<std::ptrdiff_t>(starts[part]));
   }
   Array<uint32_t> renamed(used.size());
-  crew.for_parts(used.size(), [&](size_t part, size_t begin, size_t end) {
+  pool.for_parts(used.size(), [&](size_t part, size_t begin, size_t end) {
     auto number = static_cast<uint32_t>(starts[part]);
     for (size_t v = begin; v < end; ++v) renamed[v] = used[v] != 0 ? number++ : 0;
   });
-  crew.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
+  pool.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       glm::uvec3& face = mesh.faces[f];
       face = {renamed[face.x], renamed[face.y], renamed[face.z]};
@@ -123,12 +124,12 @@ void drop_unused(Mesh& mesh, const Array<uint8_t>& used, const Crew& crew) {
   mesh.vertices.resize(kept);
 }
 
-// Keeps the order of those that stay. Only they have to be finite: scanners and exporters leave
-// nan in vertices that nothing uses.
-void drop_unreferenced(Mesh& mesh, const Crew& crew) {
-  const Array<uint8_t> used = used_vertices(mesh, crew);
+// Keeps the order of the vertices that stay. Only they have to be finite: scanners and exporters
+// leave nan in vertices that nothing uses.
+void drop_unreferenced(Mesh& mesh, const ThreadPool& pool) {
+  const Array<uint8_t> used = used_vertices(mesh, pool);
   Least wrong;
-  const size_t kept = crew.sum_parts(used.size(), [&](size_t begin, size_t end) {
+  const size_t kept = pool.sum_parts(used.size(), [&](size_t begin, size_t end) {
     size_t count = 0;
     for (size_t v = begin; v < end; ++v) {
       count += used[v];
@@ -138,11 +139,11 @@ void drop_unreferenced(Mesh& mesh, const Crew& crew) {
   });
   if (wrong.found()) reject_vertex(mesh, wrong.number());
   mesh.counts.unreferenced = used.size() - kept;
-  if (mesh.counts.unreferenced > 0) drop_unused(mesh, used, crew);
+  if (mesh.counts.unreferenced > 0) drop_unused(mesh, used, pool);
 }
 
-uint64_t count_degenerate(const Mesh& mesh, const Crew& crew) {
-  return crew.sum_parts(mesh.faces.size(), [&](size_t begin, size_t end) {
+uint64_t count_degenerate(const Mesh& mesh, const ThreadPool& pool) {
+  return pool.sum_parts(mesh.faces.size(), [&](size_t begin, size_t end) {
     size_t count = 0;
     for (size_t i = begin; i < end; ++i) {
       const glm::uvec3& f = mesh.faces[i];
@@ -164,9 +165,9 @@ void check_sizes(const Mesh& mesh) {
 
 void check_mesh(const Mesh& mesh) {
   check_sizes(mesh);
-  const Crew crew(threads_for(mesh_bytes(mesh)), {}, {});
-  check_indices(mesh, crew);
-  check_finite(mesh, crew);
+  const ThreadPool pool(threads_for(mesh_bytes(mesh)), {}, {});
+  check_indices(mesh, pool);
+  check_finite(mesh, pool);
   if (!(mesh.delta >= 0) || !std::isfinite(mesh.delta))
     reject(mesh.name, "delta", std::to_string(mesh.delta), "a finite number, at least 0");
   if (!mesh.file_faces.is_valid(mesh.faces.size()))
@@ -183,7 +184,7 @@ void refuse_any_triangulation(const Mesh& a, const Mesh& b, const std::string& w
 }
 
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces,
-               const Crew& crew, Positions positions) {
+               const ThreadPool& pool, Positions positions) {
   const FloatEnvironment ours;
   Mesh mesh{.name = std::move(name),
             .vertices = std::move(vertices),
@@ -191,17 +192,17 @@ Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<g
             .counts = {},
             .notes = {}};
   check_sizes(mesh);
-  check_indices(mesh, crew);
-  drop_unreferenced(mesh, crew);
+  check_indices(mesh, pool);
+  drop_unreferenced(mesh, pool);
   mesh.counts.vertices = mesh.vertices.size();
   mesh.counts.faces = mesh.faces.size();
-  mesh.counts.degenerate = count_degenerate(mesh, crew);
-  mesh.counts.duplicate = count_duplicates(mesh, positions, crew);
+  mesh.counts.degenerate = count_degenerate(mesh, pool);
+  mesh.counts.duplicate = count_duplicates(mesh, positions, pool);
   return mesh;
 }
 
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces) {
-  return make_mesh(std::move(name), std::move(vertices), std::move(faces), Crew());
+  return make_mesh(std::move(name), std::move(vertices), std::move(faces), ThreadPool());
 }
 
 }  // namespace vkh

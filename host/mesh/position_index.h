@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "host/base/crew.h"
 #include "host/base/hash_index.h"
+#include "host/base/thread_pool.h"
 
 namespace vkh {
 
@@ -15,8 +15,8 @@ template <class Position>
 class PositionIndex {
  public:
   /// For `count` elements at most: two slots of three are taken then.
-  PositionIndex(const Crew& crew, size_t count, Position position)
-      : slots_(filled(crew, count + count / 2 + 16, kFree)), position_(position) {}
+  PositionIndex(const ThreadPool& pool, size_t count, Position position)
+      : slots_(filled(pool, count + count / 2 + 16, kFree)), position_(position) {}
 
   /// found[e - begin] becomes, for the elements from begin to end, an element at the same position:
   /// for all of a position the same one, but which depends on who came first. Returns how many

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "host/field/face_gate.h"
+#include "host/solve/face_gate.h"
 #include "host/solve/report.h"
 
 namespace vkh::python {

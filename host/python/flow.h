@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "host/many/stream.h"
 #include "host/python/mesh.h"
 #include "host/python/options.h"
+#include "host/solve/stream.h"
 
 namespace vkh::python {
 

@@ -1,7 +1,7 @@
 #include "host/python/many.h"
 
+#include "host/answer/session.h"
 #include "host/base/error.h"
-#include "host/job/session.h"
 #include "host/python/arguments.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"

@@ -9,7 +9,7 @@
 
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
-#include "host/source/read_limits.h"
+#include "host/read/read_limits.h"
 
 namespace vkh::python {
 

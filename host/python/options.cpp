@@ -6,7 +6,7 @@
 #include "host/answer/options.h"
 #include "host/base/float_environment.h"
 #include "host/python/survey.h"
-#include "host/run/frame.h"
+#include "host/solve/frame.h"
 
 namespace vkh::python {
 namespace {

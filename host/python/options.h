@@ -4,23 +4,24 @@
 #include <optional>
 #include <variant>
 
-#include "host/answer/length.h"
+#include "host/base/length.h"
 #include "host/mesh/mesh.h"
 #include "host/python/arguments.h"
+#include "host/solve/solve_options.h"
 
 namespace vkh::python {
 
-/// tol, time, waves, memory, preset, enable and disable. Nobody listens to the run.
+/// Reads tol, time, waves, memory, preset, enable and disable. The run has no callback.
 SolveOptions options_of(const Arguments& given);
 
-/// A number of bytes, or a string such as '2GiB'.
+/// Reads a number of bytes, or a string such as '2GiB'.
 std::optional<uint64_t> size_of(const Arguments& given, const char* name);
 
-/// A limit of the whole mesh, as a number in the coordinates' unit or of A's diagonal.
+/// A limit of the whole mesh, as a number in the coordinates' unit or a share of A's diagonal.
 using MaxAsked = std::variant<Limit, Length>;
-/// `max`, which is there: a number, or a string such as '0.1%'.
+/// Reads `max`, which is there: a number, or a string such as '0.1%'.
 MaxAsked read_max(const Arguments& given, const char* expected);
-/// In A's own coordinates. Touches nothing of Python.
+/// Returns the limit in A's own coordinates. Touches nothing of Python.
 Limit limit_for(const MaxAsked& max, const Mesh& a);
 
 }  // namespace vkh::python

@@ -4,8 +4,8 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/prove/certificate.h"
 #include "host/python/session.h"
+#include "host/survey/certificate.h"
 
 namespace vkh::python {
 namespace {

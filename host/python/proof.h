@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "host/prove/prover.h"
+#include "host/base/output_file.h"
 #include "host/python/answer.h"
 #include "host/python/arguments.h"
-#include "host/system/output_file.h"
+#include "host/survey/prover.h"
 
 namespace vkh::python {
 

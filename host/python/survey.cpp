@@ -8,8 +8,8 @@
 
 #include "host/base/error.h"
 #include "host/python/session.h"
-#include "host/run/cells.h"
-#include "host/run/frame.h"
+#include "host/solve/cells.h"
+#include "host/solve/frame.h"
 
 namespace vkh::python {
 namespace {

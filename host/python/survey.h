@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "host/answer/length.h"
 #include "host/base/float_environment.h"
-#include "host/field/survey.h"
+#include "host/base/length.h"
 #include "host/python/answer.h"
 #include "host/python/arguments.h"
+#include "host/survey/survey.h"
 
 namespace vkh::python {
 

@@ -8,22 +8,23 @@
 #include "host/base/byte_order_mark.h"
 #include "host/base/float_environment.h"
 #include "host/base/note.h"
+#include "host/base/parse_number.h"
+#include "host/base/reject.h"
+#include "host/base/system.h"
 #include "host/base/text_scanner.h"
 #include "host/read/readers.h"
 #include "host/read/strangers.h"
-#include "host/system/system.h"
 
 namespace vkh {
 namespace {
 
 constexpr const char* kExpectedFormats = "an OBJ, STL, PLY, OFF, glTF or 3MF file";
-constexpr const char* kLessInput = "a smaller file, or a greater limit (--max-input)";
 
 void refuse_stranger(const std::string& name, const Stranger& stranger) {
   if (!stranger.what.empty()) reject(name, "byte 0", stranger.what, stranger.expected);
 }
 
-// What people pass by mistake, so that they are told more than that a keyword is missing.
+// Rejects formats that people pass by mistake, with more help than that a keyword is missing.
 void reject_known_strangers(const MeshSource& source, std::string_view head) {
   struct Wrapped {
     std::string_view magic;
@@ -67,7 +68,7 @@ Parse parser_by_extension(const std::string& extension) {
   return nullptr;
 }
 
-// STOFF, 4nOFF and the like, perhaps with a count glued to it.
+// Recognises STOFF, 4nOFF and the like, perhaps with a count glued to it.
 bool is_off_keyword(std::string_view word) {
   constexpr size_t kMostPrefix = 5;
   const size_t at = word.find("OFF");
@@ -89,7 +90,7 @@ Parse parser_by_content(std::string_view head, uint64_t size) {
   return nullptr;
 }
 
-// For pipes and files without a telling name: OBJ has no magic, only keywords.
+// Serves pipes and files without a telling name: OBJ has no magic, only keywords.
 bool looks_like_obj(std::string_view head) {
   constexpr std::array<std::string_view, 10> kKeywords = {"v", "vt", "vn",     "f",      "o",
                                                           "g", "s",  "mtllib", "usemtl", "l"};
@@ -115,7 +116,8 @@ MeshSource without_byte_order_mark(const MeshSource& given, std::string_view hea
          what + ", beyond the limit of " + counted(limits.max_input_bytes, "byte"), kLessInput);
 }
 
-// What InputFile does not open: a pipe is read until it ends, anything else is refused.
+// Reads a file that InputFile does not open: a pipe is read until it ends, anything else is
+// refused.
 std::string read_pipe(const std::filesystem::path& path, const std::string& name,
                       const ReadLimits& limits) {
   std::error_code error;
@@ -144,14 +146,14 @@ std::string read_pipe(const std::filesystem::path& path, const std::string& name
   return bytes;
 }
 
-// The reader of a file and what it reads; throws InputError where none fits.
+// The reader of a file and what it reads; throws InputError if none fits.
 struct Told {
   Parse parse;
   MeshSource source;
 };
 
 Told told_format(const MeshSource& file) {
-  constexpr size_t kHead = 4096;  // tells the format
+  constexpr size_t kHead = 4096;  // enough to recognise the format
   check_going(file.name, file.limits);
   const std::string start = head_of(file, kByteOrderMark.size() + kHead);
   reject_known_strangers(file, start);
@@ -210,7 +212,7 @@ std::vector<FileBeneath> files_beneath(const std::filesystem::path& path,
                                    .folder = folder_beside(path)});
     if (told.parse != &parse_gltf) return {};
     return files_of_gltf(told.source);
-  } catch (const InputError&) {  // read_mesh says so, too
+  } catch (const InputError&) {  // read_mesh reports it, too
     return {};
   }
 }

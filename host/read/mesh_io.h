@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/mesh/mesh.h"
-#include "host/source/read_limits.h"
+#include "host/read/read_limits.h"
 
 namespace vkh {
 

@@ -9,7 +9,7 @@
 
 #include "host/base/note.h"
 #include "host/read/readers.h"
-#include "host/source/text_blocks.h"
+#include "host/read/text_blocks.h"
 
 namespace vkh {
 namespace {
@@ -327,11 +327,11 @@ void place_relative(const ObjBlock& block, size_t vertices_before, MeshBuilder& 
 }
 
 Mesh read_obj_by_blocks(const MeshSource& source) {
-  const Crew crew = crew_of(source);
+  const ThreadPool pool = pool_of(source);
   TextBlocks blocks(source, 0, Cut::kUncontinued);
   std::vector<MeshBuilder> builders = blocks.builders();
   std::vector<ObjBlock> read(blocks.count());
-  blocks.for_each(crew, [&](size_t i, const TextBlock& block) {
+  blocks.for_each(pool, [&](size_t i, const TextBlock& block) {
     ObjReader reader(blocks.source(), block, builders[i]);
     reader.read();
     read[i] = {reader.ignored(), reader.range(), reader.relative()};
@@ -340,7 +340,7 @@ Mesh read_obj_by_blocks(const MeshSource& source) {
   starts.reserve(builders.size());
   for (const MeshBuilder& builder : builders) starts.push_back(builder.vertices().size());
   const size_t vertex_count = starts_of(starts);
-  crew.for_each(read.size(), [&](size_t i) { place_relative(read[i], starts[i], builders[i]); });
+  pool.for_each(read.size(), [&](size_t i) { place_relative(read[i], starts[i], builders[i]); });
   MeshBuilder all = MeshBuilder::joined(source, std::move(builders));
   Ignored ignored;
   for (const ObjBlock& block : read) {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "host/read/readers.h"
-#include "host/source/text_blocks.h"
+#include "host/read/text_blocks.h"
 
 namespace vkh {
 namespace {

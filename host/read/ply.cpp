@@ -12,7 +12,7 @@
 #include "host/base/note.h"
 #include "host/read/ply_header.h"
 #include "host/read/readers.h"
-#include "host/source/text_blocks.h"
+#include "host/read/text_blocks.h"
 
 namespace vkh {
 namespace {

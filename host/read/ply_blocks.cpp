@@ -1,13 +1,13 @@
 // A binary PLY's body on several threads. Rows of one length are found by multiplication. Rows with
 // lists are first taken to be as long as the element's first one: right for meshes of triangles
-// alone, or of quads. Where they are not, one thread walks from list to list, and the others parse
+// alone, or of quads. If they are not, one thread goes from list to list, and the others parse
 // behind it.
 #include <algorithm>
 #include <atomic>
 #include <optional>
 
 #include "host/read/ply_header.h"
-#include "host/source/source.h"
+#include "host/read/source.h"
 
 namespace vkh::ply {
 namespace {
@@ -50,11 +50,11 @@ auto with_type(Scalar type, const F& use) {
 struct RowBlock {
   uint64_t row = 0;       ///< the first
   uint64_t at = 0;        ///< its byte
-  uint64_t triangle = 0;  ///< and its first triangle; in the face element alone
+  uint64_t triangle = 0;  ///< its first triangle; in the face element alone
 };
 
-/// Blocks of an element, and where the last one ends.
-using RowBlocks = std::vector<RowBlock>;
+/// The blocks of an element, and where the last one ends.
+using PlyBlocks = std::vector<RowBlock>;
 
 template <std::endian kOrder>
 class BlockReader {
@@ -63,7 +63,7 @@ class BlockReader {
       : header_(header),
         layout_(layout),
         source_(source),
-        crew_(crew_of(source)),
+        pool_(pool_of(source)),
         windows_(source),
         block_bytes_(block_bytes_of(source)) {}
 
@@ -97,7 +97,7 @@ class BlockReader {
     return walk(element, begin).back().at;
   }
 
-  /// 0 where a row holds a list.
+  /// The bytes of a row; 0 if a row holds a list.
   static uint64_t fixed_row_bytes(const Element& element) {
     uint64_t bytes = 0;
     for (const Property& property : element.properties) {
@@ -120,9 +120,9 @@ class BlockReader {
     const uint64_t row_bytes = fixed_row_bytes(element);
     if (row_bytes == 0) refuse(source_);
     check_end(begin, element.count, row_bytes);
-    resize_together(crew_, vertices_, element.count);
+    resize_together(pool_, vertices_, element.count);
     const uint64_t rows = rows_of_block(row_bytes);
-    crew_.for_each((element.count + rows - 1) / rows, [&](size_t i) {
+    pool_.for_each((element.count + rows - 1) / rows, [&](size_t i) {
       const uint64_t first = i * rows, count = std::min(rows, element.count - first);
       const uint64_t at = begin + first * row_bytes;
       Windows::Window window(windows_);
@@ -145,7 +145,7 @@ class BlockReader {
   }
 
   uint64_t read_faces(uint64_t begin) {
-    if (const std::optional<RowBlocks> even = even_blocks(begin)) {
+    if (const std::optional<PlyBlocks> even = even_blocks(begin)) {
       try {
         return read_face_blocks(*even);
       } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): then the rows differ
@@ -154,29 +154,29 @@ class BlockReader {
     return read_face_blocks(walk(*layout_.face, begin));
   }
 
-  // As if all rows were like the first. Nothing where the file is too short for that.
-  std::optional<RowBlocks> even_blocks(uint64_t begin) {
+  // Blocks as if all rows were like the first. Returns nothing if the file is too short for that.
+  std::optional<PlyBlocks> even_blocks(uint64_t begin) {
     const Element& element = *layout_.face;
     uint64_t triangles = 0;
     Walker first(*this, begin);
     const uint64_t row_bytes = first.skip_row(element, &triangles) - begin;
     if (element.count > (source_.size() - begin) / row_bytes) return std::nullopt;
     const uint64_t rows = rows_of_block(row_bytes);
-    RowBlocks blocks;
+    PlyBlocks blocks;
     for (uint64_t row = 0; row < element.count; row += rows)
       blocks.push_back({row, begin + row * row_bytes, row * triangles});
     blocks.push_back({element.count, begin + element.count * row_bytes, element.count * triangles});
     return blocks;
   }
 
-  RowBlocks walk(const Element& element, uint64_t begin) {
-    RowBlocks blocks = {{.row = 0, .at = begin}};
+  PlyBlocks walk(const Element& element, uint64_t begin) {
+    PlyBlocks blocks = {{.row = 0, .at = begin}};
     Walker walker(*this, begin);
     uint64_t triangles = 0, at = begin;
     for (uint64_t row = 0; row < element.count; ++row) {
       if (at - blocks.back().at >= block_bytes_) {
         blocks.push_back({row, at, triangles});
-        crew_.check_going();
+        pool_.check_going();
       }
       at = walker.skip_row(element, &element == layout_.face ? &triangles : nullptr);
     }
@@ -229,16 +229,16 @@ class BlockReader {
     std::string_view bytes_;
   };
 
-  uint64_t read_face_blocks(const RowBlocks& blocks) {
+  uint64_t read_face_blocks(const PlyBlocks& blocks) {
     const uint64_t triangles = blocks.back().triangle;
     MeshBuilder(source_).check_room(layout_.vertex->count, triangles);
     if (faces_.size() != triangles) {
       faces_ = {};
-      resize_together(crew_, faces_, triangles);
+      resize_together(pool_, faces_, triangles);
     }
     polygons_ = short_faces_ = 0;
     std::vector<FileFaces> of_blocks(blocks.size() - 1);
-    crew_.for_each(blocks.size() - 1, [&](size_t i) {
+    pool_.for_each(blocks.size() - 1, [&](size_t i) {
       Windows::Window window(windows_);
       FaceRows rows(*this, window.read(blocks[i].at, blocks[i + 1].at));
       rows.begin = rows.out = faces_.data() + blocks[i].triangle;
@@ -256,7 +256,7 @@ class BlockReader {
     return blocks.back().at;
   }
 
-  /// One block's: bytes, and the triangles that they have to fill.
+  /// The rows of one block: bytes, and the triangles that they have to fill.
   struct FaceRows {
     FaceRows(const BlockReader& r, std::string_view bytes)
         : reader(r), at(bytes.data()), stop(bytes.data() + bytes.size()) {}
@@ -273,7 +273,7 @@ class BlockReader {
       }
     }
 
-    // Of what was there a moment ago: somebody may write to the file.
+    // Checks against what was there a moment ago: another process may write to the file.
     void check_end() const {
       if (at != stop || out != end) refuse(reader.source_);
     }
@@ -295,7 +295,7 @@ class BlockReader {
       with_type(type, [&](auto t) { fan<decltype(t)>(count); });
     }
 
-    // Than a triangle.
+    // Notes a face that is no triangle.
     void note_other(uint64_t count) {
       ++(count > 3 ? polygons : short_faces);
       file_faces.add(static_cast<size_t>(out - begin), count > 3 ? count - 2 : 0);
@@ -328,7 +328,7 @@ class BlockReader {
   const Header& header_;
   const Layout& layout_;
   const MeshSource& source_;
-  Crew crew_;
+  ThreadPool pool_;
   Windows windows_;
   size_t block_bytes_;
   std::vector<glm::dvec3> vertices_;

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "host/read/mesh_builder.h"
 #include "host/read/mesh_io.h"
-#include "host/source/mesh_builder.h"
-#include "host/source/source.h"
+#include "host/read/source.h"
 
 namespace vkh {
 
@@ -26,8 +26,8 @@ Mesh parse_obj(const MeshSource& source);
 Mesh parse_stl(const MeshSource& source);
 Mesh parse_ply(const MeshSource& source);
 Mesh parse_off(const MeshSource& source);
-Mesh parse_gltf(const MeshSource& source);  ///< host/gltf; GLB, too
-Mesh parse_3mf(const MeshSource& source);   ///< host/threemf
+Mesh parse_gltf(const MeshSource& source);  ///< GLB, too
+Mesh parse_3mf(const MeshSource& source);
 
 /// The files that parse_gltf reads besides: see files_beneath. Throws what parse_gltf throws for a
 /// document that is refused before its numbers are looked at.

@@ -8,9 +8,9 @@
 
 #include "host/base/hash_index.h"
 #include "host/base/note.h"
-#include "host/read/merge.h"
+#include "host/read/merge_blocks.h"
 #include "host/read/readers.h"
-#include "host/source/text_blocks.h"
+#include "host/read/text_blocks.h"
 
 namespace vkh {
 namespace {
@@ -178,9 +178,9 @@ Mesh read_binary(const MeshSource& source) {
 // Merged corners are refused by whoever reads them one by one: a corner that is there already is
 // counted before it is found.
 template <class Corner>
-MeshBuilder merged(const MeshSource& source, const Crew& crew, Array<Corner> corners) {
+MeshBuilder merged(const MeshSource& source, const ThreadPool& pool, Array<Corner> corners) {
   constexpr uint64_t kSpare = 12;
-  MergedCorners mesh = CornerMerger(crew, corners).merge();
+  MergedCorners mesh = CornerMerger(pool, corners).merge();
   const uint64_t bytes = mesh_bytes(mesh.vertices.size(), mesh.faces.size());
   if (bytes + kSpare > source.limits.max_input_bytes)
     reject(source.name, "byte 0", counted(bytes, "byte"), "fewer");
@@ -194,10 +194,10 @@ Mesh read_binary_by_blocks(const MeshSource& source) {
   MeshBuilder(source).check_room(0, count);
   if (source.size() - end > kMostRest)
     reject(source.name, byte_place(end), "more than is looked at", "less");
-  const Crew crew = crew_of(source);
+  const ThreadPool pool = pool_of(source);
   Windows windows(source);
   Array<glm::vec3> corners(3 * count);
-  crew.for_each((count + per_block - 1) / per_block, [&](size_t i) {
+  pool.for_each((count + per_block - 1) / per_block, [&](size_t i) {
     const uint64_t begin = i * per_block, stop = std::min(count, begin + per_block);
     Windows::Window window(windows);
     const std::string_view bytes =
@@ -215,7 +215,7 @@ Mesh read_binary_by_blocks(const MeshSource& source) {
     }
     count_read(source, bytes.size());
   });
-  MeshBuilder builder = merged(source, crew, std::move(corners));
+  MeshBuilder builder = merged(source, pool, std::move(corners));
   check_rest(Windows::Window(windows).read(end, source.size()), end, builder);
   return std::move(builder).finish(byte_place(kHeaderBytes), Positions::kDiffer);
 }
@@ -371,14 +371,14 @@ struct KeepingUse {
 };
 
 /// One block's corners after the other's, each freed as it is copied.
-Array<glm::dvec3> joined(const Crew& crew, std::vector<KeepingUse> blocks) {
+Array<glm::dvec3> joined(const ThreadPool& pool, std::vector<KeepingUse> blocks) {
   std::vector<size_t> starts;
   starts.reserve(blocks.size());
   for (const KeepingUse& block : blocks) starts.push_back(block.corners.size());
   const size_t count = starts_of(starts);
   if (count >= UINT32_MAX) throw InputError("more corners than are read by blocks");
   Array<glm::dvec3> all(count);
-  crew.for_each(blocks.size(), [&](size_t i) {
+  pool.for_each(blocks.size(), [&](size_t i) {
     std::vector<glm::dvec3>& corners = blocks[i].corners;
     std::copy(corners.begin(), corners.end(), all.begin() + starts[i]);
     corners = {};
@@ -387,15 +387,15 @@ Array<glm::dvec3> joined(const Crew& crew, std::vector<KeepingUse> blocks) {
 }
 
 Mesh read_ascii_by_blocks(const MeshSource& source) {
-  const Crew crew = crew_of(source);
+  const ThreadPool pool = pool_of(source);
   TextBlocks blocks(source, 0, Cut::kFacet);
   std::vector<KeepingUse> read(blocks.count());
-  blocks.for_each(crew, [&](size_t i, const TextBlock& block) {
+  blocks.for_each(pool, [&](size_t i, const TextBlock& block) {
     if (block.text.find('\0') != std::string_view::npos)
       reject(source.name, byte_place(0), "a zero byte", "text");
     AsciiReader(source, block, read[i]).read();
   });
-  return merged(source, crew, joined(crew, std::move(read))).finish("byte 0", Positions::kDiffer);
+  return merged(source, pool, joined(pool, std::move(read))).finish("byte 0", Positions::kDiffer);
 }
 
 // Some writers end text as C or DOS did: with zero bytes, or with Ctrl-Z.

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/base/rounding.h"
-#include "host/run/switches.h"
+#include "host/solve/switches.h"
 
 namespace vkh {
 namespace {
@@ -69,7 +69,7 @@ FileInterval to_files(const VkhReport& r, const Pair& pair) {
 // B's frame lets exceed 1.
 RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) {
   const SolveOptions& options = pair.options;
-  const double size = std::max(1.0, pair.frame.reach(pair.joint));
+  const double size = std::max(1.0, pair.frame.extent(pair.joint));
   const double tolerance = pair.frame.to_frame(tolerance_given);
   const bool two_float = pair.has_low || tolerance < kPlainTolerance * size;
   const double floor = kToleranceFloor * size;

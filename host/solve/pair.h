@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "host/run/frame.h"
-#include "host/run/seat.h"
-#include "host/run/solve_options.h"
+#include "host/solve/frame.h"
+#include "host/solve/pair_buffers.h"
 #include "host/solve/report.h"
+#include "host/solve/solve_options.h"
 
 namespace vkh {
 

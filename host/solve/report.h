@@ -10,7 +10,7 @@
 
 #include "host/gpu/device_description.h"
 #include "host/mesh/mesh.h"
-#include "host/run/solve_options.h"
+#include "host/solve/solve_options.h"
 
 namespace vkh {
 
@@ -75,7 +75,7 @@ struct Times {
   double wall_ms = 0;       ///< host clock around Solver::distance
 };
 
-/// The host's own check of a run, asked for with --verify (host/check/verify.h).
+/// The host's own check of a run, asked for with --verify (host/solve/verify.h).
 struct WitnessCheck {
   double distance_lower = 0, distance_upper = 0;  ///< enclose d(witness, B), in the files' units
   bool holds = false;  ///< every face of B is at least `lower` away from the witness

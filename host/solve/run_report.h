@@ -1,9 +1,9 @@
 // What a run did and where it found its witness, in a report's words.
 #pragma once
 
-#include "host/run/frame.h"
-#include "host/run/run.h"
+#include "host/solve/frame.h"
 #include "host/solve/report.h"
+#include "host/solve/run.h"
 
 namespace vkh {
 

@@ -11,12 +11,12 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
-#include "host/run/frame.h"
-#include "host/run/run.h"
-#include "host/run/switches.h"
 #include "host/solve/coverage.h"
+#include "host/solve/frame.h"
 #include "host/solve/pair.h"
+#include "host/solve/run.h"
 #include "host/solve/run_report.h"
+#include "host/solve/switches.h"
 #include "host/solve/way_back.h"
 
 namespace vkh {
@@ -353,8 +353,8 @@ PreparedMesh Solver::prepare(Mesh b) {
 // the truth, and get a frame around both. A point has no size to choose a frame by.
 bool PreparedMesh::serves(const Mesh& a) const {
   const FloatEnvironment ours;
-  const double reach = impl_->frame.reach(join(bounding_box(a), impl_->box));
-  return reach >= 0.5 && reach <= 4;
+  const double extent = impl_->frame.extent(join(bounding_box(a), impl_->box));
+  return extent >= 0.5 && extent <= 4;
 }
 
 Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options) {

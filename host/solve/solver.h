@@ -8,8 +8,8 @@
 
 #include "host/gpu/device.h"
 #include "host/mesh/mesh.h"
-#include "host/run/solve_options.h"
 #include "host/solve/report.h"
+#include "host/solve/solve_options.h"
 
 namespace vkh {
 

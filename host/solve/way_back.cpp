@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "host/base/rounding.h"
-#include "host/run/frame.h"
-#include "host/run/switches.h"
+#include "host/solve/frame.h"
+#include "host/solve/switches.h"
 
 namespace vkh {
 

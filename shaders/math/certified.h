@@ -20,7 +20,7 @@ VKH_LIB_BEGIN
 VKH_CONST float kUlp = 1.1920929e-7f;  // 2^-23
 
 // Absorbs every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that
-// are added in one formula stay under this. Coordinates are of order 1 (host/run/frame.h), so it is
+// are added in one formula stay under this. Coordinates are of order 1 (host/solve/frame.h), so it is
 // 2^-40 of an ulp.
 VKH_CONST float kTiny = 8.6736174e-19f;  // 2^-60
 

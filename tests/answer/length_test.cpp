@@ -1,5 +1,5 @@
 // Lengths as typed, and what encloses them in the files' unit.
-#include "host/answer/length.h"
+#include "host/base/length.h"
 
 #include <doctest/doctest.h>
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <sstream>
 
+#include "host/answer/csv.h"
 #include "host/answer/json_object.h"
+#include "host/answer/record.h"
+#include "host/answer/tables.h"
 #include "host/base/error.h"
-#include "host/record/csv.h"
-#include "host/record/record.h"
-#include "host/record/tables.h"
 #include "tests/support/files.h"
 
 namespace {

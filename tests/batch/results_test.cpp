@@ -5,8 +5,8 @@
 #include <string>
 
 #include "host/answer/json_object.h"
+#include "host/answer/merge.h"
 #include "host/base/error.h"
-#include "host/record/merge.h"
 #include "tests/support/files.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // PairStream: every pair that is pushed is delivered once, with the answer that it has alone.
-#include "host/many/stream.h"
+#include "host/solve/stream.h"
 
 #include <doctest/doctest.h>
 
@@ -7,9 +7,9 @@
 #include <map>
 #include <mutex>
 
+#include "host/answer/session.h"
 #include "host/base/error.h"
-#include "host/job/session.h"
-#include "host/many/budget.h"
+#include "host/solve/budget.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"

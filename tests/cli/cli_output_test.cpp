@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "host/base/error.h"
-#include "host/system/output_file.h"
+#include "host/base/output_file.h"
 #include "tests/support/program.h"
 
 namespace {

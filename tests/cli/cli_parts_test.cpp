@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/parts/merge_parts.h"
+#include "host/answer/merge_parts.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/program.h"
 

@@ -1,5 +1,5 @@
-// Pictures of small meshes: what can be seen on them, whatever the driver.
-#include "host/draw/draw.h"
+// Pictures of small meshes: their visible contents, whatever the driver.
+#include "host/show/draw.h"
 
 #include <doctest/doctest.h>
 
@@ -15,14 +15,12 @@
 #include <set>
 
 #include "host/base/error.h"
-#include "host/draw/canvas.h"
+#include "host/show/canvas.h"
 #include "tests/support/kernel_bench.h"
 
 namespace {
 
 using namespace vkh;
-using drawing::map_colour;
-using drawing::Rgb;
 
 constexpr Rgb kStripe{74, 64, 51};
 
@@ -56,7 +54,7 @@ Rgb at(const Image& image, uint32_t x, uint32_t y) {
   return {p[0], p[1], p[2]};
 }
 
-/// Of those pixels among the views, left of the legend, that have the colour.
+/// Statistics of the pixels among the views, left of the legend, that have the colour.
 struct Found {
   size_t count = 0;
   double x = 0, y = 0;  ///< their mean
@@ -196,7 +194,7 @@ TEST_CASE("a coordinate far from the origin keeps its place") {
   CHECK(left.x + 50 < find(image, map_colour(ColourMap::kViridis, 1)).x);
 }
 
-// More than are uploaded at once: 2^19.
+// The mesh has more faces than are uploaded at once: 2^19.
 TEST_CASE("of many faces the first and the last are drawn") {
   const auto side = uint32_t{520};
   std::vector<glm::dvec3> vertices;

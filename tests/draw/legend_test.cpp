@@ -1,5 +1,5 @@
 // What is written on a picture, and in which colours.
-#include "host/draw/legend.h"
+#include "host/show/legend.h"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host/run/run.h"
+#include "host/solve/run.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "host/parts/together.h"
+#include "host/solve/together.h"
 #include "tests/faults/trial.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"

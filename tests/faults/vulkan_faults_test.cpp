@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "host/check/self_test.h"
-#include "host/draw/draw.h"
+#include "host/app/self_test.h"
 #include "host/gpu/device.h"
+#include "host/show/draw.h"
 #include "host/solve/solver.h"
 #include "tests/faults/trial.h"
 #include "tests/shapes/shapes.h"

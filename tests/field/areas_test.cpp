@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "host/field/statistics.h"
 #include "host/mesh/make_mesh.h"
+#include "host/survey/statistics.h"
 
 namespace vkh {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host/run/cells.h"
+#include "host/solve/cells.h"
 #include "tests/oracle/closest.h"
 
 namespace vkh::test {

@@ -1,6 +1,6 @@
 // Surveys: closed forms lie in what is certified, faces meet the tests' own solver, random points
 // agree, and a survey that ends early is true.
-#include "host/field/survey.h"
+#include "host/survey/survey.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // The generated pair of `vkhausdorff demo`: a closed part with CAD's thin triangles and its
 // simplified twin, the same to the last bit everywhere.
-#include "host/demo/default_pair.h"
+#include "host/mesh/default_pair.h"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/demo/simplify.h"
+#include "host/mesh/mesh_pair.h"
+#include "host/mesh/simplify.h"
 #include "tests/shapes/shapes.h"
 
 namespace {

@@ -1,13 +1,13 @@
-// host/run/frame.cpp against exact rationals: no vertex is displaced by more than the frame says,
+// host/solve/frame.cpp against exact rationals: no vertex is displaced by more than the frame says,
 // and lengths come back rounded outward, subnormal and huge coordinates included.
-#include "host/run/frame.h"
+#include "host/solve/frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
-#include "host/demo/default_pair.h"
+#include "host/mesh/mesh_pair.h"
 #include "host/mesh/round_to_float.h"
 #include "tests/model/arithmetic.h"
 #include "tests/oracle/exact.h"

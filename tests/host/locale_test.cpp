@@ -9,10 +9,10 @@
 #include <limits>
 #include <string>
 
-#include "host/answer/length.h"
 #include "host/base/decimal.h"
-#include "host/export/rounded.h"
+#include "host/base/length.h"
 #include "host/read/readers.h"
+#include "host/write/rounded.h"
 #include "tests/support/files.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Names of files, the cache folder and the environment, as the system at hand has them.
-#include "host/system/system.h"
+#include "host/base/system.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "host/base/error.h"
+#include "host/base/output_file.h"
 #include "host/read/mesh_io.h"
-#include "host/system/output_file.h"
 #include "tests/support/files.h"
 
 namespace fs = std::filesystem;

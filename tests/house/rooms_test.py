@@ -17,9 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
                 "report", "field", "doctor"],
-    "host": ["base", "system", "mesh", "source", "read", "scene", "gltf", "threemf", "gpu", "run", "solve", "field",
-             "prove", "answer", "parts", "demo", "check", "draw", "export", "page", "record", "job", "pictures", "many", "batch", "cli",
-             "program"],
+    "host": ["base", "mesh", "read", "gpu", "solve", "survey", "write", "answer", "show", "batch", "app"],
     "tests": ["oracle", "shapes", "support", "model", "math", "kernels", "engine", "scene", "host", "read", "solve", "field", "prove", "answer", "parts", "draw", "page", "pairs", "check", "batch",
               "cli", "faults", "platforms", "cluster", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "host/base/error.h"
-#include "host/run/frame.h"
+#include "host/solve/frame.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"

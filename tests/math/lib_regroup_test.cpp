@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-#include "host/check/self_test.h"
+#include "host/app/self_test.h"
 #include "tests/model/climb.h"
 #include "tests/model/composed.h"
 

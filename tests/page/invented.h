@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "host/page/page.h"
+#include "host/show/page.h"
 
 namespace vkh::test {
 

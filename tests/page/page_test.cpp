@@ -1,5 +1,5 @@
 // A page as text: what it says is the answer's, nothing in it can be ended from outside, it fits.
-#include "host/page/page.h"
+#include "host/show/page.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "host/page/escape.h"
+#include "host/show/escape.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 

@@ -1,5 +1,5 @@
 // Decimation loses no bound, steps lie on neither side, tallies are sums, worst places are apart.
-#include "host/page/shown.h"
+#include "host/show/shown.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <set>
 
-#include "host/page/figures.h"
+#include "host/show/page_figures.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 

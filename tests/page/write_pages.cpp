@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "host/page/page.h"
 #include "host/read/mesh_io.h"
+#include "host/show/page.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 

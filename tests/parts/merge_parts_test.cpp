@@ -1,5 +1,5 @@
 // Answers of parts as one: which are taken, and what comes of them, to the last bit.
-#include "host/parts/merge_parts.h"
+#include "host/answer/merge_parts.h"
 
 #include <doctest/doctest.h>
 

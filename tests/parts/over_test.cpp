@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "host/parts/together.h"
+#include "host/solve/together.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/shapes/shapes.h"

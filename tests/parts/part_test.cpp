@@ -1,5 +1,5 @@
 // Parts of A: each face is in one, each is the part of A that it says, and h of all is h(A,B).
-#include "host/parts/part.h"
+#include "host/solve/part.h"
 
 #include <doctest/doctest.h>
 

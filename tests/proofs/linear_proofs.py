@@ -17,7 +17,7 @@ NOTHING = Pair(constant(0), constant(0))
 
 
 def stored(unit, x):
-    """As host/run/frame.cpp stores a coordinate: both parts rounded to nearest."""
+    """As host/solve/frame.cpp stores a coordinate: both parts rounded to nearest."""
     if unit.flush or x == 0:
         return NOTHING
     m = unit.free("m", LOW / 2)

@@ -2,7 +2,7 @@
 // names any. A proof must not halve A for what halving cannot help.
 #include <cmath>
 
-#include "host/prove/prover.h"
+#include "host/survey/prover.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 

@@ -3,8 +3,8 @@
 // (shaders/candidate/subroot.glsl).
 #include <cmath>
 
-#include "host/check/verify.h"
-#include "host/prove/prover.h"
+#include "host/solve/verify.h"
+#include "host/survey/prover.h"
 #include "tests/model/arithmetic.h"
 #include "tests/oracle/exact.h"
 #include "tests/shapes/shapes.h"
@@ -104,7 +104,7 @@ TEST_CASE("its upper bound is proven by leaves, but for what doubles round") {
   const Proof proof =
       prove(solver(), {.a = kA, .b = kB, .report = r, .options = options, .goes_on = {}});
   CHECK(proof.upper >= r.upper);
-  CHECK(proof.upper - r.upper <= 1e-12);  // leaves may take so much more: host/prove/prover.cpp
+  CHECK(proof.upper - r.upper <= 1e-12);  // leaves may take so much more: host/survey/prover.cpp
   CHECK(proof.unproven == 0);
   CHECK(proof.leaves > 3);
 }

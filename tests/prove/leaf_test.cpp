@@ -1,5 +1,5 @@
 // What a certificate's writer takes for a distance is not less than the exact one, and hardly more.
-#include "host/prove/leaf.h"
+#include "host/survey/leaf.h"
 
 #include <doctest/doctest.h>
 

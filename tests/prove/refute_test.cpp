@@ -1,7 +1,7 @@
 // What a driver that rounds wrongly might report: bounds that are false. The writer of certificates
 // proves by arithmetic of its own, so a false upper bound is raised to a true one, and soon. Lower
 // bounds it takes as they are: vkh_check refuses those (tests/check).
-#include "host/prove/prover.h"
+#include "host/survey/prover.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 

@@ -1,5 +1,7 @@
 // EXT_meshopt_compression: what meshoptimizer packed comes out as it was, and no more than the
 // packed bytes can hold is allocated. Without meshoptimizer: a refusal that names its package.
+#include "host/read/gltf_unpack.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <tuple>
 
 #include "host/base/error.h"
-#include "host/gltf/unpack.h"
 #include "tests/scene/gltf_document.h"
 #include "tests/shapes/shapes.h"
 

@@ -1,6 +1,6 @@
 // Affine maps of nodes against exact rationals: no entry and no moved point is farther from its
 // exact place than is said, and what is exact is said to be.
-#include "host/scene/transform.h"
+#include "host/read/transform.h"
 
 #include <doctest/doctest.h>
 

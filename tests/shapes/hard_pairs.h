@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/demo/default_pair.h"
+#include "host/mesh/mesh_pair.h"
 #include "tests/shapes/shapes.h"
 
 namespace vkh::test {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "host/base/crew.h"
+#include "host/base/thread_pool.h"
 
 namespace vkh::test {
 namespace {
@@ -138,8 +138,8 @@ File mirrored_stl(size_t triangles) {
   for (size_t t = 0; t < triangles; ++t) {
     bytes.append(12, '\0');
     for (size_t c = 3 * t; c < 3 * t + 3; ++c) {
-      const size_t part = c / Crew::kPart, i = c % Crew::kPart;
-      store<float>(bytes, static_cast<float>(part % 2 == 0 ? i : Crew::kPart - 1 - i), false);
+      const size_t part = c / ThreadPool::kPart, i = c % ThreadPool::kPart;
+      store<float>(bytes, static_cast<float>(part % 2 == 0 ? i : ThreadPool::kPart - 1 - i), false);
       store<float>(bytes, static_cast<float>(part / 2), false);
       store<float>(bytes, 1, false);
     }

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "host/base/error.h"
-#include "host/field/face_gate.h"
+#include "host/solve/face_gate.h"
 #include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/vkhausdorff.h"
-#include "host/run/switches.h"
+#include "host/solve/switches.h"
 #include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"

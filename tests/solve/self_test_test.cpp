@@ -1,6 +1,6 @@
 // The doctor's judge on answers made on the CPU, right ones and each kind of wrong one; and the
 // device at hand.
-#include "host/check/self_test.h"
+#include "host/app/self_test.h"
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "host/check/verify.h"
 #include "host/solve/solver.h"
+#include "host/solve/verify.h"
 #include "tests/oracle/exact.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"

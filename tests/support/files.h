@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "host/system/system.h"
+#include "host/base/system.h"
 
 namespace vkh::test {
 

@@ -32,7 +32,7 @@ bool is_progress(const std::string& line) {
 }
 
 /// But for the lines that tell how far a run is: one each ten seconds, so that a slow machine has
-/// more of them (host/job/progress_line.h).
+/// more of them (host/answer/progress_line.h).
 std::string without_progress(const std::string& err) {
   std::istringstream lines(err);
   std::string kept;

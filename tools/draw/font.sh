@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Makes host/draw/font/OpenSans-subset.ttf: what names of files and figures are written with in pictures.
+# Makes host/show/font/OpenSans-subset.ttf: what names of files and figures are written with in pictures.
 # Open Sans, for it has this project's own licence, and the signs of bounds, which Noto Sans lacks.
 # Latin, Greek, Cyrillic, and what mathematics and units need; no hints, for the rasteriser knows none.
 # usage: tools/draw/font.sh     on Debian 12: apt-get downloads the font and fonttools, and installs nothing.
 set -euo pipefail
-out=$(cd "$(dirname "$0")/../../host/draw/font" && pwd)
+out=$(cd "$(dirname "$0")/../../host/show/font" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -12,7 +12,7 @@ from pathlib import Path
 PIECE = 96  # characters of a line; compilers take long literals in pieces
 
 HEAD = """// Made by tools/page/embed.py.
-#include "host/page/assets.h"
+#include "host/show/page_assets.h"
 
 namespace vkh {
 """

@@ -18,10 +18,10 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/base/system.h"
 #include "host/batch/list.h"
 #include "host/read/mesh_io.h"
-#include "host/run/frame.h"
-#include "host/system/system.h"
+#include "host/solve/frame.h"
 
 namespace {
 

@@ -17,8 +17,8 @@
 #include <optional>
 
 #include "host/base/error.h"
+#include "host/base/system.h"
 #include "host/read/mesh_io.h"
-#include "host/system/system.h"
 #include "tools/pairs/subdivision.h"
 
 namespace {

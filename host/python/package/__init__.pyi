@@ -41,14 +41,14 @@ _Mesh = Union[tuple[npt.ArrayLike, npt.ArrayLike], _WithFaces, _WithTriangles, "
 class DeviceError(RuntimeError): ...
 
 class Interval(NamedTuple):
-    """What is enclosed lies in [lower, upper], in exact arithmetic."""
+    """An enclosure: its value lies in [lower, upper], in exact arithmetic."""
 
     lower: float
     upper: float
     def __contains__(self, value: object) -> bool: ...
 
 class Field:
-    """Of each face, by its row: the largest distance of a point of it lies between lower and upper."""
+    """Bounds of each face, by its row: the largest distance of a point of it lies between lower and upper."""
 
     lower: npt.NDArray[np.float64]
     upper: npt.NDArray[np.float64]
@@ -56,7 +56,7 @@ class Field:
     def __len__(self) -> int: ...
 
 class Survey:
-    """What is known of the distances of all of a mesh from the other one."""
+    """The known bounds of the distances of all of a mesh from the other one."""
 
     upper: float
     field: Field | None
@@ -140,7 +140,7 @@ class Result:
     def to_dict(self) -> dict[str, Any]: ...
 
 class Solver:
-    """Mesh B on the device, its hierarchy built once, for many A's."""
+    """Mesh B on the device, its BVH built once, for many A's."""
 
     @overload
     def __init__(self, b: _Mesh, /, *, device: str = "") -> None: ...

@@ -1,0 +1,169 @@
+#include "host/answer/record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/answer/json_object.h"
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+constexpr const char* kPairSchema = "vkhausdorff.pair/1";
+constexpr const char* kRun = ",\"run\":{";
+
+void begin(JsonObject& json, const RecordName& name, ExitCode code) {
+  json.add("schema", kPairSchema);
+  json.add("version", program_version());
+  json.add("id", name.id);
+  json.add("key", name.key);
+  json.add("code", static_cast<int>(code));
+}
+
+double gpu_ms(const Answer& answer) {
+  double sum = 0;
+  for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (r != nullptr) sum += r->times.hierarchy_ms + r->times.solve_ms;
+  }
+  return sum;
+}
+
+void add_run(JsonObject& json, const Answer& answer) {
+  JsonObject run;
+  add_device(run, answer);
+  run.add("times", {{"read_ms", answer.waits.read},
+                    {"gpu_ms", gpu_ms(answer)},
+                    {"total_ms", answer.waits.total}});
+  run.add("host", answer.host);
+  run.add("started", answer.started);
+  json.add_text("run", run.text());
+}
+
+Json name_and_hash(const char* name, const Input& input) {
+  Json json = {{"name", name}, {"path", input.path}};
+  add_hashes(json, input);
+  return json;
+}
+
+// Members that are not there, or null, are as they are where nothing is known.
+const Json& member(const Json& json, const char* key) {
+  static const Json null;
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return found == json.end() ? null : *found;
+}
+std::string text_in(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+std::vector<std::string> texts_in(const Json& json, const char* key) {
+  std::vector<std::string> texts;
+  for (const Json& value : member(json, key)) {
+    if (value.is_string()) texts.push_back(value.get<std::string>());
+  }
+  return texts;
+}
+double number_in(const Json& json, const char* key, double otherwise) {
+  const Json& value = member(json, key);
+  return value.is_number() ? value.get<double>() : otherwise;
+}
+
+Bounds bounds_in(const Json& interval) {
+  const Bounds bounds{bound_in(interval, "lower"), bound_in(interval, "upper")};
+  if (!(bounds.lower <= bounds.upper) || std::isinf(bounds.lower))
+    throw InputError("an interval whose lower end is above its upper");
+  return bounds;
+}
+
+Record::Side side_of(const Json& input) {
+  return {.path = text_in(input, "path"),
+          .sha256 = text_in(input, "sha256"),
+          .faces = member(input, "faces").is_null() ? 0 : count_in(input, "faces"),
+          .names_files = input.is_object() && input.contains("files"),
+          .notes = texts_in(input, "notes")};
+}
+
+void read_answer(const Json& json, Record& record) {
+  const Json& interval = member(json, "interval");
+  check_bounds(json);
+  const Bounds whole = bounds_in(interval);
+  const Json& directions = member(json, "directions");
+  for (size_t i = 0; directions.is_array() && i < std::min<size_t>(directions.size(), 2); ++i)
+    record.directions[i] = bounds_in(member(directions[i], "interval"));
+  record.status = text_in(json, "status");
+  record.verdict = text_in(json, "verdict");
+  record.lower = whole.lower;
+  record.upper = whole.upper;
+  record.gap = number_in(interval, "gap", 0);
+  record.unit = text_in(interval, "unit");
+  record.diagonal = number_in(member(json, "tolerance"), "diagonal", 0);
+  record.words = text_in(json, "words");
+}
+
+}  // namespace
+
+std::string to_record(const RecordName& name, const Answer& answer) {
+  JsonObject json;
+  begin(json, name, code_of(answer));
+  add_answer(json, answer, Detail::kBrief);
+  add_run(json, answer);
+  return json.text();
+}
+
+std::string to_record(const RecordName& name, const Failure& failure, const Answer& known) {
+  JsonObject json;
+  begin(json, name, static_cast<ExitCode>(failure.code));
+  json.add("error", {{"code", failure.code},
+                     {"message", failure.message},
+                     {"file", text_or_null(failure.file)},
+                     {"place", text_or_null(failure.place)}});
+  json.add("inputs",
+           Json::array({name_and_hash("a", known.inputs[0]), name_and_hash("b", known.inputs[1])}));
+  add_run(json, known);
+  return json.text();
+}
+
+// No text in the line has these characters in this order: quotes are escaped there.
+std::string without_run(const std::string& line) {
+  const size_t run = line.rfind(kRun);
+  return run == std::string::npos ? line : line.substr(0, run) + "}";
+}
+
+bool Record::is_final() const {
+  const bool is_read = !inputs[0].sha256.empty() && !inputs[1].sha256.empty();
+  return is_read && code != kExitDevice && code != kExitNotWritten && code != kExitInternal;
+}
+
+Record read_record(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw InputError("no JSON object");
+  if (text_in(json, "schema") != kPairSchema)
+    throw InputError(std::string("no result of a batch: expected the schema ") + kPairSchema);
+  Record record;
+  record.name = {text_in(json, "id"), text_in(json, "key")};
+  const Json& code = member(json, "code");
+  if (record.name.id.empty() || !code.is_number_integer())
+    throw InputError("a result without an id or a code");
+  const auto number = code.get<int64_t>();
+  const bool is_known = (number >= 0 && number <= kExitNotWritten) || number == kExitInternal;
+  if (!is_known) throw InputError("a result with the code " + std::to_string(number));
+  record.code = static_cast<ExitCode>(number);
+  const Json& error = member(json, "error");
+  if (!error.is_object() && text_in(json, "status").empty())
+    throw InputError("a result with neither a status nor an error");
+  if (error.is_object()) {
+    record.words = text_in(error, "message");
+  } else {
+    read_answer(json, record);
+  }
+  const Json& inputs = member(json, "inputs");
+  for (size_t i = 0; inputs.is_array() && i < std::min<size_t>(inputs.size(), 2); ++i)
+    record.inputs[i] = side_of(inputs[i]);
+  const Json &run = member(json, "run"), &times = member(run, "times");
+  record.total_ms = number_in(times, "total_ms", 0);
+  record.gpu_ms = number_in(times, "gpu_ms", 0);
+  record.host = text_in(run, "host");
+  record.started = text_in(run, "started");
+  return record;
+}
+
+}  // namespace vkh

@@ -1,0 +1,71 @@
+// A line of a batch's results: one pair's answer or failure, one JSON object of
+// docs/schema/pair.schema.json.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/answer/answer.h"
+#include "host/answer/exit_code.h"
+
+namespace vkh {
+
+/// What names a line: the pair's id in its list, and a hash of what its answer depends on (the
+/// inputs' bytes, the options, this version).
+struct RecordName {
+  std::string id, key;
+};
+
+/// How each line begins.
+inline constexpr std::string_view kRecordStart = "{\"schema\":\"vkhausdorff.pair/";
+
+/// Without a newline. What one run or machine alone has comes last, in `run`.
+std::string to_record(const RecordName& name, const Answer& answer);
+std::string to_record(const RecordName& name, const Failure& failure, const Answer& known);
+
+/// The same line without `run`: what two runs have in common.
+std::string without_run(const std::string& line);
+
+/// An enclosure of a distance.
+struct Bounds {
+  double lower = 0, upper = std::numeric_limits<double>::infinity();
+  /// Both may be true of one distance.
+  bool meets(const Bounds& other) const { return lower <= other.upper && other.lower <= upper; }
+};
+
+/// What a line says, for tables and for merging.
+struct Record {
+  RecordName name;
+  ExitCode code = kExitClosed;
+  std::string status, verdict;  ///< empty: a failure; no limit was asked about
+  double lower = 0, upper = std::numeric_limits<double>::infinity();
+  /// A to B and, if both ways were asked about, back; else [0, infinity).
+  std::array<Bounds, 2> directions;
+  double gap = 0, diagonal = 0;  ///< diag(A), to nearest; 0: not known
+  std::string unit;
+  struct Side {
+    std::string path, sha256;
+    uint64_t faces = 0;
+    bool names_files = false;  ///< says which files were read besides, as lines do since 0.2.0
+    std::vector<std::string> notes = {};
+  };
+  std::array<Side, 2> inputs;
+  std::string words;  ///< the answer's first line, or what went wrong
+  double total_ms = 0, gpu_ms = 0;
+  std::string host, started;
+
+  /// Another run of the same inputs would say the same, but for times.
+  bool is_final() const;
+  /// The key is of all files that were read; before 0.2.0 it was of the two that a list names.
+  bool names_files() const { return inputs[0].names_files && inputs[1].names_files; }
+};
+
+/// Throws InputError: what is wrong, without the file's name. A bound that is not the decimal
+/// beside it is wrong, and so is an interval whose lower end is above its upper.
+Record read_record(std::string_view line);
+
+}  // namespace vkh

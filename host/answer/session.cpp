@@ -1,0 +1,115 @@
+#include "host/answer/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "host/base/error.h"
+#include "host/base/note.h"
+#include "host/base/parallel.h"
+#include "host/solve/part.h"
+#include "host/solve/together.h"
+
+namespace vkh {
+namespace {
+
+Opened open_one(const std::string& selector, const SolveOptions& options,
+                const std::filesystem::path& cache_folder) {
+  Opened one;
+  one.device = std::make_unique<Device>(DeviceRequest{.selector = selector});
+  one.solver = std::make_unique<Solver>(*one.device, cache_folder);
+  one.solver->make_ready(options);
+  return one;
+}
+
+// A device's name may have commas.
+bool is_one(const std::string& selector) {
+  if (selector == "all") return false;
+  if (selector.find(',') == std::string::npos) return true;
+  try {
+    const Device device({.selector = selector});
+    return true;
+  } catch (const DeviceError&) {
+    return false;
+  }
+}
+
+std::vector<Solver*> solvers_of(const Session& session) {
+  std::vector<Solver*> solvers{session.solver.get()};
+  for (const Opened& one : session.more) solvers.push_back(one.solver.get());
+  return solvers;
+}
+
+void note_left_out(const Session& session, Answer& answer) {
+  for (const LeftOut& one : answer.a_to_b.left_out) {
+    const Device& device = one.device == 0 ? *session.device : *session.more[one.device - 1].device;
+    answer.notes.push_back(
+        note_of(NoteCode::kDevices,
+                "the others did the part of " + device.description().name + ": " + one.why));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> selectors_of(const std::string& text) {
+  std::vector<std::string> selectors;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (word.empty() && !text.empty())
+      throw UsageError("--device '" + text + "': expected names between commas, or all");
+    if (word == "all") {
+      const std::vector<DeviceDescription> all = list_devices();
+      for (const DeviceDescription& d : all) {
+        if (d.usable && d.type != "cpu") selectors.push_back(std::to_string(d.index));
+      }
+      if (selectors.empty()) selectors.emplace_back("");
+    } else {
+      selectors.push_back(word);
+    }
+    begin = end + 1;
+  }
+  return selectors;
+}
+
+Session open_session(const std::string& selector, bool several, const SolveOptions& options,
+                     const std::filesystem::path& cache_folder) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<std::string> selectors =
+      several && !is_one(selector) ? selectors_of(selector) : std::vector<std::string>{selector};
+  std::vector<Opened> opened(selectors.size());
+  for_each_index(
+      selectors.size(),
+      [&](size_t i) { opened[i] = open_one(selectors[i], options, cache_folder); },
+      selectors.size());
+  Session session;
+  session.device = std::move(opened[0].device);
+  session.solver = std::move(opened[0].solver);
+  session.more.assign(std::make_move_iterator(opened.begin() + 1),
+                      std::make_move_iterator(opened.end()));
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  session.setup_ms = taken.count();
+  return session;
+}
+
+void solve_directed(const Session& session, const MeshPair& pair, const SolveOptions& options,
+                    Answer& answer) {
+  const std::vector<Solver*> solvers = solvers_of(session);
+  const auto distance = [&](const Mesh& a, const Mesh& b, const SolveOptions& of_it) {
+    return distance_over(solvers, a, b, of_it);
+  };
+  if (!answer.part) {
+    answer.a_to_b = distance(pair.a, pair.b, options);
+  } else {
+    const auto [index, count] = *answer.part;
+    const size_t faces = pair.a.faces.size();
+    if (count > faces)
+      throw UsageError("--part: A has " + std::to_string(faces) + " faces, too few for " +
+                       std::to_string(count) + " parts");
+    answer.a_to_b =
+        distance_of_part(distance, pair.a, part_in_order(faces, index, count), pair.b, options);
+  }
+  note_left_out(session, answer);
+}
+
+}  // namespace vkh

@@ -1,0 +1,41 @@
+// A device, a solver and its pipelines, made while the program reads its files.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/answer/answer.h"
+#include "host/gpu/device.h"
+#include "host/mesh/mesh_pair.h"
+#include "host/solve/solver.h"
+
+namespace vkh {
+
+struct Opened {
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Solver> solver;
+};
+
+struct Session {
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Solver> solver;
+  std::vector<Opened> more;  ///< devices, where several were asked for
+  double setup_ms = 0;       ///< what making it took
+};
+
+/// "all", every GPU, or the CPU device where there is none; else names that DeviceRequest takes,
+/// between commas. Throws UsageError for an empty one.
+std::vector<std::string> selectors_of(const std::string& text);
+
+/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector; or, where `several`
+/// may be asked for and it names no device, what selectors_of() takes. `cache_folder`: see Solver.
+Session open_session(const std::string& selector, bool several, const SolveOptions& options,
+                     const std::filesystem::path& cache_folder);
+
+/// h(A,B), or a part's, on every device of the session, with notes on those that were lost. Throws
+/// UsageError for a part that A has too few faces for.
+void solve_directed(const Session& session, const MeshPair& pair, const SolveOptions& options,
+                    Answer& answer);
+
+}  // namespace vkh

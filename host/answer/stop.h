@@ -1,0 +1,29 @@
+// What ends a job before its answer is final: its time, Ctrl-C or SIGTERM.
+#pragma once
+
+#include <chrono>
+#include <limits>
+
+#include "host/base/system.h"
+#include "host/solve/report.h"
+
+namespace vkh {
+
+using Clock = std::chrono::steady_clock;
+
+class Stop {
+ public:
+  /// `start`: the process's, from which the time counts, reading and pipelines included.
+  Stop(Clock::time_point start, double seconds) : start_(start), seconds_(seconds) {}
+
+  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double left_s() const { return seconds_ - elapsed_s(); }
+  bool is_asked() const { return is_interrupted() || left_s() <= 0; }
+  Status why() const { return is_interrupted() ? Status::kCancelled : Status::kTime; }
+
+ private:
+  Clock::time_point start_;
+  double seconds_;
+};
+
+}  // namespace vkh

@@ -1,0 +1,100 @@
+#include "host/app/doctor.h"
+
+#include <chrono>
+#include <cstdint>
+#include <ostream>
+
+#include "host/answer/answer.h"
+#include "host/app/self_test.h"
+#include "host/base/decimal.h"
+#include "host/gpu/device.h"
+#include "host/gpu/vulkan_api.h"
+#include "host/mesh/mesh_pair.h"
+#include "host/solve/solver.h"
+
+namespace vkh {
+namespace {
+
+/// A square between two walls, at x = -1 and x = 45/64: its farthest points lie on the line halfway
+/// between them, inside both of its faces, at 109/128 from either wall. No vertex of A is there.
+constexpr double kSelfCheckDistance = 109.0 / 128;
+MeshPair self_check_pair() {
+  const auto wall = [](double x) {
+    return std::vector<glm::dvec3>{{x, -4, -2}, {x, 4, -2}, {x, 0, 6}};
+  };
+  std::vector<glm::dvec3> walls = wall(-1);
+  for (const glm::dvec3& corner : wall(45.0 / 64)) walls.push_back(corner);
+  return {
+      make_mesh("square", {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}),
+      make_mesh("walls", std::move(walls), {{0, 1, 2}, {3, 4, 5}})};
+}
+
+bool self_check(std::ostream& out, Device& device) {
+  const MeshPair pair = self_check_pair();
+  const auto start = std::chrono::steady_clock::now();
+  Solver solver(device);
+  const Report r = solver.distance(pair.a, pair.b);
+  const auto elapsed = std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::steady_clock::now() - start);
+  const bool encloses = r.lower <= kSelfCheckDistance && kSelfCheckDistance <= r.upper;
+  const bool passed = encloses && r.status == Status::kClosed;
+  out << "self-check  true distance " << decimal(kSelfCheckDistance, 17, Rounding::kDown)
+      << (encloses ? " lies in [" : " is NOT in [") << decimal(r.lower, 9, Rounding::kDown) << ", "
+      << decimal(r.upper, 9, Rounding::kUp) << "], " << status_name(r.status) << ", after "
+      << elapsed.count() << " ms: " << (passed ? "passed" : "FAILED") << '\n';
+  return passed;
+}
+
+/// What the certificate takes for granted about arithmetic, measured.
+bool check_arithmetic(std::ostream& out, const Device& device) {
+  const SelfTestResult r = run_self_test(device);
+  out << "arithmetic  " << r.items << " hard inputs, " << r.composed << " composed expressions: ";
+  if (!r.fault.empty()) {
+    out << "FAILED: " << r.fault << '\n';
+    return false;
+  }
+  out << "passed; + - * round " << (r.rounds_to_nearest ? "to nearest" : "to a neighbour")
+      << ", division within " << decimal(r.worst_quotient_ulp, 3, Rounding::kUp)
+      << " ulp (2.5 allowed), roots within " << decimal(r.worst_root_ulp, 3, Rounding::kUp)
+      << " (6), results under 2^-126 " << (r.flushes ? "flushed" : "kept") << ", subgroups of "
+      << r.largest_subgroup << "; subgroup operations tried " << r.group_views << " times, "
+      << r.partial_views << " of them on a part of a subgroup\n";
+  return true;
+}
+
+void print_device(std::ostream& out, const DeviceDescription& d) {
+  out << "  " << d.index << "  " << d.name << " (" << d.type << "), driver " << d.driver
+      << ", Vulkan " << d.api_version << ", "
+      << decimal(static_cast<double>(d.memory_bytes) / 0x1p30, 3, Rounding::kDown)
+      << " GiB: " << (d.usable ? "usable" : "not usable: " + d.reason) << '\n';
+}
+
+std::string loader_version() {
+  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(
+      load_vulkan().GetInstanceProcAddr(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
+  uint32_t version = VK_API_VERSION_1_0;
+  if (enumerate != nullptr) enumerate(&version);
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+}  // namespace
+
+bool examine_devices(std::ostream& out, const std::string& selector) {
+  out << "vkhausdorff " << program_version() << "\nloader      Vulkan " << loader_version()
+      << "\ndevices, the preferred first\n";
+  const std::vector<DeviceDescription> devices = list_devices();
+  for (const DeviceDescription& d : devices) print_device(out, d);
+  if (devices.empty()) out << "  none\n";
+  out.flush();
+  Device device({.selector = selector});
+  const DeviceDescription& chosen = device.description();
+  out << "chosen      " << chosen.index << "  " << chosen.name
+      << (chosen.type == "cpu" ? " (a CPU device, no GPU)" : "") << "\ndriver      "
+      << chosen.driver << ", Vulkan " << chosen.api_version << std::endl;
+  const bool sound = check_arithmetic(out, device);
+  return self_check(out, device) && sound;
+}
+
+}  // namespace vkh

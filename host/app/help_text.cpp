@@ -1,0 +1,83 @@
+#include "host/app/help_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <sstream>
+
+namespace vkh {
+namespace {
+
+/// Where what an option does begins: after the last gap of two spaces.
+size_t text_column(const std::string& line) {
+  const size_t name = line.find_first_not_of(' ');
+  if (name == std::string::npos) return 0;
+  const size_t gap = line.find("  ", name);
+  if (gap == std::string::npos) return name;
+  const size_t text = line.find_first_not_of(' ', gap);
+  return text == std::string::npos ? name : text;
+}
+
+/// Levenshtein's distance, in one row.
+size_t edits(const std::string& x, const std::string& y) {
+  std::vector<size_t> row(y.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= x.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= y.size(); ++j) {
+      const size_t change = diagonal + (x[i - 1] == y[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, size_t columns) {
+  std::istringstream lines(text);
+  std::string out;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string indent(std::min(text_column(line), columns / 2), ' ');
+    while (line.size() > columns) {
+      const size_t space = line.rfind(' ', columns);
+      if (space == std::string::npos || space <= indent.size()) break;
+      out.append(line, 0, space).append("\n");
+      line.replace(0, space + 1, indent);
+    }
+    out += line + "\n";
+  }
+  return out;
+}
+
+size_t terminal_columns() {
+  constexpr size_t kLeast = 60, kOtherwise = 100;
+  const char* given = std::getenv("COLUMNS");
+  size_t columns = 0;
+  if (given == nullptr ||
+      std::from_chars(given, given + std::strlen(given), columns).ec != std::errc())
+    return kOtherwise;
+  return std::clamp(columns, kLeast, kOtherwise);
+}
+
+std::string closest_name(const std::string& word, const std::vector<std::string>& names) {
+  constexpr size_t kBegun = 3;  // letters, besides dashes
+  const size_t dashes = word.find_first_not_of('-');
+  const auto begins = [&](const std::string& longer, const std::string& shorter) {
+    return shorter.size() >= kBegun + (dashes == std::string::npos ? 0 : dashes) &&
+           longer.starts_with(shorter);
+  };
+  const auto rank = [&](const std::string& name) {
+    return begins(word, name) || begins(name, word) ? size_t{0} : edits(word, name);
+  };
+  const auto best = std::min_element(
+      names.begin(), names.end(),
+      [&](const std::string& x, const std::string& y) { return rank(x) < rank(y); });
+  return best != names.end() && rank(*best) <= 2 ? *best : "";
+}
+
+}  // namespace vkh

@@ -1,0 +1,193 @@
+// The program: what was asked is done, the answer goes where it was asked for, and whatever went
+// wrong becomes one line on stderr and an exit code.
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <set>
+
+#include "host/answer/exit_code.h"
+#include "host/answer/pair_job.h"
+#include "host/app/arguments.h"
+#include "host/app/doctor.h"
+#include "host/app/many_pairs.h"
+#include "host/app/out_of_memory.h"
+#include "host/app/outputs.h"
+#include "host/app/picture_options.h"
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/base/system.h"
+
+namespace vkh {
+namespace {
+
+int complain(const std::string& message, ExitCode code) {
+  std::string line = message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::fprintf(stderr, "vkhausdorff: %s\n", printable(line).c_str());
+  std::fflush(stderr);
+  return code;
+}
+
+void check_printed() {
+  if (!std::cout.flush()) throw OutputError("cannot write the answer to standard output");
+}
+
+/// After the answer is printed: whoever asked wants to see what was refuted.
+void check_verified(const Answer& answer) {
+  for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
+    if (r == nullptr || !r->witness_check) continue;
+    if (!r->coverage_check || !r->coverage_check->holds) {
+      throw DeviceError("--verify: a part of A is in no bound: do not trust this device or driver");
+    }
+    if (r->witness_check->holds) continue;
+    throw DeviceError(
+        "--verify: the host finds the witness closer than the certified lower bound: "
+        "do not trust this device or driver");
+  }
+}
+
+/// The answer, or, once outputs were told, what went wrong.
+Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
+  try {
+    return run_job(line.job, stop);
+  } catch (const InputError& error) {
+    destinations.write(failure_of(error.what(), kExitBadInput, line.job));
+    throw;
+  } catch (const DeviceError& error) {
+    destinations.write(failure_of(error.what(), kExitDevice, line.job));
+    throw;
+  } catch (const UsageError& error) {
+    destinations.write(failure_of(error.what(), kExitUsage, line.job));
+    throw;
+  }
+}
+
+/// Two outputs in one file would be one.
+void check_distinct(const Outputs& outputs) {
+  const PicturesAsked& p = outputs.pictures;
+  std::set<std::filesystem::path> places;
+  for (const std::optional<std::string>& file :
+       {outputs.json_file, outputs.junit_file, p.field, p.image, p.report, p.certificate}) {
+    if (file && !places.insert(std::filesystem::absolute(path_of(*file)).lexically_normal()).second)
+      throw UsageError("two outputs would be written to '" + *file + "'");
+  }
+}
+
+struct Places {
+  Destinations destinations;
+  Pictures pictures;
+};
+
+Places places_of(const CommandLine& line) {
+  check_distinct(line.outputs);
+  const std::vector<std::string> inputs = {line.job.file_a, line.job.file_b, line.job.face_max_a,
+                                           line.job.face_max_b};
+  return {.destinations = Destinations(line.outputs, inputs),
+          .pictures = Pictures(line.outputs.pictures, line.job.symmetric, inputs)};
+}
+
+/// Of words that say no place for an answer, or not yet: programs that wait for one are told.
+template <class F>
+auto or_tell(const Words& words, const F& work) {
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    tell_misuse(words, error.what());
+    throw;
+  }
+}
+
+int run_pair(const CommandLine& line, const Words& words, const Stop& stop) {
+  auto [destinations, pictures] = or_tell(words, [&] { return places_of(line); });
+  const Done done = answer_for(line, stop, destinations);  // taken apart after the answer is out
+  std::string not_written = destinations.write(done.answer);
+  const std::string not_drawn = pictures.write(done);
+  if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
+  check_printed();
+  check_verified(done.answer);
+  if (!not_written.empty()) return complain(not_written, kExitNotWritten);
+  return code_of(done.answer);
+}
+
+int printed(ExitCode code) {
+  check_printed();
+  return code;
+}
+
+int run_doctor(const std::string& device) {
+  const bool passed = examine_devices(std::cout, device);
+  check_printed();
+  if (!passed) throw DeviceError("the self-check failed: do not trust this device or driver");
+  return kExitClosed;
+}
+
+int run(const Words& words, Clock::time_point start) {
+  const CommandLine line = or_tell(words, [&] { return understand(words); });
+  switch (line.command) {
+    case Command::kHelp:
+      std::cout << line.help;
+      check_printed();
+      return kExitClosed;
+    case Command::kDoctor:
+      return run_doctor(line.device);
+    case Command::kBatch:
+      note_interrupts();
+      return printed(run_batch_command(line.job, line.batch));
+    case Command::kMerge:
+      return printed(run_merge_command(line.merge));
+    default:
+      note_interrupts();
+      return run_pair(line, words, Stop(start, line.time_limit_s));
+  }
+}
+
+int run_and_catch(const Words& words, Clock::time_point start) {
+  try {
+    return run(words, start);
+  } catch (const UsageError& error) {
+    return complain(error.what(), kExitUsage);
+  } catch (const InputError& error) {
+    return complain(error.what(), kExitBadInput);
+  } catch (const DeviceError& error) {
+    return complain(error.what(), kExitDevice);
+  } catch (const OutputError& error) {
+    return complain(error.what(), kExitNotWritten);
+  } catch (const std::bad_alloc&) {
+    return complain_of_memory(kExitDevice);
+  } catch (const std::exception& error) {
+    return complain(std::string("internal error: ") + error.what(), kExitInternal);
+  } catch (...) {
+    return complain("internal error", kExitInternal);
+  }
+}
+
+int run_in_console(int argc, char** argv, Clock::time_point start) {
+  const Console console;
+  const int code = run_and_catch(command_line(argc, argv), start);
+  std::cout.flush();
+  std::fflush(nullptr);
+  return code;
+}
+
+}  // namespace
+}  // namespace vkh
+
+// Without exit handlers: after a bad file, or when the time was over, threads may still be at work
+// on a file or in the driver. Where a run ended the device is gone by now: Mesa saves what it
+// compiled then.
+int main(int argc, char** argv) {
+  const auto start = vkh::Clock::now();
+  const vkh::FloatEnvironment ours;
+  vkh::end_where_memory_ends(vkh::kExitDevice);
+  const int code = vkh::run_in_console(argc, argv, start);
+#ifdef __SANITIZE_ADDRESS__
+  __lsan_do_leak_check();
+#endif
+  vkh::end_process(code);
+}

@@ -1,0 +1,185 @@
+#include "host/app/many_pairs.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "host/answer/merge.h"
+#include "host/answer/merge_parts.h"
+#include "host/answer/session.h"
+#include "host/answer/tables.h"
+#include "host/base/error.h"
+#include "host/base/output_file.h"
+#include "host/base/system.h"
+#include "host/batch/batch.h"
+
+namespace vkh {
+namespace {
+
+void note(const std::string& text) {
+  std::fprintf(stderr, "vkhausdorff: note: %s\n", printable(text).c_str());
+}
+
+/// CSV and JUnit's XML of results, looked at before the work.
+class Tables {
+ public:
+  Tables(const TablesAsked& asked, const std::vector<std::string>& inputs) {
+    if (asked.csv) csv_.emplace("--csv", *asked.csv, inputs);
+    if (asked.junit) junit_.emplace("--junit", *asked.junit, inputs);
+  }
+  bool is_any() const { return csv_ || junit_; }
+
+  void write(const Results& results, bool with_run) const {
+    std::string csv = csv_heading(with_run);
+    std::vector<JunitCase> cases;
+    results.for_each([&](const Record& record, const std::string&) {
+      if (csv_) csv += csv_row(record, with_run);
+      if (junit_) cases.push_back(junit_case(record, with_run));
+    });
+    if (csv_) csv_->write(csv);
+    if (junit_) junit_->write(to_junit(cases, "", ""));
+  }
+
+ private:
+  std::optional<OutputFile> csv_, junit_;
+};
+
+PairList list_of(const BatchAsked& asked) {
+  return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
+}
+
+/// What is named twice would be read while it is written.
+void check_outputs(const std::string& results, const TablesAsked& tables) {
+  std::set<std::filesystem::path> places{place_of(results)};
+  for (const auto& other : {tables.csv, tables.junit}) {
+    if (other && !places.insert(place_of(*other)).second)
+      throw UsageError("two outputs would be written to '" + *other + "'");
+  }
+}
+
+BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
+  BatchJob batch;
+  batch.pair = job;
+  batch.pair.options.time_limit_s = asked.time_limit_s;
+  batch.shared = shared_files(list.entries);
+  for (Entry& entry : list.entries) {
+    if (asked.shard.has(entry.id)) batch.entries.push_back(std::move(entry));
+  }
+  batch.results = asked.results;
+  batch.resumes = asked.resumes;
+  batch.fails_fast = asked.fails_fast;
+  batch.devices = asked.devices;
+  batch.devices.devices = selectors_of(asked.device);
+  if (job.caches) batch.devices.cache_folder = user_cache_folder();
+  batch.devices.first = job.options;
+  batch.read_ahead_bytes = asked.read_ahead_bytes;
+  return batch;
+}
+
+/// None: none were asked for.
+std::shared_ptr<BatchFolders> folders_of(const BatchAsked& asked, const std::vector<Entry>& entries,
+                                         std::vector<std::string> taken) {
+  if (!asked.folders.any()) return nullptr;
+  taken.push_back(asked.results);
+  for (const auto& table : {asked.tables.csv, asked.tables.junit}) {
+    if (table) taken.push_back(*table);
+  }
+  return std::make_shared<BatchFolders>(asked.folders, entries, taken);
+}
+
+/// What was not drawn is said by then.
+ExitCode write_indexes(const BatchJob& batch) {
+  constexpr size_t kMost = 5;
+  const BatchFolders& folders = *batch.folders;
+  const std::vector<std::string> failures = folders.failures();
+  for (size_t i = 0; i < std::min(failures.size(), kMost); ++i) note(failures[i]);
+  if (failures.size() > kMost)
+    note("and " + std::to_string(failures.size() - kMost) + " more pairs are not drawn");
+  folders.write_indexes(batch.results, batch.entries, batch.pair.max.has_value());
+  for (const std::string& file : folders.indexes())
+    std::cout << "  index      " << printable(file) << '\n';
+  if (!failures.empty()) return kExitNotWritten;
+  return folders.left() > 0 ? kExitNotClosed : kExitClosed;
+}
+
+}  // namespace
+
+ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
+  check_outputs(asked.results, asked.tables);
+  // Lines would be added to it, and a last one without an end would be cut off.
+  std::error_code none;
+  if (std::filesystem::equivalent(path_of(asked.list), path_of(asked.results), none))
+    throw UsageError("--out '" + asked.results + "': would overwrite the input '" + asked.list +
+                     "'");
+  PairList list = list_of(asked);
+  for (const std::string& text : list.notes) note(text);
+  std::vector<std::string> inputs = {asked.list.empty() ? asked.against : asked.list};
+  BatchJob batch = batch_of(job, asked, list);
+  for (const Entry& entry : batch.entries) {
+    inputs.push_back(entry.file_a);
+    inputs.push_back(entry.file_b);
+  }
+  const Tables tables(asked.tables, inputs);
+  batch.folders = folders_of(asked, batch.entries, inputs);
+  const ExitCode code = run_batch(batch, std::cout);
+  if (tables.is_any()) {
+    Results results;
+    results.add(asked.results);
+    tables.write(results, true);
+  }
+  return batch.folders ? worse(code, write_indexes(batch)) : code;
+}
+
+namespace {
+
+/// Of one pair, whose parts were measured apart. The answer is one line, as of `distance --json`.
+ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswer>& parts) {
+  if (!asked.list.empty() || asked.reproducible || asked.tables.csv || asked.tables.junit)
+    throw UsageError(
+        "merge: the parts of one pair make one answer: no --list, --reproducible, "
+        "--csv or --junit");
+  const OutputFile out("--out", asked.results, asked.files);
+  const std::string text = merge_parts(parts);
+  out.write(text + '\n');
+  const Json json = Json::parse(text);
+  std::cout << json.at("words").get<std::string>() << "\n  parts      " << parts.size() << ": "
+            << json.at("stop_reason").get<std::string>() << '\n';
+  return json.at("status") == status_name(Status::kClosed) ? kExitClosed : kExitNotClosed;
+}
+
+}  // namespace
+
+ExitCode run_merge_command(const MergeAsked& asked) {
+  check_outputs(asked.results, asked.tables);
+  if (const auto parts = read_parts(asked.files); !parts.empty())
+    return merge_all_parts(asked, parts);
+  std::vector<std::string> inputs = asked.files;
+  if (!asked.list.empty()) inputs.push_back(asked.list);
+  const OutputFile out("--out", asked.results, inputs);
+  const Tables tables(asked.tables, inputs);
+  Results results;
+  for (const std::string& file : asked.files) results.add(file);
+  std::string text;
+  Totals totals;
+  results.for_each([&](const Record& record, const std::string& line) {
+    text += (asked.reproducible ? without_run(line) : line) + '\n';
+    totals.add(record);
+  });
+  std::vector<std::string> missing;
+  if (!asked.list.empty()) {
+    const PairList list = read_list(asked.list);
+    for (const std::string& note_text : list.notes) note(note_text);
+    for (const Entry& entry : list.entries) {
+      if (!results.has(entry.id)) missing.push_back(entry.id);
+    }
+  }
+  out.write(text);
+  if (tables.is_any()) tables.write(results, !asked.reproducible);
+  for (const std::string& id : missing) note("no result: " + id);
+  totals.print_merged(std::cout, missing.size(), asked.results);
+  return missing.empty() ? totals.worst() : worse(totals.worst(), kExitNotClosed);
+}
+
+}  // namespace vkh

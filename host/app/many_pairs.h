@@ -1,0 +1,13 @@
+// The commands that are about many pairs, from what was typed to an exit code.
+#pragma once
+
+#include "host/answer/exit_code.h"
+#include "host/app/arguments.h"
+
+namespace vkh {
+
+/// Throw what run_batch() and Results throw. Notes go to stderr.
+ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked);
+ExitCode run_merge_command(const MergeAsked& asked);
+
+}  // namespace vkh

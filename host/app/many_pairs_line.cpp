@@ -1,0 +1,142 @@
+#include "host/app/many_pairs_line.h"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+
+#include "host/answer/options.h"
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+void add_tables(CLI::App& command, TypedMany& typed) {
+  command
+      .add_option("--out", typed.results,
+                  "The results: one JSON object a line, a line a pair (JSONL)")
+      ->type_name("FILE")
+      ->required();
+  command.add_option("--csv", typed.csv, "Write them as CSV, too")->type_name("FILE");
+  command
+      .add_option("--junit", typed.of_pairs.junit,
+                  "Write a test suite, a test case a pair: JUnit's XML")
+      ->type_name("FILE");
+}
+
+TablesAsked tables_of(const TypedMany& typed) {
+  TablesAsked tables;
+  if (!typed.csv.empty()) tables.csv = typed.csv;
+  if (!typed.of_pairs.junit.empty()) tables.junit = typed.of_pairs.junit;
+  return tables;
+}
+
+void add_limits(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--max", typed.max,
+                  std::string("Ask whether each is within a limit: ") + kLengths)
+      ->type_name("LENGTH");
+  command
+      .add_option("--tol", typed.tolerance,
+                  std::string("Width of the intervals: ") + kLengths +
+                      ", or a number alone, which is a fraction of the diagonal [1e-6; with --max "
+                      "1e-7]")
+      ->type_name("LENGTH");
+  add_symmetric(command, typed);
+  add_unit_and_input(command, typed);
+  command.add_option("--time", typed.time,
+                     "End a pair's run after so long: 250ms, 10s, 2min [no limit]");
+}
+
+}  // namespace
+
+void add_batch(CLI::App& command, TypedMany& typed) {
+  command.footer(
+      "LIST has id, a, b and perhaps tol, max, unit and symmetric: JSONL, or CSV with a heading. "
+      "Its files' names are of its own folder. The exit code is the worst of the pairs': 5, 4, 6, "
+      "2, 1, 3, 0 in this order.");
+  command
+      .add_option("LIST", typed.files,
+                  "A list of pairs; with --against, meshes to start from, each a pair")
+      ->required();
+  command.add_option("--against", typed.against, "One mesh to go to for all that are named")
+      ->type_name("B");
+  add_tables(command, typed);
+  command.add_flag("--resume", typed.resumes,
+                   "Keep the results that there are, and do what they have not, or not of these "
+                   "inputs and options");
+  command
+      .add_option(
+          "--shard", typed.shard,
+          "Do one of n parts of the list, i from 0; which pairs it has is a matter of their "
+          "ids alone")
+      ->type_name("i/n");
+  command.add_flag("--fail-fast", typed.fails_fast,
+                   "End with the first pair that is beyond its limit or has no answer");
+  add_limits(command, typed.of_pairs);
+  add_folder_options(command, typed.of_pairs.pictures);
+  command.add_option("--device", typed.of_pairs.device,
+                     "Devices, between commas, as 'doctor' names them; all: every GPU [the best]");
+  command.add_option("--together", typed.together,
+                     "Pairs side by side on a device [16 on a GPU, 1 on a CPU]");
+  command.add_option("--lanes", typed.lanes,
+                     "Groups of them at a time on a device [3 on a GPU, 1 on a CPU]");
+  command.add_option("--read-ahead", typed.read_ahead,
+                     "Memory for meshes that are read and not solved yet [2GiB]");
+  add_engine_options(command, typed.of_pairs);
+}
+
+void add_merge(CLI::App& command, TypedMany& typed) {
+  command
+      .add_option("RESULTS", typed.files,
+                  "Results of batches; or the answers of all parts of one pair")
+      ->required();
+  add_tables(command, typed);
+  command
+      .add_option("--list", typed.list,
+                  "Name the pairs of this list that have no result; exit code 3 if there are any")
+      ->type_name("LIST");
+  command.add_flag("--reproducible", typed.reproducible,
+                   "Leave out times, hosts and devices, so that two runs can be compared byte for "
+                   "byte");
+}
+
+CommandLine batch_line(const TypedMany& typed, const Words& words) {
+  Typed of_pairs = typed.of_pairs;
+  const bool has_limit = !of_pairs.max.empty();
+  if (of_pairs.tolerance.empty()) of_pairs.tolerance = has_limit ? "1e-7" : "1e-6";
+  CommandLine line;
+  line.command = Command::kBatch;
+  line.job = job_of(of_pairs, words, "batch");
+  line.job.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
+  BatchAsked& batch = line.batch;
+  if (typed.against.empty() && typed.files.size() > 1)
+    throw UsageError("batch: expected one LIST, or --against B with meshes");
+  if (typed.against.empty()) batch.list = typed.files[0];
+  batch.against = typed.against;
+  if (!typed.against.empty()) batch.parts = typed.files;
+  batch.results = typed.results;
+  if (!typed.shard.empty()) batch.shard = parse_shard(typed.shard);
+  batch.resumes = typed.resumes;
+  batch.fails_fast = typed.fails_fast;
+  batch.device = of_pairs.device;
+  batch.devices.together = typed.together;
+  batch.devices.lanes = typed.lanes;
+  if (typed.read_ahead) batch.read_ahead_bytes = parse_size("--read-ahead", *typed.read_ahead);
+  batch.time_limit_s =
+      of_pairs.time ? parse_time(*of_pairs.time) : std::numeric_limits<double>::infinity();
+  batch.tables = tables_of(typed);
+  batch.folders = folders_of(of_pairs.pictures);
+  return line;
+}
+
+CommandLine merge_line(const TypedMany& typed) {
+  CommandLine line;
+  line.command = Command::kMerge;
+  line.merge = {.files = typed.files,
+                .results = typed.results,
+                .list = typed.list,
+                .reproducible = typed.reproducible,
+                .tables = tables_of(typed)};
+  return line;
+}
+
+}  // namespace vkh

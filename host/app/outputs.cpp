@@ -1,0 +1,115 @@
+#include "host/app/outputs.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "host/answer/exit_code.h"
+#include "host/base/error.h"
+#include "host/base/reject.h"
+#include "host/base/system.h"
+
+namespace vkh {
+namespace {
+
+/// What GitHub shows on the run's page; steps before have written to it.
+void append_summary(const Answer& answer) {
+  const char* file = std::getenv("GITHUB_STEP_SUMMARY");
+  if (file == nullptr || *file == '\0') return;
+  std::ofstream out(path_of(file), std::ios::app | std::ios::binary);
+  out << github_summary(answer);
+  if (!out.flush())
+    throw OutputError(std::string("$GITHUB_STEP_SUMMARY '") + file + "': cannot be written");
+}
+
+/// Where words that may be misspelt ask for an answer, and what else they name.
+Outputs outputs_in(const Words& words, Words& others) {
+  Outputs outputs;
+  for (size_t i = 1; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--json") {
+      outputs.json = true;
+    } else if (word == "--github") {
+      outputs.github = true;
+    } else if (word.starts_with("--json=")) {
+      outputs.json_file = word.substr(7);
+    } else if (word.starts_with("--junit=")) {
+      outputs.junit_file = word.substr(8);
+    } else if (word == "--junit" && i + 1 < words.size()) {
+      outputs.junit_file = words[++i];
+    } else {
+      others.push_back(word.starts_with("--") ? word.substr(word.find('=') + 1) : word);
+    }
+  }
+  if (outputs.junit_file == outputs.json_file) outputs.junit_file.reset();
+  return outputs;
+}
+
+}  // namespace
+
+Destinations::Destinations(const Outputs& outputs, const std::vector<std::string>& inputs)
+    : outputs_(outputs) {
+  std::vector<std::string> taken;
+  for (const std::string& input : inputs) {
+    if (!input.empty()) taken.push_back(input);
+  }
+  if (outputs.json_file) json_.emplace("--json", *outputs.json_file, taken);
+  if (outputs.junit_file) junit_.emplace("--junit", *outputs.junit_file, taken);
+}
+
+std::string Destinations::write(const Answer& answer) {
+  std::string not_written;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const OutputError& error) {
+      not_written += (not_written.empty() ? "" : "; ") + std::string(error.what());
+    }
+  };
+  if (json_) attempt([&] { json_->write(to_json(answer) + '\n'); });
+  if (junit_) attempt([&] { junit_->write(to_junit(answer)); });
+  if (outputs_.github) attempt([&] { append_summary(answer); });
+  // GitHub's runner reads commands of both streams; beside one JSON object there is no room.
+  if (outputs_.github) (outputs_.json ? std::cerr : std::cout) << github_annotation(answer);
+  if (outputs_.json) {
+    std::cout << to_json(answer) << '\n';
+  } else {
+    print_table(std::cout, answer, outputs_.verbose);
+  }
+  std::cout.flush();
+  return not_written;
+}
+
+void Destinations::write(const Failure& failure) {
+  if (outputs_.github)
+    (outputs_.json ? std::cerr : std::cout) << github_annotation(failure) << std::flush;
+  if (outputs_.json) std::cout << to_json(failure) << std::endl;
+  try {
+    if (json_) json_->write(to_json(failure) + '\n');
+    if (junit_) junit_->write(to_junit(failure));
+  } catch (const OutputError&) {
+  }
+}
+
+void tell_misuse(const Words& words, const std::string& message) {
+  if (words.empty() || (words[0] != "distance" && words[0] != "gate" && words[0] != "demo")) return;
+  Words others;
+  const Outputs outputs = outputs_in(words, others);
+  try {
+    Destinations(outputs, others).write(failure_of(message, kExitUsage, {}));
+  } catch (const UsageError&) {  // it is told in words
+  }
+}
+
+Failure failure_of(const std::string& message, int code, const PairJob& job) {
+  Failure failure{.code = code, .message = message, .file = {}, .place = {}};
+  for (const std::string& file : {job.file_a, job.file_b, job.face_max_a, job.face_max_b}) {
+    if (file.empty() || !message.starts_with(file + ": ")) continue;
+    failure.file = file;
+    failure.place = place_in(message, file);
+    break;
+  }
+  return failure;
+}
+
+}  // namespace vkh

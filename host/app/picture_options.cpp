@@ -1,0 +1,219 @@
+#include "host/app/picture_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "host/base/error.h"
+#include "host/survey/certificate.h"
+#include "host/write/field_file.h"
+
+namespace vkh {
+namespace {
+
+// part.ply: part-b.ply
+std::string back_of(const std::string& path) {
+  const size_t dot = path.rfind('.');
+  const bool has_ending =
+      dot != std::string::npos && path.find_first_of("/\\", dot) == std::string::npos;
+  return has_ending ? path.substr(0, dot) + "-b" + path.substr(dot) : path + "-b";
+}
+
+void check_ending(const char* option, const std::optional<std::string>& path,
+                  const std::vector<std::string>& endings) {
+  if (!path) return;
+  std::string list;
+  for (const std::string& ending : endings) {
+    if (path->ends_with(ending)) return;
+    list += (list.empty() ? "" : " or ") + ending;
+  }
+  throw UsageError(std::string(option) + " '" + *path + "': expected a name that ends in " + list);
+}
+
+std::string field_text(const Side& side, const Answer& answer, const PicturesAsked& asked) {
+  const FieldFile file{.mesh = side.mesh,
+                       .field = side.survey.field,
+                       .interval = interval_of(side),
+                       .unit = answer.unit,
+                       .against = label_of(answer, !side.back),
+                       .map = asked.look.options.map};
+  return asked.field->ends_with(".glb") ? to_glb(file) : to_ply(file);
+}
+
+// "0" has no unit.
+std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
+  if (typed.size() != 2) throw UsageError("--range: expected two lengths, as in 0,0.5mm");
+  std::array<Length, 2> range;
+  for (size_t i = 0; i < 2; ++i) {
+    range[i] = typed[i] == "0" ? Length{.requested = typed[i], .of = Length::Of::kFiles}
+                               : parse_length("--range", typed[i], PlainNumber::kRefused);
+  }
+  return range;
+}
+
+std::string certificate_text(const Done& done) {
+  const Answer& answer = done.answer;
+  if (!answer.proof_a || answer.b_to_a.has_value() != answer.proof_b.has_value())
+    throw OutputError("the run ended before there was a certificate");
+  std::optional<CertifiedDirection> back;
+  if (answer.b_to_a) back.emplace(CertifiedDirection{*answer.b_to_a, *answer.proof_b});
+  return certificate_of({done.pair.a, answer.inputs[0].sha256},
+                        {done.pair.b, answer.inputs[1].sha256}, {answer.a_to_b, *answer.proof_a},
+                        back);
+}
+
+void add_look_options(CLI::App& command, TypedPictures& typed) {
+  command.add_option("--view", typed.view, "From where it is drawn: iso, six, or x,y,z [iso]");
+  command.add_option("--up", typed.up, "The axis that points up, y or z [z]");
+  command.add_option("--size", typed.size, "Of the picture [1600x1000]")->type_name("WxH");
+  command.add_option("--map", typed.map, "Its colours: viridis, batlow or cividis [viridis]");
+  command.add_option("--range", typed.range, "Lengths at the ends of its colours: 0,0.5mm")
+      ->delimiter(',')
+      ->type_name("LENGTH,LENGTH")
+      ->allow_extra_args(false);
+  command.add_option("--steps", typed.steps, "So many steps of colour [smooth]")->type_name("N");
+}
+
+}  // namespace
+
+void add_picture_options(CLI::App& command, TypedPictures& typed) {
+  command
+      .add_option("--field", typed.field,
+                  "Write A with bounds and colours of its faces: .ply or .glb (B: beside it, -b)")
+      ->type_name("FILE");
+  command.add_option("--image", typed.image, "Draw A in the colours of those bounds: .png")
+      ->type_name("FILE");
+  command
+      .add_option("--report", typed.report,
+                  "Write all of it as a page to look at and to pass on: .html, which needs no "
+                  "network")
+      ->type_name("FILE");
+  add_look_options(command, typed);
+}
+
+void add_folder_options(CLI::App& command, TypedPictures& typed) {
+  command
+      .add_option("--image-dir", typed.image_folder,
+                  "Draw each A in the colours of its faces' bounds, as .png in this folder, with "
+                  "an index page")
+      ->type_name("DIR");
+  command
+      .add_option("--report-dir", typed.report_folder,
+                  "Write each pair's report, as .html in this folder, with an index page")
+      ->type_name("DIR");
+  add_look_options(command, typed);
+}
+
+void add_certificate_option(CLI::App& command, TypedPictures& typed) {
+  command
+      .add_option("--certificate", typed.certificate,
+                  "Write what proves the interval, for vkh_check to check: .vhc")
+      ->type_name("FILE");
+}
+
+namespace {
+
+// What would be ignored otherwise.
+void check_needed(const TypedPictures& typed, bool draws, const std::string& drawing) {
+  const std::pair<const char*, bool> given[] = {{"--view", typed.view.has_value()},
+                                                {"--up", typed.up.has_value()},
+                                                {"--size", typed.size.has_value()},
+                                                {"--range", !typed.range.empty()},
+                                                {"--steps", typed.steps.has_value()}};
+  for (const auto& [option, is_given] : given) {
+    if (is_given && !draws)
+      throw UsageError(std::string(option) + ": is of a picture: ask for " + drawing);
+  }
+}
+
+PictureStyle look_of(const TypedPictures& typed) {
+  constexpr uint32_t kMostSteps = 256;
+  PictureStyle look;
+  look.options.view = parse_view("--view", typed.view.value_or("iso"));
+  look.options.map = parse_colour_map("--map", typed.map.value_or("viridis"));
+  if (typed.size) parse_picture_size("--size", *typed.size, look.options);
+  const std::string up = typed.up.value_or("z");
+  if (up != "y" && up != "z") throw UsageError("--up '" + up + "': expected y or z");
+  look.options.up = up == "y" ? Up::kY : Up::kZ;
+  look.options.bands = typed.steps.value_or(0);
+  if (look.options.bands > kMostSteps) throw UsageError("--steps: 256 at most");
+  if (!typed.range.empty()) look.range = range_of(typed.range);
+  return look;
+}
+
+}  // namespace
+
+PicturesAsked asked_of(const TypedPictures& typed) {
+  const bool draws = !typed.image.empty() || !typed.report.empty();
+  check_needed(typed, draws, "--image or --report");
+  if (typed.map && !draws && typed.field.empty())
+    throw UsageError("--map: is of colours: ask for --image, --report or --field");
+  PicturesAsked asked;
+  asked.look = look_of(typed);
+  if (!typed.field.empty()) asked.field = typed.field;
+  if (!typed.image.empty()) asked.image = typed.image;
+  if (!typed.report.empty()) asked.report = typed.report;
+  if (!typed.certificate.empty()) asked.certificate = typed.certificate;
+  return asked;
+}
+
+FoldersAsked folders_of(const TypedPictures& typed) {
+  FoldersAsked asked{.look = look_of(typed)};
+  asked.images = typed.image_folder;
+  asked.reports = typed.report_folder;
+  constexpr const char* kDrawing = "--image-dir or --report-dir";
+  check_needed(typed, asked.any(), kDrawing);
+  if (typed.map && !asked.any())
+    throw UsageError(std::string("--map: is of colours: ask for ") + kDrawing);
+  return asked;
+}
+
+void Pictures::open(Files& files, const char* option, const std::optional<std::string>& path,
+                    bool symmetric, const std::vector<std::string>& inputs) {
+  if (!path) return;
+  files.there.emplace(option, *path, inputs);
+  if (symmetric) files.back.emplace(option, back_of(*path), inputs);
+}
+
+Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
+                   const std::vector<std::string>& inputs)
+    : asked_(asked) {
+  std::vector<std::string> taken;
+  for (const std::string& input : inputs) {
+    if (!input.empty()) taken.push_back(input);
+  }
+  check_ending("--field", asked.field, {".ply", ".glb"});
+  check_ending("--image", asked.image, {".png"});
+  check_ending("--report", asked.report, {".html"});
+  open(field_, "--field", asked.field, symmetric, taken);
+  open(image_, "--image", asked.image, symmetric, taken);
+  if (asked.report) report_.emplace("--report", *asked.report, taken);
+  check_ending("--certificate", asked.certificate, {".vhc"});
+  if (asked.certificate) certificate_.emplace("--certificate", *asked.certificate, taken);
+}
+
+std::string Pictures::write(const Done& done) const {
+  if (!asked_.any()) return "";
+  try {
+    if (certificate_) certificate_->write(certificate_text(done));
+    if (!asked_.of_cells()) return "";
+    if (!done.session.device) throw OutputError("the run ended before there were bounds of faces");
+    const Device& device = *done.session.device;
+    const Measured measured{done.answer, done.pair.a, done.pair.b};
+    for (const Side& side : sides_of(measured)) {
+      const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;
+      const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
+      if (field) field->write(field_text(side, done.answer, asked_));
+      if (image) image->write(picture_of(side, done.answer, asked_.look, device));
+    }
+    if (report_)
+      report_->write(report_of(measured, pictures_or_none(measured, asked_.look, device)));
+  } catch (const OutputError& error) {
+    return error.what();
+  } catch (const DeviceError& error) {
+    return error.what();
+  } catch (const UsageError& error) {  // of lengths that the files' units do not resolve
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace vkh

@@ -1,0 +1,71 @@
+// What is written of all of A: its field, a picture, the report, a certificate.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/answer/pair_job.h"
+#include "host/base/output_file.h"
+#include "host/batch/folders.h"
+#include "host/show/drawn.h"
+
+namespace CLI {
+class App;
+}
+
+namespace vkh {
+
+/// As typed.
+struct TypedPictures {
+  std::string field, image, report, certificate;
+  std::optional<std::string> image_folder, report_folder;  ///< of many pairs
+  std::optional<std::string> view, size, map, up;
+  std::vector<std::string> range;
+  std::optional<uint32_t> steps;
+
+  bool any() const {
+    return !field.empty() || !image.empty() || !report.empty() || !certificate.empty();
+  }
+  bool is_of_triangles() const { return !report.empty() || report_folder || !certificate.empty(); }
+};
+void add_picture_options(CLI::App& command, TypedPictures& typed);
+void add_certificate_option(CLI::App& command, TypedPictures& typed);
+void add_folder_options(CLI::App& command, TypedPictures& typed);
+
+/// What was asked for.
+struct PicturesAsked {
+  std::optional<std::string> field, image, report, certificate;  ///< files
+  PictureStyle look;
+
+  bool any() const { return field || image || report || certificate; }
+  bool of_cells() const { return field || image || report; }
+};
+/// Throw UsageError.
+PicturesAsked asked_of(const TypedPictures& typed);
+FoldersAsked folders_of(const TypedPictures& typed);
+
+/// Looked at before the run, written after it: of a symmetric run two files each of field and
+/// picture, the way back's with -b before its ending.
+class Pictures {
+ public:
+  /// Throws UsageError where one cannot be written, is one of `inputs`, or has an ending that
+  /// says nothing.
+  Pictures(const PicturesAsked& asked, bool symmetric, const std::vector<std::string>& inputs);
+
+  /// Returns what could not be written, and why; empty if nothing.
+  std::string write(const Done& done) const;
+
+ private:
+  struct Files {
+    std::optional<OutputFile> there, back;
+  };
+  static void open(Files& files, const char* option, const std::optional<std::string>& path,
+                   bool symmetric, const std::vector<std::string>& inputs);
+
+  PicturesAsked asked_;
+  Files field_, image_;
+  std::optional<OutputFile> report_, certificate_;
+};
+
+}  // namespace vkh

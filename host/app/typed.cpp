@@ -1,0 +1,257 @@
+#include "host/app/typed.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "host/answer/options.h"
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone --json
+
+void check_names(const char* option, const std::vector<std::string>& names,
+                 const std::vector<std::string>& known) {
+  const auto stranger = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) == known.end();
+  });
+  if (stranger == names.end()) return;
+  std::string list;
+  for (const std::string& k : known) list.append(list.empty() ? "" : ", ").append(k);
+  throw UsageError(std::string(option) + " '" + *stranger + "': expected one of " + list);
+}
+
+SolveOptions options_of(const Typed& typed) {
+  SolveOptions options;
+  if (typed.memory) options.memory_bytes = parse_memory(*typed.memory);
+  if (typed.waves) options.wave_limit = parse_waves(*typed.waves);
+  check_names("--enable", typed.enabled, switch_names());
+  check_names("--disable", typed.disabled, switch_names());
+  if (!typed.preset.empty()) check_names("--preset", {typed.preset}, preset_names());
+  options.preset = typed.preset;
+  options.enabled = typed.enabled;
+  options.disabled = typed.disabled;
+  return options;
+}
+
+SurveyWish survey_of(const Typed& typed) {
+  SurveyWish wish;
+  wish.faces = !typed.field_tolerance.empty();
+  if (wish.faces)
+    wish.face_tolerance =
+        parse_length("--field-tol", typed.field_tolerance, PlainNumber::kFraction);
+  for (const std::string& band : typed.bands)
+    wish.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
+  wish.statistics = typed.statistics || !typed.bands.empty();
+  if (!typed.area.empty()) wish.area = parse_share("--area", typed.area);
+  wish.area_requested = typed.area;
+  return wish;
+}
+
+void check_together(const Typed& typed) {
+  const bool by_face = !typed.face_max_a.empty() || !typed.face_max_b.empty();
+  if (!typed.face_max_b.empty() && !typed.symmetric)
+    throw UsageError("--face-max-b: limits of B's faces are asked about by --symmetric alone");
+  if (by_face && typed.verify) throw UsageError("--verify: is not to be had with --face-max");
+  if (by_face && !typed.area.empty())
+    throw UsageError("--area: faces with limits of their own are asked about whole");
+  if (!typed.pictures.certificate.empty() && (by_face || !typed.area.empty()))
+    throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
+  const bool is_of_triangles = typed.statistics || !typed.bands.empty() || !typed.area.empty() ||
+                               typed.pictures.is_of_triangles();
+  if (typed.polygons == "any" && is_of_triangles)
+    throw UsageError(
+        "--polygons any: areas and certificates are of one triangulation: no --stats, --bands, "
+        "--area, --report or --certificate");
+}
+
+void check_part(const Typed& typed) {
+  if (typed.known_lower && !typed.part)
+    throw UsageError("--known-lower: is what other parts have shown: ask for a --part");
+  const bool asks_more = typed.symmetric || typed.statistics || !typed.bands.empty() ||
+                         !typed.field_tolerance.empty() || typed.pictures.any();
+  if (typed.part && asks_more)
+    throw UsageError(
+        "--part: one direction's interval is all that is to be had of a part: no --symmetric, "
+        "--stats, --bands, --field-tol, --field, --image, --report or --certificate");
+}
+
+}  // namespace
+
+const char* const kLengths =
+    "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of A's bounding-box "
+    "diagonal, 1e-6diag";
+
+PairJob job_of(const Typed& typed, const Words& words, const char* command) {
+  PairJob job;
+  job.command = command;
+  job.words = words;
+  job.file_a = typed.file_a;
+  job.file_b = typed.file_b;
+  if (!typed.unit.empty()) check_unit("--unit", typed.unit);
+  job.unit = typed.unit;
+  job.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kFraction);
+  if (!typed.max.empty()) job.max = parse_length("--max", typed.max, PlainNumber::kRefused);
+  job.face_max_a = typed.face_max_a;
+  job.face_max_b = typed.face_max_b;
+  job.proof = !typed.pictures.certificate.empty();
+  check_together(typed);
+  check_part(typed);
+  if (typed.part) job.part = parse_part(*typed.part);
+  if (typed.known_lower)
+    job.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
+  job.several_devices = job.command == "distance";
+  job.symmetric = typed.symmetric;
+  job.survey = survey_of(typed);
+  job.verify = typed.verify;
+  job.device = typed.device;
+  job.caches = !typed.no_cache;
+  job.options = options_of(typed);
+  if (typed.max_input) job.limits.max_input_bytes = parse_size("--max-input", *typed.max_input);
+  if (!typed.polygons.empty()) {
+    check_names("--polygons", {typed.polygons}, {"fan", "any"});
+    if (typed.polygons == "fan") job.limits.odd_polygons = OddPolygons::kFanned;
+    job.limits.any_triangulation = typed.polygons == "any";
+  }
+  if (!typed.bodies.empty()) {
+    check_names("--bodies", {typed.bodies}, {"solid", "all"});
+    if (typed.bodies == "all") job.limits.bodies = Bodies::kAll;
+  }
+  return job;
+}
+
+Outputs outputs_of(const Typed& typed) {
+  Outputs outputs;
+  outputs.json = typed.json == kStandardOutput;
+  if (!typed.json.empty() && !outputs.json) outputs.json_file = typed.json;
+  if (!typed.junit.empty()) outputs.junit_file = typed.junit;
+  outputs.github = typed.github;
+  outputs.verbose = typed.verbose;
+  outputs.pictures = asked_of(typed.pictures);
+  return outputs;
+}
+
+void add_device_option(CLI::App& command, Typed& typed) {
+  const bool several = command.get_name() == "distance";
+  command.add_option("--device", typed.device,
+                     std::string("An index from 'doctor', gpu, cpu, or part of a name") +
+                         (several ? "; several, 0,1, or all GPUs, each for a part of A" : "") +
+                         " [best: discrete, integrated, virtual, CPU]");
+}
+
+void add_time_option(CLI::App& command, Typed& typed) {
+  command.add_option("--time", typed.time,
+                     "Answer after so long, from the program's start: 250ms, 10s, 2min [no limit]");
+}
+
+void add_engine_options(CLI::App& command, Typed& typed) {
+  command.add_option("--memory", typed.memory,
+                     "Device memory for the search, such as 512MiB or 2G [chosen from the meshes]");
+  command.add_option("--waves", typed.waves, "End the search after so many waves [no limit]")
+      ->type_name("N");
+  command.add_option("--preset", typed.preset,
+                     "Which parts of the method are on: default, what pays on the device; paper, "
+                     "what the paper has; baseline-gpu, the paper's baseline [default]");
+  command
+      .add_option("--enable", typed.enabled,
+                  "Switch on parts that the preset has not, by name: u4,sort")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--disable", typed.disabled, "Switch off parts of the method, by name: a,b")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_flag("--no-cache", typed.no_cache,
+                   "Neither read nor write compiled pipelines in the user's cache folder");
+}
+
+void add_search_options(CLI::App& command, Typed& typed) {
+  add_device_option(command, typed);
+  add_time_option(command, typed);
+  add_engine_options(command, typed);
+}
+
+void add_output_options(CLI::App& command, Typed& typed) {
+  command
+      .add_flag("--json", typed.json,
+                "Print one JSON object instead of the table; --json=FILE, without a space, writes "
+                "it beside the table")
+      ->type_name("[=FILE]");
+  command.add_flag("--verbose", typed.verbose,
+                   "Also print switches, stages, waves and culled candidates");
+  command.add_flag("--verify", typed.verify,
+                   "Check the answer on the host: the witness against every face of B, by brute "
+                   "force in 113-bit arithmetic; the parts of A as exact integers");
+}
+
+void add_survey_options(CLI::App& command, Typed& typed) {
+  command.add_flag("--stats", typed.statistics,
+                   "Also enclose the mean over A's area, the root mean square and percentiles");
+  command
+      .add_option("--bands", typed.bands,
+                  "And the shares of A's area within these distances: 0.1mm,0.5mm")
+      ->delimiter(',')
+      ->type_name("LENGTH,..")
+      ->allow_extra_args(false);
+  command
+      .add_option("--field-tol", typed.field_tolerance,
+                  "Bound the largest distance on each face of A, to so much [1 % of the largest]")
+      ->type_name("LENGTH");
+}
+
+void add_pair(CLI::App& command, Typed& typed) {
+  command.add_option("A", typed.file_a, "Mesh to start from (OBJ, STL, PLY, OFF, glTF, 3MF)")
+      ->required();
+  command.add_option("B", typed.file_b, "Mesh to go to")->required();
+  add_unit_and_input(command, typed);
+}
+
+void add_unit_and_input(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--unit", typed.unit,
+                  "What the files are in, where they do not say: um, mm, cm, m, in or ft")
+      ->type_name("UNIT");
+  command.add_option(
+      "--max-input", typed.max_input,
+      "Refuse a file of more bytes, or with a mesh that takes more, such as 100M or 2GiB; reading "
+      "takes up to six times that [no limit]");
+  command
+      .add_option("--polygons", typed.polygons,
+                  "fan: measure the fan of a polygon's corners where its outline crosses itself or "
+                  "encloses no area [such a file is refused]; any: answer for every triangulation "
+                  "of corners that lie in no plane [the one that is made]")
+      ->type_name("fan|any");
+  command
+      .add_option("--bodies", typed.bodies,
+                  "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
+                  "as it lies, such as modifiers, negative volumes and hidden nodes [solid]")
+      ->type_name("solid|all");
+}
+
+void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {
+  typed.tolerance = by_default;
+  command
+      .add_option("--tol", typed.tolerance,
+                  std::string("Width of the interval: ") + kLengths +
+                      ", or a number alone, which is a fraction of the diagonal")
+      ->type_name("LENGTH")
+      ->default_str(by_default);
+}
+
+void add_part(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--part", typed.part,
+                  "Of A's faces part I alone, from 0, of N; 'merge' joins the answers of all parts")
+      ->type_name("I/N");
+  command
+      .add_option("--known-lower", typed.known_lower,
+                  "What another part has shown: what is within the tolerance of it is not refined")
+      ->type_name("LENGTH");
+}
+
+void add_symmetric(CLI::App& command, Typed& typed) {
+  command.add_flag("--symmetric", typed.symmetric,
+                   "Both directions: max(h(A,B), h(B,A)) instead of h(A,B)");
+}
+
+}  // namespace vkh

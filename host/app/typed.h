@@ -1,0 +1,51 @@
+// The options of commands that are about pairs, and what was typed for them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/app/arguments.h"
+#include "host/app/picture_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace vkh {
+
+/// As typed.
+struct Typed {
+  std::string file_a, file_b;
+  std::string tolerance, max, face_max_a, face_max_b, unit, device;
+  std::optional<std::string> memory, time, waves, max_input, part, known_lower;
+  std::vector<std::string> enabled, disabled;
+  std::string preset, polygons, bodies;
+  std::string json, junit, area, field_tolerance;
+  TypedPictures pictures;
+  std::vector<std::string> bands;
+  bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
+       statistics = false;
+};
+
+/// How lengths are typed, for help.
+extern const char* const kLengths;
+
+// Options that commands share. `typed` must outlive `command`.
+void add_pair(CLI::App& command, Typed& typed);
+void add_unit_and_input(CLI::App& command, Typed& typed);
+void add_tolerance(CLI::App& command, Typed& typed, const char* by_default);
+void add_symmetric(CLI::App& command, Typed& typed);
+void add_part(CLI::App& command, Typed& typed);
+void add_device_option(CLI::App& command, Typed& typed);
+void add_time_option(CLI::App& command, Typed& typed);
+void add_engine_options(CLI::App& command, Typed& typed);  ///< memory, waves, switches, cache
+void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and those
+void add_survey_options(CLI::App& command, Typed& typed);
+void add_output_options(CLI::App& command, Typed& typed);
+
+/// What they ask for. Throw UsageError.
+PairJob job_of(const Typed& typed, const Words& words, const char* command);
+Outputs outputs_of(const Typed& typed);
+
+}  // namespace vkh

@@ -1,0 +1,150 @@
+#include "host/base/length.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "host/base/decimal.h"
+#include "host/base/error.h"
+#include "host/base/float128.h"
+#include "host/base/meant.h"
+
+namespace vkh {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double tenths_of_micrometres;  ///< an integer for each
+};
+constexpr std::array<Unit, 6> kUnits = {
+    {{"um", 1e1}, {"mm", 1e4}, {"cm", 1e5}, {"m", 1e7}, {"in", 254000}, {"ft", 3048000}}};
+
+const Unit* find_unit(const std::string& name) {
+  const auto* const found =
+      std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& u) { return u.name == name; });
+  return found == kUnits.end() ? nullptr : &*found;
+}
+
+constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
+
+/// Encloses x, which comes of a number of 53 bits by a product and a quotient or two in 113 bits.
+/// The number was rounded to nearest, twice if it was a percentage. A diagonal is off by four ulps
+/// at most: its extents are rounded, and libstdc++'s hypot of three adds two roundings to a root.
+Limit around(Float128 x) {
+  constexpr int kUlps = 16;
+  const auto nearest = static_cast<double>(x);
+  Limit limit{nearest, nearest};
+  for (int ulp = 0; ulp < kUlps; ++ulp) {
+    limit.within = std::nextafter(limit.within, 0.0);
+    limit.beyond = std::nextafter(limit.beyond, std::numeric_limits<double>::infinity());
+  }
+  return limit;
+}
+
+/// "write 0.1mm; ", where that is known and another word than what was typed.
+std::string proposal(const std::string& meant, const std::string& typed) {
+  return meant.empty() || meant == typed ? std::string() : "write " + meant + "; ";
+}
+
+std::string expected_of(PlainNumber plain) {
+  std::string text = "a positive length: ";
+  if (plain == PlainNumber::kFraction) text += "a fraction of diag(A) such as 1e-6, ";
+  return text +
+         "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of diag(A) or "
+         "1e-6diag";
+}
+
+}  // namespace
+
+Length parse_length(const char* option, const std::string& text, PlainNumber plain) {
+  constexpr double kLeast = 1e-290;  // a hundredth, or a part in another unit, has all its bits
+  Length length{.requested = text};
+  const char* end = text.data() + text.size();
+  // from_chars, because a locale must not decide whether 0.5 is a number.
+  const auto [rest, error] = std::from_chars(text.data(), end, length.number);
+  std::string unit(rest, end);
+  unit.erase(0, unit.find_first_not_of(' '));
+  const bool is_number =
+      error == std::errc() && std::isfinite(length.number) && length.number >= kLeast;
+  const bool is_fraction = unit == "diag" || (unit.empty() && plain == PlainNumber::kFraction);
+  if (unit == "%") {
+    length.number /= 100;
+  } else if (unit == "abs") {
+    length.of = Length::Of::kFiles;
+  } else if (find_unit(unit) != nullptr) {
+    length.of = Length::Of::kUnit;
+    length.unit = unit;
+  } else if (!is_fraction) {
+    length.number = 0;
+  }
+  if (!is_number || !(length.number > 0))
+    throw UsageError(std::string(option) + " '" + text +
+                     "': " + proposal(length_meant(text), text) + "expected " + expected_of(plain));
+  return length;
+}
+
+void check_unit(const char* option, const std::string& unit) {
+  if (find_unit(unit) == nullptr)
+    throw UsageError(std::string(option) + " '" + unit + "': " + proposal(unit_meant(unit), unit) +
+                     "expected " + kUnitNames);
+}
+
+Limit in_files(const Length& length, const char* option, const std::string& file_unit,
+               double diagonal_a) {
+  const Float128 number = float128(length.number);
+  Limit limit;
+  if (length.of == Length::Of::kDiagonal) {
+    limit = around(number * float128(diagonal_a));
+  } else if (length.of == Length::Of::kFiles) {
+    limit = around(number);
+  } else {
+    const Unit* file = find_unit(file_unit);
+    if (file == nullptr) {
+      throw UsageError(
+          std::string(option) + " '" + length.requested +
+          "': the files do not say what they are in; say so with --unit, or give the "
+          "length in their own unit, as " +
+          length.requested.substr(0, length.requested.find_first_not_of("0123456789.eE+- ")) +
+          "abs");
+    }
+    limit = around(number * float128(find_unit(length.unit)->tenths_of_micrometres) /
+                   float128(file->tenths_of_micrometres));
+  }
+  if (!std::isfinite(limit.beyond))
+    throw UsageError(std::string(option) + " '" + length.requested + "': longer than any double");
+  return limit;
+}
+
+Limit limit_in_files(const Length& length, const char* option, const std::string& file_unit,
+                     double diagonal_a) {
+  using Doubles = std::numeric_limits<double>;
+  const bool is_normal = diagonal_a >= Doubles::min() && diagonal_a < Doubles::max();
+  if (length.of == Length::Of::kDiagonal && !is_normal) {
+    throw UsageError(std::string(option) + " '" + length.requested + "': A's diagonal is " +
+                     (diagonal_a == 0 ? "0" : "beyond what a double holds to all its bits") +
+                     "; give the length itself, as 0.1abs or 0.1mm");
+  }
+  return in_files(length, option, file_unit, diagonal_a);
+}
+
+double typed_length(const Limit& limit) {
+  const double middle = limit.within / 2 + limit.beyond / 2;
+  char text[32] = "";
+  std::snprintf(text, sizeof text, "%.15g", middle);
+  const double decimal = std::strtod(text, nullptr);
+  return decimal >= limit.within && decimal <= limit.beyond ? decimal : middle;
+}
+
+std::string length_in_words(const Limit& limit) {
+  const double length = typed_length(limit);
+  const std::string all = decimal(length, 12, Rounding::kDown);
+  return std::strtod(all.c_str(), nullptr) == length
+             ? all
+             : "about " + decimal(length, 4, Rounding::kDown);
+}
+
+}  // namespace vkh

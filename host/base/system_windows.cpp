@@ -1,0 +1,117 @@
+#include <fcntl.h>
+#include <io.h>
+#include <windows.h>
+
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+
+#include "host/base/system.h"
+#include "host/base/windows_text.h"
+
+namespace vkh {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The console's, which outlives the program; 0: there is none, or it was given back.
+std::atomic<UINT> g_code_page = 0;
+
+void leave_console() {
+  const UINT before = g_code_page.exchange(0);
+  if (before != 0) SetConsoleOutputCP(before);
+}
+
+std::atomic<bool> g_interrupted = false;
+
+// Called on a thread of its own. False: the default handler ends the program.
+BOOL WINAPI on_control(DWORD event) {
+  const bool is_asked_to_end = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
+  if (is_asked_to_end && !g_interrupted.exchange(true)) return TRUE;
+  leave_console();
+  return FALSE;
+}
+
+/// A variable of the environment; empty where it is not set.
+std::wstring variable(const wchar_t* name) {
+  std::wstring value(GetEnvironmentVariableW(name, nullptr, 0), L'\0');
+  if (value.empty()) return value;
+  value.resize(GetEnvironmentVariableW(name, value.data(), static_cast<DWORD>(value.size())));
+  return value;
+}
+
+}  // namespace
+
+const char* const kVulkanLoader = "vulkan-1.dll: install your graphics card's driver";
+
+const bool kAsksForPortability = false;
+
+std::string utf8_of(std::wstring_view text) {
+  const int from = static_cast<int>(text.size());
+  const int size = WideCharToMultiByte(CP_UTF8, 0, text.data(), from, nullptr, 0, nullptr, nullptr);
+  std::string out(static_cast<size_t>(size), '\0');
+  WideCharToMultiByte(CP_UTF8, 0, text.data(), from, out.data(), size, nullptr, nullptr);
+  return out;
+}
+
+// argv is in the code page of old, where most names cannot be said.
+std::vector<std::string> command_line(int, const char* const*) {
+  int count = 0;
+  wchar_t** words = CommandLineToArgvW(GetCommandLineW(), &count);
+  std::vector<std::string> out;
+  for (int i = 1; i < count; ++i) out.push_back(utf8_of(words[i]));
+  LocalFree(words);
+  return out;
+}
+
+Console::Console() {
+  // The C library writes to a console byte by byte if it may, and a character must not be cut.
+  constexpr size_t kBuffer = size_t{1} << 16;
+  for (std::FILE* file : {stdout, stderr}) {
+    _setmode(_fileno(file), _O_BINARY);
+    std::setvbuf(file, nullptr, _IOFBF, kBuffer);
+  }
+  g_code_page = GetConsoleOutputCP();
+  if (g_code_page != 0) SetConsoleOutputCP(CP_UTF8);
+}
+
+Console::~Console() { leave_console(); }
+
+bool is_error_terminal() {
+  DWORD modes = 0;
+  return GetConsoleMode(GetStdHandle(STD_ERROR_HANDLE), &modes) != 0;
+}
+
+void note_interrupts() { SetConsoleCtrlHandler(on_control, TRUE); }
+bool is_interrupted() { return g_interrupted; }
+
+fs::path user_cache_folder() {
+  const fs::path folder = variable(L"LOCALAPPDATA");
+  return folder.is_absolute() ? folder / "vkhausdorff" : fs::path();
+}
+
+std::string host_name() {
+  std::array<wchar_t, MAX_COMPUTERNAME_LENGTH + 1> name{};
+  DWORD length = static_cast<DWORD>(name.size());
+  return GetComputerNameW(name.data(), &length) != 0 ? name_of(fs::path(name.data())) : "";
+}
+
+unsigned long process_id() { return GetCurrentProcessId(); }
+
+// Not ExitProcess, which _Exit calls: it ends the other threads first, then has every library say
+// goodbye, and waits for ever for a lock that one of those threads held.
+void end_process(int code) {
+  TerminateProcess(GetCurrentProcess(), static_cast<UINT>(code));
+  std::abort();  // it does not return
+}
+
+AnyFunction vulkan_loader_function(const char* name) {
+  // From the program's folder or Windows' own, not from the one that it is run in.
+  const HMODULE library =
+      LoadLibraryExW(L"vulkan-1.dll", nullptr, LOAD_LIBRARY_SEARCH_DEFAULT_DIRS);
+  return library == nullptr ? nullptr
+                            : reinterpret_cast<AnyFunction>(GetProcAddress(library, name));
+}
+
+}  // namespace vkh

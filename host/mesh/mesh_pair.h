@@ -1,0 +1,12 @@
+// Two meshes, one of which is measured against the other.
+#pragma once
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+struct MeshPair {
+  Mesh a, b;
+};
+
+}  // namespace vkh

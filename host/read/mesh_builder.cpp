@@ -1,0 +1,249 @@
+#include "host/read/mesh_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "host/base/decimal.h"
+#include "host/base/note.h"
+#include "host/base/reject.h"
+#include "host/mesh/polygon.h"
+
+namespace vkh {
+namespace {
+
+// Completes "an outline that".
+std::string what_is_odd(PolygonKind kind) {
+  if (kind == PolygonKind::kNoArea) return "encloses no area";
+  if (kind == PolygonKind::kIntricate) return "is too intricate to be triangulated in time";
+  return "crosses itself";
+}
+
+Triangulation of_face(uint64_t face, uint32_t triangles, PolygonResult& result) {
+  Triangulation out{.face = face, .corners = triangles + 2};
+  if (has_only_fan(result.kind)) return out;
+  out.axis = result.axis;
+  out.triangles = std::move(result.triangles);
+  return out;
+}
+
+}  // namespace
+
+std::string counted(uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void MeshBuilder::check_room(uint64_t vertex_count, uint64_t face_count) const {
+  if (mesh_bytes(vertex_count, face_count) > limits_.max_input_bytes)
+    refuse_size(vertex_count, face_count);
+}
+
+void MeshBuilder::reserve(uint64_t vertex_count, uint64_t face_count) {
+  check_room(vertex_count, face_count);
+  vertices_.reserve(vertex_count);
+  faces_.reserve(face_count);
+}
+
+void MeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const {
+  const std::string place = face_count > 0 ? "face " + std::to_string(face_count - 1)
+                                           : "vertex " + std::to_string(vertex_count - 1);
+  reject(name_, place,
+         "a mesh of " + std::to_string(vertex_count) + " vertices and " +
+             counted(face_count, "face") + " takes " +
+             counted(mesh_bytes(vertex_count, face_count), "byte") + ", beyond the limit of " +
+             counted(limits_.max_input_bytes, "byte"),
+         kLessInput);
+}
+
+void MeshBuilder::add_face(std::span<const uint32_t> corners) {
+  if (corners.size() < 3) {
+    ++short_faces_;
+    file_faces_.add(faces_.size(), 0);
+    return;
+  }
+  const size_t count = corners.size() - 2;
+  if (count > 1) {
+    ++polygons_;
+    file_faces_.add(faces_.size(), count);
+  }
+  make_room(0, count);
+  // Reserves for a large polygon what it takes, not twice what there was.
+  if (faces_.capacity() - faces_.size() < count && count > faces_.size())
+    faces_.reserve(faces_.size() + count);
+  for (size_t i = 2; i < corners.size(); ++i) {
+    faces_.emplace_back(corners[0], corners[i - 1], corners[i]);
+  }
+}
+
+MeshBuilder::MeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
+                         std::vector<glm::uvec3> faces)
+    : name_(source.name),
+      limits_(source.limits),
+      vertices_(std::move(vertices)),
+      faces_(std::move(faces)) {
+  make_room(0, 0);
+}
+
+MeshBuilder MeshBuilder::joined(const MeshSource& source, std::vector<MeshBuilder>&& blocks) {
+  std::vector<size_t> vertices, faces;
+  for (const MeshBuilder& block : blocks) {
+    vertices.push_back(block.vertices_.size());
+    faces.push_back(block.faces_.size());
+  }
+  MeshBuilder all(source);
+  const ThreadPool pool = pool_of(source);
+  const size_t vertex_count = starts_of(vertices), face_count = starts_of(faces);
+  all.make_room(vertex_count, face_count);
+  resize_together(pool, all.vertices_, vertex_count);
+  resize_together(pool, all.faces_, face_count);
+  pool.for_each(blocks.size(), [&](size_t i) {
+    const auto to = [i](auto& whole, const std::vector<size_t>& starts) {
+      return whole.begin() + static_cast<std::ptrdiff_t>(starts[i]);
+    };
+    std::copy(blocks[i].vertices_.begin(), blocks[i].vertices_.end(), to(all.vertices_, vertices));
+    std::copy(blocks[i].faces_.begin(), blocks[i].faces_.end(), to(all.faces_, faces));
+    blocks[i].vertices_ = {};
+    blocks[i].faces_ = {};
+  });
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const MeshBuilder& block = blocks[i];
+    all.count_faces(block.polygons_, block.short_faces_, block.file_faces_, faces[i]);
+  }
+  return all;
+}
+
+// Returns false for faces that make_mesh refuses.
+bool MeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
+  return std::all_of(faces.begin(), faces.end(), [&](const glm::uvec3& face) {
+    for (int k = 0; k < 3; ++k) {
+      if (face[k] >= vertices_.size()) return false;
+      const glm::dvec3& p = vertices_[face[k]];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+    }
+    return true;
+  });
+}
+
+// Triangulates from one face to another, with as many triangles each.
+Polygons MeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::Run& end) {
+  const uint32_t each = (end.triangles - begin.triangles) / (end.faces - begin.faces);
+  Polygons found;
+  for (uint32_t i = 0; i < end.faces - begin.faces; ++i) {
+    const std::span fan(&faces_[begin.triangles + size_t{i} * each], each);
+    if (!is_measurable(fan)) continue;
+    const uint64_t face = begin.faces + i;
+    PolygonResult result = limits_.triangulate ? limits_.triangulate(face, vertices_, fan)
+                                               : triangulate_fan(vertices_, fan);
+    if (result.kind != PolygonKind::kFan)
+      found.triangulations.push_back(of_face(face, each, result));
+    if (result.kind == PolygonKind::kClipped) ++found.clipped;
+    if (has_only_fan(result.kind) && found.fanned++ == 0) {
+      found.first_fanned = face;
+      found.first_kind = result.kind;
+    }
+    if (result.ambiguity > found.ambiguity) {
+      found.ambiguity = result.ambiguity;
+      found.ambiguous_face = face;
+    }
+  }
+  return found;
+}
+
+Polygons MeshBuilder::triangulate(const ThreadPool& pool) {
+  constexpr uint32_t kTriangles = 1 << 15;  // about 3 ms
+  std::vector<std::pair<FileFaces::Run, FileFaces::Run>> parts;
+  FileFaces::Run before;
+  for (const FileFaces::Run& run : file_faces_.runs()) {
+    const uint32_t each = (run.triangles - before.triangles) / (run.faces - before.faces);
+    const uint32_t step = each > 1 ? std::max(1U, kTriangles / each) : 0;
+    while (each > 1 && before.faces < run.faces) {
+      const uint32_t count = std::min(step, run.faces - before.faces);
+      const FileFaces::Run end = {before.triangles + count * each, before.faces + count};
+      parts.emplace_back(before, end);
+      before = end;
+    }
+    before = run;
+  }
+  std::vector<Polygons> found(parts.size());
+  pool.for_each(parts.size(),
+                [&](size_t i) { found[i] = triangulate(parts[i].first, parts[i].second); });
+  Polygons all;
+  for (Polygons& part : found) {
+    std::move(part.triangulations.begin(), part.triangulations.end(),
+              std::back_inserter(all.triangulations));
+    if (all.fanned == 0) {
+      all.first_fanned = part.first_fanned;
+      all.first_kind = part.first_kind;
+    }
+    all.clipped += part.clipped;
+    all.fanned += part.fanned;
+    if (part.ambiguity > all.ambiguity) {
+      all.ambiguity = part.ambiguity;
+      all.ambiguous_face = part.ambiguous_face;
+    }
+  }
+  return all;
+}
+
+void MeshBuilder::note_polygons(const Polygons& polygons) {
+  std::string note = counted(polygons_, "face") + " of more than three corners " +
+                     (polygons_ == 1 ? "was" : "were") + " triangulated";
+  if (polygons.clipped > 0) note += ", " + std::to_string(polygons.clipped) + " of them not convex";
+  if (polygons.ambiguity > 0) {
+    note += "; corners off a plane leave the surface open by up to " +
+            decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
+            std::to_string(polygons.ambiguous_face);
+    if (limits_.any_triangulation) note += ", and the interval is wider by it";
+  }
+  notes.push_back(note_of(NoteCode::kPolygons, note));
+  if (polygons.fanned == 0) return;
+  notes.push_back(note_of(
+      NoteCode::kPolygons,
+      "fanned: " + counted(polygons.fanned, "face") + " without a triangulation of " +
+          (polygons.fanned == 1 ? "its" : "their") +
+          " outline; what is measured may leave it; at face " +
+          std::to_string(polygons.first_fanned) + " it " + what_is_odd(polygons.first_kind)));
+}
+
+void MeshBuilder::refuse_odd(const Polygons& polygons) const {
+  if (polygons.fanned == 0 || limits_.odd_polygons == OddPolygons::kFanned) return;
+  std::string what = "an outline that " + what_is_odd(polygons.first_kind);
+  if (polygons.fanned > 1) what += ", the first of " + counted(polygons.fanned, "such face");
+  reject(name_, "face " + std::to_string(polygons.first_fanned), what,
+         "a polygon that does not cross itself, or --polygons fan, which measures the fan of its "
+         "corners");
+}
+
+void MeshBuilder::refuse_no_face(const std::string& place) const {
+  if (short_faces_ == 0 && !vertices_.empty())
+    reject(name_, place, counted(vertices_.size(), "point") + " and no face", kAMesh);
+  reject(name_, place,
+         short_faces_ == 0 ? "the file ends without a face"
+                           : "the file ends without a face of three corners",
+         "at least one face: a distance between no surfaces is undefined");
+}
+
+Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
+  if (faces_.empty()) refuse_no_face(place);
+  if (faces_.size() + short_faces_ >= UINT32_MAX)
+    reject(name_, place, "too many faces", "fewer than 2^32 - 1");
+  const ThreadPool pool = pool_of({.name = name_, .bytes = {}, .limits = limits_});
+  Polygons polygons = triangulate(pool);
+  refuse_odd(polygons);
+  Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_), pool, positions);
+  mesh.file_faces = std::move(file_faces_);
+  mesh.counts.polygons = polygons_;
+  if (polygons_ > 0) note_polygons(polygons);
+  mesh.polygons = std::move(polygons);
+  mesh.polygons.any_triangulation = limits_.any_triangulation;
+  if (limits_.any_triangulation) mesh.delta = mesh.polygons.ambiguity;
+  mesh.notes = std::move(notes);
+  if (short_faces_ > 0) {
+    mesh.notes.push_back(
+        note_of(NoteCode::kShortFaces,
+                counted(short_faces_, "face") + " of fewer than three corners ignored"));
+  }
+  return mesh;
+}
+
+}  // namespace vkh

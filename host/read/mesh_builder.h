@@ -1,0 +1,92 @@
+// What a reader makes its mesh with, within the source's limits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/mesh/make_mesh.h"
+#include "host/read/source.h"
+
+namespace vkh {
+
+/// Ends an error about points alone: it says what was expected.
+inline constexpr const char* kAMesh = "a mesh: export the surface as triangles (STL, OBJ, PLY)";
+
+/// "1 face", "2 faces": for notes and errors.
+std::string counted(uint64_t count, const std::string& noun);
+
+/// Collects a file's vertices and faces, within the source's limits.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const MeshSource& source) : name_(source.name), limits_(source.limits) {}
+
+  /// Of the blocks of a file, in order. Throws InputError if together they break the limits.
+  static MeshBuilder joined(const MeshSource& source, std::vector<MeshBuilder>&& blocks);
+  /// Of what was read without one.
+  MeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
+              std::vector<glm::uvec3> faces);
+
+  const std::string& name() const { return name_; }
+  const std::vector<glm::dvec3>& vertices() const { return vertices_; }
+  size_t face_count() const { return faces_.size(); }
+  /// Three a face.
+  uint32_t& corner(size_t number) { return faces_[number / 3][static_cast<int>(number % 3)]; }
+
+  std::vector<std::string> notes;
+
+  /// What a header announces, checked against the limits before anything is allocated.
+  void check_room(uint64_t vertex_count, uint64_t face_count) const;
+  void reserve(uint64_t vertex_count, uint64_t face_count);
+  void add_vertex(const glm::dvec3& position) {
+    make_room(1, 0);
+    vertices_.push_back(position);
+  }
+  /// The one added last.
+  void drop_vertex() { vertices_.pop_back(); }
+  void add_triangle(const glm::uvec3& face) {
+    make_room(0, 1);
+    faces_.push_back(face);
+  }
+  /// Fans a polygon from its first corner, until finish() triangulates it; one of fewer than three
+  /// corners is ignored and noted.
+  void add_face(std::span<const uint32_t> corners);
+  /// Those that were added by other means, from the triangle `first` on.
+  void count_faces(uint64_t polygons, uint64_t short_faces, const FileFaces& faces, size_t first) {
+    polygons_ += polygons;
+    short_faces_ += short_faces;
+    file_faces_.append(faces, first);
+  }
+  /// `place` is where the file ended, for the error if no face was there.
+  Mesh finish(const std::string& place, Positions positions = Positions::kAny) &&;
+
+ private:
+  /// Before so many more are added.
+  void make_room(size_t vertex_count, size_t face_count) {
+    constexpr uint64_t kRowsOfTick = 1 << 14;  // about 1 ms
+    if (mesh_bytes(vertices_.size() + vertex_count, faces_.size() + face_count) >
+        limits_.max_input_bytes) {
+      refuse_size(vertices_.size() + vertex_count, faces_.size() + face_count);
+    }
+    if (++rows_ % kRowsOfTick == 0) check_going(name_, limits_);
+  }
+  Polygons triangulate(const ThreadPool& pool);
+  Polygons triangulate(const FileFaces::Run& begin, const FileFaces::Run& end);
+  bool is_measurable(std::span<const glm::uvec3> faces) const;
+  void note_polygons(const Polygons& polygons);
+  void refuse_odd(const Polygons& polygons) const;
+  [[noreturn]] void refuse_no_face(const std::string& place) const;
+  [[noreturn]] void refuse_size(uint64_t vertex_count, uint64_t face_count) const;
+
+  std::string name_;
+  const ReadLimits& limits_;
+  std::vector<glm::dvec3> vertices_;
+  std::vector<glm::uvec3> faces_;
+  FileFaces file_faces_;
+  uint64_t rows_ = 0;
+  uint64_t polygons_ = 0;
+  uint64_t short_faces_ = 0;
+};
+
+}  // namespace vkh

@@ -1,0 +1,167 @@
+#include "host/show/camera.h"
+
+#include <array>
+#include <charconv>
+
+#include "host/base/error.h"
+
+namespace vkh::drawing {
+
+Spot spot_of(const Picture& picture) {
+  if (picture.witness) {
+    const Witness& w = *picture.witness;
+    return {w.on_a.point, w.on_b.point, static_cast<size_t>(w.on_a.face)};
+  }
+  const std::vector<double>& upper = picture.field.upper;
+  const auto face =
+      static_cast<size_t>(std::max_element(upper.begin(), upper.end()) - upper.begin());
+  const glm::uvec3& f = picture.mesh.faces[face];
+  const auto& v = picture.mesh.vertices;
+  return {v[f.x] / 3.0 + v[f.y] / 3.0 + v[f.z] / 3.0, std::nullopt, face};
+}
+
+Panel Views::view_from(glm::dvec3 direction, const Area& area) const {
+  Panel panel{fitted(picture_.mesh, axes_of(direction, options_.up), area)};
+  panel.shows_spot = is_seen(picture_.mesh, panel.camera, spot_.point);
+  return panel;
+}
+
+Panel Views::corner_view(const Area& area) const {
+  constexpr std::array<std::array<double, 2>, 4> kCorners{{{1, -1}, {-1, -1}, {-1, 1}, {1, 1}}};
+  std::optional<Panel> first;
+  for (const double height : {0.85, -0.85}) {
+    for (const auto& [x, y] : kCorners) {
+      const glm::dvec3 z_up(0.72 * x, y, height);
+      const bool is_z = options_.up == Up::kZ;
+      Panel panel = view_from(is_z ? z_up : glm::dvec3(z_up.x, z_up.z, -z_up.y), area);
+      if (panel.shows_spot) return panel;
+      if (!first) first = panel;
+    }
+  }
+  return *first;
+}
+
+std::vector<Panel> Views::six_views(const Area& area) const {
+  const uint32_t columns = area.width >= area.height ? 3 : 2, rows = 6 / columns;
+  const double width = std::floor(area.width / columns), height = std::floor(area.height / rows);
+  std::vector<Panel> panels;
+  for (uint32_t i = 0; i < 6; ++i) {
+    glm::dvec3 direction(0);
+    direction[static_cast<glm::length_t>(i / 2)] = i % 2 == 0 ? 1 : -1;
+    const uint32_t column = i % columns, row = i / columns;
+    const Area cell{area.x + column * width, area.y + row * height, width, height};
+    panels.push_back(view_from(direction, cell.inner(std::round(26 * unit_))));
+    panels.back().label = std::string("from ") + (i % 2 == 0 ? "+" : "\u2212") + "xyz"[i / 2];
+  }
+  double scale = panels[0].camera.scale;
+  for (const Panel& panel : panels) scale = std::min(scale, panel.camera.scale);
+  for (Panel& panel : panels) panel.camera.scale = scale;
+  return panels;
+}
+
+std::vector<Panel> Views::panels_in(const Area& area) const {
+  const double strip = std::round(64 * unit_);  // for axes and ruler
+  Area above = area;
+  above.height -= strip;
+  if (options_.view.kind == View::Kind::kSix) return six_views(above);
+  const Area inner = above.inner(std::round(24 * unit_));
+  if (options_.view.kind == View::Kind::kIso) return {corner_view(inner)};
+  return {view_from(options_.view.direction, inner)};
+}
+
+glm::dvec3 Views::normal_at_spot() const {
+  const glm::uvec3& f = picture_.mesh.faces[spot_.face];
+  const auto& v = picture_.mesh.vertices;
+  const glm::dvec3 normal =
+      glm::cross((v[f.y] - v[f.x]) / diagonal_, (v[f.z] - v[f.x]) / diagonal_);
+  return glm::length(normal) > 0 ? glm::normalize(normal) : glm::dvec3(0, 0, 1);
+}
+
+size_t Views::best_of(const std::vector<Panel>& panels) const {
+  const glm::dvec3 normal = normal_at_spot();
+  const auto worth = [&](const Panel& panel) {
+    const double facing = std::abs(glm::dot(normal, panel.camera.axes.back));
+    return facing + (panel.shows_spot ? 1 : 0);
+  };
+  const auto best =
+      std::max_element(panels.begin(), panels.end(),
+                       [&](const Panel& x, const Panel& y) { return worth(x) < worth(y); });
+  return static_cast<size_t>(best - panels.begin());
+}
+
+std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const {
+  constexpr double kLeast = 0.015, kMost = 0.06, kMostToB = 0.2;  // of the diagonal
+  constexpr double kLeastTimes = 3;
+  if (area.width < 1) return std::nullopt;
+  const glm::uvec3& f = picture_.mesh.faces[spot_.face];
+  double radius = kLeast * diagonal_;
+  for (glm::length_t i = 0; i < 3; ++i)
+    radius = std::max(radius, 1.6 * glm::distance(picture_.mesh.vertices[f[i]], spot_.point));
+  radius = std::min(radius, kMost * diagonal_);
+  const double to_b = spot_.closest ? 1.4 * glm::distance(*spot_.closest, spot_.point) : 0;
+  if (to_b <= kMostToB * diagonal_) radius = std::max(radius, to_b);
+  radius = std::min(radius, area.width / (2 * kLeastTimes * best.camera.scale));
+  Panel inset = best;
+  inset.camera.area = area;
+  inset.camera.centre = spot_.point;
+  inset.camera.scale = area.width / (2 * radius);
+  inset.camera.reach = inset.camera.before = 1.01 * diagonal_;
+  if (!best.shows_spot) {  // along its normal, from within what hides it
+    inset.camera.axes = axes_of(normal_at_spot(), options_.up);
+    inset.camera.before = radius;
+  }
+  return inset;
+}
+
+}  // namespace vkh::drawing
+
+namespace vkh {
+namespace {
+
+[[noreturn]] void refuse(const char* option, const std::string& text, const char* expected) {
+  throw UsageError(std::string(option) + " '" + text + "': expected " + expected);
+}
+
+/// All numbers of "1,2,3" or "1600x1000"; empty where there is anything else.
+template <class Number>
+std::vector<Number> numbers_of(const std::string& text, char between) {
+  std::vector<Number> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    Number number{};
+    // from_chars, because a locale must not decide whether 0.5 is a number.
+    const std::from_chars_result read = std::from_chars(at, end, number);
+    if (read.ec != std::errc()) return {};
+    numbers.push_back(number);
+    if (read.ptr == end) return numbers;
+    if (*read.ptr != between) return {};
+    at = read.ptr + 1;
+  }
+}
+
+}  // namespace
+
+View parse_view(const char* option, const std::string& text) {
+  if (text == "iso") return {};
+  if (text == "six") return {View::Kind::kSix};
+  const std::vector<double> numbers = numbers_of<double>(text, ',');
+  if (numbers.size() != 3) refuse(option, text, "iso, six or a direction such as 1,-1,0.5");
+  const View view{View::Kind::kDirection, {numbers[0], numbers[1], numbers[2]}};
+  const double length = glm::length(view.direction);
+  if (!std::isfinite(length) || !(length > 1e-100))
+    refuse(option, text, "a direction that is not 0,0,0");
+  return view;
+}
+
+void parse_picture_size(const char* option, const std::string& text, PictureOptions& options) {
+  const std::vector<uint32_t> sides = numbers_of<uint32_t>(text, 'x');
+  const bool fits = sides.size() == 2 && sides[0] >= kLeastPictureWidth &&
+                    sides[1] >= kLeastPictureHeight &&
+                    std::max(sides[0], sides[1]) <= kMostPictureSide;
+  if (!fits) refuse(option, text, "a size from 640x400 to 8192x8192, such as 1600x1000");
+  options.width = sides[0];
+  options.height = sides[1];
+}
+
+}  // namespace vkh

@@ -1,0 +1,175 @@
+// From where a mesh is seen, without perspective: lengths in a picture can be compared.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/show/draw.h"
+
+namespace vkh::drawing {
+
+/// A part of the picture, in pixels from its upper left corner.
+struct Area {
+  double x = 0, y = 0, width = 0, height = 0;
+
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+  glm::dvec2 centre() const { return {x + width / 2, y + height / 2}; }
+  bool has(glm::dvec2 p) const { return p.x >= x && p.x <= right() && p.y >= y && p.y <= bottom(); }
+  Area inner(double by) const { return {x + by, y + by, width - 2 * by, height - 2 * by}; }
+};
+
+/// Three axes of a viewer: to the right, up, and from the mesh towards the viewer.
+struct Axes {
+  glm::dvec3 right, up, back;
+};
+
+inline Axes axes_of(glm::dvec3 towards_viewer, Up up) {
+  const glm::dvec3 back = glm::normalize(towards_viewer);
+  glm::dvec3 above = up == Up::kZ ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+  // From above and below, what a person who leans forward has at the top.
+  constexpr double kSteep = 0.999;
+  if (std::abs(glm::dot(above, back)) > kSteep)
+    above = up == Up::kZ ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, back.y > 0 ? -1 : 1);
+  const glm::dvec3 right = glm::normalize(glm::cross(above, back));
+  return {right, glm::cross(back, right), back};
+}
+
+/// x and y in pixels of the picture, z in units towards the viewer.
+struct Camera {
+  Axes axes;
+  glm::dvec3 centre{};  ///< it is in the middle of the area
+  double scale = 1;     ///< pixels a unit
+  double reach = 1;     ///< how far behind `centre` something is drawn
+  double before = 1;    ///< how far before it, towards the viewer
+  Area area;
+
+  glm::dvec3 turned(glm::dvec3 v) const {
+    return {glm::dot(v, axes.right), glm::dot(v, axes.up), glm::dot(v, axes.back)};
+  }
+  glm::dvec3 pixel(glm::dvec3 p) const {
+    const glm::dvec3 t = turned(p - centre);
+    const glm::dvec2 middle = area.centre();
+    return {middle.x + scale * t.x, middle.y - scale * t.y, t.z};
+  }
+};
+
+struct Box {
+  glm::dvec3 lo{std::numeric_limits<double>::infinity()};
+  glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
+
+  void add(glm::dvec3 p) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  glm::dvec3 centre() const { return lo + (hi - lo) * 0.5; }
+};
+
+inline Box box_of(const Mesh& mesh) {
+  Box box;
+  for (const glm::dvec3& v : mesh.vertices) box.add(v);
+  return box;
+}
+
+/// Of a mesh that is one point: anything that is not 0.
+inline double diagonal_of(const Mesh& mesh) {
+  const Box box = box_of(mesh);
+  const double diagonal = glm::distance(box.lo, box.hi);
+  return diagonal > 0 ? diagonal : 1;
+}
+
+/// The whole mesh in the area, as large as it gets.
+inline Camera fitted(const Mesh& mesh, const Axes& axes, const Area& area) {
+  Camera camera{.axes = axes, .area = area};
+  camera.centre = box_of(mesh).centre();
+  Box seen;
+  for (const glm::dvec3& v : mesh.vertices) seen.add(camera.turned(v - camera.centre));
+  const glm::dvec3 size = seen.hi - seen.lo, middle = seen.centre();
+  camera.centre += axes.right * middle.x + axes.up * middle.y + axes.back * middle.z;
+  const double most = std::max(size.x / area.width, size.y / area.height);
+  camera.scale = most > 0 ? 1 / most : 1;
+  const double deep = size.z / 2;
+  camera.reach = 1.01 * (deep > 0 ? deep : std::max(std::max(size.x, size.y), 1e-300));
+  camera.before = camera.reach;
+  return camera;
+}
+
+/// Whether the triangle is before `p` (a pixel, with its depth), by more than `slack`.
+inline bool hides(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                  const glm::dvec3& p, double slack) {
+  if (std::max({a.z, b.z, c.z}) <= p.z + slack) return false;
+  if (p.x < std::min({a.x, b.x, c.x}) || p.x > std::max({a.x, b.x, c.x})) return false;
+  if (p.y < std::min({a.y, b.y, c.y}) || p.y > std::max({a.y, b.y, c.y})) return false;
+  const auto area = [](const glm::dvec3& s, const glm::dvec3& t, const glm::dvec3& u) {
+    return (t.x - s.x) * (u.y - s.y) - (u.x - s.x) * (t.y - s.y);
+  };
+  const double all = area(a, b, c), u = area(p, b, c), v = area(a, p, c), w = area(a, b, p);
+  if (all == 0 || u * all < 0 || v * all < 0 || w * all < 0) return false;
+  return (u * a.z + v * b.z + w * c.z) / all > p.z + slack;
+}
+
+/// Whether no face stands before the point.
+inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
+  constexpr double kSlack = 1e-5;  // of the diagonal: the point's own faces are no screen
+  const glm::dvec3 p = camera.pixel(point);
+  const double slack = kSlack * diagonal_of(mesh);
+  return std::none_of(mesh.faces.begin(), mesh.faces.end(), [&](const glm::uvec3& f) {
+    return hides(camera.pixel(mesh.vertices[f.x]), camera.pixel(mesh.vertices[f.y]),
+                 camera.pixel(mesh.vertices[f.z]), p, slack);
+  });
+}
+
+/// The worst place: the witness, or else the middle of the face of the largest upper.
+struct Spot {
+  glm::dvec3 point{};
+  std::optional<glm::dvec3> closest;  ///< on B
+  size_t face = 0;
+};
+Spot spot_of(const Picture& picture);
+
+/// A part of the picture with a view of the mesh in it.
+struct Panel {
+  Camera camera;
+  std::string label = {};
+  bool shows_spot = false;
+};
+
+/// Chooses views of a mesh.
+class Views {
+ public:
+  /// `unit`: pixels of what is one in a picture of 1600 x 1000.
+  Views(const Picture& picture, const PictureOptions& options, double unit)
+      : picture_(picture),
+        options_(options),
+        unit_(unit),
+        spot_(spot_of(picture)),
+        diagonal_(diagonal_of(picture.mesh)) {}
+
+  const Spot& spot() const { return spot_; }
+  std::vector<Panel> panels_in(const Area& area) const;
+  /// The one that shows the spot best.
+  size_t best_of(const std::vector<Panel>& panels) const;
+  /// The spot, magnified; none where there is no room.
+  std::optional<Panel> inset_in(const Area& area, const Panel& best) const;
+
+ private:
+  Panel corner_view(const Area& area) const;
+  std::vector<Panel> six_views(const Area& area) const;
+  Panel view_from(glm::dvec3 direction, const Area& area) const;
+  glm::dvec3 normal_at_spot() const;
+
+  const Picture& picture_;
+  const PictureOptions& options_;
+  double unit_;
+  Spot spot_;
+  double diagonal_;
+};
+
+}  // namespace vkh::drawing

@@ -1,0 +1,60 @@
+// What is drawn over the mesh, anti-aliased on the host: letters, lines, bars.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/show/colours.h"
+
+namespace vkh::drawing {
+
+inline constexpr Rgb kInk{32, 36, 42}, kGrey{105, 112, 122}, kPale{196, 201, 208},
+    kPaper{255, 255, 255}, kSignal{200, 16, 62};
+
+/// Coordinates are in pixels; the centre of the first pixel is at (0.5, 0.5).
+class Canvas {
+ public:
+  explicit Canvas(Image& image) : image_(image) {}
+
+  void paste(const Layer& layer, uint32_t x, uint32_t y);
+  void blend(int64_t x, int64_t y, Rgb colour, double opacity);
+
+  /// Corners are round where there is a `radius`.
+  void fill(const Area& area, Rgb colour, double opacity = 1, double radius = 0);
+  void frame(const Area& area, double width, Rgb colour);
+  void line(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour);
+  void disc(glm::dvec2 centre, double radius, Rgb colour);
+  void ring(glm::dvec2 centre, double radius, double width, Rgb colour);
+  /// Convex, its corners in the order of a clock's hand.
+  void polygon(const std::vector<glm::dvec2>& corners, Rgb colour);
+  /// Stripes as an undecided face has them.
+  void hatch(const Area& area, double period);
+  /// A line with a head at `to`, so wide, and with a `margin` around all of it.
+  void arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour, double margin = 0);
+
+ private:
+  /// `inside(p)`: how far p is inside of the shape, in pixels.
+  template <class Inside>
+  void cover(const Area& bounds, Rgb colour, double opacity, const Inside& inside);
+
+  Image& image_;
+};
+
+enum class Align { kLeft, kCentre, kRight };
+
+struct Ink {
+  double size = 16;  ///< of the em, in pixels
+  Rgb colour = kInk;
+  Align align = Align::kLeft;
+};
+
+/// UTF-8; a box for what the font lacks. `at`: on the base line.
+void write(Canvas& canvas, glm::dvec2 at, std::string_view text, const Ink& ink);
+double text_width(std::string_view text, double size);
+/// No wider than `width`: from its middle as much is left out as has to be.
+std::string shortened(const std::string& text, double size, double width);
+/// Lines no wider than `width`, at most so many; what there is no room for is left out.
+std::vector<std::string> wrapped(const std::string& text, double size, double width, size_t most);
+
+}  // namespace vkh::drawing

@@ -1,0 +1,159 @@
+#include "host/show/colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "host/base/parallel.h"
+
+namespace vkh::drawing {
+namespace {
+
+double largest_finite(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double v : values) {
+    if (std::isfinite(v)) largest = std::max(largest, v);
+  }
+  return largest;
+}
+
+/// One where a face looks at the viewer, so that its colour is the map's own. Light comes from the
+/// upper left, and falls on both sides of a face. `normal`: as the viewer sees it, of any length.
+double light_on(glm::dvec3 normal) {
+  constexpr double kDarkest = 0.6;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.32, 0.42, 0.85));
+  const double length = glm::length(normal);
+  if (!(length > 0)) return 1;
+  // Wrapped around the edges of what is lit, so that faces turned away keep their shape.
+  const double lit = glm::dot(normal, light) * (normal.z < 0 ? -1 : 1) / length;
+  const double share = std::min((1 + lit) / (1 + light.z), 1.0);
+  return kDarkest + (1 - kDarkest) * share * share;
+}
+
+/// How dark edges are: not at all where a face is so thin that its edges would be most of it.
+uint8_t edge_strength(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  constexpr double kNone = 8, kFull = 22, kDarkest = 0.38;  // altitudes in pixels; share
+  const glm::dvec2 u(b - a), v(c - a), w(c - b);
+  const double longest = std::sqrt(std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}));
+  if (!(longest > 0)) return 0;
+  const double altitude = std::abs(u.x * v.y - u.y * v.x) / longest;
+  const double share = std::clamp((altitude - kNone) / (kFull - kNone), 0.0, 1.0);
+  return static_cast<uint8_t>(std::lround(255 * kDarkest * share));
+}
+
+class FaceWriter {
+ public:
+  FaceWriter(const Picture& picture, const Scale& scale, const Camera& camera)
+      : picture_(picture), scale_(scale), camera_(camera) {}
+
+  void operator()(size_t face, Corner* corners) const {
+    std::array<glm::dvec3, 3> at;
+    for (size_t i = 0; i < at.size(); ++i) {
+      const auto corner = static_cast<glm::length_t>(i);
+      at[i] = camera_.pixel(picture_.mesh.vertices[picture_.mesh.faces[face][corner]]);
+    }
+    const FaceLook look = look_of(picture_, scale_, face);
+    const double light = light_on(normal_of(at));
+    const auto lit = [&](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
+    const uint8_t edges = edge_strength(at[0], at[1], at[2]);
+    for (size_t i = 0; i < at.size(); ++i) {
+      const glm::dvec3 clip = clipped(at[i]);
+      corners[i] = {static_cast<float>(clip.x),
+                    static_cast<float>(clip.y),
+                    static_cast<float>(clip.z),
+                    {lit(look.colour.red), lit(look.colour.green), lit(look.colour.blue), edges},
+                    static_cast<uint8_t>(look.hatched ? 1 : 0),
+                    {}};
+    }
+  }
+
+ private:
+  // Of what is seen, so a pixel's y turns around, and its depth is in pixels, too.
+  glm::dvec3 normal_of(const std::array<glm::dvec3, 3>& at) const {
+    const auto seen = [&](size_t i) {
+      return glm::dvec3(at[i].x, -at[i].y, at[i].z * camera_.scale);
+    };
+    return glm::cross(seen(1) - seen(0), seen(2) - seen(0));
+  }
+  glm::dvec3 clipped(const glm::dvec3& pixel) const {
+    const Area& area = camera_.area;
+    return {2 * (pixel.x - area.x) / area.width - 1, 2 * (pixel.y - area.y) / area.height - 1,
+            (camera_.before - pixel.z) / (camera_.before + camera_.reach)};
+  }
+
+  const Picture& picture_;
+  const Scale& scale_;
+  const Camera& camera_;
+};
+
+}  // namespace
+
+FillFaces faces_for(const Picture& picture, const Scale& scale, const Camera& camera) {
+  return
+      [writer = FaceWriter(picture, scale, camera)](size_t first, size_t count, Corner* corners) {
+        constexpr size_t kPiece = 4096;
+        for_each_index((count + kPiece - 1) / kPiece, [&](size_t piece) {
+          const size_t end = std::min(count, (piece + 1) * kPiece);
+          for (size_t i = piece * kPiece; i < end; ++i) writer(first + i, corners + 3 * i);
+        });
+      };
+}
+
+Scale::Scale(const Picture& picture, const PictureOptions& options)
+    : map_(options.map), bands_(options.bands) {
+  const double upper = picture.interval.upper;
+  const double shown = std::isfinite(upper) ? upper : 0;  // the bar has room for it, too
+  range_ =
+      options.range.value_or(Enclosure{0, std::max(shown, largest_finite(picture.field.upper))});
+}
+
+double Scale::share_of(double length) const {
+  const double width = range_.upper - range_.lower;
+  // A range without width has one colour, and what is above it another.
+  if (!(width > 0)) return length > range_.upper ? 1 : 0;
+  return std::clamp(length / width - range_.lower / width, 0.0, 1.0);
+}
+
+Rgb Scale::at_share(double share) const {
+  if (bands_ == 0) return map_colour(map_, share);
+  const double band = std::max(std::ceil(share * bands_), 1.0);  // an edge is the lower band's
+  return map_colour(map_, bands_ == 1 ? 0.5 : (band - 1) / (bands_ - 1));
+}
+
+Rgb verdict_colour(Verdict verdict) {
+  if (verdict == Verdict::kWithin) return {133, 178, 216};
+  return verdict == Verdict::kBeyond ? Rgb{203, 38, 35} : Rgb{246, 205, 116};
+}
+
+FaceLook look_of(const Picture& picture, const Scale& scale, size_t face) {
+  if (picture.limit) {
+    const Verdict verdict = verdict_of(picture.field, face, *picture.limit);
+    return {verdict_colour(verdict), verdict == Verdict::kUndecided};
+  }
+  const double upper = picture.field.upper[face];
+  if (!std::isfinite(upper)) return {kUnbounded, true};
+  return {scale.colour(upper), false};
+}
+
+FaceCounts count_faces(const Picture& picture, const Scale& scale) {
+  FaceCounts counts;
+  for (size_t face = 0; face < picture.field.face_count(); ++face) {
+    if (picture.limit) {
+      const Verdict verdict = verdict_of(picture.field, face, *picture.limit);
+      ++(verdict == Verdict::kWithin   ? counts.within
+         : verdict == Verdict::kBeyond ? counts.beyond
+                                       : counts.undecided);
+      continue;
+    }
+    const double upper = picture.field.upper[face];
+    if (!std::isfinite(upper)) {
+      ++counts.unbounded;
+    } else if (upper > scale.range().upper) {
+      ++counts.above;
+    }
+  }
+  return counts;
+}
+
+}  // namespace vkh::drawing

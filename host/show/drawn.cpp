@@ -1,0 +1,97 @@
+#include "host/show/drawn.h"
+
+#include "host/base/error.h"
+#include "host/base/system.h"
+#include "host/show/page.h"
+
+namespace vkh {
+namespace {
+
+std::string file_name_of(const std::string& path) {
+  return path_of(path).filename().empty() ? path : path.substr(path.find_last_of("/\\") + 1);
+}
+
+PictureOptions options_of(const PictureStyle& look, const Answer& answer) {
+  PictureOptions options = look.options;
+  if (!look.range) return options;
+  const auto resolved = [&](const Length& length) {
+    return length.number == 0
+               ? 0
+               : in_files(length, "--range", answer.unit, answer.a_to_b.diagonal_a).within;
+  };
+  options.range = Enclosure{resolved((*look.range)[0]), resolved((*look.range)[1])};
+  return options;
+}
+
+// A share of a diagonal has too many digits as a number.
+std::string limit_as(const Asked& max) {
+  if (max.length.of != Length::Of::kDiagonal) return "";
+  const std::string& typed = max.length.requested;
+  return typed + (typed.ends_with("diag") ? "(A)" : " of A's diagonal");
+}
+
+}  // namespace
+
+std::vector<Side> sides_of(const Measured& measured) {
+  std::vector<Side> sides;
+  const Answer& answer = measured.answer;
+  if (!answer.survey_a) throw OutputError("the run ended before there were bounds of faces");
+  sides.push_back({measured.a, answer.a_to_b, *answer.survey_a, false});
+  if (answer.b_to_a && answer.survey_b)
+    sides.push_back({measured.b, *answer.b_to_a, *answer.survey_b, true});
+  return sides;
+}
+
+std::string label_of(const Answer& answer, bool back) {
+  return file_name_of(answer.inputs[back ? 1 : 0].path);
+}
+
+Enclosure interval_of(const Side& side) { return {side.report.lower, side.report.upper}; }
+
+std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
+                       const Device& device) {
+  Picture picture{.mesh = side.mesh,
+                  .field = side.survey.field,
+                  .interval = interval_of(side),
+                  .unit = answer.unit,
+                  .name = label_of(answer, side.back),
+                  .against = label_of(answer, !side.back),
+                  .back = side.back,
+                  .caption = {in_words(answer)}};
+  if (answer.max) picture.limit = answer.max->limit;
+  if (answer.max) picture.limit_as = limit_as(*answer.max);
+  if (answer.max) picture.verdict = verdict_of(answer, side.back);
+  if (side.report.has_witness)
+    picture.witness = Witness{side.report.witness_a, side.report.witness_b};
+  return encode_png(draw(device, picture, options_of(look, answer)));
+}
+
+std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
+                                          const Device& device) {
+  std::vector<std::string> pictures;
+  for (const Side& side : sides_of(measured)) {
+    try {
+      pictures.push_back(picture_of(side, measured.answer, look, device));
+    } catch (const DeviceError&) {  // a queue that does not draw
+      pictures.emplace_back();
+    }
+  }
+  return pictures;
+}
+
+std::string report_of(const Measured& measured, std::span<const std::string> pictures) {
+  const std::vector<Side> sides = sides_of(measured);
+  std::vector<PageDirection> directions;
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const std::optional<Statistics>& statistics = sides[i].survey.statistics;
+    directions.push_back({.mesh = &sides[i].mesh,
+                          .field = &sides[i].survey.field,
+                          .statistics = statistics ? &*statistics : nullptr,
+                          .picture = pictures[i]});
+  }
+  PageContents contents{.answer = &measured.answer, .a_to_b = directions[0]};
+  if (directions.size() > 1) contents.b_to_a = directions[1];
+  return to_page(contents);
+}
+
+}  // namespace vkh

@@ -1,0 +1,30 @@
+// Cells of A that a run's device bounds: what a survey asks, and is answered.
+#pragma once
+
+#include <span>
+
+#include "host/solve/frame.h"
+#include "host/solve/solve_options.h"
+#include "shaders/gpu_types.h"
+
+namespace vkh {
+
+/// One submission, which should take no longer than somebody waits for Ctrl-C. Without cells: faces
+/// of A from `first` on, as many as there are bounds.
+struct CellBatch {
+  std::span<const gpu::Cell> cells;
+  uint32_t first = 0;
+  std::span<gpu::CellBounds> bounds;  ///< in the frame, of the stored meshes
+};
+
+/// A pair whose run has ended, while it still lies on the device.
+struct SurveyedPair {
+  const Mesh& a;
+  const Mesh& b;
+  Frame frame;
+  double displacement;  ///< of both meshes, in the frame
+  double farthest;      ///< the run's upper bound: no distance is larger, in the files' units
+  bool on_cpu;          ///< batches are to be small
+};
+
+}  // namespace vkh

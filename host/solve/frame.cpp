@@ -1,0 +1,262 @@
+#include "host/solve/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "host/base/parallel.h"
+#include "host/base/rounding.h"
+#include "host/mesh/round_to_float.h"
+
+namespace vkh {
+namespace {
+
+// Largest |coordinate - centre|. With the middle for centre it cannot overflow, and subtraction is
+// exact among subnormals.
+double extent_of(const Box& box, const glm::dvec3& centre) {
+  double extent = 0;
+  for (int i = 0; i < 3; ++i) {
+    extent = std::max({extent, std::abs(box.lo[i] - centre[i]), std::abs(box.hi[i] - centre[i])});
+  }
+  return extent;
+}
+
+// 2^exponent brings the extent to [1/2, 1).
+int exponent_for(double extent) {
+  int exponent = 0;
+  std::frexp(extent, &exponent);
+  return extent == 0 ? 0 : -exponent;
+}
+
+// Times 2^exponent in two steps: one could leave the range of double on the way. Each is exact, or
+// rounded where it underflows, as with std::ldexp, which takes five times as long.
+struct Scale {
+  double first, second;
+  explicit Scale(int exponent)
+      : first(std::ldexp(1.0, exponent / 2)), second(std::ldexp(1.0, exponent - exponent / 2)) {}
+  double operator()(double x) const { return x * first * second; }
+};
+
+double scaled(double x, int exponent) { return Scale(exponent)(x); }
+
+// The nearest float, but 0 for one under 2^-126: a device may flush those as it reads them, and two
+// that differ would be one.
+float stored_float(double x) {
+  const float near = nearest_float(x);
+  return std::abs(near) >= std::numeric_limits<float>::min() ? near : 0.0f;
+}
+
+struct Halves {
+  float high, low;
+};
+
+Halves halves_of(double exact) {
+  const float high = stored_float(exact);
+  return {high, stored_float(exact - static_cast<double>(high))};
+}
+
+// Of a coordinate: how far storing it displaces it, rounded up, and whether it needs a low part.
+// What two floats leave exactly, the rounding of the subtraction by its bound (2^-53 relative,
+// taken twice over), unless it was exact. Scaling is, but for underflow, which the last term takes:
+// a normal result has not been through one.
+double displaced(double given, double centre, const Scale& scale, bool& has_low) {
+  const double offset = given - centre;
+  const double exact = scale(offset);
+  const Halves halves = halves_of(exact);
+  has_low = has_low || halves.low != 0;
+  const double left =
+      std::abs((exact - static_cast<double>(halves.high)) - static_cast<double>(halves.low));
+  const double subtraction = sum_error(given, -centre) == 0 ? 0 : std::abs(exact) * 0x1p-52;
+  const bool scaled_exactly = offset == 0 || std::abs(exact) >= std::numeric_limits<double>::min();
+  return left + subtraction + (scaled_exactly ? 0 : 0x1p-1000);
+}
+
+// Halved first only where the sum would overflow: a subnormal's half is rounded.
+glm::dvec3 middle_of(const Box& box) {
+  const glm::dvec3 sum = box.lo + box.hi;
+  return std::isfinite(sum.x + sum.y + sum.z) ? sum / 2.0 : box.lo / 2.0 + box.hi / 2.0;
+}
+
+Frame frame_around(const Box& box, const glm::dvec3& centre) {
+  return {centre, exponent_for(extent_of(box, centre))};
+}
+
+// Around the origin the meshes may use only part of [-1, 1]; a quarter of it costs two bits and is
+// worth being exact.
+bool may_keep_origin(const Box& box) {
+  return extent_of(box, glm::dvec3(0)) <= 4 * extent_of(box, middle_of(box));
+}
+
+// What a range of vertices adds to a StoredMesh.
+struct Stored {
+  double worst = 0;
+  bool has_low = false;
+};
+
+struct VertexRange {
+  size_t begin = 0, end = 0;
+};
+
+// Ranges of vertices that are worth a thread: 0.3 ms.
+size_t parts_of(const Mesh& mesh) {
+  constexpr size_t kVerticesOfThread = 1 << 16;
+  return std::max<size_t>(mesh.vertices.size() / kVerticesOfThread, 1);
+}
+
+template <class F>
+void for_each_range(const Mesh& mesh, const F& work) {
+  const size_t count = mesh.vertices.size(), parts = parts_of(mesh);
+  for_each_index(parts, [&](size_t part) {
+    work(part, VertexRange{count * part / parts, count * (part + 1) / parts});
+  });
+}
+
+// Stops where `only_high` and a low part is needed.
+Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool only_high) {
+  const Scale scale(frame.exponent);
+  Stored stored;
+  for (size_t v = range.begin; v < range.end && !(only_high && stored.has_low); ++v) {
+    double sum = 0;  // of the three coordinates: no less than their Euclidean norm, and it does not
+                     // underflow
+    for (int i = 0; i < 3; ++i)
+      sum += displaced(mesh.vertices[v][i], frame.centre[i], scale, stored.has_low);
+    stored.worst = std::max(stored.worst, sum);
+  }
+  return stored;
+}
+
+StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
+  StoredMesh out{.frame = frame};
+  std::vector<Stored> stored(parts_of(mesh));
+  for_each_range(mesh, [&](size_t part, VertexRange range) {
+    stored[part] = store_range(frame, mesh, range, only_high);
+  });
+  double worst = 0;
+  for (const Stored& s : stored) {
+    worst = std::max(worst, s.worst);
+    out.has_low = out.has_low || s.has_low;
+  }
+  out.displacement = worst * (1 + 0x1p-50);
+  return out;
+}
+
+// Scaling is exact but for underflow, which leaves less than 2^-1000. Not part of what is asked
+// below: a mesh that is off its place is stored as well as any other.
+StoredMesh with_delta(StoredMesh stored, const Frame& frame, const Mesh& mesh) {
+  if (mesh.delta == 0) return stored;
+  const double delta = scaled(mesh.delta, frame.exponent);
+  const bool is_normal = delta >= std::numeric_limits<double>::min();
+  stored.displacement = add_up(stored.displacement, is_normal ? delta : 0x1p-1000);
+  return stored;
+}
+
+// Nothing where a coordinate needs a low part.
+std::optional<StoredMesh> store_exactly(const Frame& frame, const Mesh& mesh) {
+  StoredMesh stored = store_in(frame, mesh, true);
+  if (stored.has_low || !(stored.displacement < 0x1p-61)) return std::nullopt;
+  return stored;
+}
+
+}  // namespace
+
+Box bounding_box(const Mesh& mesh) {
+  std::vector<Box> boxes(parts_of(mesh));
+  for_each_range(mesh, [&](size_t part, VertexRange range) {
+    Box box{mesh.vertices[range.begin], mesh.vertices[range.begin]};
+    for (size_t v = range.begin; v < range.end; ++v)
+      box = join(box, {mesh.vertices[v], mesh.vertices[v]});
+    boxes[part] = box;
+  });
+  return std::accumulate(boxes.begin(), boxes.end(), boxes.front(), join);
+}
+
+Box join(const Box& x, const Box& y) {
+  Box joint;
+  for (int i = 0; i < 3; ++i) {
+    joint.lo[i] = std::min(x.lo[i], y.lo[i]);
+    joint.hi[i] = std::max(x.hi[i], y.hi[i]);
+  }
+  return joint;
+}
+
+double diagonal(const Box& box) {
+  const glm::dvec3 extent = box.hi - box.lo;
+  const double length = std::hypot(extent.x, extent.y, extent.z);  // nan of infinite extents
+  return std::isfinite(length) ? length : std::numeric_limits<double>::max();
+}
+
+double Frame::to_frame(double length) const { return scaled(length, exponent); }
+
+double Frame::extent(const Box& box) const { return to_frame(extent_of(box, centre)); }
+
+double Frame::length_down(double frame_length) const {
+  const double length = scaled(frame_length, -exponent);
+  return scaled(length, exponent) > frame_length ? std::nextafter(length, 0.0) : length;
+}
+
+double Frame::length_up(double frame_length) const {
+  const double length = scaled(frame_length, -exponent);
+  return scaled(length, exponent) < frame_length
+             ? std::nextafter(length, std::numeric_limits<double>::infinity())
+             : length;
+}
+
+double farthest_in(const Box& joint, double delta) {
+  // The diagonal is rounded to nearest, or the largest double: a little more is surely above it.
+  const double longest = diagonal(joint) * (1 + 0x1p-40);
+  return add_up(std::nextafter(longest, std::numeric_limits<double>::infinity()) + 0x1p-1070,
+                delta);
+}
+
+FileInterval Frame::to_files(double lower, double upper, double displacement,
+                             double farthest) const {
+  const double down = std::max(0.0, add_down(lower, -displacement));
+  const double up = add_up(upper, displacement);
+  return {length_down(down), std::min(length_up(up), farthest)};
+}
+
+StoredMesh store_in(const Frame& frame, const Mesh& mesh) {
+  return with_delta(store_in(frame, mesh, false), frame, mesh);
+}
+
+void write_vertices(const StoredMesh& stored, const Mesh& mesh, float* high, float* low) {
+  const Scale scale(stored.frame.exponent);
+  const glm::dvec3 centre = stored.frame.centre;
+  for_each_range(mesh, [&](size_t, VertexRange range) {
+    for (size_t k = 3 * range.begin; k < 3 * range.end; ++k) {
+      const int axis = static_cast<int>(k % 3);
+      const Halves halves = halves_of(scale(mesh.vertices[k / 3][axis] - centre[axis]));
+      high[k] = halves.high;
+      if (stored.has_low) low[k] = halves.low;
+    }
+  });
+}
+
+FramedPair frame_pair(const Mesh& a, const Mesh& b) {
+  const Box joint = join(bounding_box(a), bounding_box(b));
+  if (may_keep_origin(joint)) {
+    const Frame frame = frame_around(joint, glm::dvec3(0));
+    std::optional<StoredMesh> stored_a = store_exactly(frame, a);
+    std::optional<StoredMesh> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
+    if (stored_b) {
+      return {frame, with_delta(*stored_a, frame, a), with_delta(*stored_b, frame, b)};
+    }
+  }
+  const Frame frame = frame_around(joint, middle_of(joint));
+  return {frame, store_in(frame, a), store_in(frame, b)};
+}
+
+FramedMesh frame_mesh(const Mesh& mesh) {
+  const Box box = bounding_box(mesh);
+  if (may_keep_origin(box)) {
+    const Frame frame = frame_around(box, glm::dvec3(0));
+    std::optional<StoredMesh> stored = store_exactly(frame, mesh);
+    if (stored) return {frame, with_delta(*stored, frame, mesh)};
+  }
+  const Frame frame = frame_around(box, middle_of(box));
+  return {frame, store_in(frame, mesh)};
+}
+
+}  // namespace vkh

@@ -1,0 +1,359 @@
+#include "host/solve/pair_buffers.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/solve/mesh_sizes.h"
+
+namespace vkh {
+namespace {
+
+constexpr VkBufferUsageFlags kWorking =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+// Room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
+VkDeviceSize roomy(VkDeviceSize bytes) {
+  constexpr VkDeviceSize kLargest = VkDeviceSize{64} << 20;
+  return bytes > kLargest ? bytes : std::bit_ceil(bytes);
+}
+
+VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
+
+// High parts, low parts if there are any, faces, one after the other.
+struct MeshBytes {
+  VkDeviceSize high, low, faces;
+  explicit MeshBytes(const MeshData& m)
+      : high(aligned(m.mesh->vertices.size() * 12)),
+        low(m.stored->has_low ? high : 0),
+        faces(aligned(m.mesh->faces.size() * 12)) {}
+  VkDeviceSize total() const { return high + low + faces; }
+};
+
+VkDeviceSize bytes_of(const MeshData& m) { return m.mesh != nullptr ? MeshBytes(m).total() : 0; }
+
+MeshSize counts_of(const Mesh& m) {
+  return {static_cast<uint32_t>(m.vertices.size()), static_cast<uint32_t>(m.faces.size())};
+}
+
+VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
+  const MeshBytes bytes(m);
+  return {.vertexBuffer = buffer,
+          .vertexOffset = offset,
+          .vertexStride = 12,
+          .vertexCount = static_cast<uint32_t>(m.mesh->vertices.size()),
+          .indexBuffer = buffer,
+          .indexOffset = offset + bytes.high + bytes.low,
+          .indexType = VK_INDEX_TYPE_UINT32,
+          .faceCount = static_cast<uint32_t>(m.mesh->faces.size()),
+          .vertexLowBuffer = m.stored->has_low ? buffer : VK_NULL_HANDLE,
+          .vertexLowOffset = offset + bytes.high};
+}
+
+// Of the device's memory, or of the host's, where `policy` lets it and the device has no more.
+void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy) {
+  try {
+    grow(buffer, device, bytes, kWorking, Placement::kDevice);
+  } catch (const MemoryError&) {
+    if (policy == MemoryPolicy::kDevice) throw;
+    buffer = Buffer(device, bytes, kWorking, Placement::kUpload);
+  }
+}
+
+VkDeviceSize bytes_in_host(const Buffer& buffer) { return buffer.is_in_host() ? buffer.size() : 0; }
+
+void write(std::byte* to, const MeshData& m) {
+  const MeshBytes bytes(m);
+  write_vertices(*m.stored, *m.mesh, reinterpret_cast<float*>(to),
+                 reinterpret_cast<float*>(to + bytes.high));
+  const std::vector<glm::uvec3>& faces = m.mesh->faces;
+  copy_together(to + bytes.high + bytes.low, faces.data(), faces.size() * sizeof(faces[0]));
+}
+
+}  // namespace
+
+void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements& needed,
+                           MemoryPolicy policy) {
+  for (uint32_t i = 0; i < needed.rangeCount; ++i)
+    take_buffer(ranges_[i], device, needed.ranges[i], policy);
+}
+
+void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed,
+                           MemoryPolicy policy) {
+  for (uint32_t i = 0; i < needed.rangeCount; ++i)
+    take_buffer(ranges_[i], device,
+                policy == MemoryPolicy::kDevice ? roomy(needed.ranges[i]) : needed.ranges[i],
+                policy);
+  for (uint32_t i = needed.rangeCount; i < ranges_.size(); ++i) ranges_[i] = Buffer();
+}
+
+VkDeviceSize HierarchyMemory::host_bytes() const {
+  VkDeviceSize bytes = 0;
+  for (const Buffer& range : ranges_) bytes += bytes_in_host(range);
+  return bytes;
+}
+
+VkhHierarchy HierarchyMemory::view() const {
+  VkhHierarchy hierarchy{};
+  hierarchy.memory = {ranges_[0].handle(), 0, ranges_[0].size()};
+  for (uint32_t i = 1; i < ranges_.size(); ++i)
+    hierarchy.more[i - 1] = {ranges_[i].handle(), 0, ranges_[i].size()};
+  return hierarchy;
+}
+
+bool fits_bindings(VkhContext context, const RunInput& in) {
+  return (in.a.mesh == nullptr || takes_as_a(context, counts_of(*in.a.mesh))) &&
+         (in.b.mesh == nullptr || takes_as_b(context, counts_of(*in.b.mesh)));
+}
+
+void check_engine(VkhResult result, const char* what) {
+  if (result == VKH_SUCCESS) return;
+  const char* reason = result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
+                       : result == VKH_ERROR_MEMORY    ? "no memory for descriptor sets"
+                                                       : "the driver refused a pipeline";
+  throw DeviceError(std::string(what) + ": " + reason);
+}
+
+// Where the host writes the meshes: straight into where the device reads them, or into memory of
+// the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. What of its
+// memory the host sees may be small, and taken.
+void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
+  uploaded_bytes_ = bytes;
+  bytes = roomy(bytes);
+  if (policy == MemoryPolicy::kHost)  // they are read once
+    return grow(meshes_, device_, bytes, kWorking, Placement::kUpload);
+  if (meshes_.size() < bytes && is_mappable(device_, bytes)) {
+    try {
+      grow(meshes_, device_, bytes, kWorking, Placement::kMapped);
+    } catch (const MemoryError&) {
+    }
+  }
+  grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
+  if (meshes_.mapped() == nullptr)
+    grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+}
+
+// Either may be missing.
+void PairBuffers::place_meshes(const MeshData& a, const MeshData& b, MemoryPolicy policy) {
+  const VkDeviceSize bytes_a = bytes_of(a), bytes_b = bytes_of(b);
+  take_meshes(bytes_a + bytes_b, policy);
+  if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
+  if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
+}
+
+void PairBuffers::write_meshes(const MeshData& a, const MeshData& b) {
+  std::byte* const to = meshes_.mapped() != nullptr ? meshes_.mapped() : staging_.mapped();
+  if (bytes_of(a) > 0) write(to, a);
+  if (bytes_of(b) > 0) write(to + bytes_of(a), b);
+}
+
+// Where B's hierarchy is or will be built.
+void PairBuffers::place_b(const VkhHierarchyRequirements& needed, const RunInput& in,
+                          MemoryPolicy policy) {
+  if (in.resident != nullptr) {
+    problem_.b = in.resident->memory.view();
+    problem_.b.faceCount = in.resident->face_count;
+    problem_.b.vertexCount = in.resident->vertex_count;
+    return;
+  }
+  hierarchy_.grow(device_, needed, policy);
+  problem_.b = hierarchy_.view();
+  problem_.b.faceCount = mesh_b_.faceCount;
+  problem_.b.vertexCount = mesh_b_.vertexCount;
+}
+
+// Of a memory that is too small the run gets `share` at most, half of that where there is not so
+// much, and so on, and B's hierarchy what is left: all queries read it. What the caller asked for,
+// `given`, the run gets whole.
+VkDeviceSize PairBuffers::take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least,
+                                                VkDeviceSize share, bool given) {
+  const VkDeviceSize most = given ? bytes : std::clamp(share, least, std::max(bytes, least));
+  for (VkDeviceSize run = most;; run = std::max(run / 2, least)) {
+    try {
+      take_buffer(workspace_, device_, run, MemoryPolicy::kDevice);
+      return run;
+    } catch (const MemoryError&) {
+    }
+    if (given || run == least) break;
+  }
+  take_buffer(workspace_, device_, bytes, MemoryPolicy::kHost);
+  return bytes;
+}
+
+// Building B needs scratch, before the run needs its workspace.
+VkDeviceSize PairBuffers::take_workspace(const VkhWorkspaceRequirements& needed,
+                                         VkDeviceSize scratch, const RunInput& in,
+                                         MemoryBudget budget) {
+  const VkDeviceSize start =
+      in.start_memory_bytes == 0 ? needed.recommended : in.start_memory_bytes;
+  const VkDeviceSize bytes =
+      std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes, needed.minimum, needed.maximum);
+  if (budget.policy == MemoryPolicy::kDevice) {
+    take_buffer(workspace_, device_, std::max(bytes, scratch), MemoryPolicy::kDevice);
+    scratch_ = {workspace_.handle(), 0, workspace_.size()};
+    return bytes;
+  }
+  const VkDeviceSize taken =
+      take_scarce_workspace(bytes, needed.minimum, budget.share, in.memory_bytes != 0);
+  if (scratch > 0) take_buffer(building_, device_, scratch, MemoryPolicy::kHost);
+  scratch_ = {building_.handle(), 0, building_.size()};
+  return taken;
+}
+
+VkDeviceSize PairBuffers::host_bytes(const RunInput& in) const {
+  return bytes_in_host(meshes_) + bytes_in_host(areas_) + bytes_in_host(building_) +
+         bytes_in_host(workspace_) +
+         (in.resident != nullptr ? in.resident->memory : hierarchy_).host_bytes();
+}
+
+void PairBuffers::set_problem(const RunInput& in, VkDeviceSize bytes, bool may_grow) {
+  problem_.workspace = {workspace_.handle(), 0, bytes};
+  problem_.cullTolerance = in.cull_tolerance;
+  problem_.knownLower = in.known_lower;
+  problem_.limit = in.limit;
+  problem_.limitUp = in.limit_up;
+  problem_.sortFrom = in.sort_from;
+  problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
+  problem_.pauseWhenFull = may_grow && in.memory_bytes == 0 ? VK_TRUE : VK_FALSE;
+  next_.reset();
+  left_ = Buffer();
+}
+
+void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
+                       MemoryBudget budget) {
+  is_resident_ = in.resident != nullptr;
+  const MeshData b = is_resident_ ? MeshData{} : in.b;
+  const VkhWorkspaceRequirements workspace = workspace_for(context, counts_of(*in.a.mesh));
+  VkhHierarchyRequirements hierarchy{};
+  if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
+  place_meshes(in.a, b, budget.policy);
+  take_buffer(report_, device_, sizeof(VkhReport), budget.policy);
+  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+       Placement::kReadback);
+  place_areas(in, out, budget.policy);
+  const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, budget);
+  place_b(hierarchy, in, budget.policy);
+  set_problem(in, bytes, bytes < workspace.maximum);
+  write_meshes(in.a, b);
+  out.workspace_bytes = bytes;
+  out.host_memory_bytes = host_bytes(in);
+}
+
+// The kept one, where it is large enough and not the run's own; else a new one, before which the
+// kept one goes unless it is.
+VkhMemory PairBuffers::take_room(VkDeviceSize bytes) {
+  const bool is_own = problem_.workspace.buffer == larger_.handle();
+  if (is_own || larger_.size() < bytes) {
+    if (!is_own) larger_ = Buffer();
+    Buffer made(device_, bytes, kWorking, Placement::kDevice);
+    std::swap(larger_, made);
+    if (is_own) left_ = std::move(made);  // until what it holds has been copied
+  }
+  return {larger_.handle(), 0, bytes};
+}
+
+// Twice what is wanted, so that a frontier that still grows is moved seldom; at most half of the
+// device's memory.
+void PairBuffers::make_room(VkhContext context, RunOutput& out) {
+  left_ = Buffer();
+  const uint64_t wanted = out.report.wanted;
+  if (wanted == 0) return;
+  const auto bytes_for = [&](uint64_t candidates) {
+    return vkhGetWorkspaceSize(context, problem_.a.vertexCount, problem_.a.faceCount,
+                               static_cast<uint32_t>(std::min<uint64_t>(candidates, UINT32_MAX)));
+  };
+  const VkDeviceSize most = device_.description().memory_bytes / 2;
+  const VkDeviceSize bytes = std::min(bytes_for(2 * wanted), most);
+  next_ = problem_.workspace;
+  try {
+    if (bytes > problem_.workspace.size) next_ = take_room(bytes);
+  } catch (const MemoryError&) {  // what has no room can wait
+  }
+  problem_.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
+  out.workspace_bytes = next_->size;
+  const bool leaves = problem_.workspace.buffer == workspace_.handle() &&
+                      next_->buffer != problem_.workspace.buffer;
+  if (leaves) out.host_memory_bytes -= bytes_in_host(workspace_);
+}
+
+void PairBuffers::raise_known(float known_lower) {
+  if (!(known_lower > problem_.knownLower)) return;
+  problem_.knownLower = known_lower;
+  if (!next_) next_ = problem_.workspace;
+}
+
+void PairBuffers::record_move(VkhContext context, VkCommandBuffer commands, VkhProfile* profile) {
+  if (!next_) return;
+  vkhCmdMoveRun(context, commands, &problem_, &*next_, profile);
+  next_.reset();
+}
+
+ResidentMesh PairBuffers::take_resident(VkhContext context, const MeshData& b,
+                                        MemoryPolicy policy) {
+  const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
+  place_meshes({}, b, policy);
+  ResidentMesh resident{{}, mesh_b_.vertexCount, mesh_b_.faceCount};
+  resident.memory.take(device_, needed, policy);
+  take_buffer(workspace_, device_, needed.scratchSize, policy);
+  write_meshes({}, b);
+  scratch_ = {workspace_.handle(), 0, workspace_.size()};
+  is_resident_ = false;
+  return resident;
+}
+
+void PairBuffers::place_areas(const RunInput& in, RunOutput& out, MemoryPolicy policy) {
+  problem_.coverageBuffer = VK_NULL_HANDLE;
+  if (!in.coverage) return;
+  out.areas.resize(2 * in.a.mesh->faces.size());
+  const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
+  take_buffer(areas_, device_, bytes, policy);
+  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
+  problem_.coverageBuffer = areas_.handle();
+}
+
+void PairBuffers::record_upload(VkCommandBuffer commands) const {
+  if (meshes_.mapped() != nullptr) return;
+  const VkBufferCopy copy{0, 0, uploaded_bytes_};
+  device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
+}
+
+void PairBuffers::record_readback(VkCommandBuffer commands, const RunOutput& out) const {
+  const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
+  device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
+  if (out.areas.empty()) return;
+  const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
+  device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
+}
+
+void PairBuffers::read(RunOutput& out) const {
+  std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
+  if (!out.areas.empty())
+    std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
+}
+
+// The host writes the former and reads the latter, once: they need not be the device's own.
+VkhCells PairBuffers::take_cells(const CellBatch& batch) {
+  const auto count = static_cast<uint32_t>(batch.bounds.size());
+  const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  grow(bounds_, device_, roomy(batch.bounds.size_bytes()), usage, Placement::kReadback);
+  if (!batch.cells.empty()) {
+    grow(cells_, device_, roomy(batch.cells.size_bytes()), usage, Placement::kUpload);
+    std::memcpy(cells_.mapped(), batch.cells.data(), batch.cells.size_bytes());
+  }
+  return {.cellBuffer = batch.cells.empty() ? VK_NULL_HANDLE : cells_.handle(),
+          .cellOffset = 0,
+          .first = batch.first,
+          .count = count,
+          .boundsBuffer = bounds_.handle(),
+          .boundsOffset = 0};
+}
+
+void PairBuffers::read_bounds(const CellBatch& batch) const {
+  std::memcpy(batch.bounds.data(), bounds_.mapped(), batch.bounds.size_bytes());
+}
+
+}  // namespace vkh

@@ -1,0 +1,334 @@
+#include "host/solve/run.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/solve/switches.h"
+
+namespace vkh {
+namespace {
+
+// Waves of the first submission, the begin's among them: enough for most pairs on a GPU; on a CPU
+// one wave can take seconds, and so can the hierarchy, which is then a submission of its own. Who
+// shares what is known has something to tell after one wave.
+constexpr uint32_t kFirstWaves = 8;
+constexpr uint32_t kFewFirstWaves = 1;
+// Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
+// H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
+// get longer ones.
+constexpr double kSubmissionMs = 100;
+constexpr uint32_t kSecondWaves = 2;
+constexpr uint32_t kMostWaves = 8;
+
+uint32_t next_waves(uint32_t submissions, uint32_t last, double last_ms) {
+  const double per_wave = std::max(last_ms / last, 1e-3);
+  const uint32_t most = std::min(kSecondWaves << std::min(submissions - 1, 2u), kMostWaves);
+  return static_cast<uint32_t>(
+      std::clamp(kSubmissionMs / per_wave, 1.0, static_cast<double>(most)));
+}
+
+double now_ms() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+// Makes what one stage wrote visible to the next: copies before and after the engine's commands.
+void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStageFlags to) {
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  vk.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, to, 0, 1, &barrier, 0,
+                        nullptr, 0, nullptr);
+}
+
+uint64_t bytes_of(std::span<const RunInput> inputs) {
+  uint64_t bytes = 0;
+  for (const RunInput& input : inputs) {
+    for (const MeshData& data : {input.a, input.b})
+      bytes += data.mesh != nullptr ? mesh_bytes(*data.mesh) : 0;
+  }
+  return bytes;
+}
+
+// Of a run that has not begun.
+VkhReport nothing_known() {
+  VkhReport report{};
+  report.upper = report.upperAbove = std::numeric_limits<float>::max();
+  report.certified = 1;
+  report.witnessFaceA = report.witnessFaceB = UINT32_MAX;
+  return report;
+}
+
+}  // namespace
+
+// One submission.
+struct Runner::Submission {
+  std::vector<size_t> running;  // buffers
+  bool uploads, builds, begins;
+  uint32_t waves;
+};
+
+Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
+    : device_(device),
+      cache_(device, cache_folder),
+      submitter_(device),
+      names_(Submitter::kTimestamps) {}
+
+void Runner::make_ready(uint32_t switches) {
+  const SerialGuard::Hold hold(guard_);
+  context_for(switches);
+}
+
+VkhContext Runner::context_for(uint32_t switches) {
+  const auto known = contexts_.find(switches);
+  if (known != contexts_.end()) return known->second.get();
+  const bool wide = (switches & kSwitchWide) != 0;
+  const VkhContextCreateInfo info{device_.engine_info(),
+                                  cache_.handle(),
+                                  (switches & ~(kSwitchWide | kSwitchByAddress)) | VKH_SWITCH_NONE,
+                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
+                                  (switches & kSwitchByAddress) != 0 ? VK_TRUE : VK_FALSE,
+                                  VK_FALSE};
+  VkhContext context = nullptr;
+  check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
+  ContextHandle kept(context, vkhDestroyContext);
+  cache_.save();
+  contexts_.emplace(switches, std::move(kept));
+  return context;
+}
+
+// Where a mesh is too large to be bound, it is given by address, which gives the same bits.
+VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inputs) {
+  const VkhContext context = context_for(switches);
+  const bool fits = std::all_of(inputs.begin(), inputs.end(), [&](const RunInput& input) {
+    return fits_bindings(context, input);
+  });
+  return fits || !device_.has_addresses() ? context : context_for(switches | kSwitchByAddress);
+}
+
+// Seats are kept, for their buffers, unless there is no memory beside those of an earlier run, or
+// they lie in the host's.
+void Runner::buffers(size_t count, const std::function<void(MemoryPolicy)>& take) {
+  if (policy_ == MemoryPolicy::kHost) buffers_.clear();
+  const bool has_kept = !buffers_.empty();
+  const auto try_with = [&](MemoryPolicy policy) {
+    policy_ = policy;
+    while (buffers_.size() < count) buffers_.push_back(std::make_unique<PairBuffers>(device_));
+    take(policy);
+  };
+  try {
+    return try_with(MemoryPolicy::kDevice);
+  } catch (const MemoryError&) {
+    buffers_.clear();
+  }
+  if (has_kept) {
+    try {
+      return try_with(MemoryPolicy::kDevice);
+    } catch (const MemoryError&) {
+      buffers_.clear();
+    }
+  }
+  try_with(MemoryPolicy::kHost);
+}
+
+VkCommandBuffer Runner::begin() {
+  const VkCommandBuffer commands = submitter_.begin();
+  vkhReleaseCommandBuffer(context_, commands);
+  profile_ = {submitter_.timestamps(), Submitter::kTimestamps, 0, names_.data()};
+  return commands;
+}
+
+// A timestamp, where the library writes none.
+void Runner::stamp(VkCommandBuffer commands, const char* name) {
+  if (stage_times_ || !device_.has_timestamps()) return;
+  device_.vk().CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, profile_.pool,
+                                 profile_.count);
+  names_[profile_.count++] = name;
+}
+
+ResidentMesh Runner::build(const MeshData& b) {
+  const SerialGuard::Hold hold(guard_);
+  // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
+  std::array<RunInput, 1> alone;
+  alone[0].b = b;
+  context_ = context_for(default_switches(device_), alone);
+  ResidentMesh resident;
+  buffers(1,
+          [&](MemoryPolicy policy) { resident = buffers_[0]->take_resident(context_, b, policy); });
+  VkhHierarchy hierarchy = resident.memory.view();
+  const VkCommandBuffer commands = begin();
+  buffers_[0]->record_upload(commands);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  vkhCmdBuildHierarchy(context_, commands, buffers_[0]->mesh_b(), &hierarchy,
+                       buffers_[0]->scratch(), nullptr);
+  submit_and_wait(commands);
+  return resident;
+}
+
+void Runner::submit_and_wait(VkCommandBuffer commands) {
+  check_engine(vkhGetRecordingResult(context_, commands), "recording");
+  submitter_.submit_and_wait({});
+}
+
+// With its hierarchy timed apart.
+void Runner::record_one(VkCommandBuffer commands, const Submission& submission) {
+  PairBuffers& buffers = *buffers_[submission.running[0]];
+  VkhProblem& problem = buffers.problem();
+  stamp(commands, nullptr);
+  buffers.record_move(context_, commands, profile());
+  if (submission.builds && buffers.mesh_b() != nullptr) {
+    vkhCmdBuildHierarchy(context_, commands, buffers.mesh_b(), &problem.b, buffers.scratch(),
+                         profile());
+    stamp(commands, "hierarchy");
+  }
+  if (submission.waves == 0) return;
+  if (submission.begins) vkhCmdBegin(context_, commands, &problem, profile());
+  const uint32_t waves =
+      submission.begins ? submission.waves - 1 : submission.waves;  // the begin has one
+  vkhCmdAdvance(context_, commands, &problem, waves, profile());
+  vkhCmdWriteReport(context_, commands, &problem, buffers.report(), 0, profile());
+  stamp(commands, "solve");
+}
+
+void Runner::record_together(VkCommandBuffer commands, const Submission& submission) {
+  std::vector<VkhTask> tasks;
+  stamp(commands, nullptr);
+  for (const size_t i : submission.running) {
+    PairBuffers& buffers = *buffers_[i];
+    buffers.record_move(context_, commands, nullptr);
+    tasks.push_back({.mesh = submission.builds ? buffers.mesh_b() : nullptr,
+                     .scratch = buffers.scratch(),
+                     .problem = &buffers.problem(),
+                     .begin = submission.begins ? VK_TRUE : VK_FALSE,
+                     .waves = submission.begins ? submission.waves - 1 : submission.waves,
+                     .reportBuffer = buffers.report(),
+                     .reportOffset = 0});
+  }
+  vkhCmdRunTasks(context_, commands, static_cast<uint32_t>(tasks.size()), tasks.data(), nullptr);
+  stamp(commands, "solve");
+}
+
+VkCommandBuffer Runner::record(const Submission& submission,
+                               const std::vector<RunOutput>& outputs) {
+  const VkCommandBuffer commands = begin();
+  if (submission.uploads) {
+    for (const size_t i : submission.running) buffers_[i]->record_upload(commands);
+    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  }
+  if (outputs.size() == 1) {
+    record_one(commands, submission);
+  } else {
+    record_together(commands, submission);
+  }
+  if (submission.waves == 0) return commands;  // there is no report yet
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_TRANSFER_BIT);
+  for (const size_t i : submission.running) buffers_[i]->record_readback(commands, outputs[i]);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+  return commands;
+}
+
+void Runner::read_stages(const Submission& submission, std::vector<RunOutput>& outputs) {
+  const std::vector<double> ms = submitter_.read_timestamps(profile_.count);
+  for (uint32_t stage = 1; stage < profile_.count; ++stage) {
+    if (names_[stage] == nullptr) continue;
+    for (const size_t i : submission.running)
+      outputs[i].stages.push_back({names_[stage], ms[stage] - ms[stage - 1]});
+  }
+}
+
+// Where memory is scarce, in order: who gets what must not depend on threads.
+void Runner::take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
+  const VkDeviceSize share = device_.description().memory_bytes / 4 / inputs.size();
+  buffers(inputs.size(), [&](MemoryPolicy policy) {
+    const auto take = [&](size_t i) {
+      buffers_[i]->take(context_, inputs[i], outputs[i], {policy, share});
+    };
+    if (policy == MemoryPolicy::kDevice)
+      return for_each_index(inputs.size(), take, threads_for(bytes_of(inputs)));
+    for (size_t i = 0; i < inputs.size(); ++i) take(i);
+  });
+}
+
+// Submits, and takes what came of it. Returns how long that took, in milliseconds.
+double Runner::submit(const Submission& submission, std::vector<RunOutput>& outputs) {
+  const double submitted = now_ms();
+  submit_and_wait(record(submission, outputs));
+  if (submission.waves > 0) {
+    for (const size_t i : submission.running) buffers_[i]->read(outputs[i]);
+  }
+  read_stages(submission, outputs);
+  return now_ms() - submitted;
+}
+
+void Runner::bound_cells(PairBuffers& buffers, const CellBatch& batch) {
+  if (batch.bounds.empty()) return;
+  const VkhCells cells = buffers.take_cells(batch);
+  const VkCommandBuffer commands = begin();
+  vkhCmdBoundCells(context_, commands, &buffers.problem(), &cells, nullptr);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+  submit_and_wait(commands);
+  buffers.read_bounds(batch);
+}
+
+std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
+  std::vector<RunOutput> outputs(inputs.size());
+  if (inputs.empty()) return outputs;
+  const SerialGuard::Hold hold(guard_);
+  context_ = context_for(inputs[0].switches, inputs);
+  stage_times_ = inputs[0].stage_times && inputs.size() == 1;
+  const double start = now_ms();
+  take_buffers(inputs, outputs);
+  for (RunOutput& output : outputs) {
+    output.upload_ms = now_ms() - start;
+    output.report = nothing_known();
+  }
+  const auto is_over = [&](size_t i) {
+    const VkhReport& r = outputs[i].report;
+    const bool is_wanted = inputs[i].advanced(r);
+    return !is_wanted || r.waves >= inputs[i].wave_limit || r.status != VKH_STATUS_RUNNING;
+  };
+  const bool on_cpu = device_.description().type == "cpu";
+  Submission submission{.running = {},
+                        .uploads = true,
+                        .builds = true,
+                        .begins = true,
+                        .waves = on_cpu || inputs[0].known_since ? kFewFirstWaves : kFirstWaves};
+  for (size_t i = 0; i < inputs.size(); ++i) submission.running.push_back(i);
+  if (on_cpu && inputs.size() == 1 && buffers_[0]->mesh_b() != nullptr) {
+    const uint32_t waves = std::exchange(submission.waves, 0);
+    submit(submission, outputs);
+    submission.waves = waves;
+    submission.uploads = submission.builds = false;
+    if (!inputs[0].advanced(outputs[0].report)) return outputs;
+  }
+  uint32_t submissions = 0;
+  while (!submission.running.empty()) {
+    if (!inputs[0].multiwave) submission.waves = 1;
+    // Exactly the budget: how they are grouped depends on the clock, the result must not.
+    for (const size_t i : submission.running)
+      submission.waves =
+          std::min(submission.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);
+    const double ms = submit(submission, outputs);
+    submission.waves = next_waves(++submissions, submission.waves, ms);
+    submission.uploads = submission.builds = submission.begins = false;
+    std::erase_if(submission.running, is_over);
+    for (const size_t i : submission.running) {
+      buffers_[i]->make_room(context_, outputs[i]);
+      if (inputs[i].known_since) buffers_[i]->raise_known(inputs[i].known_since());
+    }
+  }
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].survey)
+      inputs[i].survey(outputs[i].report,
+                       [&](const CellBatch& batch) { bound_cells(*buffers_[i], batch); });
+  }
+  return outputs;
+}
+
+}  // namespace vkh

@@ -1,0 +1,59 @@
+// Runs on the device: pipelines, submissions, timestamps. host/solve/solver.cpp gives each pair a
+// frame and reads its report.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+
+#include "host/base/serial_guard.h"
+#include "host/gpu/pipeline_cache.h"
+#include "host/solve/pair_buffers.h"
+
+namespace vkh {
+
+/// Pipelines for one set of switches; destroyed with the handle.
+using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
+
+/// Keeps contexts and buffers between runs. Threads take turns.
+class Runner {
+ public:
+  Runner(const Device& device, const std::filesystem::path& cache_folder);
+  void make_ready(uint32_t switches);
+  ResidentMesh build(const MeshData& b);
+  /// Runs all of them side by side (vkhCmdRunTasks), each until it is done. They have the same
+  /// switches, `multiwave` and `stage_times`. Of several, the stages are one, "solve": of all, with
+  /// their hierarchies.
+  std::vector<RunOutput> run(std::span<const RunInput> inputs);
+
+ private:
+  struct Submission;
+  VkhContext context_for(uint32_t switches);
+  VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs);
+  void take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
+  void buffers(size_t count, const std::function<void(MemoryPolicy)>& take);
+  VkCommandBuffer begin();
+  VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }
+  void stamp(VkCommandBuffer commands, const char* name);
+  void record_one(VkCommandBuffer commands, const Submission& submission);
+  void record_together(VkCommandBuffer commands, const Submission& submission);
+  VkCommandBuffer record(const Submission& submission, const std::vector<RunOutput>& outputs);
+  double submit(const Submission& submission, std::vector<RunOutput>& outputs);
+  void submit_and_wait(VkCommandBuffer commands);
+  void bound_cells(PairBuffers& buffers, const CellBatch& batch);
+  void read_stages(const Submission& submission, std::vector<RunOutput>& outputs);
+
+  const Device& device_;
+  SerialGuard guard_;
+  PipelineCache cache_;
+  std::map<uint32_t, ContextHandle> contexts_;
+  Submitter submitter_;
+  std::vector<std::unique_ptr<PairBuffers>> buffers_;
+  MemoryPolicy policy_ = MemoryPolicy::kDevice;  // of those
+  VkhContext context_ = nullptr;
+  VkhProfile profile_{};
+  bool stage_times_ = true;
+  std::vector<const char*> names_;
+};
+
+}  // namespace vkh

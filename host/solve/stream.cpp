@@ -1,0 +1,241 @@
+#include "host/solve/stream.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <set>
+#include <thread>
+
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/solve/delivery.h"
+#include "host/solve/worker.h"
+
+namespace vkh {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_from(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Devices are opened and taken apart one at a time: drivers share state that is theirs. And none is
+// taken apart while a thread ends that has used a driver: NVIDIA's (580.159.04) then may wait for
+// itself for ever, as the thread's own data of the driver goes.
+std::mutex& opening() {
+  static auto* mutex = new std::mutex;
+  return *mutex;
+}
+
+/// Of a device's life: opened, and taken apart again, in turn with others.
+class OpenDevice {
+ public:
+  explicit OpenDevice(const std::string& selector) {
+    const std::lock_guard lock(opening());
+    device_ = std::make_unique<Device>(DeviceRequest{.selector = selector});
+  }
+  ~OpenDevice() {
+    const std::lock_guard lock(opening());
+    device_.reset();
+  }
+  OpenDevice(const OpenDevice&) = delete;
+  OpenDevice& operator=(const OpenDevice&) = delete;
+  Device& operator*() { return *device_; }
+
+ private:
+  std::unique_ptr<Device> device_;
+};
+
+// A device that is lost again and again without an answer between is not opened any more.
+constexpr int kMostReopened = 3;
+
+}  // namespace
+
+struct PairStream::Impl {
+  Impl(StreamOptions given, std::function<void(StreamResult&&)> to)
+      : options(std::move(given)),
+        delivery(std::move(to)),
+        queue(options.waiting != 0 ? options.waiting : waiting_for(options)),
+        share{.options = options,
+              .queue = queue,
+              .deliver = [this](StreamResult&& result) { hand_out(std::move(result)); },
+              .count = [this](double busy, double gpu) { count(busy, gpu); }} {
+    left = unopened = options.devices.size();
+    for (const std::string& selector : options.devices)
+      threads.emplace_back([this, selector] { serve(selector); });
+  }
+  ~Impl() {
+    cancel();
+    join();
+  }
+
+  // Of GPUs, which take most: 3 lanes of 16 pairs.
+  static size_t waiting_for(const StreamOptions& options) {
+    const size_t lanes = options.lanes != 0 ? options.lanes : 3;
+    const size_t together = options.together != 0 ? options.together : 16;
+    return 2 * lanes * together * options.devices.size();
+  }
+
+  void hand_out(StreamResult&& result) {
+    ++delivered;
+    delivery.put(std::move(result));
+  }
+  void count(double busy, double gpu) {
+    const std::lock_guard lock(mutex);
+    times.lanes_s += busy;
+    times.gpu_s += gpu;
+  }
+  void note_open(const DeviceDescription& device, bool is_first) {
+    const std::lock_guard lock(mutex);
+    if (is_first) --unopened;
+    all_tried.notify_all();
+    if (opened.empty()) times.start_s = seconds_from(start);
+    const bool is_taken = std::any_of(opened.begin(), opened.end(), [&](const auto& other) {
+      return other.index == device.index && other.name == device.name;
+    });
+    if (!is_taken) opened.push_back(device);
+  }
+  void claim(const DeviceDescription& device) {
+    const std::lock_guard lock(mutex);
+    if (!claimed.insert(device.index).second)
+      throw UsageError("device " + std::to_string(device.index) + ", " + device.name +
+                       ", is named more than once");
+  }
+
+  // One life of a device: until nothing waits (true), or it is lost.
+  bool live(const std::string& selector, bool& was_open) {
+    auto open = std::make_unique<OpenDevice>(selector);
+    if (!was_open) claim((**open).description());
+    if (!work_on(**open, was_open)) return false;
+    const std::lock_guard lock(mutex);
+    idle.push_back(std::move(open));
+    return true;
+  }
+
+  bool work_on(Device& device, bool& was_open) {
+    WorkerDevice lanes{.device = device,
+                       .prepared = PreparedMeshes(device.description().memory_bytes / 8),
+                       .shape = shape_for(options, device.description())};
+    std::vector<std::unique_ptr<Solver>> solvers;
+    solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+    solvers[0]->make_ready(options.first);
+    note_open(device.description(), !was_open);
+    was_open = true;
+    const auto run = [&](Solver& solver) {
+      const FloatEnvironment ours;
+      Worker(share, lanes, solver).work();
+    };
+    std::vector<std::thread> others;
+    try {
+      for (size_t i = 1; i < lanes.shape.lanes; ++i) {
+        solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+        others.emplace_back([&, solver = solvers.back().get()] { run(*solver); });
+      }
+    } catch (...) {  // with fewer lanes, then
+    }
+    run(*solvers[0]);
+    for (std::thread& thread : others) thread.join();
+    return !lanes.is_lost;
+  }
+
+  // What was asked for and cannot be had ends all; what is lost later leaves the rest to others.
+  void serve(const std::string& selector) {
+    const FloatEnvironment ours;
+    size_t before = 0;
+    int lives = 0;
+    bool was_open = false;
+    try {
+      while (!live(selector, was_open)) {
+        lives = delivered > before ? 1 : lives + 1;
+        before = delivered;
+        if (lives > kMostReopened) throw DeviceError("the device was lost again and again");
+      }
+      leave(nullptr, false);
+    } catch (...) {
+      leave(std::current_exception(), !was_open);
+    }
+  }
+  void leave(const std::exception_ptr& why, bool ends_all) {
+    const std::lock_guard lock(mutex);
+    if (why && !error) error = why;
+    if (ends_all) --unopened;
+    all_tried.notify_all();
+    if (--left > 0 && !ends_all) return;
+    if (!ends_all && queue.is_empty() && why == nullptr) return;
+    is_dead = true;
+    share.is_cancelled = true;
+    queue.close();
+  }
+
+  void cancel() {
+    share.is_cancelled = true;
+    queue.close();
+  }
+  void join() {
+    for (std::thread& thread : threads) {
+      if (thread.joinable()) thread.join();
+    }
+    idle.clear();
+  }
+  void wait_for_devices() {
+    std::unique_lock lock(mutex);
+    all_tried.wait(lock, [&] { return unopened == 0; });
+  }
+  void check_alive() {
+    const std::lock_guard lock(mutex);
+    if (is_dead && error) std::rethrow_exception(error);
+    if (is_dead) throw DeviceError("no device is left");
+  }
+
+  const Clock::time_point start = Clock::now();
+  const StreamOptions options;
+  Delivery delivery;
+  PairQueue queue;
+  WorkerShare share;
+  std::atomic<size_t> delivered = 0;
+  mutable std::mutex mutex;
+  std::exception_ptr error;
+  bool is_dead = false;
+  size_t left = 0, unopened = 0;
+  std::condition_variable all_tried;
+  std::set<uint32_t> claimed;
+  std::vector<DeviceDescription> opened;
+  StreamTimes times;
+  std::vector<std::unique_ptr<OpenDevice>> idle;  // that have nothing left to do
+  std::vector<std::thread> threads;
+};
+
+PairStream::PairStream(StreamOptions options, std::function<void(StreamResult&&)> deliver)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(deliver))) {}
+PairStream::~PairStream() = default;
+
+bool PairStream::push(StreamPair pair) {
+  if (impl_->queue.put(std::move(pair))) return true;
+  impl_->check_alive();
+  return false;
+}
+
+// Devices are taken apart later: what was delivered need not wait for that.
+void PairStream::finish() {
+  impl_->queue.end();
+  impl_->queue.wait();
+  impl_->delivery.wait();
+  impl_->wait_for_devices();
+  impl_->check_alive();
+}
+
+void PairStream::check() const { impl_->check_alive(); }
+
+void PairStream::cancel() { impl_->cancel(); }
+
+std::vector<DeviceDescription> PairStream::devices() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->opened;
+}
+
+StreamTimes PairStream::times() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->times;
+}
+
+}  // namespace vkh

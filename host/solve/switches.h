@@ -1,0 +1,39 @@
+// The parts of the method that can be switched, by name; presets of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/gpu/device.h"
+#include "host/solve/solve_options.h"
+
+namespace vkh {
+
+/// Several waves a submission. No stage of the engine: host/solve/run.cpp's, so its bit is not
+/// VkhSwitchBits'.
+constexpr uint32_t kSwitchMultiwave = 1u << 31;
+/// The device is of VKH_DEVICE_KIND_WIDE, else NARROW.
+constexpr uint32_t kSwitchWide = 1u << 29;
+/// VkhContextCreateInfo::byAddress: for meshes that the device cannot bind.
+constexpr uint32_t kSwitchByAddress = 1u << 28;
+
+/// What is on unless somebody asks for something else; what pays depends on the kind of device.
+uint32_t default_switches(const Device& device);
+
+/// VkhSwitchBits that are on, kSwitchWide and kSwitchMultiwave. Throws UsageError for a name that
+/// is none.
+uint32_t switches_of(const SolveOptions& options, const Device& device);
+
+/// Of A's diagonal. A sample is within 2^-20 of a face's edge of the farthest point: half of that.
+constexpr double kFineTolerance = 5e-7;
+/// The same, with VKH_SWITCH_SUBROOTS where 20 bits of barycentrics are too few for the tolerance.
+uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Device& device);
+
+struct SwitchStates {
+  std::vector<std::string> on, off;
+};
+SwitchStates switch_states(uint32_t switches);
+
+}  // namespace vkh

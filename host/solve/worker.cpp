@@ -1,0 +1,139 @@
+#include "host/solve/worker.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+double gpu_ms(const Report& r) { return r.times.hierarchy_ms + r.times.solve_ms; }
+
+// Pairs of a group are timed together, each while it ran.
+double gpu_s(const std::vector<StreamResult>& results) {
+  double most = 0;
+  for (const StreamResult& r : results)
+    most = std::max(most, gpu_ms(r.a_to_b) + (r.b_to_a ? gpu_ms(*r.b_to_a) : 0));
+  return most / 1000;
+}
+
+// A pair that was on two devices, or twice on one, as they were lost is taken for the reason.
+constexpr unsigned kMostTries = 2;
+
+}  // namespace
+
+// On a GPU a pair of 10,000 faces leaves most of it idle: 16 at once take half of the time
+// (docs/benchmarks.md), and a third lane hides what the host does. A CPU device has no such room.
+LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device) {
+  constexpr size_t kLanes = 3, kTogether = 16;
+  const bool on_cpu = device.type == "cpu";
+  LaneShape shape;
+  shape.lanes = options.lanes != 0 ? options.lanes : on_cpu ? 1 : kLanes;
+  shape.together = options.together != 0 ? options.together : on_cpu ? 1 : kTogether;
+  shape.bytes = device.memory_bytes / 2 / shape.lanes;
+  return shape;
+}
+
+void Worker::work() {
+  for (;;) {
+    Group group = share_.queue.take(device_.shape.together, device_.shape.bytes);
+    if (device_.is_lost) {  // what another lane gave back is for another life
+      share_.queue.put_back(std::move(group));
+      return;
+    }
+    if (group.empty()) return;
+    const auto start = std::chrono::steady_clock::now();
+    const bool goes_on = solve(std::move(group));
+    const std::chrono::duration<double> busy = std::chrono::steady_clock::now() - start;
+    share_.count(busy.count(), 0);
+    if (!goes_on) return;
+  }
+}
+
+void Worker::solve_all(const Group& group) {
+  std::vector<std::shared_ptr<const PreparedMesh>> prepared;
+  std::vector<SolveOptions> options;
+  std::vector<PairView> views;
+  options.reserve(group.size());  // views refer to them
+  for (const WaitingPair& one : group) {
+    prepared.push_back(one.pair.shares_b ? device_.prepared.get(solver_, one.pair.b) : nullptr);
+    options.push_back(one.pair.options);
+    options.back().stage_times = false;
+    options.back().progress = [this, &listen = one.pair.options.progress](const Progress& p) {
+      return !share_.is_cancelled && (!listen || listen(p));
+    };
+    views.push_back({.a = *one.pair.a,
+                     .b = *one.pair.b,
+                     .prepared = prepared.back().get(),
+                     .options = &options.back()});
+  }
+  std::vector<StreamResult> results(group.size());
+  if (group[0].pair.symmetric) {
+    std::vector<SymmetricReport> found = solver_.symmetrics(views);
+    for (size_t i = 0; i < group.size(); ++i) {
+      results[i].a_to_b = std::move(found[i].a_to_b);
+      results[i].b_to_a = std::move(found[i].b_to_a);
+    }
+  } else {
+    std::vector<Report> found = solver_.distances(views);
+    for (size_t i = 0; i < group.size(); ++i) results[i].a_to_b = std::move(found[i]);
+  }
+  share_.count(0, gpu_s(results));
+  for (size_t i = 0; i < group.size(); ++i) {
+    results[i].number = group[i].pair.number;
+    if (group[i].pair.beside) group[i].pair.beside(solver_, results[i]);
+  }
+  for (StreamResult& result : results) share_.deliver(std::move(result));
+}
+
+bool Worker::find_lost() {
+  if (device_.device.is_lost()) device_.is_lost = true;
+  return device_.is_lost;
+}
+
+void Worker::give_up(const WaitingPair& one) {
+  share_.deliver({.number = one.pair.number,
+                  .a_to_b = {},
+                  .b_to_a = std::nullopt,
+                  .error = std::current_exception()});
+  share_.queue.done(1);
+}
+
+// What was too much together may do alone, and what one pair has wrong is not the others' fault.
+bool Worker::retry_apart(Group group) {
+  for (size_t i = 0; i < group.size(); ++i) {
+    Group one;
+    one.push_back(std::move(group[i]));
+    if (solve(std::move(one))) continue;
+    group.erase(group.begin(), group.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    share_.queue.put_back(std::move(group));
+    return false;
+  }
+  return true;
+}
+
+bool Worker::solve(Group group) {
+  try {
+    solve_all(group);
+    share_.queue.done(group.size());
+    return true;
+  } catch (const DeviceError&) {
+    if (find_lost()) {
+      const bool is_to_blame = group.size() == 1 && group[0].tries + 1 >= kMostTries;
+      if (is_to_blame) {
+        give_up(group[0]);
+      } else {
+        for (WaitingPair& one : group) ++one.tries;
+        share_.queue.put_back(std::move(group));
+      }
+      return false;
+    }
+    if (group.size() == 1) give_up(group[0]);
+  } catch (...) {
+    if (group.size() == 1) give_up(group[0]);
+  }
+  return group.size() <= 1 || retry_apart(std::move(group));
+}
+
+}  // namespace vkh

@@ -1,0 +1,57 @@
+// One device of a stream, and the lanes on it: each a solver of its own, so that one frames and
+// uploads while another's submission runs.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "host/solve/prepared.h"
+#include "host/solve/queue.h"
+
+namespace vkh {
+
+/// What the lanes of a stream share.
+struct WorkerShare {
+  const StreamOptions& options;
+  PairQueue& queue;
+  std::function<void(StreamResult&&)> deliver;
+  std::function<void(double busy_s, double gpu_s)> count;
+  std::atomic<bool> is_cancelled = false;
+};
+
+/// How many pairs a device runs at once.
+struct LaneShape {
+  size_t lanes = 1, together = 1;
+  uint64_t bytes = 0;  ///< of the device's memory, for each lane
+};
+LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device);
+
+/// What lanes of one device share: it is opened anew when all have ended.
+struct WorkerDevice {
+  const Device& device;
+  PreparedMeshes prepared;
+  LaneShape shape;
+  std::atomic<bool> is_lost = false;
+};
+
+/// A lane's work until nothing waits, or the device is lost: then what it had is back in the queue.
+class Worker {
+ public:
+  Worker(WorkerShare& share, WorkerDevice& device, Solver& solver)
+      : share_(share), device_(device), solver_(solver) {}
+  void work();
+
+ private:
+  using Group = std::vector<WaitingPair>;
+  bool solve(Group group);
+  void solve_all(const Group& group);
+  bool retry_apart(Group group);
+  void give_up(const WaitingPair& one);
+  bool find_lost();
+
+  WorkerShare& share_;
+  WorkerDevice& device_;
+  Solver& solver_;
+};
+
+}  // namespace vkh

@@ -1,0 +1,26 @@
+// A certificate file, whose bytes docs/certificate-file.md fixes.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/survey/prover.h"
+
+namespace vkh {
+
+struct CertifiedDirection {
+  const Report& report;
+  const Proof& proof;
+};
+
+struct CertifiedMesh {
+  const Mesh& mesh;
+  std::string sha256;  ///< of its file, in hexadecimal digits; empty: it has none
+};
+
+/// Throws OutputError where this build cannot hash.
+std::string certificate_of(const CertifiedMesh& a, const CertifiedMesh& b,
+                           const CertifiedDirection& a_to_b,
+                           const std::optional<CertifiedDirection>& b_to_a);
+
+}  // namespace vkh

@@ -1,0 +1,49 @@
+// From cells to certified figures of all of A.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/survey/cell_store.h"
+#include "host/survey/field.h"
+
+namespace vkh {
+
+/// The areas of A's faces, in a unit that A's own size decides, so that none is lost beside a large
+/// B.
+struct Areas {
+  std::vector<double> of_face;
+  double whole = 0;
+  double error = 0;  ///< of `whole`, and of any sum of parts of the faces
+  Frame unit;        ///< in which they are
+  /// Whether A has an area that figures can be shares of. Below 2^-700 products of it underflow.
+  bool is_positive() const { return whole > 2 * error && whole >= 0x1p-700; }
+};
+Areas areas_of(const Mesh& a);
+
+/// The share of a triangle's area on which the affine function with these values at its corners is
+/// at most `t`.
+double share_within(float a, float b, float c, double t);
+
+/// A distance in the frame that is not known better than that.
+struct Threshold {
+  double down, up;
+};
+
+/// Of each threshold the share of A's area within it. `areas.whole` exceeds its error twice.
+std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
+                                     std::span<const Threshold> thresholds);
+
+/// Of each share, the least distance that so much of A's area is within, in the frame.
+std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
+                                   std::span<const double> shares);
+
+/// Of d(x, B) over the cell, from below.
+double mean_lower(const gpu::CellBounds& bounds);
+
+struct Moments {
+  Enclosure mean, rms;  ///< in the frame
+};
+Moments moments_of(const CellStore& cells, const Areas& areas);
+
+}  // namespace vkh

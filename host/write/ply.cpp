@@ -1,0 +1,96 @@
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "host/base/decimal.h"
+#include "host/write/rounded.h"
+
+namespace vkh {
+namespace {
+
+class Bytes {
+ public:
+  template <class T>
+  void add(T value) {
+    static_assert(std::endian::native == std::endian::little);
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof(T));
+    text.append(raw, sizeof(T));
+  }
+  void add(const Rgb& colour) {
+    add(colour.red);
+    add(colour.green);
+    add(colour.blue);
+  }
+
+  std::string text;
+};
+
+// One line, whatever a file is called.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return text;
+}
+
+std::string header_of(const FieldFile& file) {
+  const std::string unit = file.unit.empty() ? "the file's own unit" : file.unit;
+  const bool are_triangles = file.mesh.file_faces.are_triangles();
+  return "ply\nformat binary_little_endian 1.0\n"
+         "comment VkHausdorff: the largest distance of each face from " +
+         one_line(file.against) + "\ncomment lower <= it <= upper, certified, in " + unit +
+         "\ncomment over all faces it is in [" +
+         decimal(file.interval.lower, kJsonDigits, Rounding::kDown) + ", " +
+         decimal(file.interval.upper, kJsonDigits, Rounding::kUp) + "]\n" + "element vertex " +
+         std::to_string(file.mesh.vertices.size()) +
+         "\nproperty double x\nproperty double y\nproperty double z\nproperty float quality\n"
+         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+         "element face " +
+         std::to_string(file.mesh.faces.size()) +
+         "\nproperty list uchar int vertex_indices\nproperty float lower\nproperty float upper\n"
+         "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n" +
+         (are_triangles ? "" : "property uint file_face\n") + "end_header\n";
+}
+
+std::vector<double> quality_of_vertices(const FieldFile& file) {
+  std::vector<double> quality(file.mesh.vertices.size(), 0.0);
+  for (size_t f = 0; f < file.mesh.faces.size(); ++f) {
+    const glm::uvec3& face = file.mesh.faces[f];
+    for (const uint32_t v : {face.x, face.y, face.z})
+      quality[v] = std::max(quality[v], file.field.upper[f]);
+  }
+  return quality;
+}
+
+}  // namespace
+
+std::string to_ply(const FieldFile& file) {
+  const double largest = largest_upper(file.field);
+  const std::vector<double> quality = quality_of_vertices(file);
+  Bytes out;
+  out.text = header_of(file);
+  for (size_t v = 0; v < file.mesh.vertices.size(); ++v) {
+    const glm::dvec3& p = file.mesh.vertices[v];
+    out.add(p.x);
+    out.add(p.y);
+    out.add(p.z);
+    out.add(float_up(quality[v]));
+    out.add(colour_of(file, quality[v], largest));
+  }
+  const FileFaces& file_faces = file.mesh.file_faces;
+  for (size_t f = 0; f < file.mesh.faces.size(); ++f) {
+    const glm::uvec3& face = file.mesh.faces[f];
+    out.add(uint8_t{3});
+    for (const uint32_t v : {face.x, face.y, face.z}) out.add(static_cast<int32_t>(v));
+    const float upper = float_up(file.field.upper[f]);
+    out.add(float_down(file.field.lower[f]));
+    out.add(upper);
+    out.add(upper);
+    out.add(colour_of(file, file.field.upper[f], largest));
+    if (!file_faces.are_triangles()) out.add(static_cast<uint32_t>(file_faces.of(f)));
+  }
+  return std::move(out.text);
+}
+
+}  // namespace vkh

@@ -1,0 +1,33 @@
+// What files of field have in common: bounds as floats, and colours.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/write/field_file.h"
+
+namespace vkh {
+
+inline float float_down(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
+}
+inline float float_up(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
+
+/// The largest upper that is finite.
+inline double largest_upper(const Field& field) {
+  double largest = 0;
+  for (const double upper : field.upper)
+    if (std::isfinite(upper)) largest = std::max(largest, upper);
+  return largest;
+}
+
+inline Rgb colour_of(const FieldFile& file, double upper, double largest) {
+  return map_colour(file.map, largest > 0 ? std::min(upper / largest, 1.0) : 0.0);
+}
+
+}  // namespace vkh
