@@ -1,5 +1,5 @@
-// The bytes of a certificate file, docs/certificate-file.md: whether they are well formed, and
-// where what stands. Nothing is read beyond their end, nor believed before it is checked.
+// The bytes of a certificate file, docs/certificate-file.md: whether they are well formed, and the
+// place of each part. Nothing is read beyond their end, nor believed before it is checked.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace vkh::check {
 
 constexpr unsigned kDeepest = 100;  ///< halvings of a part
 
-/// No certificate, or no mesh.
+/// The file is no certificate, or no mesh.
 struct Broken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,14 +25,14 @@ struct Triangulation {
   static constexpr unsigned kOnlyFan = 3;  ///< the fan, whatever that covers
 
   uint64_t face, corners;
-  unsigned axis;  ///< kOnlyFan, or along which the triangles tile the outline: 0, 1, 2
+  unsigned axis;  ///< kOnlyFan, or the axis along which the triangles tile the outline: 0, 1, 2
   std::vector<std::array<uint32_t, 3>> triangles;  ///< corners by their place
 };
 
-/// How the corners came from the file.
+/// The way from the file's contents to corners.
 struct Description {
   bool has_all_bodies = false;  ///< of a scene every shape, whether it is printed or not
-  double ambiguity = 0;         ///< what another triangulation may be off: stated, not proven
+  double ambiguity = 0;         ///< error of another triangulation: stated, not proven
   uint64_t ambiguous_face = 0;
   std::vector<Triangulation> polygons;  ///< in the order of their faces
 };
@@ -52,7 +52,7 @@ struct Direction {
 struct Certificate {
   std::array<uint64_t, 2> faces;
   std::array<double, 2> delta;
-  std::array<std::string, 2> file, corners;  ///< SHA-256; an empty one of a file: there is none
+  std::array<std::string, 2> file, corners;  ///< SHA-256; a file without one has an empty hash
   unsigned version = 0;
   std::array<Description, 2> read;  ///< empty in version 1
   std::vector<Direction> directions;
@@ -98,7 +98,7 @@ class Bytes {
     }
     return out;
   }
-  /// In groups of seven bits, the lowest first.
+  /// A number in groups of seven bits, the lowest first.
   uint64_t count() {
     uint64_t code = 0, group = 128;
     for (unsigned i = 0; group >= 128; ++i) {
@@ -123,12 +123,12 @@ class Bytes {
   uint64_t at_, end_;
 };
 
-/// Tells `visitor` what a block says: face(f), halve(corner), leaf(S), cut(S, R, Cut). The part
-/// that is spoken of is the last that was added; a halving leaves two in its place, first on top.
+/// Calls `visitor` for each item of a block: face(f), halve(corner), leaf(S), cut(S, R, Cut). The
+/// current part is the last that was added; a halving leaves two in its place, first on top.
 template <class Visitor>
 void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, unsigned cut_bits,
           Visitor& visitor) {
-  std::array<unsigned, kDeepest + 1> waiting;  // how deep the parts are that are still to come
+  std::array<unsigned, kDeepest + 1> waiting;  // depths of the parts that are still to come
   uint32_t number = 0;
   for (uint64_t f = 0; f < block.faces; ++f) {
     visitor.face(block.first_face + f);
@@ -159,7 +159,7 @@ void walk(Bytes bytes, const Direction::Block& block, uint64_t triangles, unsign
   bytes.expect(bytes.left() == 0, "a block with more bytes than its faces have");
 }
 
-/// Counts what is there.
+/// Counts the parts that are there.
 struct Count {
   uint64_t leaves = 0, cuts = 0;
   void face(uint64_t) {}
@@ -251,7 +251,7 @@ inline unsigned read_version(Bytes& bytes) {
   return static_cast<unsigned>(version >> 56);
 }
 
-/// Throws Broken at the first byte that is not as the format says.
+/// Throws Broken at the first byte that breaks the format.
 inline Certificate read_certificate(const std::vector<unsigned char>& file) {
   Bytes bytes(file, 0, file.size());
   Certificate out;

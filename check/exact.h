@@ -104,9 +104,9 @@ class Triangle {
   }
   std::array<Point, 3> corner;
 
-  /// The exact squared distance of p / 2^shift. The nearest point is the foot of p on the plane
-  /// where the foot is inside the triangle; otherwise it is on an edge. Without a plane it is on
-  /// one, too.
+  /// The exact squared distance of p / 2^shift. The nearest point is the foot of p on the plane if
+  /// the foot is inside the triangle; otherwise it is on an edge. Without a plane it is on an edge,
+  /// too.
   Fraction squared_distance(const Point& p, unsigned shift) const {
     std::array<Point, 3> from;
     for (size_t i = 0; i < 3; ++i) from[i] = p - (corner[i] << shift);
@@ -128,8 +128,9 @@ class Triangle {
            dot(from[2], inward_[2]) >= 0;
   }
 
-  /// From edge i: from its start, its end, or the point of it between them that is nearest, where
-  /// Pythagoras says |from|^2 - (from . edge)^2 / |edge|^2. An edge of length 0 is its start.
+  /// The distance from edge i: from its start, its end, or the point of it between them that is
+  /// nearest, where Pythagoras gives |from|^2 - (from . edge)^2 / |edge|^2. An edge of length 0 is
+  /// its start.
   Fraction from_edge(const std::array<Point, 3>& from, size_t i, unsigned shift) const {
     const Point& end = from[(i + 1) % 3];
     const Z along = dot(from[i], edge_[i]);

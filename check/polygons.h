@@ -18,7 +18,7 @@ using Flat = std::array<Z, 2>;  ///< a corner, without its coordinate along the 
 using Ring = std::vector<Flat>;
 using Ears = std::vector<std::array<uint32_t, 3>>;
 
-/// Corners of a face, from its fan, as integers times a power of two that is theirs.
+/// Corners of a face, from its fan, as integers times their own power of two.
 inline std::vector<Point> outline_of(std::span<const glm::dvec3> vertices,
                                      std::span<const glm::uvec3> fan) {
   std::vector<glm::dvec3> corners = {vertices[fan[0].x], vertices[fan[0].y]};
@@ -40,7 +40,8 @@ inline Ring seen_along(const std::vector<Point>& corners, unsigned axis) {
   return out;
 }
 
-/// Twice the area that is enclosed, by how often: Newell's normal has these three as components.
+/// Twice the enclosed area, counted with its winding: Newell's normal has these three as
+/// components.
 inline Z area_of(const Ring& ring) {
   Z out = 0;
   for (size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++)
@@ -117,7 +118,7 @@ inline bool does_part(const Flats& a, const Flats& b) {
   return false;
 }
 
-/// Whether two of these, which turn to the left, have an inner point in common.
+/// Whether two of these triangles, which turn to the left, have an inner point in common.
 inline bool do_overlap(std::vector<Flats> triangles) {
   const auto least = [](const Flats& t, size_t k) { return std::min({t[0][k], t[1][k], t[2][k]}); };
   const auto most = [](const Flats& t, size_t k) { return std::max({t[0][k], t[1][k], t[2][k]}); };
@@ -149,8 +150,8 @@ inline bool do_tile(const Ring& ring, const Ears& triangles) {
   return side != 0 && do_edges_add_up(ring.size(), triangles) && !do_overlap(std::move(solid));
 }
 
-/// Makes the triangles that a certificate says of a file's polygons. Throws Refused where they are
-/// not the polygon's, or where one that it does not say is not convex.
+/// Makes the triangles that a certificate states for a file's polygons. Throws Refused if they are
+/// not the polygon's, or if a polygon without stated triangles is not convex.
 class GivenPolygons {
  public:
   GivenPolygons(const std::vector<Triangulation>& polygons, std::string name)

@@ -1,4 +1,4 @@
-// What a certificate has to prove, and whether it does.
+// Checks whether a certificate proves its claim.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@
 
 namespace vkh::check {
 
-/// Well formed, but it does not prove what it claims.
+/// The certificate is well formed, but does not prove its claim.
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a direction, from X to Y, is proven with. All coordinates are integers times 2^unit.
+/// The inputs for the proof of a direction, from X to Y. All coordinates are integers times 2^unit.
 struct Question {
   const std::vector<unsigned char>& file;
   const Direction& claim;
@@ -51,7 +51,7 @@ class Leaves {
     parts_ = {{corners(q_.x, face, q_.unit), 0}};
   }
 
-  /// With m, the middle of j and k: first the part of i, j, m and then that of i, m, k.
+  /// Visits, with m the middle of j and k, first the part of i, j, m and then that of i, m, k.
   void halve(size_t i) {
     const Part whole = std::move(parts_.back());
     const size_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -103,7 +103,7 @@ class Leaves {
 
   const Question& q_;
   const Fraction& limit_;
-  std::vector<Part> parts_;  ///< the last is the one that is spoken of
+  std::vector<Part> parts_;  ///< the last is the current one
   uint64_t face_ = 0, leaf_ = 0, number_ = UINT64_MAX;
   Triangle triangle_;  ///< with this number
 };
@@ -137,7 +137,7 @@ inline Fraction squared_claim(double claim, int side, const std::array<double, 2
   return scaled({sum * sum, 1}, e - unit);
 }
 
-/// Throws Refused where a corner of a leaf is farther from its triangle than `limit`. Returns the
+/// Throws Refused if a corner of a leaf is farther from its triangle than `limit`. Returns the
 /// largest of their distances; both are squares, in 4^unit.
 inline Fraction largest_of_leaves(const Question& question, const Fraction& limit) {
   const std::vector<Direction::Block>& blocks = question.claim.blocks;
@@ -154,7 +154,7 @@ inline Fraction largest_of_leaves(const Question& question, const Fraction& limi
   return largest;
 }
 
-/// The witness's distance from Y, likewise, and which triangle is nearest.
+/// The witness's distance from Y, also squared, and the nearest triangle.
 inline Fraction distance_of_witness(const Question& question, uint64_t& nearest) {
   const Direction& claim = question.claim;
   const std::array<Point, 3> face = corners(question.x, claim.witness, question.unit);
@@ -164,7 +164,8 @@ inline Fraction distance_of_witness(const Question& question, uint64_t& nearest)
     return Z(i * face[0].*axis + j * face[1].*axis + k * face[2].*axis);
   };
   const Point witness{weighted(&Point::x), weighted(&Point::y), weighted(&Point::z)};  // times 2^e
-  // Rounded, and up: a triangle that is not measured must be as far as one that was.
+  // The point is rounded, and the reach rounded up: a triangle that is not measured must be as far
+  // as one that was.
   const Point about{witness.x >> claim.e, witness.y >> claim.e, witness.z >> claim.e};
   Fraction least;
   Z reach;

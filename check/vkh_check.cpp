@@ -1,10 +1,10 @@
-// Checks a certificate file against the two meshes that it is about, in exact arithmetic. What is
-// proven, and why this proves it, is in docs/certificate-file.md. In the order of the argument:
+// Checks a certificate file against the two meshes that it is about, in exact arithmetic.
+// docs/certificate-file.md has the statement and the proof. In the order of the argument:
 //   exact.h        squared distances of points to triangles, as fractions of integers
 //   certificate.h  the file's bytes: faces of X, halved to leaves, and a triangle of Y for each
 //   polygons.h     how the corners came from the file, where it has polygons
 //   proof.h        upper: every corner of a leaf is near enough; lower: the witness is far enough
-//   this page      whether the meshes are those that the file is of; what is printed
+//   this file      whether the meshes are those of the certificate; what is printed
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -41,12 +41,12 @@ std::vector<unsigned char> read_file(const std::string& name) {
   return out;
 }
 
-/// The mesh, if it is that which the certificate is of.
+/// Reads the mesh, if it is the certificate's.
 Mesh read(const Certificate& certificate, size_t which, const std::string& name) {
   const auto expect = [&](bool is_so, const char* otherwise) {
     if (!is_so) throw Refused(name + otherwise);
   };
-  // Version 1 does not say how polygons became triangles: their corners' hash tells.
+  // Version 1 does not state how polygons became triangles: the hash of their corners shows it.
   ReadLimits limits{.odd_polygons = OddPolygons::kFanned};
   const Description& how = certificate.read[which];
   if (certificate.version > 1) limits.triangulate = GivenPolygons(how.polygons, name);
@@ -74,7 +74,7 @@ Mesh read(const Certificate& certificate, size_t which, const std::string& name)
   return mesh;
 }
 
-/// How far it is, every ten seconds.
+/// Prints the progress, every ten seconds.
 class Progress {
  public:
   Progress(uint64_t faces, bool is_quiet) : faces_(faces), is_quiet_(is_quiet) {}
@@ -140,7 +140,7 @@ std::array<std::string, 2> check_direction(const Question& question,
           how};
 }
 
-/// Tells people how a mesh was read: bodies, polygons, ambiguity.
+/// Prints for people how a mesh was read: bodies, polygons, ambiguity.
 std::string described(const Certificate& certificate, size_t which) {
   const Description& read = certificate.read[which];
   const auto fans = static_cast<size_t>(
@@ -220,7 +220,7 @@ int run(const std::vector<std::string>& words) {
     return complain(std::string("refused: ") + refused.what(), kRefused);
   } catch (const Broken& broken) {
     return complain(arguments.certificate + ": " + broken.what(), kBroken);
-  } catch (const std::exception& error) {  // of a mesh, mostly, or no memory
+  } catch (const std::exception& error) {  // an error in a mesh, mostly, or no memory
     return complain(error.what(), kBroken);
   }
 }

@@ -49,7 +49,7 @@ def is_line(corners):
 
 
 def do_overlap(triangles):
-    """Of triangles that turn to the left: whether two have an inner point in common."""
+    """Whether two triangles that turn to the left have an inner point in common."""
     def is_outside(a, b):  # b on the outer side of an edge of a
         return any(all(turn(a[i - 1], a[i], p) <= 0 for p in b) for i in range(3))
     order = sorted(triangles, key=lambda t: min(p[0] for p in t))
@@ -78,7 +78,8 @@ class Other(ValueError):
 
 
 def triangles_of(points, polygons, given):
-    """Of each face its triangles; given says them where the face is not the fan of a convex one, and None of no face."""
+    """The triangles of each face; `given` states those of faces that are not the fan of a convex
+    one; None states no face's."""
     if any(len(polygon) < 3 or min(polygon) < 0 for polygon in polygons):
         raise ValueError("a face has fewer than three corners, or a corner that is not there")
     out, left = [], dict(given or {})
@@ -135,7 +136,7 @@ def read_mesh(path, given):
     try:
         data = pathlib.Path(path).read_bytes()
         faces = triangles_of(*{"obj": read_obj, "off": read_off, "stl": read_stl}[path.rsplit(".", 1)[-1].lower()](data), given)
-        corners = [Fraction(p[i]) for face in faces for p in face for i in range(3)]  # raises where it is NaN or infinity
+        corners = [Fraction(p[i]) for face in faces for p in face for i in range(3)]  # raises if it is NaN or infinity
     except Other as other:
         raise Other(f"{path}: {other}") from None
     except Exception as error:
@@ -216,7 +217,7 @@ class Certificate:
         return struct.unpack_from(form, self.data, self.at - struct.calcsize(form))
 
     def description(self):
-        """How a mesh was read: the triangles of its polygons, by their faces."""
+        """The reading of a mesh: the triangles of its polygons, by their faces."""
         points, bodies, ambiguity, at, over, under, matrix, count = self.take("<IIdQddQQ")
         self.need(points == matrix == 0 and bodies < 2 and over == under == 1, "points, bodies of no kind, a unit or a matrix")
         self.need(0 <= ambiguity < math.inf and math.copysign(1, ambiguity) == 1 and (ambiguity or not at), "an ambiguity")

@@ -1,4 +1,5 @@
-# What others link: VkHausdorff::engine, by the same name in this tree and in a package, with <vkhausdorff.h>.
+# The target that others link: VkHausdorff::engine, by the same name in this tree and in a package,
+# with <vkhausdorff.h>.
 add_library(VkHausdorff::engine ALIAS vkh_engine)
 configure_file(engine/vkhausdorff.h ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff.h COPYONLY)
 target_include_directories(vkh_engine INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated/include>)

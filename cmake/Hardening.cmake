@@ -1,8 +1,9 @@
-# What the product (engine, host, program, Python module) is hardened with; every flag only where compiler and linker have
-# it. Tests are not: their arithmetic is what is tested. As a subproject nothing is hardened: flags are the user's there.
+# The hardening flags of the product (engine, host, program, Python module); every flag only if
+# compiler and linker have it. Tests are not hardened: they test the arithmetic itself. As a
+# subproject nothing is hardened: flags are the user's there.
 option(VKH_HARDEN "FORTIFY_SOURCE, stack protector, read-only relocations, position-independent programs" ${PROJECT_IS_TOP_LEVEL})
 add_library(vkh_hardening INTERFACE)
-set(VKH_HARDENED)  # what tests/package/hardening_test.py looks for
+set(VKH_HARDENED)  # the checks of tests/package/hardening_test.py
 if(NOT VKH_HARDEN OR VKH_SANITIZE)
   return()
 endif()
@@ -29,7 +30,7 @@ foreach(level IN ITEMS 3 2)
     break()
   endif()
 endforeach()
-# MinGW has the canary in a library of its own, which whoever links our archives would have to name.
+# MinGW has the canary in a library of its own, which users of our archives would have to name.
 vkh_links(VKH_HAS_STACK_PROTECTOR "-fstack-protector-strong" "")
 if(VKH_HAS_STACK_PROTECTOR AND NOT MINGW)
   target_compile_options(vkh_hardening INTERFACE -fstack-protector-strong)

@@ -5,8 +5,8 @@ endif()
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
-# What only some files need, by the names that linkers know, so that the installed archive names no path; files that need
-# what is missing are refused by name.
+# Libraries that only some files need, by the names that linkers know, so that the installed archive
+# names no path; files that need a missing one are refused by name.
 find_file(VKH_MESHOPTIMIZER_HEADER meshoptimizer.h)
 find_library(VKH_MESHOPTIMIZER_LIBRARY meshoptimizer)
 find_file(VKH_ZIP_HEADER zip.h)
@@ -37,10 +37,11 @@ elseif(VKH_CRYPTO_HEADER AND VKH_CRYPTO_LIBRARY)
 else()
   message(STATUS "Not here: the SHA-256 of files, which needs libssl-dev")
 endif()
-# What vkh_check counts with.
+# The arithmetic of vkh_check.
 find_file(VKH_GMP_HEADER gmp.h)
 find_library(VKH_GMP_LIBRARY gmp)
-# Pictures: letters and PNG. Of headers alone, so that a cross-build has them, too (cmake/toolchains/headers.cmake).
+# Pictures: letters and PNG. They are headers only, so that a cross-build has them, too
+# (cmake/toolchains/headers.cmake).
 find_file(VKH_STB_HEADER stb/stb_truetype.h)
 if(VKH_STB_HEADER)
   set(VKH_HAS_STB ON)
@@ -70,7 +71,7 @@ function(vkh_room_objects out)
   set(${out} ${ARGN} PARENT_SCOPE)
 endfunction()
 
-# An archive whatever BUILD_SHARED_LIBS says: C++ has no interface to keep between versions.
+# An archive for any BUILD_SHARED_LIBS: C++ has no interface to keep between versions.
 vkh_room_objects(objects ${VKH_LIBRARY_ROOMS})
 add_library(vkh_host STATIC ${objects})
 if(BUILD_SHARED_LIBS)

@@ -1,5 +1,5 @@
-# cmake --install BUILD --prefix P: a package that may be moved afterwards. Every path in it is relative to itself; what it
-# depends on (Vulkan headers, GLM) is found again where it is used.
+# cmake --install BUILD --prefix P: a package that may be moved afterwards. Every path in it is
+# relative to itself; its dependencies (Vulkan headers, GLM) are found again at the user's.
 # Components: engine; host (C++ library); program; python (host/python/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -23,11 +23,12 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT engine)
 install(EXPORT VkHausdorffEngine NAMESPACE VkHausdorff:: DESTINATION ${VKH_PACKAGE_DIR} COMPONENT engine)
 configure_package_config_file(cmake/VkHausdorffConfig.cmake.in ${PROJECT_BINARY_DIR}/VkHausdorffConfig.cmake
                               INSTALL_DESTINATION ${VKH_PACKAGE_DIR})
-# Before 1.0 a minor version may break what the one before it promised.
+# Before 1.0 a minor version may break promises of the one before it.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/VkHausdorffConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/VkHausdorffConfig.cmake ${PROJECT_BINARY_DIR}/VkHausdorffConfigVersion.cmake
         DESTINATION ${VKH_PACKAGE_DIR} COMPONENT engine)
-# A C program links the C++ run-time library that an archive of C++ objects needs, and a shared one brings along.
+# A C program links the C++ run-time library that an archive of C++ objects needs, and that a shared
+# library brings along.
 set(VKH_PC_LIBS)
 if(NOT BUILD_SHARED_LIBS)
   list(TRANSFORM VKH_CXX_RUNTIME PREPEND -l OUTPUT_VARIABLE VKH_PC_LIBS)
@@ -41,8 +42,9 @@ if(NOT VKH_HOST)
   return()
 endif()
 
-# Headers of host/ that a user of vkh::Solver includes. Among themselves they say "host/mesh/mesh.h", in a package that is
-# <vkhausdorff/mesh.h>; the engine's header is <vkhausdorff.h>.
+# Headers of host/ that a user of vkh::Solver includes. They include each other as
+# "host/mesh/mesh.h", in a package that is <vkhausdorff/mesh.h>; the engine's header is
+# <vkhausdorff.h>.
 set(VKH_HOST_HEADERS base/error base/limit gpu/device gpu/device_description gpu/vulkan_api mesh/file_faces mesh/mesh mesh/polygon
                      read/read_limits read/mesh_io solve/solve_options solve/report solve/solver survey/prover survey/certificate)
 set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)
@@ -58,7 +60,7 @@ endforeach()
 
 set_target_properties(vkhausdorff PROPERTIES INSTALL_RPATH $<$<BOOL:${BUILD_SHARED_LIBS}>:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}>)
 install(TARGETS vkhausdorff RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-if(TARGET vkh_check)  # tools/quickstart builds the program alone: what is not there is named, not missed
+if(TARGET vkh_check)  # tools/quickstart builds the program alone: missing parts are named
   install(TARGETS vkh_check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program OPTIONAL)
   install(CODE "if(NOT EXISTS \"$<TARGET_FILE:vkh_check>\")
   message(STATUS \"Not installed: vkh_check, which is not built yet (cmake --build ${CMAKE_BINARY_DIR})\")

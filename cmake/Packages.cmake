@@ -1,6 +1,6 @@
 # cpack, in the build folder, writes .deb files for the distribution that it runs on:
 #   vkhausdorff           the program
-#   libvkhausdorff-dev    engine and host for C and C++, with what find_package and pkg-config read
+#   libvkhausdorff-dev    engine and host for C and C++, with files for find_package and pkg-config
 #   python3-vkhausdorff   the Python package, where it is built
 if(BUILD_SHARED_LIBS)
   return()  # a package of its own for the shared library is not made
@@ -14,7 +14,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # dpkg-dev, which build-essential brings
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 
-# vkh_deb(GROUP NAME SECTION COMPONENT...): one package, with its copyright and changelog where Debian has them.
+# vkh_deb(GROUP NAME SECTION COMPONENT...): one package, with its copyright and changelog where
+# Debian has them.
 function(vkh_deb group name section)
   install(FILES ${PROJECT_SOURCE_DIR}/tools/packages/deb/copyright DESTINATION share/doc/${name}
           COMPONENT deb_${group} EXCLUDE_FROM_ALL)

@@ -1,4 +1,5 @@
-# What a report's page is made of, as one C++ source. The viewer is committed as tools/page/build wrote it: no node here.
+# The parts of a report's page, as one C++ source. The viewer is committed as tools/page/build wrote
+# it: this needs no node.
 set(VKH_PAGE_FOLDER ${PROJECT_SOURCE_DIR}/tools/page)
 set(VKH_PAGE_ASSETS ${PROJECT_BINARY_DIR}/generated/page_assets.cpp)
 add_custom_command(

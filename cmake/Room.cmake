@@ -6,8 +6,8 @@ if(VKH_SANITIZE)
 endif()
 
 # vkh_room(NAME [COLD] [WITHOUT FILE] [GENERATED FILE...] [DEFINITIONS NAME...] [LIBRARIES TARGET...]): the sources of the
-# folder, and GENERATED ones, as the OBJECT library vkh_NAME. Files end in _posix.cpp or _windows.cpp where they are of one
-# operating system.
+# folder, and GENERATED ones, as the OBJECT library vkh_NAME. Files for one operating system end in
+# _posix.cpp or _windows.cpp.
 function(vkh_room name)
   cmake_parse_arguments(room COLD "" "WITHOUT;GENERATED;DEFINITIONS;LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)

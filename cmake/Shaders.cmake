@@ -5,11 +5,12 @@ option(VKH_FLATTEN_SHADERS "Embed kernels inlined, for drivers that do so slowly
 if(NOT VKH_FLATTEN_SHADERS)
   message(STATUS "VKH_FLATTEN_SHADERS is OFF: CPU devices run the kernels of wide ones, which start later there")
 endif()
-# They are the same on every platform, and most of a build's time. The environment's is for builds by other programs.
+# The headers are the same on every platform, and most of a build's time. The environment variable
+# is for builds by other programs.
 set(VKH_KERNELS "$ENV{VKH_KERNELS}" CACHE PATH "The embedded kernels of another build of these sources, its generated/kernels, instead of building them")
 if(VKH_KERNELS)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/generated)
-  if(NOT IS_SYMLINK ${PROJECT_BINARY_DIR}/generated/kernels)  # of a build that made its own
+  if(NOT IS_SYMLINK ${PROJECT_BINARY_DIR}/generated/kernels)  # left by a build that made its own
     file(REMOVE_RECURSE ${PROJECT_BINARY_DIR}/generated/kernels)
   endif()
   file(CREATE_LINK ${VKH_KERNELS} ${PROJECT_BINARY_DIR}/generated/kernels SYMBOLIC)

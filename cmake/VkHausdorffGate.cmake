@@ -1,8 +1,8 @@
 # vkhausdorff_add_gate(NAME <test> A <mesh> B <mesh> MAX <length> [UNIT <unit>] [SYMMETRIC] [TOL <length>] [TIME <time>]
 #                      [DEVICE <device>] [JUNIT <file>])
-# Adds a CTest that passes where it is proven that every point of A is within MAX of B, and fails where that is refuted, not
-# decided, or cannot be found out. Lengths as 'vkhausdorff gate --help' has them. A and B may be files that the build makes;
-# relative ones are of the current source folder.
+# Adds a CTest that passes if it is proven that every point of A is within MAX of B, and fails if
+# that is refuted, not decided, or cannot be computed. Lengths are as in 'vkhausdorff gate --help'.
+# A and B may be files that the build makes; relative ones start at the current source folder.
 include_guard(GLOBAL)
 
 if(TARGET vkhausdorff)  # by add_subdirectory or FetchContent

@@ -1,5 +1,5 @@
 // The C API: leaves the contract to the caller (engine/checks.h), translates views, calls the
-// recording pages.
+// recording files.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -40,7 +40,7 @@ static_assert(VKH_SWITCH_UNCERTIFIED == gpu::kUseUncertified);
 static_assert(VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords && VKH_MAX_CULLS == gpu::kMostCulls);
 static_assert(gpu::kCullCount <= gpu::kMostCulls);
 
-// What the caller leaves open, by the kind of device.
+// The default switches for each kind of device.
 Limits chosen(const VkhContextCreateInfo& info) {
   Limits limits = device_limits(info.device);
   if (info.deviceKind != VKH_DEVICE_KIND_AUTO)
@@ -79,7 +79,7 @@ bool load_functions(const VkhDeviceInfo& info, const Limits& limits, DeviceFunct
   complete = complete && vk.name != nullptr;
   VKH_PROMOTED_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
-  // By the instance: a layer may give the device's functions out though the extension is not
+  // Asks the instance: a layer may return the device's functions though the extension is not
   // enabled.
 #define VKH_LOAD(name) \
   vk.name = reinterpret_cast<PFN_vk##name>(info.getInstanceProcAddr(info.instance, "vk" #name));
@@ -93,11 +93,11 @@ bool counts_fit(uint32_t vertex_count, uint32_t face_count) {
          face_count <= gpu::kMaxTriangles;
 }
 
-// 0 for NaN, too: a run does more then, and its interval is as true.
+// Returns 0 for NaN, too: a run does more work then, and its interval still holds.
 float not_negative(float x) { return x > 0 ? x : 0; }
 
-// Counts that no mesh has are taken for those of a mesh of one face, or of a B that was not built:
-// their run records nothing but a report that says so.
+// Replaces counts that no mesh has by those of a mesh of one face, or of a B that was not built:
+// such a run records only a report of VKH_STATUS_INPUT.
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   check_problem(context, p);
   const bool has_a = counts_fit(p.a.vertexCount, p.a.faceCount);
@@ -105,7 +105,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   VkhHierarchy b = p.b;
   if (!counts_fit(b.vertexCount, b.faceCount)) b.vertexCount = b.faceCount = 0;
   const Workspace ws = view_workspace(p.workspace, context.limits, vertex_count, face_count);
-  // For more room than the device's limits let it have, a run would wait for ever.
+  // Without this a run would wait forever for more room than the device's limits allow.
   const bool can_grow = ws.capacity < largest_capacity(context.limits);
   return {.vertex_count = vertex_count,
           .face_count = face_count,
@@ -126,8 +126,8 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * face_count}};
 }
 
-// Its counts are known once it is built: before anything reads them. A mesh without faces or
-// vertices leaves it as one that was not.
+// Sets the counts of the BVH, before anything reads them. A mesh without faces or vertices
+// leaves it as one that was not built.
 void record_hierarchy(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
                       VkhHierarchy& hierarchy, const VkhMemory& scratch) {
   check_build(limits, mesh, hierarchy, &scratch);
@@ -141,7 +141,7 @@ void record_hierarchy(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
 void record_any_refit(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
                       const VkhHierarchy& hierarchy) {
   check_build(limits, mesh, hierarchy, nullptr);
-  if (!counts_fit(hierarchy.vertexCount, hierarchy.faceCount)) return;  // a run says so
+  if (!counts_fit(hierarchy.vertexCount, hierarchy.faceCount)) return;  // a run's report shows it
   const Hierarchy h = view_hierarchy(hierarchy, limits);
   if (mesh.vertexCount == hierarchy.vertexCount && mesh.faceCount == hierarchy.faceCount) {
     record_refit(rec, mesh, h);
@@ -150,8 +150,7 @@ void record_any_refit(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
   }
 }
 
-// A hierarchy that was copied before its build has no counts: a run has no B, and its report says
-// so.
+// A BVH that was copied before its build has no counts: the run has no B, and its report shows it.
 bool is_built(const Problem& p) { return p.has_a && p.b.face_count > 0; }
 
 // `p`: a view of `problem`.
@@ -200,7 +199,7 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
     record_any_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
 }
 
-// False where the host has no memory to keep the commands in.
+// Returns false if the host has no memory to keep the commands in.
 bool record_in_step(Recorder& together, const VkhContext_T& context, const VkhTask* tasks,
                     uint32_t count) {
   std::vector<Track> tracks;
@@ -217,8 +216,8 @@ bool record_in_step(Recorder& together, const VkhContext_T& context, const VkhTa
   return true;
 }
 
-// Bytes of the largest stream of a workspace that must be bound and goes with A's size; of its
-// areas, which are not in the workspace, too.
+// Bytes of the largest stream that must be bound and grows with A; the areas, which are not in the
+// workspace, count too.
 VkDeviceSize largest_of_a(const Limits& limits, uint32_t vertex_count, uint32_t face_count) {
   const bool has_areas = !limits.by_address || gpu::covers_area(limits.switches, limits.wide);
   const VkDeviceSize of_vertex = limits.by_address ? sizeof(uint32_t) : sizeof(gpu::Vertex);
@@ -226,7 +225,7 @@ VkDeviceSize largest_of_a(const Limits& limits, uint32_t vertex_count, uint32_t 
   return std::max(of_vertex * vertex_count, of_face * face_count);
 }
 
-// Into its own range, or apart from it and with the room that it has.
+// Whether `to` is the run's own range, or apart from it and at least as large.
 bool can_move(const VkhProblem& p, const VkhMemory& to) {
   const bool stays = to.buffer == p.workspace.buffer && to.offset == p.workspace.offset;
   if (stays) return to.size == p.workspace.size;
@@ -309,7 +308,7 @@ VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint3
   return vkh::workspace_size(vertexCount, faceCount, capacity, context->limits.switches);
 }
 
-// Six parameters, as Vulkan's own commands have.
+// Vulkan's own commands have six parameters, too.
 // NOLINTNEXTLINE(readability-function-size)
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {

@@ -1,4 +1,4 @@
-// B's hierarchy: a linear BVH over Morton-sorted triangles, built and refitted on the GPU.
+// B's BVH: a linear one over Morton-sorted triangles, built and refitted on the GPU.
 #include <algorithm>
 
 #include "engine/stages.h"
@@ -21,7 +21,7 @@ AlignedRange align(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
 
 uint32_t over(uint32_t count, uint32_t fan) { return (count + fan - 1) / fan; }
 
-// What kernels are given: the hierarchy, and besides
+// The kernels' buffers: the BVH's, and besides
 struct Count : Hierarchy {
   gpu::CountPush push;
 };
@@ -65,8 +65,8 @@ gpu::PyramidPush first_levels(const Hierarchy& h) {
   return {.from = 0, .count = h.face_count, .quads = pyramid_size(h.face_count), .sixteens = 0};
 }
 
-// Above those that the triangles' kernel wrote, of 256 triangles a box, 65,536, ..: none up to
-// there, where its last workgroup writes them all; else until a run holds a level.
+// The levels above those that the triangles' kernel wrote, of 256 triangles a box, 65,536, ..: none
+// up to there, where its last workgroup writes them all; otherwise until a run holds a level.
 void record_pyramid(Recorder& rec, const Hierarchy& h) {
   gpu::PyramidPush push = first_levels(h);
   while (push.count > gpu::kRun * gpu::kRun) {
@@ -79,8 +79,8 @@ void record_pyramid(Recorder& rec, const Hierarchy& h) {
   }
 }
 
-// All boxes of the nodes, from the triangles, the boxes over runs of them, and the topology as they
-// are.
+// Computes all boxes of the nodes from the triangles, the boxes over runs of them, and the
+// topology.
 void record_boxes(Recorder& rec, const Hierarchy& h) {
   record_pyramid(rec, h);
   rec.run<k::BvhRefit>(Refit{h,
@@ -118,7 +118,7 @@ Words words_of(const VkhMesh& mesh) {
   return {push, high.words, indices.words, low.words};
 }
 
-// Keeps with the hierarchy whether B, as a build or a refit takes it, is a mesh.
+// Keeps with the BVH whether B, as a build or a refit takes it, is a mesh.
 void record_fault(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   rec.fill(h.fault, layout_fault(b), Order::kIndependent);
   record_check(rec, b, h.fault, 0);

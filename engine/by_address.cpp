@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-// The few words of the SPIR-V 1.5 specification that this needs.
+// The few words of the SPIR-V 1.5 specification that this file needs.
 enum Op : uint32_t {
   kName = 5,
   kMemoryModel = 14,
@@ -43,7 +43,7 @@ constexpr uint32_t kPhysicalAddresses = 5347, kPhysical64 = 5348;  // capability
 constexpr uint32_t kBlock = 2, kArrayStride = 6, kBinding = 33, kOffset = 35;  // decorations
 constexpr uint32_t kAligned = 2;                                               // of a memory access
 constexpr uint32_t kHeaderWords = 5, kBoundAt = 3, kNoId = 0;
-// Of every buffer that is given by address, and the most that a load can use.
+// The alignment of every buffer that is given by address, and the most that a load can use.
 constexpr uint32_t kBaseAlignment = 16, kWordBytes = 4;
 
 struct Instruction {
@@ -59,7 +59,7 @@ void for_each_instruction(std::span<const uint32_t> words, Visit&& visit) {
 
 bool is_chain(uint32_t op) { return op == kAccessChain || op == kInBoundsAccessChain; }
 
-// What the module declares, as far as it concerns the buffers that are given by address.
+// The module's declarations, as far as they concern the buffers that are given by address.
 struct Declarations {
   struct Pointer {
     uint32_t storage, pointee;
@@ -91,14 +91,14 @@ struct Declarations {
 
   bool is_given(uint32_t variable) const { return bindings.contains(variable); }
 
-  // What is said of a block's member besides its place: that others see what is written (Coherent),
-  // that nothing is written.
+  // The decorations of a block's member besides its offset: that others see writes (Coherent), that
+  // nothing is written.
   std::span<const uint32_t> said_of(uint32_t variable) const {
     const auto found = said.find(blocks.at(variable));
     return found == said.end() ? std::span<const uint32_t>() : found->second;
   }
 
-  // What a binding holds: an array of these, so many bytes apart.
+  // The element type of a binding's array, and its stride in bytes.
   struct Array {
     uint32_t element, stride;
   };
@@ -128,8 +128,8 @@ struct Declarations {
     if (i.op == kMemberDecorate && a.size() == 3) said[a[0]].push_back(a[2]);
   }
 
-  // Of what a chain of indices reaches: the greatest common divisor of where it starts and of each
-  // step. Drivers load 16 bytes at once only where that many are known to be aligned.
+  // The alignment that a chain of indices reaches: the greatest common divisor of its start and of
+  // each step. Drivers load 16 bytes at once only if that alignment is known.
   uint32_t alignment_of(std::span<const uint32_t> chain) const {
     const uint32_t base = chain[2];
     auto [type, alignment] =
@@ -213,7 +213,8 @@ class Rewriter {
     }
   }
 
-  // Of the block of push constants: the struct that they were, if any, then the addresses.
+  // The types in the block of push constants: the struct that they were, if any, then the
+  // addresses.
   uint32_t first_address() const { return new_push_ ? 0 : 1; }
 
   void put_decorations() {
@@ -265,7 +266,8 @@ class Rewriter {
     put(i.op, Words(a.begin(), a.end()));
   }
 
-  // Its name, in words that end with a zero byte, and then all variables that it uses.
+  // The entry point's name, in words that end with a zero byte, and then all variables that it
+  // uses.
   void put_entry_point(std::span<const uint32_t> a) {
     const auto name_end =
         std::find_if(a.begin() + 2, a.end(), [](uint32_t w) { return w >> 24 == 0; });
@@ -287,8 +289,8 @@ class Rewriter {
     return put_value(op, d_.word_type, operands);
   }
 
-  // Of an element, in 64 bits. Where the driver is left to add up what lies 4 GiB and more behind
-  // an address, an H200's (580.159) reaches something else.
+  // The address of an element, in 64 bits. If the driver adds the offset, an H200's (580.159)
+  // reaches something else 4 GiB and more behind an address.
   uint32_t put_address(uint32_t variable, uint32_t index) {
     const uint32_t at = put_value(kAccessChain, pair_pointer_, {push_, members_[variable]});
     const uint32_t start = put_value(kLoad, pair_, {at});
@@ -304,7 +306,7 @@ class Rewriter {
     return put_value(kCompositeConstruct, pair_, {put_word(kCompositeExtract, {sum, 0}), carried});
   }
 
-  // A chain into a binding names the block's one member, an element, and what is meant within it.
+  // A chain into a binding names the block's one member, an element, and the part of the element.
   void put_chain(const Instruction& i) {
     Words args(i.args.begin(), i.args.end());
     args[0] = physical_[d_.pointers[args[0]].pointee];
@@ -317,8 +319,8 @@ class Rewriter {
     put(i.op, args);
   }
 
-  // What is reached by address says how it is aligned: behind `operands` arguments, and before any
-  // of a higher bit.
+  // An access by address states its alignment: behind `operands` arguments, and before any of a
+  // higher bit.
   void put_access(const Instruction& i, size_t operands) {
     Words args(i.args.begin(), i.args.end());
     if (args.size() == operands) args.push_back(0);
@@ -335,10 +337,10 @@ class Rewriter {
   std::array<uint32_t, kMaxBindings> places_{};
   bool new_push_ = false, new_pair_ = false;
   uint32_t push_ = kNoId, push_block_ = kNoId, push_pointer_ = kNoId;
-  uint32_t pair_ = kNoId, pair_pointer_ = kNoId;  // uvec2, and to where an address stands
+  uint32_t pair_ = kNoId, pair_pointer_ = kNoId;  // uvec2, and a pointer to it
   uint32_t two_words_ = kNoId;                    // struct of two uints
   uint32_t zero_ = kNoId;
-  // A block of one element, of which is said what was said of the array, and a pointer to it.
+  // A block of one element, with the decorations of the array, and a pointer to it.
   struct Holder {
     uint32_t block, pointer;
   };

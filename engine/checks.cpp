@@ -11,7 +11,7 @@
 namespace vkh {
 namespace {
 
-// assert prints the rule, since it is a part of the expression.
+// The rule is a part of the expression, so that assert prints it.
 #define VKH_RULE(rule, holds) assert((rule) && (holds))
 
 bool is_index_type(VkIndexType type) {

@@ -15,13 +15,13 @@ inline void check_report(VkBuffer, VkDeviceSize) {}
 inline void check_cells(const VkhContext_T&, const VkhProblem&, const VkhCells&) {}
 inline void check_profile(const VkhProfile*) {}
 #else
-// `scratch`: of a build; null of a refit, whose hierarchy has been built.
+// `scratch`: null for a refit, whose BVH has been built.
 void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& hierarchy,
                  const VkhMemory* scratch);
-// What the begin alone reads; and what the rest of a run does, too.
+// The rules of what the begin alone reads, and of what the rest of a run reads, too.
 void check_begin(const VkhProblem& problem);
 void check_problem(const VkhContext_T& context, const VkhProblem& problem);
-// Into `to`.
+// The rules of a move into `to`.
 void check_move(const VkhProblem& problem, const VkhMemory& to);
 void check_report(VkBuffer buffer, VkDeviceSize offset);
 void check_cells(const VkhContext_T& context, const VkhProblem& problem, const VkhCells& cells);

@@ -1,5 +1,5 @@
-// What a stage records: a command, which is written into a command buffer at once, or kept on a
-// track, so that several problems' commands can stand side by side.
+// A command that a stage records: it is written into a command buffer at once, or kept on a track,
+// so that several problems' commands can stand side by side.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Command {
   Kind kind = Kind::kDispatch;
   Order order = Order::kAfterAll;
   const KernelPipeline* kernel = nullptr;  // null: a fill or a copy
-  // The bindings 0, 1, 2, ...; what is filled; what is copied, and where to.
+  // The bindings 0, 1, 2, ...; the slice to fill; the source and target of a copy.
   std::array<Slice<uint32_t>, kMaxBindings> slices;
   uint32_t slice_count = 0;
   std::array<std::byte, kMaxPushBytes> push;
@@ -35,14 +35,14 @@ struct Command {
 
 class Binder;  // engine/descriptors.h
 
-// Writes the command, with the barrier that its order asks for.
+// Writes the command, with the barrier that its order requires.
 void write(Binder& binder, const Command& command);
 
-// Commands in their order. From one that is kAfterAll to the next is a step.
+// Commands in their order. A step reaches from one that is kAfterAll to the next.
 using Track = std::vector<Command>;
 
-// Writes the tracks in step: one barrier, then the next step of each. What one track writes no
-// other may use.
+// Writes the tracks in step: one barrier, then the next step of each. No track may use what another
+// one writes.
 void write_in_step(Binder& binder, const std::vector<Track>& tracks);
 
 }  // namespace vkh

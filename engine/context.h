@@ -26,12 +26,12 @@ namespace vkh {
   X(CmdFillBuffer)              \
   X(CmdCopyBuffer)              \
   X(CmdPushConstants)
-// Of Vulkan 1.3; of VK_KHR_synchronization2 before.
+// Functions of Vulkan 1.3; of VK_KHR_synchronization2 before.
 #define VKH_PROMOTED_FUNCTIONS(X) \
   X(CmdPipelineBarrier2)          \
   X(CmdWriteTimestamp2)
 #define VKH_PUSH_FUNCTIONS(X) X(CmdPushDescriptorSetKHR)
-// Where descriptors cannot be pushed.
+// Functions for devices where descriptors cannot be pushed.
 #define VKH_SET_FUNCTIONS(X) \
   X(CreateDescriptorPool)    \
   X(DestroyDescriptorPool)   \
@@ -39,7 +39,7 @@ namespace vkh {
   X(UpdateDescriptorSets)    \
   X(CmdBindDescriptorSets)
 
-// Where large buffers are given by address (engine/by_address.h).
+// The function for large buffers that are given by address (engine/by_address.h).
 #define VKH_ADDRESS_FUNCTIONS(X) X(GetBufferDeviceAddress)
 
 // Labels for captures; null where the caller has not enabled VK_EXT_debug_utils.
@@ -47,7 +47,7 @@ namespace vkh {
   X(CmdBeginDebugUtilsLabelEXT)   \
   X(CmdEndDebugUtilsLabelEXT)
 
-// No prototypes are linked against: the loader belongs to the caller.
+// The engine links no prototypes: the loader belongs to the caller.
 struct DeviceFunctions {
 #define VKH_DECLARE(name) PFN_vk##name name = nullptr;
   VKH_DEVICE_FUNCTIONS(VKH_DECLARE)
@@ -74,7 +74,7 @@ struct Limits {
   bool wide = true;                // many workgroups run at once (base/switches.glsl)
   bool cpu = false;                // the device is a CPU
   bool pushes = true;              // it has push descriptors
-  bool by_address = false;         // of the context: large buffers are given by address, and where
+  bool by_address = false;         // of the context: how large buffers are given by address
   VkDeviceSize allocation = ~VkDeviceSize{0};  // bytes of one allocation
 };
 
@@ -87,7 +87,7 @@ struct VkhContext_T {
   vkh::DeviceFunctions vk;
   vkh::Limits limits;
   std::array<vkh::KernelPipeline, vkh::kMaxKernels> kernels{};
-  // Null where descriptors are pushed. Shared, since it knows how to destroy what is not complete
-  // here: members that are not inline would be exported with the C interface.
+  // Null if descriptors are pushed. A shared_ptr can destroy a type that is incomplete here:
+  // members that are not inline would be exported with the C interface.
   std::shared_ptr<vkh::SetStore> sets;
 };

@@ -112,7 +112,7 @@ void Binder::push_addresses(const Command& c) const {
                                kAddressOffset, count * 8, addresses.data());
 }
 
-// Without one of its commands, none of the others is right: after a failure nothing is bound.
+// A command buffer that lacks one command is wrong as a whole: after a failure nothing is bound.
 bool Binder::bind_set(const Command& c) {
   if (sets_ == nullptr || !sets_->complete) return false;
   VkDescriptorSet set = find(c);

@@ -17,7 +17,8 @@ struct CommandSets {
   bool complete = true;
 };
 
-// Those of a context's command buffers. Several threads may record at once, each its own.
+// The descriptor sets of a context's command buffers. Several threads may record at once, each its
+// own.
 class SetStore {
  public:
   explicit SetStore(const VkhContext_T& context) : context_(context) {}
@@ -25,9 +26,9 @@ class SetStore {
   SetStore(const SetStore&) = delete;
   SetStore& operator=(const SetStore&) = delete;
 
-  // Null where the host has no memory for it.
+  // Returns null if the host has no memory for it.
   CommandSets* sets_of(VkCommandBuffer commands);
-  // False where a set was asked for and could not be had.
+  // Returns false if a set could not be allocated.
   bool is_complete(VkCommandBuffer commands);
   void release(VkCommandBuffer commands);
 
@@ -40,13 +41,14 @@ class SetStore {
   bool turned_away_ = false;                               // a command buffer found no room
 };
 
-// For one call of the API: a set is written once for all of its commands that bind the same.
+// The sets of one call of the API: a set is written once for all of its commands that bind the
+// same.
 class Binder {
  public:
   Binder(const VkhContext_T& context, VkCommandBuffer commands);
 
-  // Pipeline, buffers and push constants. False: there was no memory for a set, now or before, and
-  // the command must not run.
+  // Binds pipeline, buffers and push constants. Returns false if there was no memory for a set, now
+  // or before: the command must not run.
   bool bind(const Command& command);
 
   const DeviceFunctions& vk() const { return context_.vk; }

@@ -1,4 +1,4 @@
-// The field: bounds of the distance over cells of A, beside a run and apart from it.
+// The field: bounds of the distance over cells of A, next to a run and without effect on it.
 #include "engine/stages.h"
 
 namespace vkh {

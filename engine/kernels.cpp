@@ -35,8 +35,8 @@ constexpr uint32_t push_size<NoPush>() {
   return 0;
 }
 
-// A CPU has kernels of its own, unless it is to run as a wide device: without what it would never
-// run, their loops kept as they are. Others have one set, which kWide specialises.
+// A CPU has kernels of its own, unless it is to use the GPU profile: without code that it would
+// never run, their loops kept as they are. Others have one set, which kWide specialises.
 std::array<KernelSource, kKernelCount> kernel_sources(const Limits& limits) {
   const bool for_cpu = limits.cpu && !limits.wide;
   return {{
@@ -61,7 +61,7 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
   set.pBindings = bindings.data();
   VkResult result = c.vk.CreateDescriptorSetLayout(c.device, &set, nullptr, &out.set_layout);
   if (result != VK_SUCCESS) {
-    out.set_layout = VK_NULL_HANDLE;  // Vulkan leaves open what a call that failed has written
+    out.set_layout = VK_NULL_HANDLE;  // Vulkan does not define what a call that failed has written
     return result;
   }
 
@@ -111,7 +111,7 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
   return result;
 }
 
-// On a thread of its own, which no exception may leave.
+// Runs on a thread of its own, which no exception may leave.
 VkResult create_kernel(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
                        KernelPipeline& out) try {
   const VkResult result = create_layouts(c, source, out);
@@ -122,7 +122,7 @@ VkResult create_kernel(const VkhContext_T& c, const KernelSource& source, VkPipe
 
 constexpr uint32_t kMostThreads = 8;
 
-// The long ones start first, so that none of them is left to run alone.
+// The long ones start first, so that none of them runs alone at the end.
 std::array<uint32_t, kKernelCount> costliest_first(
     const std::array<KernelSource, kKernelCount>& sources) {
   std::array<uint32_t, kKernelCount> order{};
@@ -133,7 +133,7 @@ std::array<uint32_t, kKernelCount> costliest_first(
   return order;
 }
 
-// What the lines of shaders/stages.h say of one kernel.
+// The conditions for one kernel in the lines of shaders/stages.h.
 struct StageLines {
   bool any = false, needed = false;
 };
@@ -161,8 +161,8 @@ StageLines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
   return lines;
 }
 
-// Others are not created, for a driver takes tens of milliseconds for some. What no line names is
-// of the hierarchy, the seed or the report, and always needed.
+// Whether a run needs this kernel. Others are not created: a driver takes tens of milliseconds for
+// some. A kernel that no line names is of the BVH, the seed or the report, and always needed.
 bool is_needed(uint32_t kernel, const Limits& limits) {
   const StageLines lines = lines_of(kernel, limits.switches, limits.wide);
   return !lines.any || lines.needed;
@@ -190,7 +190,7 @@ VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache) {
   try {
     helpers.reserve(cores);
     for (uint32_t i = 1; i < cores; ++i) helpers.emplace_back(work);
-  } catch (...) {  // no more threads to be had: those there are do it
+  } catch (...) {  // no more threads available: those there are do it
   }
   work();
   for (std::thread& helper : helpers) helper.join();

@@ -1,4 +1,4 @@
-// From a kernel's generated type to its pipeline.
+// The way from a kernel's generated type to its pipeline.
 #pragma once
 
 #include "engine/context.h"
@@ -24,8 +24,8 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
-// Creates the pipelines that the context's switches and kind of device need. On failure what was
-// created stays in the context, for destroy_kernels.
+// Creates the pipelines that the context's switches and kind of device need. On failure the
+// pipelines made so far stay in the context, for destroy_kernels.
 VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache);
 void destroy_kernels(VkhContext_T& context);
 

@@ -1,5 +1,5 @@
-// A run into another workspace, where one with more room is to be had: what stands between two
-// waves, and nothing that a wave makes for itself.
+// Moves a run into a workspace with more room: copies the state between two waves, and nothing that
+// a wave computes anew.
 #include <bit>
 #include <cstddef>
 
@@ -16,7 +16,7 @@ struct Move {
   void keep(const Slice<T>& from, const Slice<T>& to) const {
     rec.copy(from, to, Order::kIndependent);
   }
-  // What stands beside the frontier, in two halves: each to where the new one starts.
+  // The streams beside the frontier have two halves: each goes to the start of the new half.
   template <class T>
   void keep_halves(const Slice<T>& from, const Slice<T>& to) const {
     const VkDeviceSize bytes = from_capacity * sizeof(T), shift = to_capacity * sizeof(T);

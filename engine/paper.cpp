@@ -1,4 +1,4 @@
-// What only the paper's presets record: the frontier sorted before it is refined.
+// The stage that only the paper's presets record: the frontier is sorted before it is refined.
 #include <cstddef>
 
 #include "engine/stages.h"

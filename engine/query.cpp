@@ -1,4 +1,5 @@
-// What the kernels of a run bind, and what `query` is asked, in the seed and in every wave.
+// The buffers that the kernels of a run bind, and the points for `query`, in the seed and in every
+// wave.
 #include "engine/stages.h"
 
 namespace vkh {
@@ -14,7 +15,7 @@ RunBuffers::RunBuffers(const Problem& p)
       b_vertices(p.b.vertices),
       b_faces(p.b.faces),
       b_fault(p.b.fault),
-      // Kernels do not touch it unless kUseCoverage is on, but a binding must be something.
+      // Kernels do not touch it unless kUseCoverage is on, but a binding must not be empty.
       areas(p.areas.buffer != VK_NULL_HANDLE ? p.areas : as<gpu::Area>(p.ws.unused)),
       vertex_state(p.ws.vertex_distance),
       order(p.ws.sort.values[0]) {}

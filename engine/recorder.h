@@ -1,6 +1,6 @@
 // Records kernels into the caller's command buffer, or onto a track. It alone writes timestamps; a
-// global barrier stands before every command unless it is told that the command is independent of
-// the one before (engine/command.cpp).
+// global barrier stands before every command unless the caller states that the command is
+// independent of the one before (engine/command.cpp).
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace vkh {
 
-// Invocations of a dispatch, one an item, in workgroups of gpu::kGroupSize that continue on y after
-// kMaxGroupsX.
+// Invocations of a dispatch, one per item, in workgroups of gpu::kGroupSize that continue on y
+// after kMaxGroupsX.
 struct Items {
   uint32_t count;
 };
@@ -22,7 +22,7 @@ struct Groups {
 
 class Recorder {
  public:
-  // A label for as long as the object lives: auto scope = rec.scope("wave").
+  // A label that lasts as long as the object: auto scope = rec.scope("wave").
   class Scope {
    public:
     Scope(Recorder& rec, const char* name) : rec_(rec) { rec_.begin_label(name); }
@@ -40,8 +40,8 @@ class Recorder {
   Recorder(const VkhContext_T& context, Track& track)
       : context_(context), binder_(context, VK_NULL_HANDLE), track_(&track) {}
 
-  // `given` is any struct whose members are called as the kernel's buffers are, with a member
-  // `push` where the kernel has push constants. A name that is missing does not compile.
+  // `given` is any struct whose members have the names of the kernel's buffers, with a member
+  // `push` if the kernel has push constants. A missing name does not compile.
   template <class K, class Given>
   void run(const Given& given, Items items, Order order = Order::kAfterAll) {
     const uint32_t groups = (items.count + K::kLocalSize[0] - 1) / K::kLocalSize[0];
@@ -88,7 +88,7 @@ class Recorder {
   bool checks_input() const {
     return gpu::checks_input(context_.limits.switches, context_.limits.wide);
   }
-  // Ends a stage: what ran since the last call is timed under this name (a static string).
+  // Ends a stage: the work since the last call is timed under this name (a static string).
   void stage(const char* name);
 
  private:

@@ -1,4 +1,4 @@
-// The report: the witness certified against every triangle of B, and the interval as it stands.
+// The report: the witness certified against every triangle of B, and the current interval.
 #include "engine/stages.h"
 
 namespace vkh {
@@ -11,7 +11,7 @@ struct ReportBuffers : RunBuffers {
   gpu::ReportPush push;
 };
 
-// The open half of the areas.
+// The half of the areas for open candidates.
 Slice<gpu::Area> open_areas(const Problem& p) {
   const VkDeviceSize half = p.face_count * sizeof(gpu::Area);
   return {p.areas.buffer, p.areas.offset + half, half};
@@ -32,7 +32,7 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
   ReportBuffers run(p, report);
-  // Which of them is none, as the kernel takes it where nothing is built.
+  // The meshes that are invalid, as a code for the kernel where nothing is built.
   run.push = {(p.has_a ? 0u : 1u) | (p.b.face_count > 0 ? 0u : 2u), 0};
   rec.run<k::ReportWrite>(run, Groups{1});
   rec.stage("report");

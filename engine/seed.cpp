@@ -1,4 +1,5 @@
-// The seed: one query a vertex of A, the first lower bound and its witness, the first wave's plan.
+// The seed: one query per vertex of A, the first lower bound and its witness, the first wave's
+// plan.
 #include "engine/stages.h"
 
 namespace vkh {
@@ -18,7 +19,7 @@ gpu::BeginPush begin_push(const Problem& p) {
           .input_fault = p.input_fault};
 }
 
-// As `query` has it: all of a workgroup for an item where they are few.
+// The same choice as in `query`: a whole workgroup per item if they are few.
 bool in_groups(const Problem& p) {
   return gpu::walks_by_group(p.switches, p.wide) && p.vertex_count <= gpu::kGroupWalkVertices;
 }
@@ -34,7 +35,7 @@ void record_seed(Recorder& rec, const Problem& p) {
   const Given once(run, query_push(p, gpu::kAskVertices, p.vertex_count, p.warm));
   const Given again(run, query_push(p, gpu::kAskVerticesAgain, p.vertex_count, p.warm));
   const Given corners(run, gpu::CountPush{p.face_count});
-  // Independent of record_load, which writes A's vertices and faces.
+  // The fill is independent of record_load, which writes A's vertices and faces.
   rec.run<k::SeedBegin>(begin, Groups{1}, Order::kIndependent);
   rec.fill(run.vertex_state, 0, Order::kIndependent);
   rec.run<k::SeedFaces>(faces, Items{p.face_count});

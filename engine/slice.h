@@ -1,4 +1,4 @@
-// What a generated kernel header (tools/embed_shaders.py) is made of.
+// The parts of a generated kernel header (tools/embed_shaders.py).
 #pragma once
 
 #ifndef VK_NO_PROTOTYPES
@@ -21,21 +21,21 @@ struct Slice {
   VkDeviceSize size = 0;    // bytes
 };
 
-// The same range as elements of another type: kernels that only read a struct may take it in words
+// The same range as elements of another type: kernels that only read a struct may read it in words
 // of 16 bytes.
 template <class U, class T>
 Slice<U> as(const Slice<T>& slice) {
   return {slice.buffer, slice.offset, slice.size};
 }
 
-// A kernel's argument. It has no default: leaving it out of a designated initialiser does not
-// compile, at any warning level (clang 14's -Wmissing-field-initializers passes over designated
-// initialisers). Converting from a slice is implicit, so that a plain one is an argument.
+// A kernel's argument. It has no default: a designated initialiser without it does not compile, at
+// any warning level (clang 14's -Wmissing-field-initializers passes over designated
+// initialisers). Converting from a slice is implicit, so that a slice can be passed directly.
 template <class T>
 struct Argument : Slice<T> {
   Argument() = delete;
   Argument(const Slice<T>& slice) : Slice<T>(slice) {}
-  // What walks read in whole loads.
+  // The type that traversals read in whole loads.
   template <class U>
   requires std::is_same_v<T, gpu::uvec4> || std::is_same_v<T, gpu::vec2> Argument(
       const Slice<U>& slice)

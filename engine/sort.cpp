@@ -1,4 +1,4 @@
-// Radix sort of 32-bit keys with 32-bit values: 8-bit digits, count / scan / scatter a pass
+// Radix sort of 32-bit keys with 32-bit values: 8-bit digits, count / scan / scatter per pass
 // (Harris, Satish and Garland's scheme, without look-back between workgroups, which Vulkan does not
 // promise to make progress).
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace vkh {
 namespace {
 
-// What the kernels of a pass are given: from one side to the other.
+// The buffers of a pass's kernels: from one side to the other.
 struct Pass {
   Pass(const SortStreams& s, uint32_t from, const gpu::SortPush& p)
       : push(p),
@@ -33,8 +33,8 @@ void dispatch(Recorder& rec, const Pass& pass, const Slice<gpu::Dispatch>& size)
   rec.run_indirect<K>(pass, size);
 }
 
-// By which bits, how many keys an invocation takes, how many there are, and whether each pass
-// counts for the next.
+// The bits to sort by, the keys per invocation, their number, and whether each pass counts for the
+// next.
 struct SortKeys {
   uint32_t first_bit, rounds, count;
   bool counted_ahead;
@@ -65,7 +65,7 @@ void record_passes(Recorder& rec, const SortStreams& s, SortKeys sorted, Counted
 
 // A sort of few keys is a chain of rounds and dispatches on a few of the device's processors: up to
 // kSortFewBlocks workgroups take fewer rounds, and each pass counts for the next, by atomics. A CPU
-// does not wait, and has more to do for each workgroup.
+// does not wait, and each workgroup costs it more.
 SortKeys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
   if (!rec.is_wide()) return {first_bit, gpu::kSortRounds, count, false};
   uint32_t rounds = gpu::kFewestSortRounds;

@@ -1,5 +1,5 @@
-// The recording pages, in the order in which they run: what is dispatched, in which order, on which
-// buffers.
+// The recording files, in the order in which they run: they dispatch kernels in order and name
+// their buffers.
 #pragma once
 
 #include "engine/recorder.h"
@@ -7,41 +7,41 @@
 
 namespace vkh {
 
-// A mesh of the caller's into packed positions and indices; zeros where layout_fault is not kNone:
-// what it reads could be anywhere.
+// Copies a mesh of the caller's into packed positions and indices; writes zeros if layout_fault is
+// not kNone, since its reads could go anywhere.
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
-// kNone, or kFaultLayout where a VkhMesh cannot describe one, as far as that costs the host
-// nothing: counts, strides and offsets, the type of indices, and whether there are buffers.
+// Returns kFaultLayout if a VkhMesh cannot describe a mesh, otherwise kNone. The host checks what
+// costs nothing: counts, strides and offsets, the type of indices, and whether there are buffers.
 uint32_t layout_fault(const VkhMesh& mesh);
-// With a context that checks: whether the caller's buffers hold a mesh, into a word of `words`,
-// which holds what is known already.
+// With a context that checks: writes whether the caller's buffers hold a mesh into a word of
+// `words`, which holds the faults known so far.
 void record_check(Recorder& rec, const VkhMesh& mesh, const Slice<uint32_t>& words, uint32_t word);
 
 // Sorts keys with values by bits first_bit and up, 8 a pass, stable, ascending: from the side that
 // sort_side names to side 0.
 uint32_t sort_side(uint32_t first_bit);
-// A sort of few keys is a chain of dispatches, and spares one where whoever writes the keys
-// counts their first digits, into streams.counts by blocks of so many keys as this returns: it
-// empties them. 0: the sort is to count by itself.
+// A sort of few keys is a chain of dispatches, and spares one if the kernel that writes the keys
+// counts their first digits into streams.counts, which this empties, by blocks of as many keys as
+// this returns. 0: the sort counts by itself.
 uint32_t record_empty_counts(Recorder& rec, const SortStreams& streams, uint32_t count,
                              uint32_t first_bit, Order order);
 enum class Counted { kNo, kYes };
 void record_sort(Recorder& rec, const SortStreams& streams, uint32_t count, uint32_t first_bit = 0,
                  Counted counted = Counted::kNo);
-// The same where the device alone knows how many there are, streams.count, and how many workgroups
-// that takes: for blocks of keys, and for digits.
+// The same if only the device knows the number of keys, streams.count, and the workgroups that they
+// take: for blocks of keys, and for digits.
 void record_sort(Recorder& rec, const SortStreams& streams, const Slice<gpu::Dispatch>& blocks,
                  const Slice<gpu::Dispatch>& digits);
 
 void record_build(Recorder& rec, const VkhMesh& b, const BuildScratch& scratch,
                   const Hierarchy& hierarchy);
 
-// New positions, and boxes over the old order.
+// Records new positions, and boxes over the old order.
 void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& hierarchy);
 
-// What a run works on.
+// The inputs of a run.
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
   float cull_tolerance = 0, known_lower = 0, limit = 0, limit_up = 0;
@@ -59,7 +59,7 @@ struct Problem {
       {};  // of each face of A, closed; then of each, open. No buffer: not recorded
 };
 
-// All that the kernels of a run bind, by the names that they have for it.
+// All buffers that the kernels of a run bind, by the kernels' names.
 struct RunBuffers : Workspace {
   explicit RunBuffers(const Problem& p);
 
@@ -77,14 +77,14 @@ struct RunBuffers : Workspace {
   Slice<uint32_t> order;         // of the frontier, where it is sorted
 };
 
-// The same with push constants; `points` are what `query` is to answer.
+// The same with push constants; `points` are the queries.
 template <class Push>
 struct Given : RunBuffers {
   Given(const RunBuffers& run, const Push& p) : RunBuffers(run), push(p) {}
   Push push;
 };
-// What `query` is asked, kAsk*; of A's vertices so many and, where `warm`, the witness there is: a
-// wave asks for that alone where the base has moved.
+// The points for `query`, kAsk*; so many of A's vertices and, if `warm`, the present witness: a
+// wave asks for the witness alone where the base has moved.
 gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count = 0,
                           bool warm = true);
 
@@ -92,12 +92,12 @@ void record_seed(Recorder& rec, const Problem& p);
 // The first wave refines nothing: it bounds faces of A.
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
-// The places of the frontier's candidates in the order in which they are refined; where the plan
-// finds it worth it. The paper's.
+// Sorts the places of the frontier's candidates into the order in which they are refined, if the
+// plan finds it worth it. Only the paper's presets need it.
 void record_order(Recorder& rec, const RunBuffers& run);
 // The run goes on in another workspace, or in its own; to.pauses holds from now on.
 void record_move(Recorder& rec, const Problem& from, const Problem& to);
-// Cells of A to be bounded: `count` of `cells`, or, without a buffer, faces from `first` on.
+// The cells of A to be bounded: `count` of `cells`, or, without a buffer, faces from `first` on.
 struct AskedCells {
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;
@@ -106,7 +106,7 @@ struct AskedCells {
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
-// Reports that A or B is no mesh, where nothing was built, and nothing else.
+// Reports only that A or B is no mesh, where nothing was built.
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 
 }  // namespace vkh

@@ -12,12 +12,12 @@
 namespace vkh {
 namespace {
 
-// Of these what a device has: without the first it needs Vulkan 1.3, without the second it is given
-// descriptor sets.
+// The extensions, as far as a device has them: without the first it needs Vulkan 1.3, without the
+// second the engine uses descriptor sets.
 constexpr const char* kExtensions[] = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
                                        VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
 
-// What the kernels take at most, as the build has reflected it.
+// The kernels' largest needs, as the build has reflected them.
 constexpr uint32_t kDescriptors = std::max({
 #define VKH_BINDINGS(K) static_cast<uint32_t>(std::size(k::K::kBindings)),
     VKH_KERNELS(VKH_BINDINGS)
@@ -70,7 +70,7 @@ void query_properties(const VkhDeviceInfo& info, DeviceFacts& facts) {
   facts.allocations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
   facts.properties.pNext = &facts.allocations;
   facts.allocations.pNext = &facts.subgroup;
-  // Structs of extensions that it has not are a warning on stderr for some drivers.
+  // Some drivers warn on stderr about structs of extensions that they do not have.
   if (has_extension(facts, kExtensions[1])) facts.subgroup.pNext = &facts.push;
   load<PFN_vkGetPhysicalDeviceProperties2>(info, "vkGetPhysicalDeviceProperties2")(
       info.physicalDevice, &facts.properties);

@@ -1,4 +1,4 @@
-// What a device must have, and what of it the engine makes use of.
+// The features that a device must have, and those that the engine uses.
 #pragma once
 
 #include "engine/context.h"

@@ -2,11 +2,11 @@
  * points q of B |p - q| between triangle meshes, recorded into your command buffers on your Vulkan
  * device.
  *
- * What you get. A report with lower <= h(A, B) <= upper in exact real arithmetic, for the float32
+ * Result: a report with lower <= h(A, B) <= upper in exact real arithmetic, for the float32
  * coordinates in your buffers, whatever ended the run. Distances are in the units of the
  * coordinates. Every recorded step narrows the interval; you may stop after any.
  *
- * What it does not do. It never submits, waits, allocates device memory, creates a device, opens a
+ * Out of scope: it never submits, waits, allocates device memory, creates a device, opens a
  * file, prints or reads the environment. It exports no symbol but vkh*. Recording cannot fail where
  * descriptors can be pushed; sizes and support are asked first.
  *
@@ -22,19 +22,19 @@
  *
  * Coordinates should be of order 1: scale by a power of two and move the meshes near the origin
  * first (both are exact or nearly so; h scales along). The error analysis holds for coordinates up
- * to 2^15; features under 2^-48 are points to it.
+ * to 2^15; it treats features under 2^-48 as points.
  *
- * Threads. A context is immutable and may be used from several threads at once. A command buffer,
+ * Threads: a context is immutable and may be used from several threads at once. A command buffer,
  * as always in Vulkan, is recorded by one thread at a time. Two recordings that run at the same
  * time on the device must not share a workspace, a scratch, a report or a coverage buffer, and a
- * hierarchy must not be built or refitted while a run reads it.
+ * BVH must not be built or refitted while a run reads it.
  *
- * Recording. Outside a render pass, into a primary or secondary command buffer whose pool's queue
+ * Recording: outside a render pass, into a primary or secondary command buffer whose pool's queue
  * family has VK_QUEUE_COMPUTE_BIT. The command buffer may be submitted any number of times, one at
  * a time, and works on what the buffers hold then. The structs and arrays that a function is given
  * are read before it returns; buffers and the context must live until the command buffer has run.
  *
- * Synchronization. Every vkhCmd* function starts with a memory barrier of its own:
+ * Synchronization: every vkhCmd* function starts with a memory barrier of its own:
  *   from COMPUTE_SHADER and ALL_TRANSFER, SHADER_WRITE and TRANSFER_WRITE,
  *   to COMPUTE_SHADER, ALL_TRANSFER and DRAW_INDIRECT, all accesses that the engine makes there.
  * So a compute shader or copy before it, in the same queue, may write a mesh, and one may have read
@@ -42,7 +42,7 @@
  * for anything else yourself: host writes are covered by the submission, other queues by your
  * semaphores, other stages (a vertex shader that still reads the buffer which the report is to be
  * written to) by your barrier to COMPUTE_SHADER.
- *   What is yours after it: the report (and each hierarchy) is written in COMPUTE_SHADER with
+ *   Your part after it: the report (and each BVH) is written in COMPUTE_SHADER with
  * SHADER_STORAGE_WRITE; put a barrier from there to your use of it. Your meshes are read in
  * COMPUTE_SHADER with SHADER_STORAGE_READ; compute shaders and copies that are recorded later may
  * write them again as they are, since the engine's own barriers stand between; before any other
@@ -53,7 +53,7 @@
  * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
  *
- * Errors. Functions that can fail return VkhResult and then leave their output as it was (a context
+ * Errors: functions that can fail return VkhResult and then leave their output as it was (a context
  * becomes null). Recording cannot fail (but see vkhGetRecordingResult): what could go wrong is
  * refused before, or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the
  * engine without NDEBUG asserts the rules that it can see (strides, offsets, sizes, counts, types)
@@ -94,51 +94,51 @@ typedef enum VkhResult {
   VKH_ERROR_MEMORY = -4     /* no host or device memory for descriptor sets */
 } VkhResult;
 
-/* VKH_VERSION of the library that is linked, which a shared one may have of its own. */
+/* VKH_VERSION of the linked library; a shared one may differ from this header. */
 uint32_t vkhGetVersion(void);
 
-/* Parts of the method, for ablations: 0 is what pays on the device, and what you want. The interval
- * is true without any of them. */
+/* Parts of the method, for ablations: 0 selects what pays on the device, and what you want. The
+ * interval is true without any of them. */
 typedef enum VkhSwitchBits {
   VKH_SWITCH_CENTROID = 1,       /* the triangle closest to a candidate's centroid, in ha and u3 */
-  VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, likewise */
+  VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, too */
   VKH_SWITCH_TOLERANCE_CULL = 4, /* cull at lower + tolerance instead of lower */
   VKH_SWITCH_THIN = 8,           /* double longest-edge bisection of thin candidates */
   VKH_SWITCH_PAIRS = 16,         /* u3, the pairwise split bound */
   VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
   VKH_SWITCH_COVERAGE = 128,     /* no part of the method: VkhProblem::coverageBuffer is written */
-  VKH_SWITCH_GROUP_WALK = 256,   /* few queries: a workgroup walks for each; wide devices only */
+  VKH_SWITCH_GROUP_WALK = 256,   /* few queries: a workgroup traverses for each; GPU profile */
   VKH_SWITCH_SHARED_FACES = 512, /* faces of A that B has are closed: h(A, A) is 0 at once */
   /* Plain floats: NOTHING IS CERTIFIED, and VkhReport::certified says so; to measure the price. */
   VKH_SWITCH_UNCERTIFIED = 1024,
-  /* What the method of the paper has and this one does without, or in another form. */
+  /* Parts of the paper's method that this one does without, or has in another form. */
   VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
-  VKH_SWITCH_PACKET = 4096, /* one walk for a candidate's three new points */
-  VKH_SWITCH_DEFER = 8192,  /* what has no room waits; off: it ends the run as VKH_STATUS_MEMORY */
-  VKH_SWITCH_LARGEST_FIRST = 16384, /* those with the largest u are refined first */
+  VKH_SWITCH_PACKET = 4096, /* one traversal for a candidate's three points */
+  VKH_SWITCH_DEFER = 8192,  /* excess candidates wait; off: they end the run as VKH_STATUS_MEMORY */
+  VKH_SWITCH_LARGEST_FIRST = 16384, /* candidates with the largest u are refined first */
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
   /* Few candidates are split twice in a wave, unless CENTROID, PACKET or U3_PAPER is on. */
   VKH_SWITCH_SPLIT_TWICE = 65536,
   VKH_SWITCH_FIELD = 131072,    /* no part of the method: vkhCmdBoundCells can be recorded */
-  VKH_SWITCH_SUBROOTS = 262144, /* likewise: edges are halved 40 times, not 20 (tight tolerances) */
-  VKH_SWITCH_NONE = 1 << 30,    /* switches nothing: the set that is empty, which 0 is not */
-  /* What 0 stands for, by the kind of device. Fewer candidates are worth a query on a CPU; on a
-   * wide device, a chain of short steps, more candidates at once are cheaper than another step. */
+  VKH_SWITCH_SUBROOTS = 262144, /* no part: edges are halved 40 times, not 20 (tight tolerances) */
+  VKH_SWITCH_NONE = 1 << 30,    /* switches nothing: the empty set, which 0 is not */
+  /* The meaning of 0 for each kind of device. Fewer candidates are worth a query on a CPU; on a
+   * GPU, a chain of short steps, more candidates at once are cheaper than another step. */
   VKH_SWITCH_DEFAULT_NARROW = 1 + 2 + 4 + 8 + 16 + 64 + 512 + 8192,
   VKH_SWITCH_DEFAULT_WIDE = 4 + 8 + 16 + 64 + 256 + 512 + 8192 + 65536
 } VkhSwitchBits;
 
-/* How a device runs: decides on kernels and dispatches. The interval is as true either way. */
+/* The profile of a device: decides on kernels and dispatches. The interval is true either way. */
 typedef enum VkhDeviceKind {
-  VKH_DEVICE_KIND_AUTO = 0,  /* narrow for VK_PHYSICAL_DEVICE_TYPE_CPU, wide for all others */
-  VKH_DEVICE_KIND_WIDE = 1,  /* many workgroups at once: a small wave is given more invocations */
-  VKH_DEVICE_KIND_NARROW = 2 /* a few at once, as a CPU: no invocation more than there is work */
+  VKH_DEVICE_KIND_AUTO = 0,  /* NARROW for VK_PHYSICAL_DEVICE_TYPE_CPU, WIDE for all others */
+  VKH_DEVICE_KIND_WIDE = 1,  /* GPU profile, many workgroups: a small wave gets more invocations */
+  VKH_DEVICE_KIND_NARROW = 2 /* CPU profile, few workgroups at once: no invocation without work */
 } VkhDeviceKind;
 
-/* The caller's device. Functions are found through getInstanceProcAddr, never linked: the loader
- * may be opened by you, or be somebody's layer. `device` may be null before it is created. Labels
- * for captures are recorded where VK_EXT_debug_utils is enabled. */
+/* The caller's device. Functions are found through getInstanceProcAddr, never linked: you may have
+ * opened the loader yourself, or it may be a layer. `device` may be null before it is created.
+ * Labels for captures are recorded where VK_EXT_debug_utils is enabled. */
 typedef struct VkhDeviceInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   VkInstance instance; /* Vulkan 1.2 or later */
@@ -155,8 +155,8 @@ const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t*
 
 /* Whether a physical device can run the engine: extensions, features, limits, subgroup operations.
  * Writes the reasons why not, separated by "; " and cut at `capacity` bytes including the end;
- * `reasons` may be null if capacity is 0. Returns VKH_SUCCESS or VKH_ERROR_UNSUPPORTED. That the
- * extensions and features are enabled on your device cannot be seen from here. */
+ * `reasons` may be null if capacity is 0. Returns VKH_SUCCESS or VKH_ERROR_UNSUPPORTED. It cannot
+ * see whether the extensions and features are enabled on your device. */
 VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity);
 
 typedef struct VkhContextCreateInfo {
@@ -164,12 +164,12 @@ typedef struct VkhContextCreateInfo {
   VkPipelineCache pipelineCache; /* may be null */
   uint32_t switches;             /* VkhSwitchBits that are on; 0: what pays on the device */
   VkhDeviceKind deviceKind;      /* 0: by the device's type */
-  /* VK_TRUE: for meshes whose buffers no binding reaches. Kernels are given the address of what
-   * holds a mesh or a hierarchy. At most 4 bytes a face and a vertex are bound, 16 a face of A with
-   * VKH_SWITCH_COVERAGE: a device that binds 128 MiB takes 33 million faces. It binds 2 million of
-   * B. Every bit of a report is the same. Needs the feature bufferDeviceAddress (Vulkan 1.2),
-   * enabled; without it vkhCreateContext returns VKH_ERROR_UNSUPPORTED. The buffers of each VkhMesh
-   * and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
+  /* VK_TRUE: for meshes whose buffers no binding reaches. Kernels are given the addresses of the
+   * buffers that hold a mesh or a BVH. At most 4 bytes a face and a vertex are bound, 16 a face of
+   * A with VKH_SWITCH_COVERAGE: a device that binds 128 MiB takes 33 million faces. It binds 2
+   * million of B. Every bit of a report is the same. Needs the feature bufferDeviceAddress (Vulkan
+   * 1.2), enabled; without it vkhCreateContext returns VKH_ERROR_UNSUPPORTED. The buffers of each
+   * VkhMesh and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
    * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
    * at most 8 GiB. robustBufferAccess does not hold for addresses. */
   VkBool32 byAddress;
@@ -177,14 +177,14 @@ typedef struct VkhContextCreateInfo {
    * vkhCmdRefitHierarchy, vkhCmdBegin and tasks: indices below vertexCount, coordinates that are
    * finite and up to 2^15, low parts of at most half an ulp, of the vertices that faces use. A run
    * with a mesh that fails has reports of VKH_STATUS_INPUT, which name a face. VK_FALSE: none of
-   * this is looked at, and such a mesh gives an untrue interval that says certified. */
+   * this is checked, and such a mesh gives an untrue interval that says certified. */
   VkBool32 checkInput;
 } VkhContextCreateInfo;
 
-/* Zeros but for `device` are right: certified, and what pays on the device. Creates the pipelines,
- * on up to 8 threads of its own while it runs; this is the one slow call
- * (seconds where the driver has not compiled them before, so keep a pipeline cache). Nothing of
- * `info` but the handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
+/* Zeros in all but `device` are right: certified, and what pays on the device. Creates the
+ * pipelines, on up to 8 threads of its own while it runs; this is the one slow call (seconds where
+ * the driver has not compiled them before, so keep a pipeline cache). Nothing of `info` but the
+ * handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
  * VKH_ERROR_UNSUPPORTED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left. */
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context);
 /* No command buffer that was recorded with the context may still be pending. Null is fine. */
@@ -192,8 +192,8 @@ void vkhDestroyContext(VkhContext context);
 
 /* For devices without VK_KHR_push_descriptor; on others both do nothing. There a command buffer
  * binds descriptor sets, which the context keeps. The first, after recording: VKH_ERROR_MEMORY if
- * one could not be had; dispatches are missing, do not submit. The second frees them: once the
- * command buffer has run, and is freed or to be recorded anew. */
+ * one could not be allocated; dispatches are missing, do not submit. The second frees them: once
+ * the command buffer has run, and is freed or to be recorded anew. */
 VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
 void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
@@ -224,9 +224,9 @@ typedef struct VkhMesh {
 } VkhMesh;
 
 /* A range of a buffer that the caller owns; ranges may share a buffer and must not overlap unless
- * it is said that they may. offset: a multiple of 256 bytes. Usage: STORAGE_BUFFER,
- * INDIRECT_BUFFER, TRANSFER_SRC and TRANSFER_DST. Memory: device-local is best; it need not be
- * host-visible. Content before the first use: anything. */
+ * stated below. offset: a multiple of 256 bytes. Usage: STORAGE_BUFFER, INDIRECT_BUFFER,
+ * TRANSFER_SRC and TRANSFER_DST. Memory: device-local is best; it need not be host-visible. Content
+ * before the first use: anything. */
 typedef struct VkhMemory {
   VkBuffer buffer;
   VkDeviceSize offset; /* bytes */
@@ -236,22 +236,22 @@ typedef struct VkhMemory {
 enum { VKH_MAX_RANGES = 8 };
 
 typedef struct VkhHierarchyRequirements {
-  VkDeviceSize hierarchySize; /* bytes; kept as long as the hierarchy is used */
+  VkDeviceSize hierarchySize; /* bytes; kept as long as the BVH is used */
   VkDeviceSize scratchSize;   /* bytes; free again once the build has run, e.g. for the workspace */
   /* The ranges of memory that hold it, and the bytes of each: one, of hierarchySize, unless that is
    * more than the device allocates at once (maxMemoryAllocationSize). A list larger than that has a
-   * range to itself, for many devices allocate more than they promise. */
+   * range to itself, since many devices allocate more than they promise. */
   uint32_t rangeCount;
   VkDeviceSize ranges[VKH_MAX_RANGES];
 } VkhHierarchyRequirements;
 
-/* B's bounding volume hierarchy: memory that vkhCmdBuildHierarchy has filled. It holds a copy of B
- * and serves any number of runs. A value: copy it into each VkhProblem that uses it. */
+/* B's bounding volume hierarchy (BVH): memory that vkhCmdBuildHierarchy has filled. It holds a copy
+ * of B and serves any number of runs. It is a value: copy it into each VkhProblem that uses it. */
 typedef struct VkhHierarchy {
   VkhMemory memory;
   uint32_t faceCount;   /* set by the build */
   uint32_t vertexCount; /* set by the build */
-  /* Where VkhHierarchyRequirements::rangeCount is above 1: its second range, its third, .. */
+  /* If VkhHierarchyRequirements::rangeCount is above 1: its second range, its third, .. */
   VkhMemory more[VKH_MAX_RANGES - 1];
 } VkhHierarchy;
 
@@ -262,7 +262,7 @@ VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, 
 typedef struct VkhWorkspaceRequirements {
   VkDeviceSize minimum;     /* bytes; works, slowly */
   VkDeviceSize recommended; /* bytes; the frontier seldom has to be regulated */
-  VkDeviceSize maximum;     /* bytes; more is not used, by limits of the device */
+  VkDeviceSize maximum;     /* bytes; more is not used, because of device limits */
 } VkhWorkspaceRequirements;
 
 /* Sizes for A. Anything from minimum to maximum is right: a smaller workspace costs time, never
@@ -274,7 +274,7 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
 VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
                                  uint32_t candidates);
 
-/* Timestamps, for those who want them: one is written at the start of each vkhCmd* function and one
+/* Optional timestamps: one is written at the start of each vkhCmd* function and one
  * after each stage (at ALL_COMMANDS), from query `count` on; names[i] is the stage that ends with
  * query i, null where a function starts. The caller resets the pool and provides `capacity` names;
  * recording stops to write when it is full. May be null. Needs timestampValidBits > 0. */
@@ -285,9 +285,9 @@ typedef struct VkhProfile {
   const char** names; /* static strings */
 } VkhProfile;
 
-/* Builds the hierarchy of B into `hierarchy->memory` and `more` (filled in by the caller, with the
+/* Builds the BVH of B into `hierarchy->memory` and `more` (filled in by the caller, with the
  * ranges of VkhHierarchyRequirements) and sets hierarchy->faceCount and vertexCount. Reads the
- * mesh's buffers in compute shaders; writes hierarchy and scratch (scratchSize bytes; it may lie in
+ * mesh's buffers in compute shaders; writes the BVH and scratch (scratchSize bytes; it may lie in
  * what will be the workspace). The mesh's buffers are not needed afterwards. */
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile);
@@ -295,11 +295,11 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
 /* B has moved: takes its vertices from `mesh` again and fits the boxes to them, over the old order
  * of triangles; a few dispatches, no sort. The mesh has the faceCount and vertexCount of the build;
  * its indices are read again and should be the same faces in the same order. Reads the mesh's
- * buffers in compute shaders; reads and writes the hierarchy. A report after a refit is as true as
+ * buffers in compute shaders; reads and writes the BVH. A report after a refit is as true as
  * after a build: the certificate rests on the copy of B that the refit replaces. Faces that A
  * shares with B are found only where they have not moved since the build. Boxes overlap more the
- * further B is from the shape that it was built for, so that walks take longer: build again when
- * the time a frame takes says so. */
+ * further B is from the shape that it was built for, so that traversals take longer: build again
+ * when a frame takes too long. */
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile);
 
@@ -313,11 +313,11 @@ typedef struct VkhProblem {
   /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. Here and
    * below, NaN and what is under 0 stand for 0. */
   float cullTolerance;
-  /* Use the vertices' low parts, and steer by 48-bit positions: where there are low parts, and for
+  /* Use the vertices' low parts, and steer by 48-bit positions: if there are low parts, and for
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
    * way, for the vertices that this selects. */
   VkBool32 twoFloat;
-  /* >= 0, in the coordinates' units; 0 where nothing is known. A value that the answer need not
+  /* >= 0, in the coordinates' units; 0 if nothing is known. A value that the answer need not
    * resolve below, such as lower of h(b, a) when the larger of both directions is asked for:
    * candidates within cullTolerance of it are closed, too. The report stays true; upper then is
    * at least about knownLower + cullTolerance. Read by vkhCmdBegin and vkhCmdMoveRun. */
@@ -326,59 +326,60 @@ typedef struct VkhProblem {
    * its witness, moved along with A, as the first lower bound. For an A that has moved, with the
    * same counts, against a refitted (or the same) B. It must be the same range of memory; scratch
    * must not have overlapped it since. It only steers: after another mesh, a rebuilt B or garbage
-   * the interval is as true, and takes longer. Zero it for a first frame, and where a run must
+   * the interval is just as true, but takes longer. Zero it for a first frame, and where a run must
    * repeat to the last bit. */
   VkBool32 warm;
   /* With a context of VKH_SWITCH_COVERAGE, and with no other (then null): 16 bytes a face of A,
    * usage STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute
    * shaders and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport
-   * what is open. It holds faceCount 64-bit integers (two little-endian words each), what of each
-   * face has been closed or is finer than 2^-20, and faceCount more, what is open, in 2^-40 of the
-   * face. After vkhCmdWriteReport both are 2^40 together, or 0 for a face without a bound yet. */
+   * adds what is open. It holds faceCount 64-bit integers (two little-endian words each), the part
+   * of each face that has been closed or is finer than 2^-20, and faceCount more, the part that is
+   * open, in 2^-40 of the face. After vkhCmdWriteReport both are 2^40 together, or 0 for a face
+   * without a bound yet. */
   VkBuffer coverageBuffer;
   VkDeviceSize coverageOffset; /* bytes */
   /* With VKH_SWITCH_SORT: frontiers of fewer candidates are not sorted. 0: as measured to pay. */
   uint32_t sortFrom;
-  /* VK_TRUE: where the workspace has not room for all that a wave would do, the run pauses: waves
+  /* VK_TRUE: if the workspace has no room for all that a wave would do, the run pauses: waves
    * change nothing, and VkhReport::wanted says for how many candidates room is wanted, until
-   * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE, or in
-   * a workspace of VkhWorkspaceRequirements::maximum: what has no room waits for a later wave,
+   * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE, or in a
+   * workspace of VkhWorkspaceRequirements::maximum: candidates without room wait for a later wave,
    * which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun. */
   VkBool32 pauseWhenFull;
-  /* > 0, in the coordinates' units: whether h(a, b) is within it is all that is asked. Candidates
+  /* > 0, in the coordinates' units: the run only answers whether h(a, b) is within it. Candidates
    * within it are closed, and the first sample that is surely farther ends the run: waves after it
    * are empty. The report's status is then VKH_STATUS_WITHIN or
    * VKH_STATUS_BEYOND, both proven. Any other is undecided: the run goes on, or its budget or its
-   * precision ended, or h is within about cullTolerance of the limit. That the run is to end rests
-   * on coordinates of order 1: where they are larger it may end at VKH_STATUS_PRECISION, undecided,
-   * a float's error beyond the limit. 0: no such question. */
+   * precision ended, or h is within about cullTolerance of the limit. The decision to end the run
+   * relies on coordinates of order 1: if they are larger it may end at VKH_STATUS_PRECISION,
+   * undecided, a float's error beyond the limit. 0: no limit. */
   float limit;
-  /* 0, which stands for limit, or more than that: what lower must exceed for VKH_STATUS_BEYOND. For
-   * a limit that is no float: limit is then that rounded down, and this is it rounded up. */
+  /* 0, which stands for limit, or more than limit: lower must exceed it for VKH_STATUS_BEYOND. For
+   * a limit that is no float, set `limit` to it rounded down, and this to it rounded up. */
   float limitUp;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound,
- * and records the first wave, which bounds A's faces: all of them where the workspace has room, and
+ * and records the first wave, which bounds A's faces: all of them if the workspace has room, and
  * none yet in a run whose tolerance is under 1e-9 of the coordinates, which may have a base to
- * move. Reads a's buffers and the hierarchy in compute shaders, writes the workspace. After it the
+ * move. Reads a's buffers and the BVH in compute shaders, writes the workspace. After it the
  * workspace holds the run, and a's buffers are not needed. */
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                  VkhProfile* profile);
 
 /* Records `waves` waves: each refines what is undecided and narrows the interval. A wave after the
  * end costs a few empty dispatches, so more than are needed may be recorded: a frame's budget is a
- * number of waves. A wave after the lower bound has risen far above what distances are kept above
- * (VkhReport::base) measures the witness anew and refines nothing. A command buffer of waves alone,
- * submitted again, goes on where the run stands; one that starts with vkhCmdBegin does the run
- * again. Reads the hierarchy, reads and writes the workspace. */
+ * number of waves. A wave after the lower bound has risen far above VkhReport::base, which
+ * distances are kept above, measures the witness anew and refines nothing. A command buffer of
+ * waves alone, submitted again, goes on where the run stands; one that starts with vkhCmdBegin does
+ * the run again. Reads the BVH, reads and writes the workspace. */
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                    uint32_t waves, VkhProfile* profile);
 
 /* Between two waves: the run goes on in `workspace`, as a rule a larger one, at least as large as
- * its own and apart from it, and problem->workspace becomes that; or, where it is the run's own
- * range, in that. Any other changes nothing, and problem->workspace stays. From now on
- * problem->pauseWhenFull and knownLower hold. Reads the old workspace and writes the new one in
+ * its own and apart from it, and problem->workspace becomes that; or it goes on in its own range,
+ * if `workspace` is that. Any other range changes nothing, and problem->workspace stays. From now
+ * on problem->pauseWhenFull and knownLower hold. Reads the old workspace and writes the new one in
  * transfers; once they have run, the old one is free. */
 void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
                    const VkhMemory* workspace, VkhProfile* profile);
@@ -387,14 +388,14 @@ typedef enum VkhStatus {
   VKH_STATUS_RUNNING = 0, /* candidates are left: advance further, or take the interval as it is */
   VKH_STATUS_DECIDED = 1, /* none is left: upper - lower is at most cullTolerance and rounding */
   VKH_STATUS_PRECISION = 2, /* none is left, but some could not be decided in float32 */
-  VKH_STATUS_MEMORY = 3,    /* no room for some, and nothing could wait: their u is in upper */
+  VKH_STATUS_MEMORY = 3,    /* no room for some, and none could wait: their u is in upper */
   VKH_STATUS_WITHIN = 4,    /* with VkhProblem::limit: upper is at most that */
   VKH_STATUS_BEYOND = 5,    /* with VkhProblem::limit: lower is more than limit and limitUp */
   /* A or B is no mesh, and nothing is known: lower 0, upper infinite, certified 0. Always where a
    * count is 0 or above 2^28, a buffer is null, a stride is under 12 or makes more than 8 GiB, a
    * stride or offset is no multiple of what it must be, or an index type is unknown; where a refit
    * has other counts than the build; and where VkhProblem::b is a copy that was made before the
-   * build. Of what the buffers hold with VkhContextCreateInfo::checkInput. witnessFaceA and
+   * build. With VkhContextCreateInfo::checkInput also for what the buffers hold. witnessFaceA and
    * witnessFaceB are then the least face of A and of B that is at fault; 0xffffffff: none is;
    * 0xfffffffe: the VkhMesh is, or b. */
   VKH_STATUS_INPUT = 6
@@ -407,9 +408,9 @@ typedef struct VkhWaveRecord {
   float lower, upper; /* as they steer the run; not certified */
 } VkhWaveRecord;
 
-/* What vkhCmdWriteReport writes: sizeof(VkhReport) bytes of 4-byte words, in the device's byte
- * order, no padding: in GLSL a struct of the same members in a scalar or std430 block. Lengths in
- * the coordinates' units. */
+/* The output of vkhCmdWriteReport: sizeof(VkhReport) bytes of 4-byte words, in the device's byte
+ * order, no padding: in GLSL a struct of the same members in a scalar or std430 block. Lengths are
+ * in the coordinates' units. */
 typedef struct VkhReport {
   float lower; /* certified: lower <= h(A, B) */
   float upper; /* certified: h(A, B) <= upper; 3e38 while faces of A wait for their first bound */
@@ -424,7 +425,7 @@ typedef struct VkhReport {
   float witnessDistance;
   uint32_t witnessFaceA;
   uint32_t witnessBarycentric[2]; /* of the face's second and third corner, in units of 2^-20 */
-  uint32_t reserved;              /* the engine's own; it means nothing to you */
+  uint32_t reserved;              /* for the engine alone */
   uint32_t witnessFaceB;          /* the face of B closest to it */
   uint32_t remaining;             /* candidates still open */
   uint32_t candidateTotal;
@@ -443,18 +444,18 @@ typedef struct VkhReport {
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 
-/* A cell: a triangle within a face of A. Its corners in barycentric coordinates of the face, that
- * of the face's second corner and that of its third, in units of 2^-20, their sum at most 2^20: six
- * integers of 21 bits from the lowest bit of corners[0] up, two a corner. */
+/* A cell: a triangle within a face of A. Its corners are in barycentric coordinates of the face,
+ * that of the face's second corner and that of its third, in units of 2^-20, their sum at most
+ * 2^20: six integers of 21 bits from the lowest bit of corners[0] up, two a corner. */
 typedef struct VkhCell {
   uint32_t corners[4];
   uint32_t face;  /* of A */
-  uint32_t start; /* VkhCellBounds::start of a cell near it, to be quick; or 0xffffffff */
+  uint32_t start; /* VkhCellBounds::start of a cell near it, for speed; or 0xffffffff */
 } VkhCell;
 
 /* d(x, B) for the points x of a cell, in the coordinates' units. Every bound is certified, as
- * VkhReport::lower is; off by about 1e-6 of the distance and of the size of what is near. A cell
- * that is split gets narrower with the square of its size where surfaces are smooth. lower and
+ * VkhReport::lower is, and off by about 1e-6 of the distance and of the size of what is near. A
+ * cell that is split gets narrower with the square of its size where surfaces are smooth. lower and
  * upper are affine functions of x, by their values at the corners: so the mean is at least that of
  * lower, and the share of the cell that is within a distance lies between theirs. */
 typedef struct VkhCellBounds {
@@ -464,7 +465,7 @@ typedef struct VkhCellBounds {
   float meanUpper;          /* >= the mean of d(x, B); at most that of upper */
   float squareUpper;        /* >= the mean of its square */
   uint32_t cornerFaces[3];  /* of B: near its corners; they steer, and nothing rests on them */
-  uint32_t faceB;           /* of B: near its middle; likewise */
+  uint32_t faceB;           /* of B: near its middle; the same */
   uint32_t start;           /* for cells near this one */
 } VkhCellBounds;
 
@@ -477,16 +478,16 @@ typedef struct VkhCells {
 } VkhCells;
 
 /* Bounds of d(x, B) over cells of A: for a picture, for statistics, for choosing what to refine.
- * With a context of VKH_SWITCH_FIELD; from vkhCmdBegin on, as long as the workspace holds the run.
- * It changes nothing of the run. A cell's result does not depend on the others. Where a report
+ * Needs a context of VKH_SWITCH_FIELD; valid from vkhCmdBegin on, as long as the workspace holds
+ * the run. The run does not change. A cell's result does not depend on the others. If a report
  * would be of VKH_STATUS_INPUT, bounds are NaN, and faces and starts 0xffffffff. Buffers: usage
  * STORAGE_BUFFER, offsets multiples of 256 bytes; read and written in COMPUTE_SHADER. */
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhCells* cells, VkhProfile* profile);
 
-/* What is to be done for one pair, in the order of the members; each part may be left out. */
+/* The work for one pair, in the order of the members; each part may be left out. */
 typedef struct VkhTask {
-  /* B's hierarchy first. With `scratch`, as vkhCmdBuildHierarchy into problem->b, whose
+  /* B's BVH first. With `scratch`, as vkhCmdBuildHierarchy into problem->b, whose
    * counts are set; without, as vkhCmdRefitHierarchy. Null: it is left as it is. */
   const VkhMesh* mesh;
   const VkhMemory* scratch;
@@ -497,17 +498,17 @@ typedef struct VkhTask {
   VkDeviceSize reportOffset; /* as vkhCmdWriteReport; a null buffer: none */
 } VkhTask;
 
-/* Records the tasks side by side: what each does is what the functions above would do one after the
- * other, and so is every bit of its report, but one barrier stands for the same step of all. A pair
+/* Records the tasks side by side: each does what the functions above would do one after the other,
+ * to the last bit of its report, but one barrier serves the same step of all. A pair
  * of some 10,000 faces leaves most of a large GPU idle: 80 pairs, 16 at a time, take half of what
- * they take in turn (58 and 30 ms on an H200). As many waves as the longest task needs are gone
- * through by all, so give tasks of like size.
- *   Tasks run at the same time on the device: what one writes (workspace, scratch, report,
- * coverage, a hierarchy that it builds or refits) no other may use. A task's scratch may lie in its
- * own workspace; a hierarchy that none of them builds or refits may serve many. On the host about
- * 15 kB a task and 2 to 4 kB a wave of it, or twice that, while it records. Where there is no such
- * memory, tasks are recorded in turn. Timestamps: of one task, or of tasks in turn, as the
- * functions above write them, with one null for all; of several one stage, "tasks". */
+ * they take one after the other (58 and 30 ms on an H200). All go through as many waves as the
+ * longest task needs, so give tasks of similar size.
+ *   Tasks run at the same time on the device: no other task may use what one writes (workspace,
+ * scratch, report, coverage, a BVH that it builds or refits). A task's scratch may lie in its own
+ * workspace; a BVH that none of them builds or refits may serve many. Host memory is about
+ * 15 kB a task and 2 to 4 kB a wave of it, or twice that, while it records. Without it, tasks are
+ * recorded one after the other. Timestamps: for one task, or tasks one after the other, as the
+ * functions above write them, with one null for all; for several one stage, "tasks". */
 void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,
                     const VkhTask* tasks, VkhProfile* profile);
 

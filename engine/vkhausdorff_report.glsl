@@ -1,4 +1,4 @@
-// VkhReport (vkhausdorff.h) as a shader of yours reads it, in a scalar or std430 block:
+// VkhReport (vkhausdorff.h) as your shader reads it, in a scalar or std430 block:
 //   layout(std430, binding = 0) readonly buffer Reports { VkhReport report; };
 #ifndef VKHAUSDORFF_REPORT_GLSL
 #define VKHAUSDORFF_REPORT_GLSL

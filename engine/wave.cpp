@@ -1,6 +1,6 @@
 // One wave: every refined candidate becomes four, or sixteen, every new point is queried, every
-// child bounded, most of them closed; then the next one is planned. Its stages are the lines of
-// shaders/stages.h, recorded here in their order where the switches need them.
+// child bounded, most children closed; then the next one is planned. Its stages are the lines of
+// shaders/stages.h, recorded here in their order if the switches need them.
 #include <cstddef>
 
 #include "engine/stages.h"
@@ -8,7 +8,7 @@
 namespace vkh {
 namespace {
 
-// What the lines are given: the wave's buffers, and of `query` which points are asked for.
+// The arguments of the lines: the wave's buffers, and the points for `query`.
 struct Lines {
   explicit Lines(const Problem& p)
       : wave(p),

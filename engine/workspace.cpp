@@ -13,8 +13,9 @@ constexpr VkDeviceSize kAlignment = 256;
 
 using Ranges = std::array<VkhMemory, VKH_MAX_RANGES>;
 
-// Hands out one stream after the other; without buffers it only adds up. What an allocation has no
-// room for goes to the next range; what is larger than any, and the rest, to one of its own.
+// Hands out one stream after the other; without buffers it only adds up. A stream that does not fit
+// an allocation goes to the next range; one that is larger than any, and the rest, to a range of
+// its own.
 class Suballocator {
  public:
   explicit Suballocator(const Ranges& memory) : memory_(memory) {}
@@ -27,7 +28,7 @@ class Suballocator {
     take(slice, count);
     largest_ = std::max(largest_, slice.size);
   }
-  // One that engine/by_address.h has.
+  // A stream that may be given by address (engine/by_address.h).
   template <class T>
   void large(Slice<T>& slice, uint64_t count) {
     take(slice, count);
@@ -54,9 +55,9 @@ class Suballocator {
   VkDeviceSize largest_ = 0;
 };
 
-// Of a B whose branches all have a node within 128 MiB, which any device can bind, all have one:
-// to give the nodes their places takes a dispatch. Whether a B is ranked depends on the device's
-// limits alone.
+// Whether the nodes are ranked. If the nodes of all of B's branches fit 128 MiB, which any device
+// can bind, every branch has one: to give the nodes their places takes a dispatch. Whether a B is
+// ranked depends on the device's limits alone.
 constexpr VkDeviceSize kMostUnranked = VkDeviceSize{128} << 20;
 
 bool is_ranked(const Limits& limits, uint32_t face_count) {
@@ -104,7 +105,7 @@ void list(Suballocator& take, BuildScratch& s, uint32_t face_count) {
   list(take, s.sort, face_count);
 }
 
-// What a workspace is laid out by, besides its meshes.
+// The parameters of a workspace's layout, besides its meshes.
 struct Room {
   uint32_t capacity, switches;
 };
@@ -154,7 +155,7 @@ uint64_t frontier_places(uint64_t capacity, uint32_t switches) {
 }
 
 uint32_t sort_rows(uint32_t count) {
-  constexpr uint32_t most_passes = 4;  // of few blocks, each has counts of its own
+  constexpr uint32_t most_passes = 4;  // if blocks are few, each has counts of its own
   const uint32_t few = std::min(sort_blocks(count, gpu::kFewestSortRounds), gpu::kSortFewBlocks);
   return std::max(most_passes * few, sort_blocks(count, gpu::kSortRounds));
 }
@@ -203,7 +204,7 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 uint32_t largest_capacity(const Limits& limits) {
   const VkDeviceSize places = limits.storage_range / sizeof(gpu::Candidate);
   VkDeviceSize reach = places / 2;
-  // Behind the halves a quarter of one, or so many: what fits either way fits.
+  // Subroots behind the halves: a quarter of one half, or so many: what fits either way fits.
   if (gpu::has_subroots(limits.switches, limits.wide)) {
     constexpr VkDeviceSize most = gpu::kMostSubroots;
     reach = std::max(4 * places / 9, places > most ? (places - most) / 2 : 0);

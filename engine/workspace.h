@@ -1,5 +1,5 @@
-// The caller's memory as streams. Each list is walked by the size query and by the suballocation,
-// so that they cannot disagree: a new stream is one line in it.
+// The caller's memory as streams. The size query and the suballocation traverse the same list, so
+// that they cannot disagree: a new stream is one line in it.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ inline bool overlap(const VkhMemory& a, const VkhMemory& b) {
   return a.buffer == b.buffer && a.offset < b.offset + b.size && b.offset < a.offset + a.size;
 }
 
-// B's hierarchy, kept between runs.
+// B's BVH, kept between runs.
 struct Hierarchy {
   Slice<gpu::Branch> branches;
   Slice<gpu::Node> nodes;
-  Slice<uint32_t> ranks;  // of a large B: where the branches' nodes are (bvh_rank); else unused
+  Slice<uint32_t> ranks;  // of a large B: places of the branches' nodes (bvh_rank)
   Slice<gpu::Box> boxes;  // of the pyramid
   Slice<gpu::Triangle> triangles;
   Slice<gpu::TriangleLow> triangle_lows;
@@ -35,21 +35,21 @@ struct Hierarchy {
   bool ranked = false;
 };
 
-// What a sort works on: keys with values, on two sides that it goes between.
+// The streams of a sort: keys with values, on two sides that it alternates between.
 struct SortStreams {
   Slice<uint32_t> keys[2], values[2];
   Slice<uint32_t> counts, totals;
-  Slice<uint32_t> count;  // how many keys there are, where the host does not know: one word
+  Slice<uint32_t> count;  // the number of keys if the host does not know it: one word
 };
 
-// Workgroups that sort `count` keys, `rounds` of them an invocation.
+// Workgroups that sort `count` keys, `rounds` of them per invocation.
 constexpr uint32_t sort_blocks(uint32_t count, uint32_t rounds) {
   return (count + gpu::kSortGroup * rounds - 1) / (gpu::kSortGroup * rounds);
 }
-// Rows of counts, one a block, that any way of sorting `count` keys may take (engine/sort.cpp).
+// Rows of counts, one per block, that any way of sorting `count` keys may take (engine/sort.cpp).
 uint32_t sort_rows(uint32_t count);
 
-// What building it needs besides.
+// The scratch streams of a build.
 struct BuildScratch {
   SortStreams sort;
 };
@@ -62,35 +62,35 @@ struct Workspace {
   Slice<gpu::uvec3> faces;      // of A
   Slice<uint32_t> vertex_nearest;
   Slice<uint32_t> vertex_distance;  // floats, as bits
-  Slice<uint32_t> face_shared;      // whether a face of A is one of B, too
+  Slice<uint32_t> face_shared;      // whether a face of A is also one of B
   Slice<gpu::Candidate> frontier;   // two halves of `capacity`, then the subroots
   Slice<gpu::Split> splits;
   Slice<gpu::Point> points;
   Slice<uint32_t> lower_bits;   // between reports kNone
   Slice<uint32_t> groups_done;  // 0 between dispatches
-  // What the switches leave out is `unused`, for a binding must be something.
+  // A stream that the switches leave out is `unused`, since a binding must not be empty.
   Slice<uint32_t> unused;
   Slice<uint32_t> centroid_nearest;  // kUseCentroid: beside the frontier
   Slice<uint32_t> survivors;         // kUseFilter
   Slice<gpu::Point> centroids;       // kUseFilter
   Slice<float> u3_bounds;            // kUsePaperU3
-  SortStreams sort;                  // kUseSort; else values[0] alone is something
+  SortStreams sort;                  // kUseSort; otherwise only values[0] is set
   uint32_t capacity = 0;
 };
 
-// One of them: `offset` of its member.
+// A stream of it: `offset` of its member.
 inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, size_t offset) {
   return {sizes.buffer, sizes.offset + offset, sizeof(gpu::Dispatch)};
 }
 
-// Of the frontier's stream.
+// Bytes of the frontier's stream.
 uint64_t frontier_places(uint64_t capacity, uint32_t switches);
 // Boxes of all levels of the pyramid over `face_count` triangles.
 uint32_t pyramid_size(uint32_t face_count);
-// And of those between them, over four boxes of a level each.
+// The boxes of the levels between them, over four boxes of a level each.
 uint32_t quads_size(uint32_t face_count);
-// Bytes of all streams, of the largest that must be bound, and of the ranges of memory that they
-// are in: as a rule one.
+// Bytes of all streams, of the largest that must be bound, and of their ranges of memory: as a rule
+// one.
 struct StreamSizes {
   VkDeviceSize all, largest;
   uint32_t range_count;
@@ -107,7 +107,7 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,
                       VkDeviceSize bytes);
 uint32_t largest_capacity(const Limits& limits);
-// What a run starts well with.
+// The capacity that a run starts well with.
 uint32_t recommended_capacity(uint32_t face_count);
 constexpr uint32_t kSmallestCapacity = 4 * gpu::kReserve;
 

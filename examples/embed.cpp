@@ -1,5 +1,5 @@
-// The engine on a device of your own, in thirty lines and two buffers: one that it works in, one
-// for the result.
+// The engine on a device of your own, in thirty lines and two buffers: one for work, one for the
+// result.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>

@@ -1,10 +1,10 @@
-// vkh_frames: what a frame costs that certifies a deforming mesh against its LOD. Each frame moves
-// both meshes on the device and runs three ways on the same shape:
-//   warm     refit B's hierarchy, start from the last frame's run
+// vkh_frames: measures the cost of a frame that certifies a deforming mesh against its LOD. Each
+// frame moves both meshes on the device and runs three ways on the same shape:
+//   warm     refit B's BVH, start from the last frame's run
 //   cold     refit, start from nothing
-//   rebuild  build the hierarchy anew, start from nothing
-// Prints CSV to stdout and a summary to stderr. gpu_ms is the device's time from the hierarchy to
-// the report, wall_ms the host's, recording included.
+//   rebuild  build the BVH anew, start from nothing Prints CSV to stdout and a summary to stderr.
+// gpu_ms is the device's time from the BVH to the report, wall_ms the host's, recording
+// included.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -90,7 +90,7 @@ class Bench {
         pairs_{{make_pair(), make_pair(), make_pair()}},
         report_(gpu_.buffer(sizeof(VkhReport), example::Memory::kHost)) {
     deform(0);
-    for (Pair& pair : pairs_) run(pair, kModes[2]);  // every pair has a hierarchy and a run
+    for (Pair& pair : pairs_) run(pair, kModes[2]);  // every pair has a BVH and a run
   }
 
   void frame(uint32_t number) {
@@ -167,7 +167,7 @@ class Bench {
 
 int main(int argc, char** argv) try {
   const Options options = parse(argc, argv);
-  // What a GPU does in seconds takes a CPU device minutes, and nothing else would say so.
+  // A GPU's seconds are minutes on a CPU device, and nothing else would show progress.
   std::fprintf(
       stderr,
       "vkh_frames: %u frames of %u faces, three times each; on a CPU device that takes minutes, ",

@@ -72,7 +72,7 @@ Gpu::Gpu(const GpuRequest& request) {
 
 Gpu::~Gpu() {
   if (device_ != VK_NULL_HANDLE) vkDeviceWaitIdle(device_);
-  // Not views::reverse: clang 14 cannot compile libstdc++ 12's.
+  // This does not use views::reverse: clang 14 cannot compile libstdc++ 12's.
   for (auto destroy = kept_.rbegin(); destroy != kept_.rend(); ++destroy) (*destroy)();
 }
 

@@ -1,5 +1,5 @@
-// An instance, a device and a queue of the examples' own, in place of your renderer's: what stands
-// here is plain Vulkan, and nothing in it is known to the engine.
+// An instance, a device and a queue of the examples' own, in place of your renderer's: all of this
+// is plain Vulkan, and unknown to the engine.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -31,8 +31,8 @@ struct GpuRequest {
   bool graphics = false;    ///< the queue can draw
 };
 
-/// Whatever it creates lives as long as it does. Only the extensions and features that the engine
-/// asks for are enabled.
+/// The device owns all that it creates. Only the extensions and features that the engine requires
+/// are enabled.
 class Gpu {
  public:
   explicit Gpu(const GpuRequest& request);
@@ -94,7 +94,7 @@ std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
 }
 
-/// Everything written so far, by these stages, is seen by those.
+/// Makes everything that `from` has written so far visible to `to`.
 void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
              VkPipelineStageFlags to, VkAccessFlags used);
 

@@ -88,8 +88,7 @@ Pair::Pair(Gpu& gpu, const Scene& scene, uint32_t a, uint32_t b)
                                   &workspace) != VKH_SUCCESS ||
       hierarchy.rangeCount > 1)
     throw std::runtime_error("the meshes are too large for this device");
-  // The scratch has a place of its own: a warm start needs what the last frame left in the
-  // workspace.
+  // The scratch has a place of its own: a warm start needs the last frame's data in the workspace.
   problem_.b.memory = {gpu.buffer(hierarchy.hierarchySize, Memory::kDevice).handle, 0,
                        hierarchy.hierarchySize};
   scratch_ = {gpu.buffer(hierarchy.scratchSize, Memory::kDevice).handle, 0, hierarchy.scratchSize};

@@ -8,7 +8,7 @@
 
 namespace example {
 
-/// As in examples/shaders/frame.glsl.
+/// The same values as in examples/shaders/frame.glsl.
 struct Level {
   uint32_t first_vertex, first_index, cells_u, cells_v;
   uint32_t vertex_count() const { return cells_u * cells_v; }
@@ -44,13 +44,13 @@ class Scene {
   VkPipeline deform_ = VK_NULL_HANDLE;
 };
 
-/// h(a, b) of two levels: what the engine keeps for it between frames.
+/// h(a, b) of two levels: the data that the engine keeps for it between frames.
 class Pair {
  public:
   Pair(Gpu& gpu, const Scene& scene, uint32_t a, uint32_t b);
 
   enum class Hierarchy { kBuild, kRefit };
-  /// A whole frame: hierarchy, run, report at `offset` of `report`.
+  /// A whole frame: BVH, run, report at `offset` of `report`.
   void certify(VkCommandBuffer commands, Hierarchy hierarchy, bool warm, uint32_t waves,
                float tolerance);
   void write_report(VkCommandBuffer commands, const Buffer& report, VkDeviceSize offset);

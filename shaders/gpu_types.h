@@ -36,25 +36,25 @@ VKH_CONST uint kBaryBits = 20u;
 VKH_CONST uint kBaryOne = 1u << kBaryBits;
 
 VKH_CONST uint kGroupSize =
-    64u;  // invocations of a workgroup, one item each, where a kernel does not say otherwise
+    64u;  // invocations of a workgroup, one item each, unless a kernel states otherwise
 VKH_CONST uint kMaxGroupsX =
     32768u;  // a larger dispatch continues on y (portable limit: 65,535 an axis)
-// Invocations of query: one query each, or one for all where a wave has few queries.
+// Invocations of query: one query each, or one for all if a wave has few queries.
 VKH_CONST uint kQueryGroup = 64u;
-// Which points it is asked for.
+// The points of its queries.
 VKH_CONST uint kAskPoints = 0u;               // the wave's new points
 VKH_CONST uint kAskCentroids = 1u;            // the centroids of its survivors
 VKH_CONST uint kAskVertices = 2u;             // of A, in plain floats
 VKH_CONST uint kAskVerticesAgain = 3u;        // to 48 bits above the base
 VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
                                               // alike on an H200, 2^11 and 2^14 slower
-// Vertices of A, whose walks start from nowhere: the group's is long, too.
+// Vertices of A, whose traversals start from nowhere: the group's is long, too.
 VKH_CONST uint kGroupWalkVertices = 1u << 11;
-VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds; more: walk alone
+VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
-VKH_CONST uint kNarrowestSubgroup = 4u;  // of a CPU with vectors of 128 bits
+VKH_CONST uint kNarrowestSubgroup = 4u;  // width on a CPU with vectors of 128 bits
 // bvh_box: its workgroup, and faces of an invocation.
 VKH_CONST uint kBoxGroup = 256u;
 VKH_CONST uint kBoxFaces = 4u;
@@ -64,11 +64,11 @@ VKH_CONST uint kPyramidFan = 16u;
 // over four boxes each, which bvh_refit alone reads.
 VKH_CONST uint kRun = 256u;
 VKH_CONST uint kMaxTriangles = 1u << 28;
-// Hierarchy depth: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at
+// Depth of the BVH: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at
 // least one bit a level.
 VKH_CONST uint kStackDepth = 60u;
 
-// Switches (specialisation constant 0): the one list of them. A set bit switches the part on.
+// Switches (specialisation constant 0): their only list. A set bit switches the part on.
 //   X(constant, bit, api, name): VKH_SWITCH_<api> in vkhausdorff.h; name: what the command line,
 // JSON and Python call it.
 #define VKH_SWITCHES(X)                                                                           \
@@ -79,10 +79,10 @@ VKH_CONST uint kStackDepth = 60u;
   X(kUsePairs, 4u, PAIRS, u3) /* u3 over every pair of known triangles */                         \
   X(kUseU4, 5u, U4, u4)       /* the point-point bisector */                                      \
   X(kUseWarmStart, 6u, WARM_START, warm_start) /* queries start from the parent's triangles */    \
-  X(kUseGroupWalk, 8u, GROUP_WALK, group_walk) /* few queries: a workgroup walks for each */      \
+  X(kUseGroupWalk, 8u, GROUP_WALK, group_walk) /* few queries: a workgroup for each one */      \
   X(kUseSharedFaces, 9u, SHARED_FACES, shared_faces) /* faces of A that B has are closed */       \
   X(kUseSort, 11u, SORT, sort)                       /* sort the frontier before it is refined */ \
-  X(kUsePacket, 12u, PACKET, packet) /* one walk for a candidate's three new points */            \
+  X(kUsePacket, 12u, PACKET, packet) /* one traversal for a candidate's new points */            \
   X(kUseDefer, 13u, DEFER, defer)    /* candidates that there is no room to refine wait */        \
   X(kUseLargestFirst, 14u, LARGEST_FIRST, largest_first) /* the largest u are refined first */    \
   X(kUsePaperU3, 15u, U3_PAPER, u3_paper)                /* u3 as the paper has it */             \
@@ -90,8 +90,8 @@ VKH_CONST uint kStackDepth = 60u;
 #define VKH_SWITCH(constant, bit, api, name) VKH_CONST uint constant = 1u << (bit);
 VKH_SWITCHES(VKH_SWITCH)
 #undef VKH_SWITCH
-// No parts of the method: record what was closed (base/coverage.glsl); bounds in plain floats, by
-// which NOTHING IS CERTIFIED.
+// These are no parts of the method: a record of what was closed (base/coverage.glsl); bounds in
+// plain floats, by which NOTHING IS CERTIFIED.
 VKH_CONST uint kUseCoverage = 1u << 7;
 VKH_CONST uint kUseUncertified = 1u << 10;
 // Cells can be bounded after the run (field/cell_bounds.comp).
@@ -100,22 +100,24 @@ VKH_CONST uint kUseField = 1u << 17;
 VKH_CONST uint kUseSubroots = 1u << 18;
 // Meshes are checked on the device (bvh/mesh_check.comp).
 VKH_CONST uint kUseInputCheck = 1u << 19;
-// So many may: a quarter of the frontier's capacity, and no more than this. Most runs have tens.
+// The most subroots: a quarter of the frontier's capacity, and no more than this. Most runs have
+// tens.
 VKH_CONST uint kMostSubroots = 1u << 14;
 
 VKH_CONST uint kUseFilter = kUseCentroid | kUsePaperU3;  // either brings in wave_filter
 VKH_CONST uint kUseBesides = kUseU4 | kUsePaperU3;       // either brings in paper_bound
-// Any of them: a wave is more than two dispatches (is_fused in stages.h).
+// If any of these is on, a wave is more than two dispatches (is_fused in stages.h).
 VKH_CONST uint kUseApart = kUseFilter | kUseBesides | kUsePacket | kUseSort;
-// All parts that go together; no device's default (VKH_SWITCH_DEFAULT_*).
+// All parts that can be combined; no device's default (VKH_SWITCH_DEFAULT_*).
 VKH_CONST uint kUseAll = kUseCentroid | kUseParentSamples | kUseToleranceCull | kUseThin |
                          kUsePairs | kUseU4 | kUseWarmStart | kUseGroupWalk | kUseSharedFaces |
                          kUseDefer | kUseSplitTwice;
 
 VKH_CONST float kThinQuality = 0.06f;  // altitude over longest edge: docs/method.md, eq. 3
 
-// Why a candidate was closed: the one list. Control::culled counts each; the name is what JSON and
-// Python have. wave_bound closes by those up to kCullLowerRaised, so a new bound stands before it.
+// The reasons for closing a candidate: their only list. Control::culled counts each; the name is
+// what JSON and Python have. wave_bound closes by those up to kCullLowerRaised, so a new bound
+// stands before it.
 #define VKH_CULLS(X)                                                                      \
   X(kCullExact, 0u, exact)                                                                \
   X(kCullU1, 1u, u1)                                                                      \
@@ -132,12 +134,12 @@ VKH_CONST uint kCullCount = kCullPrecision + 1u;  // it stays the last
 VKH_CONST uint kMostCulls = 16u;                  // room for them in what the host reads
 
 // Control::maximum: running maxima of non-negative floats, kept as their bits so that atomicMax
-// orders them. Distances are what they are above Control::base.
+// orders them. Distances are above Control::base.
 VKH_CONST uint kMaxLower = 0u;   // largest distance of a sample, not yet certified: it only steers
 VKH_CONST uint kMaxClosed = 1u;  // largest u of a culled candidate
 VKH_CONST uint kMaxFrontier = 2u;  // largest u in the frontier being read
 VKH_CONST uint kMaxNext = 3u;      // largest u in the frontier being written
-VKH_CONST uint kMaxSpilled = 4u;   // largest u of what did not fit or cannot be refined
+VKH_CONST uint kMaxSpilled = 4u;   // largest u of candidates that do not fit or cannot be refined
 VKH_CONST uint kMaxVertex =
     5u;  // largest distance of a vertex of A, in plain floats: sets the base
 VKH_CONST uint kMaxCount = 6u;
@@ -161,60 +163,60 @@ VKH_CONST uint kSortDigits = 256u;
 // are not sorted by.
 VKH_CONST uint kFewFaces = 1u << 16;
 VKH_CONST uint kFewFacesFirstBit = 6u;
-// Up to so many blocks, sort_scatter sums the counts itself: a dispatch less a pass.
+// Up to so many blocks, sort_scatter sums the counts itself: a dispatch less per pass.
 VKH_CONST uint kSortFewBlocks = 64u;
 
 // The frontier's sort key: defer | mode | morton30 (docs/method.md, eq. 4).
 VKH_CONST uint kKeyDeferred = 0x80000000u;
 VKH_CONST uint kKeyThin = 0x40000000u;
-// Frontiers of fewer candidates are not sorted unless a run says otherwise. An H200 wins nothing by
+// Frontiers of fewer candidates are not sorted unless a run sets otherwise. An H200 wins nothing by
 // sorting (80 pairs, from 1, 2^12, 2^14, 2^16, 2^18: 134, 128, 124, 121, 120 ms; 91 without the
-// switch, whose dispatches cost even where they are empty).
+// switch, whose dispatches cost even if they are empty).
 VKH_CONST uint kSortFrom = 1u << 14;
 
-// Candidates that stay free in the frontier unless a single one is refined. Those with the smallest
-// u are refined first, of equal u the smallest in area: so a candidate's children come next, and a
-// frontier with no more room than this is gone through depth first. A candidate has at most
-// kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20 places;
-// twice as many where there are subroots.
+// Candidates that stay free in the frontier unless a single one is refined. Candidates with the
+// smallest u are refined first, of equal u the smallest in area: so a candidate's children come
+// next, and a frontier with no more room than this is traversed depth first. A candidate has at
+// most kBaryBits generations below it, each of which leaves three more than it takes: 3 * 20
+// places; twice as many if there are subroots.
 VKH_CONST uint kReserve = 64u;
 
-VKH_CONST uint kSelectDigits = 256u;  // of a key, where a plan selects: 8 bits
+VKH_CONST uint kSelectDigits = 256u;  // of a key, if a plan selects: 8 bits
 
-// The distance of a witness that is to be measured again.
+// The distance of a witness that must be measured again.
 VKH_CONST float kUnmeasured = 3.0e38f;
 
-// wave_subdivide: invocations of a candidate on a wide device, and where it is split twice.
+// wave_subdivide: invocations per candidate in the GPU profile, and if it is split twice.
 VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
 // Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
 // half as many waves are worth twice the work. Measured on an H200 (docs/log/measurements.md).
 VKH_CONST uint kSplitTwiceParents = 8192u;
 
-// wave_bound: children that one workgroup of kGroupSize bounds together; fewer where a wave is
-// small, so that it fills the device. Measured on an H200 (docs/log/measurements.md).
+// wave_bound: children that one workgroup of kGroupSize bounds together; fewer if a wave is small,
+// so that it fills the device. Measured on an H200 (docs/log/measurements.md).
 VKH_CONST uint kFewestChildren = 8u;
-VKH_CONST uint kBoundGroups = 640u;  // workgroups that are worth having before they take more
+VKH_CONST uint kBoundGroups = 640u;  // workgroups to start before each takes more
 
 VKH_CONST uint kMaxOffers =
     64u;  // samples of a wave that may become the witness (wave/witness.glsl)
 
 VKH_CONST uint kMaxWaveRecords = 64u;
 
-// cell_bounds: triangles of B that are looked at for one cell before boxes stand for the rest.
+// cell_bounds: triangles of B that are examined for one cell before boxes stand for the rest.
 VKH_CONST uint kCellTriangles = 128u;
 
 // A mesh's fault is kNone, the least face of it that is no triangle, or this: its VkhMesh describes
-// none, which is known when it is recorded.
+// none, which is known at recording.
 VKH_CONST uint kFaultLayout = 0xfffffffeu;
-// Coordinates that the analysis of errors covers, as the bits of a float: 2^15.
+// Largest coordinate that the error analysis covers, as the bits of a float: 2^15.
 VKH_CONST uint kLargestCoordinate = 0x47000000u;
 
-// What seed_faces says of a vertex of A: 0 where no face uses it.
+// The state of a vertex of A from seed_faces: 0 if no face uses it.
 VKH_CONST uint kVertexUsed = 1u;
 VKH_CONST uint kVertexOnB = 2u;  // + a triangle that it is a corner of
 
-// Status of the report: the one list; VKH_STATUS_<api's> in vkhausdorff.h.
+// Status of the report: the only list; VKH_STATUS_<api's> in vkhausdorff.h.
 #define VKH_STATUSES(X)                                                                         \
   X(kStatusRunning, 0u, RUNNING)     /* candidates are left: advance, or take what there is */  \
   X(kStatusDecided, 1u, DECIDED)     /* none is left */                                         \
@@ -245,8 +247,9 @@ struct Child4 {
   uint spare;
 };
 
-// What a walk reads: a branch's grandchildren, or children that are leaves. A walk of four boxes at
-// a time is half as long as one of two. 128 bytes, eight aligned 16-byte loads.
+// The node that a traversal reads: a branch's grandchildren, or children that are leaves. A
+// traversal of four boxes at a time is half as long as one of two. 128 bytes, eight aligned 16-byte
+// loads.
 struct Node {
   Child4 child[4];
 };
@@ -261,7 +264,7 @@ struct Triangle {
   uint spare1;
 };
 
-// A vertex as an unevaluated sum hi + lo, about 48 bits a coordinate; lo is 0 where the caller gave
+// A vertex as an unevaluated sum hi + lo, about 48 bits per coordinate; lo is 0 if the caller gave
 // none.
 struct Vertex {
   vec3 hi;
@@ -284,7 +287,7 @@ struct Candidate {
 // A refined candidate in its wave.
 struct Split {
   uint code;          // math/bary.h; kSplitNone where it ends here
-  uint child_splits;  // where it is split twice: the codes of its four children, 5 bits each;
+  uint child_splits;  // if it is split twice: the codes of its four children, 5 bits each;
                       // kChildSplitNone
   uint parent;        // its slot in the half of the frontier being read
 };
@@ -342,24 +345,24 @@ struct Control {
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is
   uint split_twice;     // this wave splits its candidates twice
-  uint measuring;       // this wave measures its witness above a new base, and nothing else
+  uint measuring;       // this wave only measures its witness above a new base
   uint spilled;         // candidates that could neither be refined nor wait
   uint subroots;        // candidates that became roots, or would have, had there been room
-  uint pauses;          // a wave that has not room for all waits for a larger workspace
-  uint wanted;          // such a one does: so many places each half should have; else 0
+  uint pauses;          // a wave without room for all waits for a larger workspace
+  uint wanted;          // such a wave waits: places that each half should have; else 0
   uint seed_witness;    // 3 * face + corner of A where the first witness is; kNone
-  // The wave's samples that are at a new lower bound: the smallest of their keys, and those that
-  // had it when they came.
+  // The wave's samples that are at a new lower bound: the smallest of their keys, and the samples
+  // that had it when they were offered.
   uint offer_key;
   uint offer_count;
   Offer offers[64];  // kMaxOffers
   float cull_tolerance;
   float known_lower;  // candidates near it are closed as if it were a sample's distance
-  float limit;        // > 0: whether h is within it is all that is asked
-  float limit_up;     // at least that: what is beyond is farther than this
-  float base;         // distances of the run are kept as what they are above it
-  // The old base less the new one, in two floats: what the frontier being read is to be moved by. 0
-  // but in the wave that follows a change of base.
+  float limit;        // > 0: the run only answers whether h is within it
+  float limit_up;     // at least that: a sample beyond is farther than this
+  float base;         // distances of the run are kept above it
+  // The old base less the new one, in two floats: the shift of the frontier being read. 0 except in
+  // the wave that follows a change of base.
   float rebase_hi, rebase_lo;
   uint certified;  // 0: a wave of the run, or its begin, was in plain floats
   uint two_float;  // the meshes have low parts
@@ -391,7 +394,7 @@ struct Report {
   // The same, with more bits: base + lower_above <= h(A,B) <= base + upper_above.
   float base, lower_above, upper_above;
   uint status;
-  uint certified;  // 0: bounds were plain floats, and nothing is
+  uint certified;  // 0: bounds were plain floats, and nothing is certified
   uint wave;
   Witness witness;
   uint witness_face;  // of B, as given
@@ -405,7 +408,7 @@ struct Report {
   uint witness_low_j, witness_low_k;  // 20 more bits of the witness's barycentrics
 };
 
-// A sub-triangle of a face of A that is asked about, in words.
+// A sub-triangle of a face of A whose distances are bounded, in words.
 struct Cell {
   uvec4 corners;  // as Candidate::corners
   uint face;      // of A
@@ -414,8 +417,8 @@ struct Cell {
 
 // d(x, B) over a cell, each bound certified.
 struct CellBounds {
-  // Affine functions by their values at its corners: that of the former is not above d(x, B), that
-  // of the latter not below it. The former may be negative.
+  // Affine functions by their values at its corners: the former is not above d(x, B), the latter
+  // not below it. The former may be negative.
   float lower_a, lower_b, lower_c;
   float upper_a, upper_b, upper_c;
   float highest;                // >= d(x, B) for every x of it
@@ -424,7 +427,7 @@ struct CellBounds {
   float square_upper;           // >= the mean of the square
   uint face_a, face_b, face_c;  // of B, as given: near its corners
   uint face;                    // of B, as given: near the cell's middle
-  uint triangle;                // the same in the hierarchy's order
+  uint triangle;                // the same in the BVH's order
 };
 
 // A part of a face of A as a 64-bit integer: 2^40 is the whole.
@@ -432,7 +435,7 @@ struct Area {
   uint lo, hi;
 };
 
-// self_test: what a device is asked, and what it answers (host/app/self_test.cpp judges).
+// self_test: a device's operands and its results (host/app/self_test.cpp judges).
 struct SelfTestQuestion {
   float a, b;
   uint bits;  // of a normal float
@@ -443,7 +446,7 @@ struct SelfTestAnswer {
   float sum_hi, sum_lo, product_hi, product_lo;    // two_sum, two_product
   uint bits;                                       // as given, by way of a float
   float larger, smaller;
-  uint subgroup;  // which one the invocation was in; they are numbered as they come
+  uint subgroup;  // number of the invocation's subgroup, in order of arrival
   float highest;  // |a| in the subgroup
   uint keepers;   // invocations of the subgroup with a > b,
   uint rank;      // and of them those before this one
@@ -457,22 +460,22 @@ struct SelfTestGroup {
   uint first;                   // the lowest lane, by subgroupBroadcastFirst,
   uint first_lane;              // and by first_lane (base/subgroup.glsl)
   uint elected;                 // 1 for one of them
-  uint members;                 // how many they are,
-  uint rank;                    // and how many of them come before this one
+  uint members;                 // their number,
+  uint rank;                    // and the number of them before this one
   uint sum;                     // of their items + 1, up to this one
   uint shuffled;                // the item of the first
   float least, highest;         // of a
   vec3 all_least, all_highest;  // of (a, b, -a)
 };
 
-// The same item's, in three kinds of control flow.
+// The same item's results, in three kinds of control flow.
 struct SelfTestGroups {
   SelfTestGroup whole;   // all of the subgroup
   SelfTestGroup branch;  // those with a > b in one branch, the others in the other
   SelfTestGroup loop;    // in the last turn of a loop of (bits & 3) + 1 turns
 };
 
-// What composed expressions are asked of (doctor/composed.h): two-floats, 2^-30 <= |x| and the
+// The operands of the composed expressions (doctor/composed.h): two-floats, 2^-30 <= |x| and the
 // bases near the length of u and the quotient of reach by the length of scaled(w), or 0.
 struct SelfTestOperands {
   vec3 u_hi, u_lo, v_hi, v_lo, w_hi, w_lo;
@@ -500,15 +503,15 @@ struct SelfTestTotals {
 
 // mesh_load and mesh_check: one mesh from the caller's buffers into packed ones.
 struct LoadPush {
-  uint vertex_word;   // where the first position starts, in 4-byte words
+  uint vertex_word;   // start of the first position, in 4-byte words
   uint stride_words;  // between positions
   uint vertex_count;
-  uint index_half;   // where the first index starts, in 2-byte units
+  uint index_half;   // start of the first index, in 2-byte units
   uint index_count;  // 3 * faces
   uint index_is_16bit;
   uint has_low;     // low parts are given,
   uint low_word;    // and start here, with the same stride
-  uint fault_word;  // mesh_check alone: where it writes
+  uint fault_word;  // mesh_check alone: the word that it writes
 };
 
 struct CountPush {
@@ -518,36 +521,36 @@ struct CountPush {
 // report_write
 struct ReportPush {
   uint count;     // triangles of B
-  uint is_built;  // 0: B is no hierarchy, and no run was recorded
+  uint is_built;  // 0: B has no BVH, and no run was recorded
 };
 
 struct MortonPush {
   uint count;  // of faces
-  uint block;  // keys of a block of the sort whose first digits are counted here; 0: they are not
+  uint block;  // keys of a block of the sort whose first digits are counted here; 0: none
   uint first_bit;  // of that digit
 };
 
 // The levels above one of the pyramid: bvh_pyramid, and over the triangles bvh_leaves and bvh_move.
 struct PyramidPush {
-  uint from;      // where that level starts in `boxes`; nothing where it is the triangles
+  uint from;      // start of that level in `boxes`; unused if it is the triangles
   uint count;     // of its boxes, or of triangles
-  uint quads;     // where the boxes over four of it each start
-  uint sixteens;  // and those over sixteen
+  uint quads;     // start of the boxes over four of it each
+  uint sixteens;  // start of those over sixteen
 };
 
 // bvh_refit
 struct RefitPush {
   uint count;   // of triangles
-  uint ranked;  // nodes are where `ranks` says, not where their branches are
-  uint quads;   // where the boxes over four of them start in `boxes`; those over sixteen start at 0
+  uint ranked;  // `ranks` gives the places of nodes, not their branches
+  uint quads;   // start of the boxes over four of them in `boxes`; those over sixteen start at 0
 };
 
 struct SortPush {
   uint shift;   // of the digit in the key
-  uint rounds;  // keys of an invocation; fewer than kSortRounds where that still leaves few blocks
-  uint count;   // of keys; kNone where a buffer has it
-  // Where passes count for each other, sort_scatter for the one after it: which this is, and how
-  // many have counts of their own in `counts`. Else 0 of 1.
+  uint rounds;  // keys per invocation; fewer than kSortRounds if blocks remain few
+  uint count;   // of keys; kNone if a buffer has it
+  // The number of this pass, and of the passes that have counts of their own in `counts`, if passes
+  // count for each other, sort_scatter for the one after it. Otherwise 0 of 1.
   uint pass;
   uint passes;
 };
@@ -567,8 +570,8 @@ struct CellPush {
   uint triangle_count;  // of B
 };
 
-// query: which points. Of A's vertices and, where `warm`, the witness there is behind them: the
-// last run's, or, after a plan that has moved the base, this one's.
+// query: the points. If these are A's vertices, `warm` adds the present witness behind them: the
+// last run's or, after a plan that has moved the base, this one's.
 struct QueryPush {
   uint asked;           // kAsk*
   uint triangle_count;  // of B
@@ -586,7 +589,7 @@ struct BeginPush {
   uint warm;  // the last run's witness is kept
   uint sort_from;
   uint pauses;
-  uint input_fault;  // of A, as far as it is known when it is recorded
+  uint input_fault;  // of A, as far as it is known at recording
 };
 
 #ifdef __cplusplus

@@ -11,14 +11,15 @@ function(vkh_full)
 endfunction()
 
 if(NOT VKH_SANITIZE)
-  # Each takes a minute or more, and looks at what others look at with fewer cases, or on one device.
+  # Each takes a minute or more, and checks the same as others do with fewer cases, or on one device.
   vkh_full(compile_amd fallbacks barriers vulkan_faults_of_sets workspace_test batch_folders python_distances
            kernel_query_by_address kernel_bvh_by_address kernel_load_by_address)
   return()
 endif()
 
-# The sanitizer tree begins with the code that takes anything at all: readers, scenes, lists, reports, the C API's misuse,
-# the fuzzers. A start of the instrumented program takes two seconds and more, so that tests of many starts are full.
+# The sanitizer tree begins with the code that accepts any input: readers, scenes, lists, reports,
+# the C API's misuse, the fuzzers. A start of the instrumented program takes two seconds and more,
+# so that tests of many starts are full.
 set(VKH_QUICK_ROOMS read scene host answer batch page)
 set(VKH_QUICK api_input_test pair_schema malformed_files leaks)
 set(VKH_QUICK_PROGRAMS vkhausdorff engine_tests vkh_leak_probe vkh_leaky_driver)

@@ -8,13 +8,13 @@ set(VKH_TESTS_ALONE
   "/aligned_glm_test")    # macros of GLM
 list(JOIN VKH_TESTS_ALONE "|" VKH_TESTS_ALONE)
 
-# Their time is the compiler's (docs/log/build.md). The precompiled headers are read by GCC alone, and not where each file
-# is looked at by itself.
+# Their time is the compiler's (docs/log/build.md). Only GCC reads the precompiled headers, and not
+# if each file is checked by itself.
 add_library(vkh_test_flags INTERFACE)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
   target_compile_options(vkh_test_flags INTERFACE -Og)
 endif()
-if(VKH_SANITIZE)  # -O1 takes twice as long, and what tests compute is in vkh_test_support
+if(VKH_SANITIZE)  # -O1 takes twice as long, and the tests' computations are in vkh_test_support
   target_compile_options(vkh_test_flags INTERFACE -O0)
 endif()
 set(VKH_TEST_HEADERS <doctest/doctest.h> <glm/glm.hpp> <nlohmann/json.hpp> <algorithm> <array> <filesystem> <fstream>

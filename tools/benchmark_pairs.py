@@ -44,7 +44,7 @@ def read_bound(report, key):
 
 
 def read_report(text):
-    """What is used of the JSON of `vkhausdorff distance --json`: the one place that knows it."""
+    """The used part of the JSON of `vkhausdorff distance --json`: only this code knows it."""
     report = json.loads(text)
     way = report["directions"][0]
     times, interval = way["times"], report["interval"]
@@ -68,7 +68,7 @@ def read_peer_line(text):
 
 
 def run_program(command, read, limit_s):
-    """Runs it once; whatever goes wrong becomes the run's error, for one pair must not end all."""
+    """Runs it once; any failure becomes the run's error, since one pair must not end all."""
     begin = time.perf_counter()
     try:
         done = subprocess.run(
@@ -88,7 +88,7 @@ def run_program(command, read, limit_s):
             error=f"exit {done.returncode}, answer not understood ({error!r}); it said: {said}",
         )
     run.wall_ms = wall_ms
-    if not run.status:  # the peer says nothing of itself beyond its interval
+    if not run.status:  # the peer reports only its interval
         run.status = "ran" if done.returncode == 0 else f"exit {done.returncode}"
     return run
 
@@ -127,7 +127,7 @@ def is_closed(run, tolerance):
 
 
 def check_ours(runs, tolerance):
-    """The names of the checks that a pair's runs fail by themselves: the status is not believed."""
+    """The names of the checks that a pair's runs fail by themselves: the status is not trusted."""
     if any(r.error for r in runs):
         return ["error"]
     failed = []
@@ -143,7 +143,8 @@ def check_ours(runs, tolerance):
 
 
 def check_against(run, peer, known):
-    """The names of what ours misses: this run's peer, the stored intervals and diagonal."""
+    """The names of the intervals that ours misses: this run's peer, the stored intervals and
+    diagonal."""
     failed, others = [], {}
     if known.get("diag_a"):
         if not math.isclose(run.diagonal_a, float(known["diag_a"]), rel_tol=1e-9):
@@ -187,7 +188,7 @@ def speedups_of(ours, peer):
 def judge(args, pair, runs, known):
     ours, peer = runs
     run, speedups = middle(ours), {}
-    # From the stored diagonal where there is one, so that a wrong one of ours cannot widen it.
+    # Uses the stored diagonal if there is one, so that a wrong one of ours cannot widen it.
     tolerance = float(args.tol) * float(known.get("diag_a") or run.diagonal_a)
     failed = check_ours(ours, tolerance)
     if not run.error:

@@ -1,4 +1,4 @@
-"""What benchmark_pairs.py found, as CSV and as Markdown: medians, checks, speed-ups a family."""
+"""The results of benchmark_pairs.py as CSV and Markdown: medians, checks, speed-ups per family."""
 
 import csv
 import math
@@ -10,7 +10,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 COUNTS = ("waves", "candidates", "queries", "peak_frontier")
-# What each speed-up divides; README and results quote these words.
+# The operands of each speed-up; README and results quote these words.
 METRICS = {
     "process": "wall time of the process: start, files, device, answer",
     "call": "peer's solve_ms (host clock around its solver call, B's tree included) over ours "
@@ -61,7 +61,7 @@ class Result:
 
 
 def percentile(values, p):
-    """Linear between closest ranks."""
+    """A percentile, linear between closest ranks."""
     ordered = sorted(values)
     at = (len(ordered) - 1) * p / 100
     low = math.floor(at)
@@ -153,7 +153,7 @@ def cpu_name():
 
 
 def describe(args):
-    """What is known before the first pair; asked once, for the checkout may move on meanwhile."""
+    """The facts known before the first pair; read once, since the checkout may change meanwhile."""
     peer = f"{args.peer}, run in turn with ours" if args.peer else "none"
     if args.peer_csv:
         peer = f"NOT RUN HERE: stored times of {args.peer_csv}, perhaps of another machine"

@@ -21,15 +21,15 @@ import explicit_layout
 import float_order
 import spirv_module as spirv
 
-# No -g0: reflection reads the debug names in what the compiler wrote, since the optimiser drops
-# buffers that are not used.
+# This omits -g0: reflection reads the debug names in the compiler's output, since the optimiser
+# drops buffers that are not used.
 TARGET = ("--target-env", "vulkan1.2")
 LAYOUT = "--scalar-block-layout"
 
-# lavapipe inlines and brings to SSA form at every start of a program, and slower than it takes what
-# is so already (docs/log/startup.md). Nothing here may touch floating point: no -O, no
-# --simplify-instructions, which reassociate whatever is not `precise`. That is left to the drivers,
-# whose rounding is specified.
+# lavapipe inlines and brings to SSA form at every start of a program, which takes longer than
+# reading code already in that form (docs/log/startup.md). Nothing here may touch floating point: no
+# -O, no --simplify-instructions, which reassociate whatever is not `precise`. That is left to the
+# drivers, whose rounding is specified.
 FLATTEN = """
   --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
   --private-to-local --eliminate-local-single-block --eliminate-local-single-store
@@ -38,9 +38,9 @@ FLATTEN = """
   --ssa-rewrite --eliminate-dead-code-aggressive --ccp --eliminate-dead-branches
   --redundancy-elimination --eliminate-dead-branches --vector-dce --eliminate-dead-inserts
   --eliminate-dead-code-aggressive --merge-blocks --compact-ids""".split()
-# lavapipe also keeps what a wide device would do until it has been through most of that, and unrolls
-# loops at a third of its time for nothing that runs faster. So every kernel is built a second time,
-# for a device that is not wide, and its loops are marked to be left as they are.
+# lavapipe also keeps the GPU profile's code until most of its passes are done, and unrolls loops at
+# a third of its time for nothing that runs faster. So every kernel is built a second time, for the
+# CPU profile, and its loops are marked to be left as they are.
 PRUNE = ["--ccp", "--eliminate-dead-branches", "--eliminate-dead-functions"]
 
 
@@ -51,7 +51,7 @@ def run(*command):
 
 
 class Builder:
-    """The tools, and a folder for what lies between two of them."""
+    """The tools, and a folder for their intermediate files."""
 
     def __init__(self, options, folder):
         self.options = options
@@ -61,7 +61,7 @@ class Builder:
         o = self.options
         depfile = spv.with_suffix(".d")
         run(o.glslang, "--quiet", *TARGET, f"-I{o.root}", "--depfile", depfile, "-o", spv, o.shader)
-        # glslang names the module; what the build waits for is the source made of it.
+        # glslang names the module; the build waits for the source made of it.
         depfile.write_text(depfile.read_text().replace(f"{spv}:", f"{spv.with_suffix('.cpp')}:", 1))
         words = explicit_layout.without_layout(float_order.decorated(spirv.read_words(spv)))
         spirv.write_words(spv, words)
@@ -79,7 +79,7 @@ class Builder:
         return spirv.read_words(after)
 
     def variants(self, words):
-        """The words that wide devices and the others get."""
+        """The words for the GPU profile and for the CPU profile."""
         if not self.options.spirv_opt:
             return words, words
         narrow = spirv.with_constant_false(words, embed_shaders.WIDE)

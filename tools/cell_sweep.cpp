@@ -1,6 +1,6 @@
 // Bounds cells and faces of thousands of small, hard, generated pairs on one device, and holds them
 // against closest points and an independent solver in double precision, with a margin for its
-// rounding. One line for each violation, with what repeats it, and a summary.
+// rounding. It prints one line for each violation, with the options that repeat it, and a summary.
 //
 //   vkh_cell_sweep [--count N] [--first I] [--seed S] [--cells N] [--device D] [--spoil X]
 //
@@ -39,7 +39,7 @@ Mesh face_of(const Mesh& mesh, size_t face) {
   return single_triangle(mesh.vertices[f.x], mesh.vertices[f.y], mesh.vertices[f.z]);
 }
 
-/// By a power of two, so that the reference's squares neither overflow nor vanish.
+/// Scales by a power of two, so that the reference's squares neither overflow nor vanish.
 Mesh in_unit(Mesh mesh, int exponent) {
   for (glm::dvec3& v : mesh.vertices) {
     for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], exponent);

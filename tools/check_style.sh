@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The house rules that a search can check; prints 'file:line: rule' for each breach and exits 1 if there is any.
 #   - calls of vkCmdPipelineBarrier in engine/: only in engine/command.cpp.
-#   - clang-format, where it is the version that the project is written with (others disagree in details).
+#   - clang-format, if it is the version that the project is written with (others disagree).
 # usage: tools/check_style.sh [ROOT]
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"

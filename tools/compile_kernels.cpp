@@ -1,7 +1,7 @@
 // Compiles every kernel, in both of its forms (bound and by address), and the shaders that draw
-// pictures, for cards that are not here: RADV, AMD's driver of Mesa, does so where
-// RADV_FORCE_FAMILY names one. The driver returns VK_SUCCESS whatever becomes of a kernel, so that
-// a kernel fails where the driver writes to stderr. Nothing runs on the device.
+// pictures, for cards that are not here: RADV, AMD's driver of Mesa, does so if RADV_FORCE_FAMILY
+// names one. The driver returns VK_SUCCESS in any case, so that a kernel fails if the driver writes
+// to stderr. Nothing runs on the device.
 //   vkh_compile          all families; exits 77 where RADV is not installed
 //   vkh_compile --here   on the device that the environment selects, in this process
 #include <sys/wait.h>
@@ -37,7 +37,7 @@ constexpr std::array kKernels{
 #undef VKH_FORMS
 };
 
-// The switches that bring in what others leave out; VKH_SWITCH_NONE: the rest is off.
+// The switches that bring in the kernels that others leave out; VKH_SWITCH_NONE: the rest is off.
 constexpr uint32_t kRest = VKH_SWITCH_COVERAGE | VKH_SWITCH_FIELD | VKH_SWITCH_SUBROOTS;
 constexpr uint32_t kPaper = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4 | VKH_SWITCH_SORT |
                             VKH_SWITCH_PACKET | VKH_SWITCH_THIN | VKH_SWITCH_DEFER;
@@ -76,7 +76,7 @@ Names compile_all(const vkh::Device& device, VkBool32 by_address) {
   return compiled;
 }
 
-// How many of the kernels that have this form were compiled by no switches.
+// The number of kernels with this form that no switches compiled.
 int missing(const Names& compiled, VkBool32 by_address) {
   int count = 0;
   for (const KernelForms& kernel : kKernels) {
@@ -95,7 +95,7 @@ const char* compile_pictures(const vkh::Device& device) {
   return "and those of pictures";
 }
 
-// The device is never destroyed: RADV crashes where it waits for a card that is not there.
+// The device is never destroyed: RADV crashes if it waits for a card that is not there.
 int compile_here() {
   const vkh::Device& device = *new vkh::Device;
   int failed = missing(compile_all(device, VK_FALSE), VK_FALSE);
@@ -108,7 +108,7 @@ int compile_here() {
   return failed == 0 ? 0 : 1;
 }
 
-// Returns what the child wrote to stderr, and its `status` as waitpid has it.
+// Returns the child's output on stderr, and its `status` as waitpid has it.
 std::string run_for(const char* family, int& status) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");
@@ -118,7 +118,7 @@ std::string run_for(const char* family, int& status) {
     close(ends[0]);
     setenv("VK_DRIVER_FILES", kDriver, 1);
     setenv("RADV_FORCE_FAMILY", family, 1);
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // what is cached is not compiled
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // cached kernels are not compiled
     execl("/proc/self/exe", "vkh_compile", "--here", static_cast<char*>(nullptr));
     _exit(127);
   }
@@ -132,7 +132,7 @@ std::string run_for(const char* family, int& status) {
   return text;
 }
 
-// RADV says on any device but its own cards' that it is not conformant there.
+// RADV reports on any device but its own cards' that it is not conformant there.
 bool is_complaint(const std::string& text) {
   size_t begin = 0;
   while (begin < text.size()) {

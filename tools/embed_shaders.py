@@ -26,16 +26,16 @@ import shared_memory
 import spirv_module as spirv
 from kernel_templates import HEADER, SOURCE
 
-MAX_PUSH_BYTES = 128  # what every Vulkan device has
+MAX_PUSH_BYTES = 128  # guaranteed by every Vulkan device
 
 
 class ContractError(Exception):
-    """A shader that breaks the convention at the top of this file."""
+    """A shader breaks the convention at the top of this file."""
 
 
 @dataclass
 class Layout:
-    """A type of a block as C++ has it: `base` and the extents of an array (0: a runtime array)."""
+    """The C++ type of a block's type: `base` and the extents of an array (0: a runtime array)."""
 
     base: str
     size: int
@@ -52,7 +52,7 @@ def round_up(value, multiple):
 
 
 class Layouts:
-    """Walks the types of the blocks and collects the shared structs, the inner ones first."""
+    """Traverses the types of the blocks and collects the shared structs, the inner ones first."""
 
     SCALARS = {
         (spirv.OP_TYPE_FLOAT, 32): "float",
@@ -145,9 +145,9 @@ class Layouts:
             raise ContractError(f"{name} has a bool, whose size C++ does not promise: use uint")
 
     def _has_bool(self, name):
-        """glslang stores a block's bool as a uint; the type that the functions use says bool still.
+        """glslang stores a block's bool as a uint; the type that the functions use is still bool.
 
-        Where no function uses it, C++'s static_assert on the member's type finds it.
+        If no function uses it, C++'s static_assert on the member's type finds it.
         """
         types, names = self.module.types, self.module.names
         structs = {i: args for i, (op, args) in types.items() if op == spirv.OP_TYPE_STRUCT}
@@ -258,7 +258,7 @@ def reflect(name, words):
 
 
 def layout_asserts(kernel):
-    """What C++ must say of every shared struct for the two languages to mean the same bytes."""
+    """The C++ assertions on every shared struct that make the two languages agree on its bytes."""
     where = f"differs between C++ and {kernel.name}.comp"
     for name, layout in sorted(kernel.vectors.items()):
         yield f'static_assert(sizeof({name}) == {layout.size}, "{name} {where}");'
@@ -323,8 +323,8 @@ def write_if_changed(path, text):
 
 
 def embed(name, out_dir, words, embedded):
-    """Writes NAME.h and NAME.cpp: `words`, as the compiler wrote them, tell of the buffers, and the
-    pair `embedded`, for devices that are wide and for the others, is what the program holds."""
+    """Writes NAME.h and NAME.cpp: `words`, as the compiler wrote them, describe the buffers; the
+    program holds the pair `embedded`, for the GPU profile and for the CPU profile."""
     try:
         kernel = reflect(name, words)
     except (ContractError, ValueError) as error:
@@ -333,7 +333,7 @@ def embed(name, out_dir, words, embedded):
         if breach := float_order.breach(one) or explicit_layout.breach(one):
             sys.exit(f"{name}.comp: {breach}")
     write_if_changed(out_dir / f"{name}.h", header_text(kernel))
-    # Always: it is the output by which a Makefile knows that this ran.
+    # Writes it always: from this output a Makefile knows that this ran.
     flat, cpu = embedded
     (out_dir / f"{name}.cpp").write_text(source_text(kernel, flat, cpu if cpu != flat else None))
 
@@ -351,7 +351,7 @@ SHADERS = Path(__file__).resolve().parent.parent / "shaders"
 def embed_index(out_dir, names):
     write_if_changed(out_dir / "all_kernels.h", index_text(names))
     write_if_changed(out_dir / "all_kernels.cpp", '#include "kernels/all_kernels.h"\n')
-    for header in out_dir.glob("*.h"):  # of a shader that is gone: including it must not compile
+    for header in out_dir.glob("*.h"):  # left from a removed shader: including it must not compile
         # The doctor's is in no list, and a Makefile does not make it again.
         if header.stem not in ("all_kernels", *names) and not any(SHADERS.glob(f"*/{header.stem}.comp")):
             header.unlink()

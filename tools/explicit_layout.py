@@ -32,14 +32,15 @@ def pointee(module, pointer):
 
 
 def laid_out_variables(module):
-    """(id, pointer type) of those that are no buffers."""
+    """(id, pointer type) of the variables that are no buffers."""
     return [(variable, pointer) for variable, pointer, storage in module.variables
             if storage in (WORKGROUP, PRIVATE, FUNCTION) and has_layout(module, pointee(module, pointer))]
 
 
 def without_layout(words):
-    """The module, such variables with array types of their own. spirv-val finds what this does not
-    do: arrays of what has a layout itself, and variables that are loaded or stored whole."""
+    """The module, with array types of their own for such variables. spirv-val finds the cases that
+    this leaves: arrays of types with a layout of their own, and variables that are loaded or stored
+    whole."""
     module = spirv.module_of(words)
     found = laid_out_variables(module)
     bound = words[3]
@@ -64,7 +65,7 @@ def without_layout(words):
 
 
 def breach(words):
-    """A variable that has a layout and should not, as text; None where there is none."""
+    """A variable that has a layout and should not, as text; None if there is none."""
     module = spirv.module_of(words)
     for variable, _ in laid_out_variables(module):
         return f"{module.names.get(variable, variable)} has an explicit layout and is no buffer"

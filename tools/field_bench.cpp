@@ -1,4 +1,5 @@
-// What a survey of A's cells reaches, and at what cost: one CSV row a pair, beside the plain run.
+// Measures the accuracy and cost of a survey of A's cells: one CSV row per pair, beside the plain
+// run.
 //
 //   vkh_field_bench MANIFEST.csv [--filter TEXT] [--max-faces N] [--device D] [--time SECONDS]
 //                   [--field-tol FRACTION] [--statistics] [--cells N] [--points N] [--faces N]
@@ -8,8 +9,8 @@
 // root mean square are known to 1 % of h, those shares to 0.1 % of A.
 //
 // --points: so many random points of A are measured in double precision, and must agree within five
-// times what is random of their mean, mean square and shares. --faces: of so many faces, evenly
-// spread, the tests' double-precision solver must meet the bounds. Exit code 1 where one does not.
+// times the random error of their mean, mean square and shares. --faces: of so many faces, evenly
+// spread, the tests' double-precision solver must meet the bounds. Exit code 1 if one does not.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -70,7 +71,7 @@ void print_row(const std::string& name, const Report& plain, const SurveyResult&
   std::fflush(stdout);
 }
 
-// Of random points of A: sums of d, d^2 and d^4, and how many are within each band.
+// Sums over random points of A: of d, d^2 and d^4, and the number of points within each band.
 struct Sampled {
   double d = 0, d2 = 0, d4 = 0;
   std::vector<double> within;

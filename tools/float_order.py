@@ -15,7 +15,7 @@ import spirv_module as spirv
 
 NO_CONTRACTION = 42
 
-# Operations that round, each once, and so may be decorated: what is left has one order.
+# Operations that round, each once, and so may be decorated: then only one order is left.
 ROUNDED = {127: "OpFNegate", 129: "OpFAdd", 131: "OpFSub", 133: "OpFMul", 136: "OpFDiv",
            142: "OpVectorTimesScalar"}
 
@@ -31,8 +31,9 @@ MOVED = {1: "OpUndef", 12: "OpExtInst", 43: "OpConstant", 44: "OpConstantComposi
          355: "OpGroupNonUniformFMin", 358: "OpGroupNonUniformFMax"}
 OP_EXT_INST_IMPORT, OP_EXT_INST, OP_SPEC_CONSTANT_OP = 11, 12, 52
 
-# Of GLSL.std.450: exact, and the root, a formula of one operation. Not Fma, FMix, Length, Distance,
-# Normalize, Cross: like OpDot they are sums of products, whose inner order no decoration fixes.
+# Instructions of GLSL.std.450: exact ones, and the root, a formula of one operation. It leaves out
+# Fma, FMix, Length, Distance, Normalize, Cross: like OpDot they are sums of products, whose inner
+# order no decoration fixes.
 EXTENDED = {4: "FAbs", 31: "Sqrt", 37: "FMin", 40: "FMax", 43: "FClamp"}
 
 
@@ -56,7 +57,7 @@ def float_results(words):
 
 
 def decorated(words):
-    """The module, each of its float operations decorated."""
+    """The module with each of its float operations decorated."""
     known = no_contraction(words)
     added = [word for op, result, _ in float_results(words)
              if op in ROUNDED and result not in known
@@ -84,7 +85,7 @@ def other_instructions(words):
 
 
 def breach(words):
-    """What a driver may still rearrange, as text; None where there is nothing."""
+    """The operation that a driver may still rearrange, as text; None if there is none."""
     known = no_contraction(words)
     if breach := other_instructions(words):
         return breach

@@ -20,7 +20,7 @@ import spirv_module as spirv
 
 CERTIFIED = "shaders/math/certified.h"
 OP_STRING, OP_LINE, OP_NO_LINE, OP_F_DIV = 7, 8, 317, 136
-# Of GLSL.std.450.
+# Instructions of GLSL.std.450.
 ROOTS = {31: "Sqrt", 32: "InverseSqrt", 66: "Length", 67: "Distance", 69: "Normalize"}
 EXCUSE = re.compile(r"// *uncertified: *\S")
 
@@ -42,7 +42,7 @@ def places(words):
 
 
 def is_excused(lines, number):
-    """Whether line `number`, of an expression that may have begun above it, says why."""
+    """Whether line `number`, of an expression that may have begun above it, gives the reason."""
     at = number - 1
     if EXCUSE.search(lines[at]):
         return True

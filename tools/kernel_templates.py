@@ -1,4 +1,4 @@
-"""What embed_shaders.py writes of a kernel, for str.format."""
+"""The output of embed_shaders.py for a kernel, for str.format."""
 
 HEADER = """\
 // Made by tools/embed_shaders.py from shaders/{name}.comp; edit that one.

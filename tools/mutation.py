@@ -83,7 +83,7 @@ class Tree:
 
 
 def check_table() -> None:
-    """Every row's text is there, as often as it is counted: also where only a few rows are run."""
+    """Checks that every row's text occurs as often as stated, even if only a few rows run."""
     for row in ROWS:
         found = (ROOT / row["file"]).read_text().count(row["old"])
         if found < row.get("nth", 1):
@@ -102,7 +102,7 @@ def mutate(tree: Tree, row: dict, replacement: str) -> str:
 
 
 def weaken(tree: Tree, row: dict) -> dict:
-    """Step by step until a test fails."""
+    """Weakens step by step until a test fails."""
     tried = []
     for step in row["new"]:
         original = mutate(tree, row, step)

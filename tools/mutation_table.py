@@ -1,7 +1,7 @@
 """The error terms of the certificate, and how each is weakened (tools/mutation.py).
 
-A row: a name, the file, the text as it stands (the nth occurrence), what replaces it step by step from one too small to
-removed, and the tests that are asked, the cheapest first.
+A row: a name, the file, the text as it stands (the nth occurrence), its replacements step by step
+from one too small to removed, and the tests to run, the cheapest first.
 """
 
 TWO = "shaders/math/two_float.h"

@@ -20,7 +20,7 @@ def few(labels):
 
 
 def bars(axis, title, labels, groups):
-    """`groups`: name -> one value a label, None where there is none."""
+    """`groups`: name -> one value per label, None if there is none."""
     width = 0.8 / len(groups)
     for at, (name, values) in enumerate(groups.items()):
         places = [i + at * width for i in range(len(labels))]
@@ -37,8 +37,8 @@ def bars(axis, title, labels, groups):
 
 
 def slowdowns(folder, name, bench, compared, Comparison):
-    """By sums and p99, side by side or, of many variants, one above the other; a bar a family in each group. `compared`:
-    (label, base, variant)."""
+    """Draws sums and p99, side by side or, for many variants, one above the other; a bar per family
+    in each group. `compared`: (label, base, variant)."""
     shape = (1, 2) if few(compared) else (2, 1)
     figure, axes = plt.subplots(*shape, figsize=(8, 4) if few(compared) else (0.45 * len(compared) + 2, 9))
     for axis, title, value in ((axes[0], "by sums", Comparison.by_sums), (axes[1], "p99", Comparison.p99)):

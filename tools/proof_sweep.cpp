@@ -1,11 +1,12 @@
 // Certificates of thousands of small, hard, generated pairs, each given to a checker that knows
 // nothing of how they came about: every one must be accepted. Runs differ in preset, switches,
-// workspace, tolerance, direction and limit, and in what ends them and the proof. One line for each
-// certificate that is not accepted, with what repeats it, and a summary.
+// workspace, tolerance, direction and limit, and in the limits that end them and the proof. It
+// prints one line for each certificate that is not accepted, with the options that repeat it, and a
+// summary.
 //
 //   vkh_proof_sweep --check PROGRAM [--count N] [--first I] [--seed S] [--device D] [--spoil X]
 //
-// --check: vkh_check, or another program that takes a certificate and two meshes. Exit code 1 where
+// --check: vkh_check, or another program that takes a certificate and two meshes. Exit code 1 if
 // one is not accepted. Pair i depends on the seed and i alone.
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -57,14 +58,14 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
   }
 }
 
-/// How pair i is run.
+/// The options of the run of pair i.
 struct Way {
   SolveOptions options;
   bool symmetric = false;
-  uint64_t proof_turns = UINT64_MAX;  ///< after which the proof is called off
+  uint64_t proof_turns = UINT64_MAX;  ///< after which the proof is cancelled
 };
 
-/// Without some switches, parts of two surfaces that are equally far everywhere are split for ever.
+/// Without some switches, parts of two surfaces that are equally far everywhere are split forever.
 constexpr double kMostSeconds = 10;
 
 /// Each set of switches has pipelines of its own, which some drivers take a second to compile.
@@ -186,7 +187,7 @@ std::filesystem::path new_folder(const Arguments& args) {
   }
 }
 
-/// Says how far it is, at most each ten seconds.
+/// Prints the progress, at most every ten seconds.
 class Pulse {
  public:
   void operator()(uint64_t done, const Arguments& args) {

@@ -1,6 +1,6 @@
 // Times the reading of mesh files, without Vulkan: per file and number of threads the least and the
-// median of some runs in turn, bytes a second, how much memory the process held at most (Linux),
-// and how long, at most, a reader did not ask whether to go on. Every run has to give the same
+// median of some alternating runs, bytes per second, the process's peak memory (Linux), and the
+// longest time between two of a reader's checks whether to go on. Every run has to give the same
 // mesh. With --together all files are read at once, as the program reads A and B.
 //
 //   vkh_read_bench FILE... [--threads 1,2,4,8,16] [--runs 5] [--together]
@@ -67,7 +67,7 @@ class Grid {
   uint64_t side_;
 };
 
-// Writes what it is given when it has a lot.
+// Collects its input and writes it in large blocks.
 class Out {
  public:
   explicit Out(const std::string& file) : file_(file, std::ios::binary) {}
@@ -181,7 +181,7 @@ void make_file(const Arguments& arguments) {
   writer->second(out, Grid(arguments.faces));
 }
 
-/// The process's largest resident memory since the last reset, in bytes; 0 where it is not known.
+/// The process's largest resident memory since the last reset, in bytes; 0 if it is not known.
 uint64_t peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -193,7 +193,7 @@ uint64_t peak_memory() {
 
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-/// Of everything that readers promise to be the same.
+/// A hash of everything that readers promise to be the same.
 uint64_t fingerprint(const Mesh& mesh) {
   uint64_t all = 0;
   const auto add = [&all](uint64_t word) { all = keyed_hash({1, 2}, std::array{all, word}); };
@@ -212,7 +212,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Between two questions of one reader, at most.
+/// The longest time between two checks of one reader.
 class Silence {
  public:
   void ask() {
@@ -261,7 +261,7 @@ Run read_once(const std::vector<std::string>& files, size_t threads) {
   return run;
 }
 
-/// False where two runs gave different meshes.
+/// Returns false if two runs gave different meshes.
 bool time_files(const std::vector<std::string>& files, const Arguments& arguments) {
   double bytes = 0;
   for (const std::string& file : files)

@@ -18,7 +18,7 @@ OPERATIONS = {128: lambda a, b: a + b, 130: lambda a, b: a - b, 132: lambda a, b
 
 
 class Sizes:
-    """Sizes of types where kSwitches has the value `switches`."""
+    """Sizes of types if kSwitches has the value `switches`."""
 
     def __init__(self, module, switches):
         self.module = module
@@ -46,7 +46,7 @@ class Sizes:
         if op == spirv.OP_TYPE_BOOL:
             return 4
         if op == spirv.OP_TYPE_VECTOR:
-            # Drivers lay shared memory out as they like: as large as std430 has it.
+            # Drivers lay shared memory out as they like; this takes the size in std430.
             return self.of(args[0]) * (4 if args[1] == 3 else args[1])
         if op == spirv.OP_TYPE_ARRAY:
             return self.of(args[0]) * self.constant(args[1])

@@ -12,14 +12,14 @@ OP_CONSTANT, OP_CONSTANT_COMPOSITE, OP_SPEC_CONSTANT, OP_SPEC_CONSTANT_COMPOSITE
 OP_VARIABLE, OP_DECORATE, OP_MEMBER_DECORATE, OP_LOOP_MERGE = 59, 71, 72, 246
 OP_TYPE_MATRIX = 24
 TYPES = range(19, 40)
-# Of these the first operand is what they are about, not the type of a result.
+# Instructions whose first operand is their target, not the type of a result.
 DECLARATIONS = {OP_NAME, OP_MEMBER_NAME, OP_DECORATE, OP_MEMBER_DECORATE, *TYPES}
 MODE_LOCAL_SIZE, MODE_LOCAL_SIZE_ID = 17, 38
 ARRAY_STRIDE, BUILT_IN, NON_WRITABLE, BINDING, DESCRIPTOR_SET, OFFSET = 6, 11, 24, 33, 34, 35
 BUILT_IN_WORKGROUP_SIZE = 25
 LOOP_UNROLL, LOOP_DONT_UNROLL = 1, 2
 UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER = 0, 2, 9, 12
-INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # what the host binds
+INTERFACE = (UNIFORM_CONSTANT, UNIFORM, PUSH_CONSTANT, STORAGE_BUFFER)  # bound by the host
 
 
 def literal_string(words):
@@ -36,7 +36,7 @@ def write_words(path, words):
 
 
 def instructions(words):
-    """The place and the opcode of each."""
+    """The place and the opcode of each instruction."""
     at = 5
     while at < len(words):
         yield at, words[at] & 0xFFFF
@@ -44,7 +44,7 @@ def instructions(words):
 
 
 def with_loops_kept(words):
-    """The module, its loops marked to be left as they are, but for those marked to be unrolled."""
+    """The module with its loops marked to be left alone, except those marked to be unrolled."""
     kept = list(words)
     for at, op in instructions(words):
         if op == OP_LOOP_MERGE and not words[at + 3] & LOOP_UNROLL:
@@ -59,8 +59,8 @@ SPEC_ID = 1
 
 
 def with_constant_false(words, spec_id):
-    """The module, its boolean specialisation constant `spec_id` false for good, and so whatever
-    follows from that alone, as spirv-opt leaves it where another operand is a constant of that kind.
+    """The module with its boolean specialisation constant `spec_id` fixed to false, and all that
+    follows from that alone, which spirv-opt leaves if another operand is a constant of that kind.
     """
     ids = [words[at + 1] for at, op in instructions(words)
            if op == OP_DECORATE and words[at + 2] == SPEC_ID and words[at + 3] == spec_id]
@@ -84,7 +84,7 @@ def with_constant_false(words, spec_id):
 
 
 def _logical(op, operands):
-    """The value of an operation on booleans of which some are not known; None where it is not."""
+    """The value of an operation on booleans of which some are not known; None if it is not."""
     if op == OP_LOGICAL_AND:
         return False if False in operands else True if operands == [True, True] else None
     if op == OP_LOGICAL_OR:
@@ -154,5 +154,5 @@ class Module:
 
 @functools.lru_cache(maxsize=4)
 def module_of(words):
-    """The declarations of a tuple of words: several passes ask for those of the same module."""
+    """The declarations of a tuple of words: several passes need those of the same module."""
     return Module(words)

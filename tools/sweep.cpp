@@ -1,14 +1,14 @@
 // Solves thousands of small, hard, generated pairs on one device and holds each interval against an
 // independent double-precision solver with a rounding margin of its own, and against the exact
-// distance where that is known. One line of summary, one for each violation, with what repeats it:
+// distance where that is known. It prints one line of summary, and one for each violation, with the
+// options that repeat it:
 //
 //   vkh_sweep [--count N] [--first I] [--seed S] [--family NAME] [--device D] [--tol T] [--threads
 //   N] [--gates] [--closes]
 //
-// With --gates each pair is also asked whether it is within a limit near its distance, and the
-// verdict is held against the same solver.
-// With --closes no run is cut short, and each is to close where that solver does.
-// Exit code 1 for any violation. Pair i depends on the seed and i alone.
+// With --gates each pair is also tested against a limit near its distance, and the verdict is held
+// against the same solver. With --closes no run is cut short, and each is to close where that
+// solver does. Exit code 1 for any violation. Pair i depends on the seed and i alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -36,7 +36,7 @@ struct Arguments {
   std::string family, device;
   double tolerance = 0;  ///< 0: each family's own
   double spoil =
-      0;  ///< lower bounds are raised by so much of themselves: shows that the sweep sees it
+      0;  ///< raises lower bounds by this fraction of themselves: shows that the sweep sees it
   uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
   bool gates = false, closes = false;
 };
@@ -125,7 +125,7 @@ SolveOptions options_for(const HardPair& hard, const Job& job, const Arguments& 
   options.tolerance = args.tolerance > 0 ? args.tolerance : hard.tolerance;
   if (args.closes) return options;
   Random random(job.seed ^ 0x5eed);
-  // Nearly all as users run them; some out of memory or cut short, where intervals hold too.
+  // Most runs are as users run them; some are out of memory or cut short, where intervals hold too.
   const uint32_t way = random.below(16);
   if (way == 0 && !hard.largest_gap_at_zero) options.wave_limit = 1 + random.below(4);
   if (way == 1) options.memory_bytes = 1;
@@ -180,14 +180,14 @@ void ask_gate(Solver& solver, const Job& job, Outcome& out) {
                   .verdict = verdict_of(r.lower, r.upper, r.limit)};
 }
 
-/// How far from the distance the limit surely is, in the files' units.
+/// The least possible distance of the limit from h, in the files' units.
 double off_distance(const Outcome& out) {
   const double limit = std::ldexp(out.gate->limit, out.exponent);
   const double off = std::max({0.0, out.reference.lower - limit, limit - out.reference.upper});
   return std::ldexp(off, -out.exponent);
 }
 
-/// What is untrue of a verdict; empty where nothing is.
+/// The error in a verdict; empty if there is none.
 std::string fault_of_gate(const Outcome& out) {
   const double limit = std::ldexp(out.gate->limit, out.exponent);
   if (out.gate->verdict == Verdict::kWithin && out.reference.lower > limit)
@@ -202,7 +202,7 @@ bool is_closed_by_reference(const Outcome& out) {
   return std::ldexp(width, -out.exponent) <= out.tolerance;
 }
 
-/// What is untrue of an outcome; empty where nothing is.
+/// The error in an outcome; empty if there is none.
 std::string fault_of(const Job& job, const Outcome& out, const Arguments& asked) {
   const Interval found = out.found;
   if (!(found.lower >= 0 && found.lower <= found.upper && std::isfinite(found.upper)))
@@ -224,8 +224,8 @@ std::string fault_of(const Job& job, const Outcome& out, const Arguments& asked)
   return {};
 }
 
-/// A true interval that is wider than it should be. A mesh that is a point has no diagonal to ask a
-/// fraction of.
+/// A true interval that is wider than it should be. A mesh that is a point has no diagonal to take
+/// a fraction of for a goal.
 bool is_wide_around_zero(const Job& job, const Outcome& out) {
   const HardPair hard = hard_pair(job.family, job.seed);
   return hard.largest_gap_at_zero && out.diagonal_a > 0 &&
@@ -237,7 +237,7 @@ struct Totals {
            exact = 0;
   double solve_ms = 0;
   uint64_t passed = 0, failed = 0, undecided = 0;
-  std::vector<double> bands;  ///< of the undecided, in tolerances; of what has one
+  std::vector<double> bands;  ///< of undecided runs with a tolerance, in tolerances
   struct PerFamily {
     uint64_t count = 0, closed = 0, closed_by_reference = 0, violations = 0;
   };
@@ -270,7 +270,7 @@ void judge(const Families& families, uint64_t i, const Outcome& out, Totals& tot
   family.closed_by_reference += is_closed_by_reference(out) ? 1 : 0;
   totals.repeated += out.repeated ? 1 : 0;
   totals.solve_ms += out.solve_ms;
-  // So wide that it would not see an error of the size of a float's ulp.
+  // Whether it is so wide that it would not show an error of the size of a float's ulp.
   totals.wide_references += out.reference.upper - out.reference.lower > 1e-8 ? 1 : 0;
   totals.exact += hard_pair(job.family, job.seed).exact ? 1 : 0;
   if (out.gate) count_gate(families.name(job), i, out, totals);

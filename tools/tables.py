@@ -45,7 +45,7 @@ def base_of(variant):
 class Bench:
     def __init__(self, paths, column):
         self.column = column
-        # A limit that is the same for all of a file's rows says nothing about the variant.
+        # A limit that is the same for all of a file's rows is no property of the variant.
         self.rows = {(pair, name.split("@")[0]): row for (pair, name), row in read_rows(paths).items()}
         self.variants = list(dict.fromkeys(name for _, name in self.rows))
         self.wrong = sorted(pair for (pair, _), row in self.rows.items() if row["verdict"] != "ok")
@@ -55,7 +55,7 @@ class Bench:
         return [f for f in FAMILIES if f in found] + sorted(found - set(FAMILIES))
 
     def closed(self, variant, family=None):
-        """Pair -> row, of the pairs that the variant closes."""
+        """Pair -> row, for the pairs that the variant closes."""
         return {pair: row for (pair, name), row in self.rows.items()
                 if name == variant and row["status"] == "closed" and family in (None, row["family"])}
 
@@ -67,7 +67,7 @@ class Bench:
 
 
 class Output:
-    """A page of Markdown, and a CSV a table."""
+    """A page of Markdown, and a CSV per table."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -101,7 +101,7 @@ def times(x):
 
 
 def speedup_rows(bench, peer, family, presets):
-    """Over the pairs that the peer and all of the presets close, as the paper does."""
+    """Compares over the pairs that the peer and all of the presets close, as the paper does."""
     common = {p for p, row in peer.items() if row["status"] == "closed"}
     for preset in presets:
         common &= bench.closed(preset, family).keys()

@@ -1,5 +1,6 @@
-# What a cross-build needs of other projects are headers alone, and the build machine has them. They are linked into a
-# folder of their own in the build: /usr/include itself would bring the build machine's C library along.
+# A cross-build needs only headers of other projects, and the build machine has them. They are
+# linked into a folder of their own in the build: /usr/include itself would bring the build
+# machine's C library along.
 set(VKH_HEADERS ${CMAKE_BINARY_DIR}/headers)
 list(APPEND CMAKE_FIND_ROOT_PATH ${VKH_HEADERS})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
@@ -33,5 +34,5 @@ vkh_header_package(glm glm::glm glm)
 vkh_header_package(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
 vkh_header_package(CLI11 CLI11::CLI11 CLI)
 vkh_header_package(stb stb::stb stb)
-vkh_header_package(doctest doctest::doctest doctest boost)  # and what the tests calculate with
+vkh_header_package(doctest doctest::doctest doctest boost)  # and the tests' arithmetic
 file(TOUCH ${VKH_HEADERS}/complete)

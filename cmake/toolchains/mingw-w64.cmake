@@ -1,6 +1,6 @@
 # Windows, x86-64, on Debian and Ubuntu: g++-mingw-w64-x86-64-posix.
 #   cmake --preset windows && cmake --build out/windows
-# The run-time libraries are linked statically: one .exe, which asks for Windows' own libraries alone.
+# The run-time libraries are linked statically: one .exe, which needs only Windows' own libraries.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)

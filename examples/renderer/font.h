@@ -14,10 +14,10 @@ constexpr uint32_t kGlyphs = 64;  // ' ' to '_'
 
 using Glyph = std::array<uint8_t, kGlyphRows>;  // rows from the top, bit 4 at the left
 
-/// Blank where the font has no such character.
+/// Returns a blank if the font has no such character.
 Glyph glyph(char character);
 
-/// Five words a character, columns from the left, bit 0 at the top: as caption.frag reads them.
+/// Five words per character, columns from the left, bit 0 at the top: as caption.frag reads them.
 std::array<uint32_t, size_t{kGlyphColumns} * kGlyphs> font_columns();
 
 }  // namespace example

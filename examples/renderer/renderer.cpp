@@ -22,7 +22,7 @@ constexpr uint32_t kReportWords = kReportStride / 4;
 constexpr float kFieldOfView = 0.8f;  // radians, vertical
 constexpr float kExtent = 1.75f;      // no part of the mesh is farther from the origin
 
-// As in frame.glsl.
+// The same values as in frame.glsl.
 struct Choice {
   VkDrawIndirectCommand draw;
   uint32_t level;
@@ -76,7 +76,7 @@ VkRect2D Renderer::caption_part() const {
   return {{0, static_cast<int32_t>(options_.height - height)}, {options_.width, height}};
 }
 
-// Left, two thirds wide: what the camera sees. The close-ups stand beside it.
+// The camera's view is left, two thirds wide. The close-ups stand beside it.
 VkRect2D Renderer::large_part() const {
   const uint32_t height = options_.height - caption_part().extent.height;
   return {{0, 0}, {options_.width - height / 2, height}};
@@ -121,7 +121,7 @@ void Renderer::choose(VkCommandBuffer commands, uint32_t number, float camera, f
   const auto after_compute = [&] {
     barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, reads_writes);
   };
-  after_compute();  // from the engine's report to a shader of ours: all that there is to it
+  after_compute();  // this barrier is all that it takes from the engine's report to our shader
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, choose_);
   gpu_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
             {reports_.handle, levels_.handle, choice_.handle},
@@ -186,7 +186,7 @@ void Renderer::draw_caption(VkCommandBuffer commands) {
   vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-// For the host alone: the device has used all of it already.
+// This is only for the host: the device has used all of it already.
 void Renderer::read_back(VkCommandBuffer commands) {
   const VkBufferCopy reports{0, 0, reports_.size};
   const VkBufferCopy choice{0, reports_.size, sizeof(Choice)};

@@ -26,7 +26,7 @@ struct RenderedFrame {
   const uint8_t* rgba;                         ///< until the next frame
   std::array<VkhReport, kLevels - 1> reports;  ///< of levels 1, 2, 3 against level 0
   uint32_t drawn;                              ///< the level that the device chose
-  float pixel;                                 ///< what a pixel covers at the nearest part
+  float pixel;                                 ///< the size of a pixel at the nearest part
   std::array<std::string, kRows> caption;      ///< as the device wrote it
 };
 
@@ -40,7 +40,7 @@ class Renderer {
   std::vector<SceneVertex> vertices(uint32_t level);
   const Scene& scene() const { return scene_; }
   Gpu& gpu() { return gpu_; }
-  /// Where the caption stands in the picture, and the pixels of one of its dots.
+  /// The place of the caption in the picture, and the pixels of one of its dots.
   VkRect2D caption_part() const;
   uint32_t text_scale() const;
 

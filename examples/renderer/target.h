@@ -1,4 +1,4 @@
-// What is drawn into, and the pipelines that draw: plain Vulkan, nothing of the engine.
+// The render target, and the pipelines that draw: plain Vulkan, nothing of the engine.
 #pragma once
 
 #include "examples/gpu.h"

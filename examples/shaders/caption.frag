@@ -1,4 +1,4 @@
-// What: the caption's text, and behind each level's row a bar: its upper bound against one pixel,
+// Draws the caption's text, and behind each level's row a bar: its upper bound against one pixel,
 // which is the row's width.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// What: one triangle over the whole viewport.
+// Emits one triangle over the whole viewport.
 #version 460
 
 void main() {

@@ -1,6 +1,6 @@
-// What: reads the engine's reports where the engine wrote them, picks the coarsest level whose
-// upper bound is under a pixel, writes its draw command, and the caption. One invocation. Between
-// the engine and this stands one barrier; the host takes no part.
+// Reads the engine's reports where the engine wrote them, picks the coarsest level whose
+// upper bound is under a pixel, writes its draw command, and the caption. It is one invocation. One
+// barrier stands between the engine and this; the host takes no part.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,10 +14,10 @@ layout(scalar, push_constant) uniform Push {
   uint report_words;  // from one report to the next
   uint frame;
   float camera;  // distance of the camera
-  float pixel;   // what a pixel covers there
+  float pixel;   // size of a pixel there
 };
 
-uint at;  // where the next character goes
+uint at;  // place of the next character
 
 void put(uint character) { choice.text[at++] = character; }
 

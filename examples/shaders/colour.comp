@@ -1,6 +1,6 @@
-// What: how far each vertex of the finest level is from the chosen one, for the colour: the
-// smallest distance to a triangle of the 3 x 3 cells around its parameters. For the eye; the bounds
-// are the engine's.
+// Measures how far each vertex of the finest level is from the chosen one, for the colour: the
+// smallest distance to a triangle of the 3 x 3 cells around its parameters. It is for the eye; the
+// bounds are the engine's.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

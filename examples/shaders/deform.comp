@@ -1,4 +1,4 @@
-// What: moves the vertices of one level of detail to where they are at `time`. Level k takes every
+// Moves the vertices of one level of detail to their positions at `time`. Level k takes every
 // 2^k-th parameter of the finest, so its vertices lie on the same surface.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

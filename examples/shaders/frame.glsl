@@ -1,4 +1,4 @@
-// What the renderer's shaders share: levels of detail, the choice among them, the caption.
+// The shared parts of the renderer's shaders: levels of detail, the choice among them, the caption.
 #ifndef VKH_EXAMPLES_FRAME_GLSL
 #define VKH_EXAMPLES_FRAME_GLSL
 
@@ -6,7 +6,7 @@ const uint kLevels = 4u;
 const uint kRows = 4u;
 const uint kColumns = 52u;
 
-// How a mesh is drawn.
+// The ways to draw a mesh.
 const uint kModePlain = 0u;     // the chosen level, smooth
 const uint kModeEdges = 1u;     // the chosen level, flat, with its edges
 const uint kModeDistance = 2u;  // the finest level, coloured by its distance from the chosen one

@@ -1,4 +1,4 @@
-// What: the finest level coloured by its distance from the chosen one, in units of that one's upper
+// Draws the finest level coloured by its distance from the chosen one, in units of that one's upper
 // bound; the chosen one flat with its edges; or plain.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// What: a level of detail, its vertices pulled from the buffers that the engine reads too.
+// Emits a level of detail, its vertices pulled from the buffers that the engine reads too.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

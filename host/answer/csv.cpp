@@ -4,7 +4,7 @@
 
 namespace vkh {
 
-// True: the row goes on after it.
+// Returns true if the row goes on after the cell.
 bool CsvReader::read_cell(std::string& cell) {
   const bool is_quoted = text_.peek() == '"';
   if (is_quoted) text_.get();

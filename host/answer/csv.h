@@ -12,10 +12,10 @@ namespace vkh {
 class CsvReader {
  public:
   explicit CsvReader(std::istream& text) : text_(text) {}
-  /// The next row that is not empty; none at the end. Cells in quotes may hold commas, quotes,
-  /// twice each, and ends of lines. Throws InputError for a quote that does not end.
+  /// The next row that is not empty; none at the end. Cells in quotes may hold commas, doubled
+  /// quotes and line ends. Throws InputError for a quote that does not end.
   std::optional<std::vector<std::string>> next();
-  uint64_t line() const { return line_; }  ///< where that row begins, from 1
+  uint64_t line() const { return line_; }  ///< the line where that row begins, from 1
 
  private:
   bool read_cell(std::string& cell);

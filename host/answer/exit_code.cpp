@@ -11,7 +11,7 @@ namespace vkh {
 ExitCode code_of(const Answer& answer) {
   if (!answer.max) {
     const Status status = interval_of(answer).status;
-    const bool is_pruned = answer.part && status == Status::kPruned;  // all that was asked of it
+    const bool is_pruned = answer.part && status == Status::kPruned;  // all that it was to do
     return status == Status::kClosed || is_pruned ? kExitClosed : kExitNotClosed;
   }
   switch (verdict_of(answer)) {

@@ -26,7 +26,7 @@ Limit limit_of(const std::string& word, const std::string& file_unit, double dia
   return in_files(parse_length("max", text, PlainNumber::kRefused), "max", file_unit, diagonal_a);
 }
 
-/// The faces' property `max`: a length in the files' unit, as it stands there.
+/// The faces' property `max`: a length in the files' unit, as the file has it.
 std::vector<Limit> limits_in_ply(const std::string& path, uint64_t face_count) {
   const std::vector<double> values = read_face_property(path_of(path), "max");
   if (values.size() != face_count)
@@ -43,7 +43,7 @@ std::vector<Limit> limits_in_ply(const std::string& path, uint64_t face_count) {
   return limits;
 }
 
-/// From one for each of the file's faces.
+/// Expands one limit per face of the file to one per triangle.
 std::vector<Limit> limits_of_triangles(const Mesh& mesh, std::vector<Limit> limits) {
   if (mesh.file_faces.are_triangles()) return limits;
   std::vector<Limit> out;
@@ -61,7 +61,7 @@ std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) reject(path, "", "no file to be read", "a CSV of face, max");
   skip_byte_order_mark(file);
-  // No CSV begins so. Of a CSV this is the only look: it may be a pipe.
+  // No CSV begins with a p. This is the only look at a CSV before it is read: it may be a pipe.
   if (file.peek() == 'p') return limits_of_triangles(mesh, limits_in_ply(path, face_count));
   std::vector<Limit> limits(face_count, otherwise);
   std::vector<bool> named(face_count);

@@ -24,7 +24,7 @@ std::string sha256_within(const std::filesystem::path& path, const ReadLimits& l
   return digest;
 }
 
-/// `bytes`: to which those of the files are added.
+/// Adds the files' sizes to `bytes`.
 std::vector<FileHash> hash_beneath(const std::filesystem::path& path, const ReadLimits& limits,
                                    uint64_t& bytes) {
   std::vector<FileHash> hashes;

@@ -23,7 +23,7 @@ Json witness_json(const Report& r) {
           {"to", {{"face", r.witness_b.file_face}, {"point", vector_json(r.witness_b.point)}}}};
 }
 
-// Before a mesh is read, its counts are null. The delta is written so that it is read back as the
+// Writes null counts before a mesh is read. The delta is written so that it is read back as the
 // same double.
 Json input_json(const char* name, const Input& input) {
   Json json = {{"name", name}, {"path", input.path}};
@@ -44,7 +44,7 @@ Json input_json(const char* name, const Input& input) {
 }
 
 Json device_json(const DeviceDescription& d) {
-  if (d.name.empty()) return nullptr;  // none was opened yet
+  if (d.name.empty()) return nullptr;  // no device was opened yet
   return {{"index", d.index},
           {"name", d.name},
           {"type", d.type},
@@ -179,7 +179,7 @@ Json counts_json(const Report& r, Detail detail) {
                  {"candidates", r.candidates},
                  {"queries", r.queries},
                  {"peak_frontier", r.peak_frontier}};
-  // By what the device has had before.
+  // The workspace depends on earlier runs of the device.
   if (detail == Detail::kFull) counts["workspace_bytes"] = r.workspace_bytes;
   return counts;
 }

@@ -12,14 +12,14 @@ namespace vkh {
 
 using Json = nlohmann::ordered_json;
 
-/// Members in order. nlohmann cannot write a number as it is told to, and the bounds must be
-/// written as they were rounded, so the outermost object is put together as text.
+/// Members in order. nlohmann cannot write a number in a given form, and the bounds must be written
+/// as they were rounded, so the outermost object is put together as text.
 class JsonObject {
  public:
   void add_text(const char* key, const std::string& json) {
     members_ += (members_.empty() ? "\"" : ",\"") + std::string(key) + "\":" + json;
   }
-  // Bytes of a file name that are no UTF-8 are replaced, for they must not cost the answer.
+  // Replaces bytes of a file name that are no UTF-8: they must not cost the answer.
   void add(const char* key, const Json& value) {
     add_text(key, value.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
@@ -36,11 +36,11 @@ class JsonObject {
 
 inline Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
-/// The files that an input was read from, as its members: `sha256`, null where it is not known, and
-/// `files`, those besides, which are null with it.
+/// Adds the files that an input was read from: `sha256`, null if it is not known, and `files`, the
+/// other files, which are null with it.
 void add_hashes(Json& json, const Input& input);
 
-/// The lower or upper end `key` of an interval, by its hexadecimal digits, which say the double
+/// The lower or upper end `key` of an interval, from its hexadecimal digits, which give the double
 /// itself. Throws InputError where they are missing or malformed, negative or another double than
 /// the decimal beside them.
 double bound_in(const Json& interval, const std::string& key);
@@ -49,16 +49,15 @@ void check_bounds(const Json& answer);
 /// A whole number of 0 or more. Throws InputError that names `key` for anything else: 1.9, true.
 uint64_t count_in(const Json& object, const std::string& key);
 
-/// What was surveyed of a direction's mesh, as its members.
+/// Adds the survey of a direction's mesh.
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer);
 
-/// kBrief: without what only one run or machine has: times, stages, waves, workspace.
+/// kBrief leaves out times, stages, waves and workspace, which only one run or machine has.
 enum class Detail { kFull, kBrief };
 
-/// What an answer says, in the members of docs/schema/answer.schema.json: from `words` to
-/// `options`.
+/// Adds an answer's members in docs/schema/answer.schema.json from `words` to `options`.
 void add_answer(JsonObject& json, const Answer& answer, Detail detail);
-/// `device` and `driver`; `times`.
+/// Adds `device` and `driver`; `times`.
 void add_device(JsonObject& json, const Answer& answer);
 void add_waits(JsonObject& json, const Waits& waits);
 

@@ -1,4 +1,4 @@
-// Results of batches, from any number of files, as one: ordered by id, each once.
+// Results of batches, from any number of files, merged: ordered by id, each once.
 #pragma once
 
 #include <array>
@@ -11,21 +11,21 @@
 
 namespace vkh {
 
-/// What files hold, of each id the line that counts, by its place. Of lines of one file the last
-/// one counts: a later run replaces what an earlier one said of other inputs or options. Of several
-/// files' lines with the same key the one with the better answer, else the first by its text. Lines
-/// of one key are of one question: both intervals are true, or one line is not.
+/// The line that counts for each id, by its place in its file. Among lines of one file the last one
+/// counts: a later run replaces an earlier one with other inputs or options. Among several files'
+/// lines with the same key it is the one with the better answer, else the first by its text. Lines
+/// of one key answer one question: both intervals are true, or one line is not.
 class Results {
  public:
   /// Adds a file's lines; a last one that is not whole is left out. Throws InputError that names
-  /// the file and the line or id: what is no result; an id that another file has with another key,
-  /// or with a key that does not cover all files that were read; intervals of one key that do not
+  /// the file and the line or id, if a line is no result, if another file has the id with another
+  /// key or a key that does not cover all files that were read, or if intervals of one key do not
   /// meet.
   void add(const std::string& path);
 
   size_t size() const { return places_.size(); }
   bool has(const std::string& id) const { return places_.count(id) > 0; }
-  /// Calls `take` with each, by id.
+  /// Calls `take` with each line, by id.
   void for_each(const std::function<void(const Record&, const std::string& line)>& take) const;
 
  private:
@@ -35,11 +35,11 @@ class Results {
     std::string key;
     ExitCode code = kExitClosed;
     bool is_answer = false, names_files = false;
-    std::array<Bounds, 3> bounds;  ///< of the whole, and of both directions
+    std::array<Bounds, 3> bounds;  ///< the whole's, and both directions'
     double width() const { return bounds[0].upper - bounds[0].lower; }
   };
   static Place place_of(const Record& record, size_t file, uint64_t begin, uint64_t size);
-  /// Says how a line contradicts an older one, which `file` has; empty: it does not.
+  /// Says how a line contradicts an older one of `file`; empty: it does not.
   static std::string contradiction(const Place& place, const Place& older, const std::string& file);
   void check_same(const std::string& id, const Place& older, const Place& place) const;
   void put(const std::map<std::string, Place>& of_file);

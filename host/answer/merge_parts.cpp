@@ -21,13 +21,13 @@ constexpr std::array kStatuses{Status::kClosed, Status::kPrecision, Status::kTim
                                Status::kWaves,  Status::kMemory,    Status::kCancelled,
                                Status::kPruned, Status::kLimit};
 
-/// What is compared of an answer.
+/// The fields of an answer that are compared.
 struct Part {
   const WrittenAnswer* written;
   uint64_t index, count;
   std::string version;
-  std::array<std::vector<FileHash>, 2> files;  ///< of A and B, the mesh file first, by its hash
-  std::string reading;                         ///< which faces of the files were read
+  std::array<std::vector<FileHash>, 2> files;  ///< A's and B's, the mesh file first, by its hash
+  std::string reading;                         ///< the faces of the files that were read
   Report report;                               ///< interval, status, tolerance, what was known
 };
 
@@ -60,7 +60,7 @@ FileHash hash_of(const Json& path, const Json& digest) {
   return {path.get<std::string>(), digest.get<std::string>()};
 }
 
-/// The names of A and B themselves say nothing: parts may be measured in several folders.
+/// Leaves out the names of A and B themselves: parts may be measured in several folders.
 std::vector<FileHash> files_of(const Json& input) {
   std::vector<FileHash> files{hash_of("", input.at("sha256"))};
   if (!input.contains("files"))
@@ -71,7 +71,7 @@ std::vector<FileHash> files_of(const Json& input) {
   return files;
 }
 
-/// Describes what was read of both files: the faces, and the notes on polygons and bodies, which
+/// Describes how both files were read: the faces, and the notes on polygons and bodies, which
 /// options decide.
 std::string reading_of(const Json& json) {
   std::string text;
@@ -86,7 +86,7 @@ std::string reading_of(const Json& json) {
   return text;
 }
 
-/// Checks that what is added up over parts are whole numbers.
+/// Checks that counts that are added up over parts are whole numbers.
 void check_counts(const Json& direction) {
   std::vector<const Json*> objects{&direction.at("counts")};
   if (direction.contains("culled")) objects.push_back(&direction.at("culled"));
@@ -161,7 +161,7 @@ void check_complete(const std::vector<Part>& parts) {
            "all " + std::to_string(parts[0].count) + " parts");
 }
 
-/// In their order.
+/// Returns the checked parts in their order.
 std::vector<Part> checked(const std::vector<WrittenAnswer>& written) {
   std::vector<Part> parts;
   parts.reserve(written.size());
@@ -220,7 +220,7 @@ Json sum_of(const std::vector<const Json*>& objects) {
   return out;
 }
 
-/// Of every part the member of its direction; empty: one has none.
+/// The member `key` of every part's direction; empty: one part has none.
 std::vector<const Json*> members(const std::vector<Part>& parts, const char* key) {
   std::vector<const Json*> all;
   for (const Part& part : parts) {
@@ -231,7 +231,7 @@ std::vector<const Json*> members(const std::vector<Part>& parts, const char* key
   return all;
 }
 
-/// The witness's check is that of its part; nothing may be lost of any.
+/// Returns the check of the witness's part; nothing may be lost of any part.
 std::string verified_text(const std::vector<Part>& parts) {
   const Json& of_witness = direction_of(farthest(parts)).at("verified");
   JsonObject json;
@@ -293,7 +293,7 @@ std::string words_of(const Json& json, const Report& whole) {
   return in_words(answer);
 }
 
-/// Each once, in the order of the parts.
+/// Returns each note once, in the order of the parts.
 Json notes_of(const std::vector<Part>& parts) {
   Json notes = Json::array();
   for (const Part& part : parts) {
@@ -304,7 +304,7 @@ Json notes_of(const std::vector<Part>& parts) {
   return notes;
 }
 
-/// Besides that of the witness's part.
+/// The devices besides that of the witness's part.
 Json more_devices(const std::vector<Part>& parts, const Json& first) {
   Json devices = Json::array();
   const auto add = [&](const Json& device) {
@@ -319,7 +319,7 @@ Json more_devices(const std::vector<Part>& parts, const Json& first) {
   return devices;
 }
 
-/// As typed, but for what is a part's alone.
+/// The words as the user typed them, without options of one part alone.
 Json arguments_of(const Json& typed) {
   Json out = Json::array();
   for (size_t i = 0; i < typed.size(); ++i) {
@@ -373,7 +373,7 @@ std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files) {
   std::vector<WrittenAnswer> parts;
   for (const std::string& path : files) {
     std::error_code none;
-    // A pipe would be waited for a second time, without end.
+    // A second read of a pipe would wait without end.
     if (std::filesystem::exists(path_of(path), none) &&
         !std::filesystem::is_regular_file(path_of(path), none))
       throw InputError(path + ": is no file; expected results in files, which are read twice");

@@ -23,8 +23,8 @@ struct Quantity {
   throw UsageError(std::string(option) + " '" + text + "': expected " + expected);
 }
 
-/// A positive, finite number and what follows it. from_chars, because a locale must not decide
-/// whether 0.5 is a number.
+/// Splits a positive, finite number from the text after it. from_chars, because a locale must not
+/// decide whether 0.5 is a number.
 bool split(const std::string& text, Quantity& out) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, out.number);

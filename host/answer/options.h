@@ -1,5 +1,5 @@
 // Sizes of memory, times and counts as people type them; lengths are in length.h. All throw
-// UsageError, naming the option, what was typed and what was expected.
+// UsageError that names the option, the text and the expected form.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace vkh {
 
 /// "2GiB", "512M", "1.5GB", or a plain number of bytes; at least one byte. K, M, G and T are powers
-/// of 1024. `option` stands in the error.
+/// of 1024. The error names `option`.
 uint64_t parse_size(const char* option, const std::string& text);
 uint64_t parse_memory(const std::string& text);
 

@@ -1,5 +1,5 @@
 // A pair from files to an answer: read, opened and solved on other threads, so that the end of its
-// time, Ctrl-C and SIGTERM are heard whatever a driver does meanwhile.
+// time, Ctrl-C and SIGTERM are handled whatever a driver does meanwhile.
 #pragma once
 
 #include <memory>
@@ -16,31 +16,31 @@
 
 namespace vkh {
 
-/// What was asked for, before any file or device is touched.
+/// The request, before any file or device is touched.
 struct PairJob {
   std::string command;             ///< Answer::command
   std::vector<std::string> words;  ///< Answer::words
   std::string file_a, file_b;      ///< both empty: the built-in pair
-  std::string unit;                ///< of files that do not say; empty: unknown
+  std::string unit;                ///< the unit of files that do not name one; empty: unknown
   Length tolerance;
-  bool tolerance_is_typed = true;      ///< false: a limit of a pair's own brings a gate's with it
-  std::optional<Length> max;           ///< gate
-  std::string face_max_a, face_max_b;  ///< files of limits of faces; empty: none
-  std::optional<PartOf> part;          ///< of A, alone
-  std::optional<Length> known_lower;   ///< what other parts have shown
+  bool tolerance_is_typed = true;      ///< false: a pair's own limit brings a gate's with it
+  std::optional<Length> max;           ///< the limit of `gate`
+  std::string face_max_a, face_max_b;  ///< files with limits per face; empty: none
+  std::optional<PartOf> part;          ///< the part of A, alone
+  std::optional<Length> known_lower;   ///< the bound that other parts have shown
   bool symmetric = false, verify = false;
   bool hashes = false;           ///< Input::sha256 is wanted
-  bool proof = false;            ///< Answer::proof_a is
+  bool proof = false;            ///< Answer::proof_a is wanted
   std::string device;            ///< DeviceRequest::selector
-  bool several_devices = false;  ///< or of several, as open_session() has it
-  bool caches = true;            ///< compiled pipelines, in the user's folder
+  bool several_devices = false;  ///< allows several, see open_session()
+  bool caches = true;            ///< keeps compiled pipelines in the user's folder
   SurveyWish survey;
   bool asks_for_cells() const { return proof || survey.is_any(); }
-  SolveOptions options;  ///< but for tolerance, limit, time and progress
-  ReadLimits limits;     ///< but for what listens
+  SolveOptions options;  ///< all but tolerance, limit, time and progress
+  ReadLimits limits;     ///< all but the callbacks
 };
 
-/// An answer, with what is taken apart only after it is out.
+/// An answer, with the objects that are destroyed only after it is printed.
 struct Done {
   Answer answer;
   MeshPair pair;

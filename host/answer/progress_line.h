@@ -1,4 +1,5 @@
-// How far a job is: a line that rewrites itself on a terminal, a line each ten seconds elsewhere.
+// The progress of a job: a line that rewrites itself on a terminal, a line each ten seconds
+// elsewhere.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace vkh {
 
-/// On stderr. Threads may share it.
+/// Writes to stderr. Threads may share it.
 class ProgressLine {
  public:
   ProgressLine() : is_terminal_(is_error_terminal()) {}
@@ -23,7 +24,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Files, before there is a run.
+  /// Shows how much of the files is read, before there is a run.
   void show_reading(uint64_t bytes, uint64_t all) {
     const std::lock_guard lock(mutex_);
     if (!is_time()) return;
@@ -46,12 +47,12 @@ class ProgressLine {
     show_line(line.data());
   }
 
-  /// After a run: what is bounded of all of a mesh.
+  /// Shows, after a run, how much of a mesh is bounded.
   void show_survey(size_t cells) { show_count("survey", cells, "cells bounded"); }
-  /// Likewise: what is proven of it.
+  /// Shows, after a run, how much of a mesh is proven.
   void show_proof(size_t leaves) { show_count("certificate", leaves, "leaves"); }
 
-  /// Of many pairs: so many of all are done, and so long it will take.
+  /// Shows how many of all pairs are done, and the time left.
   void show_batch(size_t done, size_t all, size_t failed, double seconds_left) {
     const std::lock_guard lock(mutex_);
     if (!is_time()) return;
@@ -69,7 +70,7 @@ class ProgressLine {
     show_line(line.data());
   }
 
-  /// Takes the line away. Whoever still shows something shows it to nobody.
+  /// Takes the line away. Later calls show nothing.
   void end() {
     const std::lock_guard lock(mutex_);
     if (width_ > 0) draw("");
@@ -103,7 +104,7 @@ class ProgressLine {
     std::fflush(stderr);
   }
 
-  /// Over the older line, by blanks: not every console of Windows takes escape sequences.
+  /// Overwrites the older line with blanks: not every console of Windows takes escape sequences.
   void draw(const std::string& line) {
     const size_t blanks = line.size() < width_ ? width_ - line.size() : 0;
     std::fprintf(stderr, "\r%s%s", line.c_str(), std::string(blanks, ' ').c_str());
@@ -115,7 +116,7 @@ class ProgressLine {
   const bool is_terminal_;
   std::mutex mutex_;
   bool is_over_ = false;
-  size_t width_ = 0;  ///< of the line that is there
+  size_t width_ = 0;  ///< the width of the current line
   Clock::time_point last_ = Clock::now();
 };
 

@@ -1,4 +1,4 @@
-// Numbers of an answer that somebody may have changed since it was written.
+// Numbers of an answer that a user may have changed since it was written.
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kHexEnd = "_hex";
 
-/// As hex_float() writes them: from_chars, which no locale changes.
+/// Reads the text of hex_float() with from_chars, which no locale changes.
 double double_of_hex(const std::string& key, const std::string& text) {
   if (text == "inf") return std::numeric_limits<double>::infinity();
   const std::string digits = text.starts_with("0x") ? text.substr(2) : "";
@@ -25,7 +25,7 @@ double double_of_hex(const std::string& key, const std::string& text) {
   return value;
 }
 
-// The decimal has so many digits that it is read back as the same double.
+// Compares exactly: the decimal has so many digits that it is read back as the same double.
 bool is_double(const Json& decimal, double bound) {
   if (decimal.is_null()) return std::isinf(bound);
   return decimal.is_number() && decimal.get<double>() == bound;

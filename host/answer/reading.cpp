@@ -63,7 +63,7 @@ Input input_of(const Mesh& mesh) {
           .notes = mesh.notes};
 }
 
-/// What the lengths of a pair are in: what the files say, else what was asked.
+/// The unit of a pair's lengths: the files' own, else the one in the request.
 std::string unit_of(const PairJob& job, const Mesh& a, const Mesh& b) {
   for (const Mesh* mesh : {&a, &b}) {
     if (!job.unit.empty() && !mesh->unit.empty() && mesh->unit != job.unit)
@@ -87,7 +87,7 @@ std::vector<std::string> pair_notes(const PairJob& job, const std::string& a,
                                               " is")};
 }
 
-/// A verdict on lengths of which nobody knows what they are would be none.
+/// Refuses a verdict on lengths of unknown units, which would be none.
 void check_units(const PairJob& job, const std::string& a, const std::string& b) {
   if (job.max && !a.empty() && !b.empty() && a != b)
     throw UsageError("gate: A is in " + a + " and B in " + b + ": convert one of them");
@@ -110,7 +110,7 @@ Answer unread_answer(const PairJob& job) {
                       .limit = {},
                       .area = job.survey.area,
                       .area_requested = job.survey.area_requested};
-  // Undecided until it is known better: an answer that is given before must not forget them.
+  // The limits are undecided until more is known: an earlier answer must not forget them.
   if (!job.face_max_a.empty()) known.max->faces_a = FaceLimits{.path = job.face_max_a};
   if (!job.face_max_b.empty()) known.max->faces_b = FaceLimits{.path = job.face_max_b};
   known.a_to_b.upper = std::numeric_limits<double>::infinity();
@@ -120,7 +120,7 @@ Answer unread_answer(const PairJob& job) {
 
 namespace {
 
-// A share of nothing is no question.
+// Refuses a share of no area, which is no question.
 void check_area(const PairJob& job, const Mesh& mesh) {
   if (!job.max || !job.survey.area || areas_of(mesh).is_positive()) return;
   throw InputError(mesh.name + ": faces without area; expected a surface, of which --area " +
@@ -162,7 +162,7 @@ SolveOptions asked_options(const PairJob& job, const Answer& known) {
   SolveOptions options = job.options;
   options.tolerance_is_absolute = job.tolerance.of != Length::Of::kDiagonal;
   options.tolerance = options.tolerance_is_absolute ? known.a_to_b.tolerance : job.tolerance.number;
-  // What is asked of its area is decided by the survey.
+  // The survey decides a question about area.
   if (known.max && !known.max->area) options.limit = known.max->limit;
   options.coverage = job.verify;
   if (job.known_lower)

@@ -1,4 +1,4 @@
-// Both files of a pair, read at the same time, and what is known of the answer before and after.
+// Reads both files of a pair at the same time, and fills the answer before and after.
 #pragma once
 
 #include <memory>
@@ -12,30 +12,30 @@
 
 namespace vkh {
 
-/// How far reading is, and whether it is to go on. Threads that read keep it.
+/// The progress line and the stop of a read. Threads that read keep it.
 struct Reading {
   ProgressLine& line;
   const Stop& stop;
 };
 
-/// Throws what read_mesh throws, of A before B. Shows how far it is, and ends with Interrupted when
-/// it is to stop. After a bad A nobody waits for B, whose threads go on and keep `reading`: the
-/// program must end by end_process.
+/// Throws what read_mesh throws, A's error before B's. Shows the progress, and ends with
+/// Interrupted when it is to stop. After a bad A the call does not wait for B, whose threads go on
+/// and keep `reading`: the program must end by end_process.
 MeshPair read_pair(const std::string& file_a, const std::string& file_b, ReadLimits limits,
                    const std::shared_ptr<const Reading>& reading);
 
-/// What is known before anything is read: [0, infinity).
+/// The answer before anything is read: [0, infinity).
 Answer unread_answer(const PairJob& job);
 
-/// Once the meshes are there: counts, units, lengths in them, and a first bound, which is returned:
-/// no point of either is farther from the other than the joint diagonal. Throws UsageError for
-/// units that do not go together and lengths that they do not resolve.
+/// Fills in counts, units, lengths in them, and a first bound, which is returned: no point of
+/// either is farther from the other than the joint diagonal. Throws UsageError for units that do
+/// not go together and lengths that they do not resolve.
 double take_meshes(const PairJob& job, const Mesh& a, const Mesh& b, Answer& answer);
 
-/// How narrow the interval of such an answer has to be.
+/// The options for an interval as narrow as such an answer needs.
 SolveOptions asked_options(const PairJob& job, const Answer& known);
 
-/// After a run: what people should know about the memory that it took of `asked` bytes.
+/// Adds, after a run, notes on the memory that it took of `asked` bytes.
 void add_memory_notes(uint64_t asked, Answer& answer);
 
 }  // namespace vkh

@@ -45,7 +45,7 @@ Json name_and_hash(const char* name, const Input& input) {
   return json;
 }
 
-// Members that are not there, or null, are as they are where nothing is known.
+// Treats members that are missing, or null, as unknown.
 const Json& member(const Json& json, const char* key) {
   static const Json null;
   const auto found = json.is_object() ? json.find(key) : json.end();
@@ -122,7 +122,7 @@ std::string to_record(const RecordName& name, const Failure& failure, const Answ
   return json.text();
 }
 
-// No text in the line has these characters in this order: quotes are escaped there.
+// Quotes in a text are escaped, so no text in the line has these characters in this order.
 std::string without_run(const std::string& line) {
   const size_t run = line.rfind(kRun);
   return run == std::string::npos ? line : line.substr(0, run) + "}";

@@ -14,58 +14,59 @@
 
 namespace vkh {
 
-/// What names a line: the pair's id in its list, and a hash of what its answer depends on (the
+/// The name of a line: the pair's id in its list, and a hash of all that its answer depends on (the
 /// inputs' bytes, the options, this version).
 struct RecordName {
   std::string id, key;
 };
 
-/// How each line begins.
+/// The beginning of each line.
 inline constexpr std::string_view kRecordStart = "{\"schema\":\"vkhausdorff.pair/";
 
-/// Without a newline. What one run or machine alone has comes last, in `run`.
+/// The line without a newline. Values of one run or machine alone come last, in `run`.
 std::string to_record(const RecordName& name, const Answer& answer);
 std::string to_record(const RecordName& name, const Failure& failure, const Answer& known);
 
-/// The same line without `run`: what two runs have in common.
+/// The same line without `run`: the part that two runs have in common.
 std::string without_run(const std::string& line);
 
 /// An enclosure of a distance.
 struct Bounds {
   double lower = 0, upper = std::numeric_limits<double>::infinity();
-  /// Both may be true of one distance.
+  /// Whether both may be true of one distance.
   bool meets(const Bounds& other) const { return lower <= other.upper && other.lower <= upper; }
 };
 
-/// What a line says, for tables and for merging.
+/// A line's content, for tables and for merging.
 struct Record {
   RecordName name;
   ExitCode code = kExitClosed;
   std::string status, verdict;  ///< empty: a failure; no limit was asked about
   double lower = 0, upper = std::numeric_limits<double>::infinity();
-  /// A to B and, if both ways were asked about, back; else [0, infinity).
+  /// The forward direction and, if both were asked for, the reverse; else [0, infinity).
   std::array<Bounds, 2> directions;
   double gap = 0, diagonal = 0;  ///< diag(A), to nearest; 0: not known
   std::string unit;
   struct Side {
     std::string path, sha256;
     uint64_t faces = 0;
-    bool names_files = false;  ///< says which files were read besides, as lines do since 0.2.0
+    bool names_files = false;  ///< the line lists the other files read, as lines do since 0.2.0
     std::vector<std::string> notes = {};
   };
   std::array<Side, 2> inputs;
-  std::string words;  ///< the answer's first line, or what went wrong
+  std::string words;  ///< the answer's first line, or the error
   double total_ms = 0, gpu_ms = 0;
   std::string host, started;
 
-  /// Another run of the same inputs would say the same, but for times.
+  /// Whether another run of the same inputs would give the same result, but for times.
   bool is_final() const;
-  /// The key is of all files that were read; before 0.2.0 it was of the two that a list names.
+  /// Whether the key covers all files that were read; before 0.2.0 it covered the two that a list
+  /// names.
   bool names_files() const { return inputs[0].names_files && inputs[1].names_files; }
 };
 
-/// Throws InputError: what is wrong, without the file's name. A bound that is not the decimal
-/// beside it is wrong, and so is an interval whose lower end is above its upper.
+/// Throws InputError with the error but without the file's name. A bound that differs from the
+/// decimal beside it is wrong, and so is an interval whose lower end is above its upper.
 Record read_record(std::string_view line);
 
 }  // namespace vkh

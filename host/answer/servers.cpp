@@ -1,5 +1,5 @@
-// An answer as build servers take it. JUnit: the schema that Jenkins and GitLab read, one test case
-// for the pair. GitHub: docs.github.com, "Workflow commands for GitHub Actions".
+// An answer in the formats of build servers. JUnit: the schema that Jenkins and GitLab read, one
+// test case for the pair. GitHub: docs.github.com, "Workflow commands for GitHub Actions".
 
 #include <cstdio>
 
@@ -10,8 +10,8 @@
 namespace vkh {
 namespace {
 
-/// Text within XML 1.0, which has no control characters but tab and the ends of lines; and no bytes
-/// that are no UTF-8, which printable() leaves alone.
+/// Escapes text for XML 1.0, which has no control characters but tab and the ends of lines, and no
+/// bytes that are no UTF-8, which printable() leaves alone.
 std::string xml(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -35,7 +35,7 @@ std::string xml(const std::string& text) {
   return out;
 }
 
-/// `text` with what is no UTF-8 replaced by U+FFFD.
+/// Replaces by U+FFFD what is no UTF-8 in `text`.
 std::string valid_utf8(const std::string& text) {
   std::string out;
   for (size_t i = 0; i < text.size();) {
@@ -52,7 +52,7 @@ std::string valid_utf8(const std::string& text) {
     if (is_whole && length == 3) {
       const unsigned second = byte(i + 1);  // overlong; surrogates
       is_whole = !(c == 0xe0 && second < 0xa0) && !(c == 0xed && second >= 0xa0);
-      // U+FFFE and U+FFFF, which XML has not.
+      // XML has no U+FFFE and U+FFFF.
       is_whole = is_whole && !(c == 0xef && second == 0xbf && byte(i + 2) >= 0xbe);
     } else if (is_whole && length == 4) {
       const unsigned second = byte(i + 1);  // overlong; past U+10FFFF
@@ -71,8 +71,7 @@ std::string valid_utf8(const std::string& text) {
 
 std::string in_xml(const std::string& text) { return xml(valid_utf8(printable(text))); }
 
-/// What GitHub takes for a value: percent signs and ends of lines are escaped; in a property colons
-/// and commas, too.
+/// Escapes a value for GitHub: percent signs and line ends; in a property also colons and commas.
 std::string github(const std::string& text, bool is_property) {
   std::string out;
   for (const char c : text) {
@@ -89,7 +88,7 @@ std::string github(const std::string& text, bool is_property) {
   return out;
 }
 
-/// Between backticks, in a table of Markdown.
+/// Puts the text between backticks, in a table of Markdown.
 std::string code(const std::string& text) {
   std::string out = "`";
   for (const char c : printable(text)) {

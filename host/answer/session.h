@@ -20,21 +20,21 @@ struct Opened {
 struct Session {
   std::unique_ptr<Device> device;
   std::unique_ptr<Solver> solver;
-  std::vector<Opened> more;  ///< devices, where several were asked for
-  double setup_ms = 0;       ///< what making it took
+  std::vector<Opened> more;  ///< the other devices, if several were asked for
+  double setup_ms = 0;       ///< the time to make it
 };
 
-/// "all", every GPU, or the CPU device where there is none; else names that DeviceRequest takes,
-/// between commas. Throws UsageError for an empty one.
+/// Splits "all", every GPU, or the CPU device where there is none; else names that DeviceRequest
+/// takes, between commas. Throws UsageError for an empty one.
 std::vector<std::string> selectors_of(const std::string& text);
 
-/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector; or, where `several`
-/// may be asked for and it names no device, what selectors_of() takes. `cache_folder`: see Solver.
+/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector; or, if `several` may
+/// be asked for and it names no device, a text for selectors_of(). `cache_folder`: see Solver.
 Session open_session(const std::string& selector, bool several, const SolveOptions& options,
                      const std::filesystem::path& cache_folder);
 
-/// h(A,B), or a part's, on every device of the session, with notes on those that were lost. Throws
-/// UsageError for a part that A has too few faces for.
+/// Solves h(A,B), or a part's, on every device of the session, with notes on devices that were
+/// lost. Throws UsageError for a part that A has too few faces for.
 void solve_directed(const Session& session, const MeshPair& pair, const SolveOptions& options,
                     Answer& answer);
 

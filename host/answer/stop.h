@@ -1,4 +1,4 @@
-// What ends a job before its answer is final: its time, Ctrl-C or SIGTERM.
+// The events that end a job before its answer is final: its time, Ctrl-C or SIGTERM.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 class Stop {
  public:
-  /// `start`: the process's, from which the time counts, reading and pipelines included.
+  /// `start`: the process's; the time counts from it, reading and pipelines included.
   Stop(Clock::time_point start, double seconds) : start_(start), seconds_(seconds) {}
 
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

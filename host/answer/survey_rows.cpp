@@ -22,7 +22,7 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   return text;
 }
 
-// In percent, outward: 100 times a share is rounded, unless it is 0 or 1.
+// Converts to percent, outward: 100 times a share is rounded, unless it is 0 or 1.
 Enclosure in_percent(const Enclosure& share) {
   const double up = std::nextafter(100 * share.upper, 101.0);
   return {share.lower < 1 ? std::nextafter(100 * share.lower, 0.0) : 100,

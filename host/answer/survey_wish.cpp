@@ -11,14 +11,14 @@
 namespace vkh {
 namespace {
 
-constexpr double kSeconds = 10;       // unless --time gives more, or less,
-constexpr double kPartOfTime = 0.85;  // of which adding up and the outputs need the rest
+constexpr double kSeconds = 10;       // unless --time gives more, or less
+constexpr double kPartOfTime = 0.85;  // adding up and the outputs need the rest
 
 Limit resolved(const Length& length, const char* option, const Answer& answer) {
   return in_files(length, option, answer.unit, answer.a_to_b.diagonal_a);
 }
 
-// Each as two: rounded down, and up.
+// Returns each band as two: rounded down, and up.
 std::vector<Limit> bands_of(const SurveyWish& wish, const Answer& answer) {
   std::vector<Limit> bands;
   if (answer.max && (wish.area || wish.statistics)) bands.push_back(answer.max->limit);
@@ -52,7 +52,7 @@ SurveyOptions options_of(const SurveyJob& job, const Answer& answer, size_t left
   return options;
 }
 
-// What holds from a length rounded down up to it rounded up holds for it.
+// Joins both: a share that holds from a length rounded down up to it rounded up holds for it.
 void join_bands(Statistics& s) {
   std::vector<AreaWithin> bands;
   for (size_t i = 0; i + 1 < s.bands.size(); i += 2) {
@@ -63,8 +63,9 @@ void join_bands(Statistics& s) {
   s.bands = std::move(bands);
 }
 
-// A run that only decides a limit leaves a wide interval; no distance is above any face's. One that
-// ended before its survey began says of each face what it says of all.
+// Narrows the report, since a run that only decides a limit leaves a wide interval: no distance is
+// above the largest bound of a face. A run that ended before its survey began has one bound for all
+// faces.
 void join(Report& report, SurveyResult& survey, size_t face_count) {
   Field& field = survey.field;
   if (field.face_count() != face_count) field = field_within(face_count, report.upper);

@@ -1,4 +1,4 @@
-// What is to be known of all of A besides its distance, before its meshes are.
+// The wishes for all of A besides its distance, before its meshes are read.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,28 @@
 namespace vkh {
 
 struct SurveyWish {
-  bool faces = false;  ///< bounds of each: for a picture, or a file
+  bool faces = false;  ///< bounds of each face: for a picture, or a file
   std::optional<Length> face_tolerance;
   bool statistics = false;
   std::vector<Length> bands;
   std::optional<double> area;  ///< gate: the share of A's area that is to be within the limit
-  std::string area_requested;  ///< as typed
+  std::string area_requested;  ///< the share as the user typed it
 
   bool is_any() const { return faces || statistics || area; }
 };
 
-/// What one needs.
+/// The inputs of one survey.
 struct SurveyJob {
   const SurveyWish& wish;
   const Mesh& a;
   const Mesh& b;
-  std::function<double()> left_s;    ///< of the time for it; infinite: no limit
-  std::function<bool()> goes_on;     ///< false: it is to end
+  std::function<double()> left_s;    ///< the time left for it; infinite: no limit
+  std::function<bool()> goes_on;     ///< false: the survey is to end
   std::function<void(size_t)> show;  ///< how many cells have been bounded
 };
 
-/// Of A, and of B where the answer has a way back; each in a run of its own, after what the answer
-/// says now. `options`: of that. Narrows the answer's intervals by what it finds.
+/// Surveys A, and B if the answer has a reverse direction; each in a run of its own, after the run
+/// of the answer, which had `options`. Narrows the answer's intervals by what it finds.
 void survey_all(const SurveyJob& job, Solver& solver, const SolveOptions& options, Answer& answer);
 
 /// Asks for nothing.

@@ -86,7 +86,7 @@ std::string unit_text(const Answer& answer) {
   return answer.unit.empty() ? "in the files' unit" : answer.unit;
 }
 
-// What was asked for, and what it is in the files' unit.
+// Writes the length of the request, and its value in the files' unit.
 std::string length_text(const Answer& answer, const Length& asked, double resolved) {
   std::string text = asked.requested;
   if (asked.of == Length::Of::kDiagonal) {
@@ -123,7 +123,7 @@ void print_direction(std::ostream& out, const Report& r, const char* a, const ch
   }
   if (r.witness_check) print_row(out, "verified", verified_text(*r.witness_check));
   if (r.coverage_check) print_row(out, "", coverage_text(*r.coverage_check));
-  if (r.waves == 0) return;  // nothing was sought
+  if (r.waves == 0) return;  // there was no search
   print_row(out, "work",
             counted(r.waves, "wave") + ", " + counted(r.candidates, "candidate") +
                 printed(" (at most %llu at once), ", static_cast<Count>(r.peak_frontier)) +

@@ -8,7 +8,7 @@
 namespace vkh {
 namespace {
 
-// Quoted where it has to be.
+// Quotes the cell if it has to.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";

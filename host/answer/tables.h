@@ -1,4 +1,4 @@
-// A batch's results as people and build servers take them.
+// A batch's results as tables for people and build servers.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace vkh {
 
-/// CSV (RFC 4180): a heading, and a row a pair. `with_run`: with columns that two runs do not have
-/// in common, times.
+/// CSV (RFC 4180): a heading, and a row per pair. `with_run`: with times, which two runs do not
+/// have in common.
 std::string csv_heading(bool with_run);
 std::string csv_row(const Record& record, bool with_run);
 
-/// A test case of JUnit's: failed where it is beyond the limit, in error where it is undecided, not
+/// A JUnit test case: failed where it is beyond the limit, in error where it is undecided, not
 /// closed or without an answer.
 JunitCase junit_case(const Record& record, bool with_run);
 

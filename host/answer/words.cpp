@@ -1,4 +1,4 @@
-// An answer's first line, and what its parts are called.
+// An answer's first line, and the names of its parts.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,7 +21,7 @@ std::string point_text(const SurfacePoint& p) {
          std::to_string(p.file_face);
 }
 
-// Of upper, in percent.
+// Returns upper as a share in percent.
 std::string share_of_diagonal(const Answer& answer, double upper) {
   const double diagonal = answer.a_to_b.diagonal_a;
   if (!(diagonal > 0)) return "";
@@ -75,7 +75,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
   const Limit& limit = faces ? faces->limit : answer.max->limit;
-  // Never down to the limit itself.
+  // The text never rounds down to the limit itself.
   const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
   const std::string far = length_down(answer, r.lower, margin);
   const std::string from = back ? "B" : "A", to = back ? "A" : "B";
@@ -86,13 +86,14 @@ std::string failure_in_words(const Answer& answer, bool back) {
          with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
 }
 
-// Of what was counted: a polygon's triangles are more than it.
+// Names the unit of the count: a polygon's triangles are more than it.
 std::string faces_in_words(const FaceLimits& faces, const Input& of) {
   return std::to_string(faces.within) + " of " + std::to_string(faces.faces) +
          (of.counts.polygons > 0 ? " triangles" : " faces");
 }
 
-// In percent, outward; with so many digits that it is not printed on the other side of `asked`.
+// Rounds a percentage outward, with so many digits that it is not printed on the other side of
+// `asked`.
 std::string percent(double share, double asked, Rounding rounding) {
   double percent = 100 * share;
   if (share > 0 && share < 1)
@@ -104,7 +105,7 @@ std::string percent(double share, double asked, Rounding rounding) {
          " %";
 }
 
-// Of the mesh that decides: the one that is not within, else the one with less.
+// Describes the mesh that decides: the one that is not within, else the one with less.
 std::string area_in_words(const Answer& answer) {
   const double area = *answer.max->area;
   const bool back =
@@ -166,7 +167,7 @@ Enclosure share_within(const Answer& answer, bool back) {
 Verdict verdict_of(const Answer& answer, bool back) {
   if (answer.max->area) {
     const Enclosure share = share_within(answer, back);
-    // What was typed may be above the double nearest to it.
+    // The typed number may be above the double nearest to it.
     if (share.lower >= std::nextafter(*answer.max->area, 1.0)) return Verdict::kWithin;
     return share.upper < *answer.max->area ? Verdict::kBeyond : Verdict::kUndecided;
   }
@@ -226,7 +227,7 @@ std::string printable(const std::string& text) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
     const auto c = static_cast<unsigned char>(text[i]);
-    // Of UTF-8, U+0080 to U+009F, which some terminals take for the same.
+    // Some terminals take the UTF-8 bytes of U+0080 to U+009F for control characters too.
     const bool is_c1 = c == 0xc2 && i + 1 < text.size() &&
                        static_cast<unsigned char>(text[i + 1]) >= 0x80 &&
                        static_cast<unsigned char>(text[i + 1]) < 0xa0;

@@ -15,7 +15,7 @@
 namespace vkh {
 namespace {
 
-/// The commands, each with what was typed for it: their defaults differ.
+/// The commands, each with its own typed options: their defaults differ.
 struct Program {
   CLI::App app{
       "Encloses the directed Hausdorff distance h(A,B) of two triangle meshes in a certified "
@@ -61,7 +61,8 @@ struct Program {
     refuse_empty_values();
   }
 
-  /// A script whose variable is not set would else ask about less than it says: --max "$LIMIT".
+  /// Refuses an empty value: with --max "$LIMIT", a script whose variable is not set would ask less
+  /// than it says.
   void refuse_empty_values() {
     for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
       for (CLI::Option* option : command->get_options()) {
@@ -105,7 +106,7 @@ struct Program {
     add_search_options(command, gate);
   }
 
-  /// The command that `words` name, or the program itself.
+  /// Finds the command that `words` name, or returns the program itself.
   const CLI::App& named(const Words& words) const {
     if (words.empty()) return app;
     const std::vector<const CLI::App*> commands = app.get_subcommands({});
@@ -142,7 +143,7 @@ std::string hint_without_blank(const std::string& option, const std::string& giv
   return option + " '" + given + "': write " + meant + ", without a blank";
 }
 
-/// Says what to write for "--max 0.1 mm" and "--max=0.1 mm"; nothing where no number and unit are
+/// Returns what to write for "--max 0.1 mm" and "--max=0.1 mm"; nothing if no number and unit are
 /// so apart.
 std::string blank_hint(const Words& words) {
   for (size_t i = 1; i < words.size(); ++i) {
@@ -160,8 +161,8 @@ std::string blank_hint(const Words& words) {
   return "";
 }
 
-/// CLI11 says that a command is missing where one was misspelt, and that an option was not expected
-/// where one was.
+/// Words the error anew: CLI11 reports a missing command for a misspelt one, and an unexpected
+/// option for a misspelt one.
 std::string usage_message(const Program& program, const CLI::ParseError& error,
                           const Words& words) {
   const CLI::App& command = program.named(words);
@@ -226,7 +227,7 @@ CommandLine understand(const Words& given) {
   }
   Program program;
   try {
-    program.app.parse(Words(words.rbegin(), words.rend()));  // as CLI11 wants them
+    program.app.parse(Words(words.rbegin(), words.rend()));  // CLI11 wants them reversed
   } catch (const CLI::Success& help) {
     std::ostringstream text, none;
     program.app.exit(help, text, none);

@@ -1,4 +1,4 @@
-// The command line: what was typed, and what it asks for.
+// The command line: the words that the user typed, and the request that they make.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 enum class Command { kHelp, kDistance, kGate, kDemo, kDoctor, kBatch, kMerge };
 
-/// Where answers go besides the table.
+/// The places for answers besides the table.
 struct Outputs {
   bool json = false;  ///< one object on stdout instead of the table
   std::optional<std::string> json_file, junit_file;
@@ -26,7 +26,7 @@ struct Outputs {
   PicturesAsked pictures;
 };
 
-/// Tables of many pairs, besides a line each.
+/// Tables of many pairs, besides a line for each.
 struct TablesAsked {
   std::optional<std::string> csv, junit;
 };
@@ -38,10 +38,10 @@ struct BatchAsked {
   std::string results;
   Shard shard;
   bool resumes = false, fails_fast = false;
-  StreamOptions devices;  ///< but for what PairJob says
+  StreamOptions devices;  ///< the options that PairJob does not have
   std::string device;     ///< names between commas, or all
   uint64_t read_ahead_bytes = 0;
-  double time_limit_s = 0;  ///< of a pair; infinite: none
+  double time_limit_s = 0;  ///< the limit of a pair; infinite: none
   TablesAsked tables;
   FoldersAsked folders;
 };
@@ -49,23 +49,23 @@ struct BatchAsked {
 struct MergeAsked {
   std::vector<std::string> files;
   std::string results;
-  std::string list;           ///< whose ids are to be there; empty: whatever there is
-  bool reproducible = false;  ///< without what two runs do not have in common
+  std::string list;           ///< the list whose ids must be there; empty: no check
+  bool reproducible = false;  ///< leaves out what differs between two runs
   TablesAsked tables;
 };
 
 struct CommandLine {
   Command command = Command::kHelp;
-  std::string help;         ///< kHelp: what is to be printed
-  PairJob job;              ///< of distance, gate, demo and batch
+  std::string help;         ///< the text to print for kHelp
+  PairJob job;              ///< the job of distance, gate, demo and batch
   double time_limit_s = 0;  ///< infinite: none
   Outputs outputs;
-  std::string device;  ///< of doctor
+  std::string device;  ///< the device of doctor
   BatchAsked batch = {};
   MergeAsked merge = {};
 };
 
-/// Throws UsageError: one line that says what was expected, and what a misspelt option may mean.
+/// Throws UsageError: one line with the expected form, and the option that a misspelt one may mean.
 CommandLine understand(const Words& words);
 
 }  // namespace vkh

@@ -15,8 +15,9 @@
 namespace vkh {
 namespace {
 
-/// A square between two walls, at x = -1 and x = 45/64: its farthest points lie on the line halfway
-/// between them, inside both of its faces, at 109/128 from either wall. No vertex of A is there.
+/// The distance of a square between two walls, at x = -1 and x = 45/64: its farthest points lie on
+/// the line halfway between them, inside both of its faces, at 109/128 from either wall. No vertex
+/// of A is there.
 constexpr double kSelfCheckDistance = 109.0 / 128;
 MeshPair self_check_pair() {
   const auto wall = [](double x) {
@@ -45,7 +46,7 @@ bool self_check(std::ostream& out, Device& device) {
   return passed;
 }
 
-/// What the certificate takes for granted about arithmetic, measured.
+/// Measures the properties of arithmetic that the certificate relies on.
 bool check_arithmetic(std::ostream& out, const Device& device) {
   const SelfTestResult r = run_self_test(device);
   out << "arithmetic  " << r.items << " hard inputs, " << r.composed << " composed expressions: ";

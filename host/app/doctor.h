@@ -1,4 +1,4 @@
-// What a machine offers, and whether its answers can be trusted.
+// Reports a machine's devices, and whether their answers can be trusted.
 #pragma once
 
 #include <iosfwd>
@@ -6,7 +6,7 @@
 
 namespace vkh {
 
-/// Lists every Vulkan device, says which one `selector` chooses and with which driver and loader,
+/// Lists every Vulkan device, prints which one `selector` chooses and with which driver and loader,
 /// probes the arithmetic that the certificate rests on, and solves a pair whose distance is known
 /// on it: false if a promise is broken, or if the interval misses the distance or stays open.
 /// Throws DeviceError if no device is usable.

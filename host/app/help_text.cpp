@@ -10,7 +10,7 @@
 namespace vkh {
 namespace {
 
-/// Where what an option does begins: after the last gap of two spaces.
+/// The column where an option's description begins: after the first gap of two spaces.
 size_t text_column(const std::string& line) {
   const size_t name = line.find_first_not_of(' ');
   if (name == std::string::npos) return 0;

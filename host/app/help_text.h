@@ -1,4 +1,4 @@
-// Help as it fits a terminal, and names that were nearly right.
+// Help that fits a terminal, and the closest names to a misspelt one.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace vkh {
 
-/// Breaks lines of more than `columns` at spaces; what follows is indented as the text was.
+/// Breaks lines of more than `columns` at spaces; the continuation is indented as the text was.
 std::string wrapped(const std::string& text, size_t columns);
 
-/// What $COLUMNS says, from 60 to 100; 100 where it says nothing.
+/// The value of $COLUMNS, from 60 to 100; 100 if it is not set.
 size_t terminal_columns();
 
 /// The name that `word` begins, or that begins it, or is two letters from; empty: none is close.

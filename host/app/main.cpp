@@ -1,5 +1,5 @@
-// The program: what was asked is done, the answer goes where it was asked for, and whatever went
-// wrong becomes one line on stderr and an exit code.
+// The program: it does what the user asked, writes the answer to the requested places, and turns an
+// error into one line on stderr and an exit code.
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
 #endif
@@ -38,7 +38,7 @@ void check_printed() {
   if (!std::cout.flush()) throw OutputError("cannot write the answer to standard output");
 }
 
-/// After the answer is printed: whoever asked wants to see what was refuted.
+/// Runs after the answer is printed: the user wants to see the refuted answer.
 void check_verified(const Answer& answer) {
   for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (r == nullptr || !r->witness_check) continue;
@@ -52,7 +52,7 @@ void check_verified(const Answer& answer) {
   }
 }
 
-/// The answer, or, once outputs were told, what went wrong.
+/// Returns the answer, or writes the error to the outputs and throws it.
 Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
   try {
     return run_job(line.job, stop);
@@ -68,7 +68,7 @@ Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destina
   }
 }
 
-/// Two outputs in one file would be one.
+/// Refuses two outputs in one file.
 void check_distinct(const Outputs& outputs) {
   const PicturesAsked& p = outputs.pictures;
   std::set<std::filesystem::path> places;
@@ -92,7 +92,8 @@ Places places_of(const CommandLine& line) {
           .pictures = Pictures(line.outputs.pictures, line.job.symmetric, inputs)};
 }
 
-/// Of words that say no place for an answer, or not yet: programs that wait for one are told.
+/// Reports the misuse of words that name no place for an answer, or not yet: programs may wait for
+/// one.
 template <class F>
 auto or_tell(const Words& words, const F& work) {
   try {
@@ -105,7 +106,7 @@ auto or_tell(const Words& words, const F& work) {
 
 int run_pair(const CommandLine& line, const Words& words, const Stop& stop) {
   auto [destinations, pictures] = or_tell(words, [&] { return places_of(line); });
-  const Done done = answer_for(line, stop, destinations);  // taken apart after the answer is out
+  const Done done = answer_for(line, stop, destinations);  // destroyed after the answer is printed
   std::string not_written = destinations.write(done.answer);
   const std::string not_drawn = pictures.write(done);
   if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
@@ -178,9 +179,9 @@ int run_in_console(int argc, char** argv, Clock::time_point start) {
 }  // namespace
 }  // namespace vkh
 
-// Without exit handlers: after a bad file, or when the time was over, threads may still be at work
-// on a file or in the driver. Where a run ended the device is gone by now: Mesa saves what it
-// compiled then.
+// Ends without exit handlers: after a bad file, or when the time was over, threads may still be at
+// work on a file or in the driver. After a complete run the device is already gone: Mesa saves what
+// it compiled then.
 int main(int argc, char** argv) {
   const auto start = vkh::Clock::now();
   const vkh::FloatEnvironment ours;

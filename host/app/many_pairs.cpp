@@ -22,7 +22,7 @@ void note(const std::string& text) {
   std::fprintf(stderr, "vkhausdorff: note: %s\n", printable(text).c_str());
 }
 
-/// CSV and JUnit's XML of results, looked at before the work.
+/// The CSV and JUnit XML of results, checked before the work.
 class Tables {
  public:
   Tables(const TablesAsked& asked, const std::vector<std::string>& inputs) {
@@ -50,7 +50,7 @@ PairList list_of(const BatchAsked& asked) {
   return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
 }
 
-/// What is named twice would be read while it is written.
+/// Refuses a file that is named twice: it would be read while it is written.
 void check_outputs(const std::string& results, const TablesAsked& tables) {
   std::set<std::filesystem::path> places{place_of(results)};
   for (const auto& other : {tables.csv, tables.junit}) {
@@ -78,7 +78,7 @@ BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
   return batch;
 }
 
-/// None: none were asked for.
+/// Returns null if no folders were asked for.
 std::shared_ptr<BatchFolders> folders_of(const BatchAsked& asked, const std::vector<Entry>& entries,
                                          std::vector<std::string> taken) {
   if (!asked.folders.any()) return nullptr;
@@ -89,7 +89,7 @@ std::shared_ptr<BatchFolders> folders_of(const BatchAsked& asked, const std::vec
   return std::make_shared<BatchFolders>(asked.folders, entries, taken);
 }
 
-/// What was not drawn is said by then.
+/// Reports the pairs that were not drawn, and writes the indexes.
 ExitCode write_indexes(const BatchJob& batch) {
   constexpr size_t kMost = 5;
   const BatchFolders& folders = *batch.folders;
@@ -108,7 +108,7 @@ ExitCode write_indexes(const BatchJob& batch) {
 
 ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
   check_outputs(asked.results, asked.tables);
-  // Lines would be added to it, and a last one without an end would be cut off.
+  // Lines would be added to the list, and a last one without an end would be cut off.
   std::error_code none;
   if (std::filesystem::equivalent(path_of(asked.list), path_of(asked.results), none))
     throw UsageError("--out '" + asked.results + "': would overwrite the input '" + asked.list +
@@ -134,7 +134,8 @@ ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
 
 namespace {
 
-/// Of one pair, whose parts were measured apart. The answer is one line, as of `distance --json`.
+/// Merges the parts of one pair, measured apart. The answer is one line, like that of `distance
+/// --json`.
 ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswer>& parts) {
   if (!asked.list.empty() || asked.reproducible || asked.tables.csv || asked.tables.junit)
     throw UsageError(

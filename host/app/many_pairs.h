@@ -1,4 +1,4 @@
-// The commands that are about many pairs, from what was typed to an exit code.
+// The commands about many pairs, from the typed options to an exit code.
 #pragma once
 
 #include "host/answer/exit_code.h"

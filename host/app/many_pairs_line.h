@@ -1,11 +1,11 @@
-// The options of commands that are about many pairs.
+// The options of commands about many pairs.
 #pragma once
 
 #include "host/app/typed.h"
 
 namespace vkh {
 
-/// As typed.
+/// The options as the user typed them.
 struct TypedMany {
   Typed of_pairs;
   std::vector<std::string> files;

@@ -17,7 +17,7 @@ int g_code = 0;  // a handler can reach nothing but a global
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     end_process(complain_of_memory(g_code));
-  } catch (...) {  // a bug of ours: as loud as it would be
+  } catch (...) {  // a bug of ours: abort as without a handler
   }
   std::abort();
 }

@@ -1,13 +1,13 @@
-// The end where this machine has no memory left: without allocating any.
+// Ends the program when this machine has no memory left, without allocating any.
 #pragma once
 
 namespace vkh {
 
-/// One line on stderr. Returns `code`.
+/// Prints one line on stderr. Returns `code`.
 int complain_of_memory(int code);
 
-/// From now on also where no exception may pass, such as the destructors of JSON values, which
-/// allocate: the line, and the end with `code`, instead of std::terminate.
+/// From now on, prints the line and ends with `code` instead of std::terminate, also where no
+/// exception may pass, such as in the destructors of JSON values, which allocate.
 void end_where_memory_ends(int code);
 
 }  // namespace vkh

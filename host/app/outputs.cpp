@@ -12,7 +12,7 @@
 namespace vkh {
 namespace {
 
-/// What GitHub shows on the run's page; steps before have written to it.
+/// Appends the text that GitHub shows on the run's page; earlier steps have written to it.
 void append_summary(const Answer& answer) {
   const char* file = std::getenv("GITHUB_STEP_SUMMARY");
   if (file == nullptr || *file == '\0') return;
@@ -22,7 +22,7 @@ void append_summary(const Answer& answer) {
     throw OutputError(std::string("$GITHUB_STEP_SUMMARY '") + file + "': cannot be written");
 }
 
-/// Where words that may be misspelt ask for an answer, and what else they name.
+/// Finds the places for an answer among words that may be misspelt, and collects the other words.
 Outputs outputs_in(const Words& words, Words& others) {
   Outputs outputs;
   for (size_t i = 1; i < words.size(); ++i) {
@@ -69,7 +69,7 @@ std::string Destinations::write(const Answer& answer) {
   if (json_) attempt([&] { json_->write(to_json(answer) + '\n'); });
   if (junit_) attempt([&] { junit_->write(to_junit(answer)); });
   if (outputs_.github) attempt([&] { append_summary(answer); });
-  // GitHub's runner reads commands of both streams; beside one JSON object there is no room.
+  // GitHub's runner reads commands from both streams; stdout has no room beside one JSON object.
   if (outputs_.github) (outputs_.json ? std::cerr : std::cout) << github_annotation(answer);
   if (outputs_.json) {
     std::cout << to_json(answer) << '\n';
@@ -97,7 +97,7 @@ void tell_misuse(const Words& words, const std::string& message) {
   const Outputs outputs = outputs_in(words, others);
   try {
     Destinations(outputs, others).write(failure_of(message, kExitUsage, {}));
-  } catch (const UsageError&) {  // it is told in words
+  } catch (const UsageError&) {  // the message reports it
   }
 }
 

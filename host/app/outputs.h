@@ -1,4 +1,4 @@
-// Where an answer goes: standard output, and files that were asked for.
+// The places of an answer: standard output, and the files that the user asked for.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@
 
 namespace vkh {
 
-/// Looked at before the run, written after it.
+/// Destinations that are checked before the run and written after it.
 class Destinations {
  public:
-  /// Throws UsageError where one cannot be written, or is one of `inputs`.
+  /// Throws UsageError if a file cannot be written, or is one of `inputs`.
   Destinations(const Outputs& outputs, const std::vector<std::string>& inputs);
 
-  /// The answer is printed whatever becomes of a file, and after it: whoever reads standard output
-  /// may close it early, and that ends the program. Returns what could not be written, and why;
-  /// empty if nothing.
+  /// Prints the answer first, whatever becomes of a file: a reader of standard output may close it
+  /// early, and that ends the program. Returns what could not be written, and why; empty if
+  /// nothing.
   std::string write(const Answer& answer);
-  /// What went wrong instead, as JSON where JSON was asked for. What cannot be written is lost: the
-  /// line on stderr says what went wrong.
+  /// Writes the error instead, as JSON if JSON was asked for. An output that cannot be written is
+  /// lost: the line on stderr has the error.
   void write(const Failure& failure);
 
  private:
@@ -29,11 +29,11 @@ class Destinations {
   std::optional<OutputFile> json_, junit_;
 };
 
-/// Of words that are not understood, or cannot be done: what is wrong, where they ask for JSON,
-/// JUnit's XML or an annotation. No file that another word names is written to.
+/// Reports words that are not understood, or cannot be done, where they ask for JSON, JUnit's XML
+/// or an annotation. Writes to no file that another word names.
 void tell_misuse(const Words& words, const std::string& message);
 
-/// Of an error's one line, which begins with its file.
+/// Makes a Failure of an error's one line, which begins with its file.
 Failure failure_of(const std::string& message, int code, const PairJob& job);
 
 }  // namespace vkh

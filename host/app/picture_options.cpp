@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-// part.ply: part-b.ply
+// Turns part.ply into part-b.ply.
 std::string back_of(const std::string& path) {
   const size_t dot = path.rfind('.');
   const bool has_ending =
@@ -38,7 +38,7 @@ std::string field_text(const Side& side, const Answer& answer, const PicturesAsk
   return asked.field->ends_with(".glb") ? to_glb(file) : to_ply(file);
 }
 
-// "0" has no unit.
+// Reads two lengths; "0" has no unit.
 std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
   if (typed.size() != 2) throw UsageError("--range: expected two lengths, as in 0,0.5mm");
   std::array<Length, 2> range;
@@ -111,7 +111,7 @@ void add_certificate_option(CLI::App& command, TypedPictures& typed) {
 
 namespace {
 
-// What would be ignored otherwise.
+// Refuses options that would be ignored otherwise.
 void check_needed(const TypedPictures& typed, bool draws, const std::string& drawing) {
   const std::pair<const char*, bool> given[] = {{"--view", typed.view.has_value()},
                                                 {"--up", typed.up.has_value()},
@@ -210,7 +210,7 @@ std::string Pictures::write(const Done& done) const {
     return error.what();
   } catch (const DeviceError& error) {
     return error.what();
-  } catch (const UsageError& error) {  // of lengths that the files' units do not resolve
+  } catch (const UsageError& error) {  // a length that the files' units do not resolve
     return error.what();
   }
   return "";

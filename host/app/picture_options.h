@@ -1,4 +1,4 @@
-// What is written of all of A: its field, a picture, the report, a certificate.
+// The outputs about all of A: its field, a picture, the report, a certificate.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,10 @@ class App;
 
 namespace vkh {
 
-/// As typed.
+/// The options as the user typed them.
 struct TypedPictures {
   std::string field, image, report, certificate;
-  std::optional<std::string> image_folder, report_folder;  ///< of many pairs
+  std::optional<std::string> image_folder, report_folder;  ///< the folders for many pairs
   std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;
@@ -33,7 +33,7 @@ void add_picture_options(CLI::App& command, TypedPictures& typed);
 void add_certificate_option(CLI::App& command, TypedPictures& typed);
 void add_folder_options(CLI::App& command, TypedPictures& typed);
 
-/// What was asked for.
+/// The outputs that the user asked for.
 struct PicturesAsked {
   std::optional<std::string> field, image, report, certificate;  ///< files
   PictureStyle look;
@@ -45,12 +45,11 @@ struct PicturesAsked {
 PicturesAsked asked_of(const TypedPictures& typed);
 FoldersAsked folders_of(const TypedPictures& typed);
 
-/// Looked at before the run, written after it: of a symmetric run two files each of field and
-/// picture, the way back's with -b before its ending.
+/// Pictures that are checked before the run and written after it: a symmetric run has two files
+/// each of field and picture, the reverse direction's with -b before its ending.
 class Pictures {
  public:
-  /// Throws UsageError where one cannot be written, is one of `inputs`, or has an ending that
-  /// says nothing.
+  /// Throws UsageError if a file cannot be written, is one of `inputs`, or has an unknown ending.
   Pictures(const PicturesAsked& asked, bool symmetric, const std::vector<std::string>& inputs);
 
   /// Returns what could not be written, and why; empty if nothing.

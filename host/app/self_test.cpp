@@ -13,12 +13,12 @@ namespace {
 
 constexpr uint32_t kItems = 1u << 18;
 constexpr uint32_t kRounds = 4;
-constexpr uint32_t kComposed = kItems / 16;  // judged in 113 bits, which takes longer
+constexpr uint32_t kComposed = kItems / 16;  // judged in Float128, which takes longer
 constexpr uint32_t kGrouped = kItems / 16;
 
 class SelfTestKernel {
  public:
-  // Delegating: what was made is destroyed if a later step throws.
+  // Delegates: the objects made so far are destroyed if a later step throws.
   explicit SelfTestKernel(const Device& device) : SelfTestKernel(device, Empty{}) { create(); }
   ~SelfTestKernel() {
     const VulkanApi& vk = device_.vk();
@@ -31,7 +31,7 @@ class SelfTestKernel {
   SelfTestKernel(const SelfTestKernel&) = delete;
   SelfTestKernel& operator=(const SelfTestKernel&) = delete;
 
-  // What was recorded before has run.
+  // Requires that earlier recordings have run.
   void record(VkCommandBuffer commands, const k::SelfTest::Args& args, uint32_t items) const {
     bind(args);
     const VulkanApi& vk = device_.vk();

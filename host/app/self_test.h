@@ -1,4 +1,4 @@
-// Whether a device keeps the promises that the certificate rests on (docs/certificate.md).
+// Tests whether a device keeps the promises that the certificate rests on (docs/certificate.md).
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace vkh {
 
-/// What a device was seen to do. `fault` is empty where every promise was kept.
+/// The observed behaviour of a device. `fault` is empty if every promise was kept.
 struct SelfTestResult {
-  std::string fault;  ///< the first broken promise: what, of which numbers, by how much
+  std::string fault;  ///< the first broken promise: which operation, operands and error
   uint64_t items = 0;
   uint64_t composed = 0;          ///< composed expressions
   bool rounds_to_nearest = true;  ///< + - * and so exact error-free transformations; not needed
@@ -21,7 +21,7 @@ struct SelfTestResult {
   double worst_quotient_ulp = 0, worst_root_ulp = 0;  ///< 2.5 and 6 are allowed
   uint32_t largest_subgroup = 0;
   uint64_t group_views = 0;    ///< times that an invocation tried every subgroup operation,
-  uint64_t partial_views = 0;  ///< of them those with a part of its subgroup
+  uint64_t partial_views = 0;  ///< the views with a part of its subgroup
 };
 
 /// `count` questions, a multiple of gpu::kGroupSize, on which arithmetic goes wrong: mantissas of
@@ -33,12 +33,12 @@ void judge_self_test(std::span<const gpu::SelfTestQuestion> questions,
                      std::span<const gpu::SelfTestAnswer> answers,
                      const gpu::SelfTestTotals& totals, SelfTestResult& result);
 
-/// Judges what the subgroups of the first items saw. Which invocations run together in divergent
-/// control flow is the device's to choose; each operation must agree with the ballot about it.
+/// Judges the results in the subgroups of the first items. The device chooses which invocations run
+/// together in divergent control flow; each operation must agree with the ballot about it.
 void judge_groups(std::span<const gpu::SelfTestQuestion> questions,
                   std::span<const gpu::SelfTestGroups> groups, SelfTestResult& result);
 
-/// Likewise for composed expressions: sums that a driver must not regroup.
+/// The same for composed expressions: sums that a driver must not regroup.
 std::vector<gpu::SelfTestOperands> composed_questions(uint64_t seed, uint32_t count);
 void judge_composed(std::span<const gpu::SelfTestOperands> operands,
                     std::span<const gpu::SelfTestComposed> results, SelfTestResult& result);

@@ -1,5 +1,5 @@
-// The host's side of the self-test's composed expressions, in 113 bits: each is held to the bound
-// that the certificate takes it to have (two_float.h, certified.h).
+// The host's side of the self-test's composed expressions, in Float128 (113 bits): each is held to
+// the bound that the certificate assumes for it (two_float.h, certified.h).
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,7 +17,7 @@ using Composed = gpu::SelfTestComposed;
 constexpr double kUlp = 0x1p-23;
 constexpr double kUlp2 = 0x1p-44;
 constexpr double kTiny = 0x1p-60;
-constexpr double kOwnRounding = 1 - 0x1p-50;  // of lengths in double, which bounds are taken from
+constexpr double kOwnRounding = 1 - 0x1p-50;  // rounding of lengths in double that bounds use
 
 Float128 as_float128(float x) { return float128(static_cast<double>(x)); }
 double number(Float128 x) { return static_cast<double>(x); }
@@ -27,7 +27,7 @@ Float128Vector pair(const gpu::vec3& hi, const gpu::vec3& lo) {
           as_float128(hi.z) + as_float128(lo.z)};
 }
 
-/// Within 2^-50 of itself.
+/// The length, off by at most 2^-50 of itself.
 double rough_length(const Float128Vector& v) {
   return std::hypot(number(v.x), number(v.y), number(v.z));
 }
@@ -38,7 +38,7 @@ Float128Vector scaled(const Float128Vector& w, const gpu::vec3& hi) {
   return float128(std::ldexp(1.0, -std::ilogb(largest))) * w;
 }
 
-/// At most half an ulp of hi.
+/// A random low part of at most half an ulp of hi.
 float low_part(uint64_t& state, float hi) {
   const float most = std::ldexp(1.0f, std::ilogb(hi) - 24);
   return std::clamp(hard_float(state, -3, 0) * most, -most, most);
@@ -53,7 +53,7 @@ void draw_vector(uint64_t& state, gpu::vec3& hi, gpu::vec3& lo) {
   lo = low_parts(state, hi);
 }
 
-/// Just under it, or 0.
+/// A random base just under `value`, or 0.
 float base_under(uint64_t& state, double value) {
   const uint64_t way = draw(state) & 3u;
   return way == 0 ? 0.0f
@@ -96,13 +96,14 @@ class ComposedJudge {
          2 * kUlp * rough_length(difference) + kUlp2 * sizes);
   }
 
-  /// Compared as squares: no root is taken in 113 bits.
+  /// Compares squares: no root is taken in Float128.
   void lengths() {
     const Float128 square = dot(u_, u_);
-    const Float128 norm = as_float128(c_.norm), above = as_float128(q_.norm_base) + as_float128(c_.norm_above);
+    const Float128 norm = as_float128(c_.norm),
+                   above = as_float128(q_.norm_base) + as_float128(c_.norm_above);
     promise(norm >= 0 && norm * norm >= square, "sharp_norm_up(u)", number(norm));
     promise(above >= 0 && above * above >= square, "sharp_norm_above_up(u, base)", number(above));
-    // And no looser than they are said to be.
+    // The lengths are no looser than they are specified to be.
     const double size = rough_length(u_);
     near("sharp_norm_up(u)", number(norm) - size, 8 * kUlp * size);
     near("sharp_norm_above_up(u, base)", number(above - float128(size)),

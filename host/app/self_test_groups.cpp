@@ -1,5 +1,5 @@
-// The host's side of the self-test's subgroup operations: what each invocation saw, against what
-// the invocations of its ballot gave.
+// The host's side of the self-test's subgroup operations: each invocation's results against the
+// operands of the invocations in its ballot.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -32,7 +32,7 @@ struct Given {
   float a, b;
 };
 
-/// Holds the results that one invocation should have had of each operation.
+/// Holds the results that one invocation should have for each operation.
 struct Expected {
   uint32_t members = 0, first = 0, first_item = 0, rank = 0, sum = 0;
   gpu::vec3 least{}, highest{};
@@ -50,7 +50,7 @@ class Judge {
     }
   }
 
-  /// Empty, or the operation that is wrong.
+  /// Returns the operation that is wrong, or an empty text.
   std::string fault(uint32_t item, const Group& seen, Flow flow) const {
     Expected e;
     if (!holds(seen.ballot, seen.lane)) return "subgroupBallot";
@@ -67,7 +67,7 @@ class Judge {
   }
 
  private:
-  /// Whether both can be at the place in the code where `item` looked around last.
+  /// Whether both can be at the place in the code where `item` took its last view.
   bool may_be_beside(uint32_t item, uint32_t other, Flow flow) const {
     const Question &q = asked_[item], &o = asked_[other];
     if (flow == Flow::kBranch) return (q.a > q.b) == (o.a > o.b);
@@ -109,7 +109,7 @@ class Judge {
 
   std::span<const Question> asked_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> items_;  // by subgroup and lane
-  std::map<uint32_t, uint32_t> sizes_;                       // of subgroups
+  std::map<uint32_t, uint32_t> sizes_;                       // sizes of subgroups
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace vkh {
 namespace {
 
-constexpr double kHalfUlp2 = 0x1p-45;  // of the operands: what two_sum and two_product may lose
+constexpr double kHalfUlp2 = 0x1p-45;  // the operands' share that two_sum and two_product may lose
 constexpr double kLeastNormal = 0x1p-126;
 constexpr double kQuotientUlps = 2.5;
 constexpr double kRootUlps = 6;
@@ -73,7 +73,7 @@ class OperationJudge {
                     ", outside of what Vulkan allows";
   }
 
-  /// To one of the two floats around the exact result, or flushed where that is allowed.
+  /// Requires one of the two floats around the exact result, or 0 where flushing is allowed.
   void rounded(const char* what, double got, const Exact& exact) {
     const double size = std::abs(exact.value);
     const double off = distance(got, exact);
@@ -98,7 +98,8 @@ class OperationJudge {
     promise(off <= ulps * (1 + 0x1p-20), what, got);  // NaN fails
   }
 
-  /// The error-free transformations: what reassociation or a product's contraction would break.
+  /// Checks the error-free transformations: reassociation or a product's contraction would break
+  /// them.
   void pairs() {
     const Exact sum = exact_sum(a_, b_);
     const double left =
@@ -124,7 +125,7 @@ struct Subgroup {
   std::vector<uint32_t> ranks;
 };
 
-/// Each of the keepers has a rank of its own, 0, 1, 2, ...
+/// Whether each of the keepers has a rank of its own, 0, 1, 2, ...
 bool are_ranks(std::vector<uint32_t> ranks) {
   std::sort(ranks.begin(), ranks.end());
   for (uint32_t i = 0; i < ranks.size(); ++i) {
@@ -211,7 +212,7 @@ std::vector<gpu::SelfTestQuestion> self_test_questions(uint64_t seed, uint32_t c
   uint64_t state = seed;
   for (gpu::SelfTestQuestion& q : questions) {
     const uint64_t way = draw(state) & 7u;
-    // Exponents that keep exact sums in two doubles and exact products in one.
+    // These exponents keep exact sums in two doubles and exact products in one.
     q.a = hard_float(state, -20, 20);
     q.b = hard_float(state, -20, 20);
     if (way == 0)

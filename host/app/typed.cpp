@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kStandardOutput = "true";  ///< what CLI11 makes of a lone --json
+constexpr const char* kStandardOutput = "true";  ///< CLI11's value for a lone --json
 
 void check_names(const char* option, const std::vector<std::string>& names,
                  const std::vector<std::string>& known) {

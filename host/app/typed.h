@@ -1,4 +1,4 @@
-// The options of commands that are about pairs, and what was typed for them.
+// The options of commands about pairs, and their typed values.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ class App;
 
 namespace vkh {
 
-/// As typed.
+/// The options as the user typed them.
 struct Typed {
   std::string file_a, file_b;
   std::string tolerance, max, face_max_a, face_max_b, unit, device;
@@ -28,10 +28,10 @@ struct Typed {
        statistics = false;
 };
 
-/// How lengths are typed, for help.
+/// The forms of a length, for help.
 extern const char* const kLengths;
 
-// Options that commands share. `typed` must outlive `command`.
+// Adds options that commands share. `typed` must outlive `command`.
 void add_pair(CLI::App& command, Typed& typed);
 void add_unit_and_input(CLI::App& command, Typed& typed);
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default);
@@ -40,11 +40,11 @@ void add_part(CLI::App& command, Typed& typed);
 void add_device_option(CLI::App& command, Typed& typed);
 void add_time_option(CLI::App& command, Typed& typed);
 void add_engine_options(CLI::App& command, Typed& typed);  ///< memory, waves, switches, cache
-void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and those
+void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and engine options
 void add_survey_options(CLI::App& command, Typed& typed);
 void add_output_options(CLI::App& command, Typed& typed);
 
-/// What they ask for. Throw UsageError.
+/// Turn the typed options into requests. Throw UsageError.
 PairJob job_of(const Typed& typed, const Words& words, const char* command);
 Outputs outputs_of(const Typed& typed);
 

@@ -1,4 +1,4 @@
-// Work that goes on beside its caller, and may be left behind when the program ends.
+// Starts work beside its caller that may be left behind when the program ends.
 #pragma once
 
 #include <future>
@@ -7,8 +7,8 @@
 
 namespace vkh {
 
-/// Runs `work` on a thread of its own, or, where there is none to be had, when its result is asked
-/// for. A result that nobody asks for is not waited for: the program must end by end_process.
+/// Runs `work` on a thread of its own or, if none is available, when its result is requested. No
+/// thread waits for a result that is never requested: the program must end by end_process.
 template <class Work>
 auto begin_now(Work work) {
   std::packaged_task<decltype(work())()> task(work);

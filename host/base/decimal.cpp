@@ -8,10 +8,10 @@
 namespace vkh {
 namespace {
 
-/// |value| = 0.d1d2d3... * 10^(exponent + 1), all digits there are.
+/// |value| = 0.d1d2d3... * 10^(exponent + 1), with all its digits.
 struct Digits {
   std::string digits;
-  int exponent = 0;  ///< of the first digit
+  int exponent = 0;  ///< the first digit's
 };
 
 // The longest exact expansion of a double has 767 significant digits (the largest denormal), so

@@ -1,4 +1,4 @@
-// Doubles as decimals that never lie: rounded exactly, in the direction that is asked for.
+// Doubles as decimals that are rounded exactly, in the given direction.
 #pragma once
 
 #include <charconv>
@@ -10,13 +10,14 @@ enum class Rounding { kDown, kUp };  ///< towards minus or plus infinity
 
 inline constexpr int kJsonDigits = 18;  ///< rounded outward, and read back as the same double
 
-/// `value` with at most `digits` (>= 1) significant digits, as a JSON number without trailing
-/// zeros. Exact: the printed decimal is <= value (kDown) or >= value (kUp), by less than one unit
-/// of its last digit, and equal where it can be. "inf", "-inf" or "nan" for what is no number.
+/// Writes `value` with at most `digits` (>= 1) significant digits, as a JSON number without
+/// trailing zeros. Exact: the printed decimal is <= value (kDown) or >= value (kUp), by less than
+/// one unit of its last digit, and equal where it can be. "inf", "-inf" or "nan" for a value that
+/// is no number.
 std::string decimal(double value, int digits, Rounding rounding);
 
-/// As printf has it with %.{digits}f, e or g in the C locale. printf itself takes the program's
-/// locale, whose decimal point may be a comma.
+/// Writes the text of printf with %.{digits}f, e or g in the C locale. printf itself takes the
+/// program's locale, whose decimal point may be a comma.
 std::string number_text(double value, std::chars_format format, int digits);
 
 /// "x, y, z" in nine digits, for people.
@@ -28,8 +29,8 @@ std::string shortest_decimal(double value);
 /// The double itself, readable by strtod and by Python's float.fromhex: "0x1.8p-3".
 std::string hex_float(double value);
 
-/// How many significant digits of `value` matter beside an uncertainty of `gap`: up to two past
-/// gap's first digit, 3 to 17 in all.
+/// The number of significant digits of `value` that matter beside an uncertainty of `gap`: up to
+/// two past gap's first digit, 3 to 17 in all.
 int digits_that_matter(double value, double gap);
 
 }  // namespace vkh

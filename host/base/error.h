@@ -1,5 +1,5 @@
-// What the outside world can do wrong. host/ throws these; main catches once and maps them to exit
-// codes.
+// The errors that the outside world can cause. host/ throws these; main catches once and maps them
+// to exit codes.
 #pragma once
 
 #include <stdexcept>
@@ -7,8 +7,8 @@
 
 namespace vkh {
 
-/// A file, mesh or array that cannot be accepted. One line: file, place, what is wrong, what was
-/// expected.
+/// A file, mesh or array that cannot be accepted. One line: file, place, the error, the expected
+/// form.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -18,17 +18,17 @@ struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// No memory for what the device is to work on.
+/// No memory for the data that the device is to work on.
 struct MemoryError : DeviceError {
   using DeviceError::DeviceError;
 };
 
-/// An answer that is there and a file, pipe or disk that does not take it.
+/// An answer exists, but a file, pipe or disk does not take it.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whoever asked called it off, before there was an answer.
+/// The caller called it off before there was an answer.
 struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -1,5 +1,5 @@
-// 113-bit arithmetic: exact enough to check a certificate of 24 or 48 bits with room to spare. The
-// compiler's own (libgcc), no library; the exponents hold every product of four doubles.
+// 113-bit arithmetic: exact enough to check a certificate of 24 or 48 bits with room to spare. It
+// is the compiler's own (libgcc), no library; the exponents hold every product of four doubles.
 #pragma once
 
 #include <cfloat>
@@ -40,7 +40,7 @@ inline Float128Vector cross(const Float128Vector& a, const Float128Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline Float128 magnitude(Float128 x) { return x < 0 ? -x : x; }
-inline Float128 magnitude(const Float128Vector& a) {  ///< of the largest coordinate
+inline Float128 magnitude(const Float128Vector& a) {  ///< magnitude of the largest coordinate
   const Float128 x = magnitude(a.x), y = magnitude(a.y), z = magnitude(a.z);
   return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }

@@ -1,4 +1,4 @@
-// The floating-point environment that the host's arithmetic is right in, whatever the caller's is.
+// The floating-point environment that the host's arithmetic needs, whatever the caller's is.
 #pragma once
 
 #include <cfenv>
@@ -17,9 +17,9 @@ namespace vkh {
 static_assert(FLT_EVAL_METHOD == 0, "a double operation is rounded to double, and once");
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559);
 
-/// While it lives, this thread rounds to nearest, flushes nothing to zero and traps nothing. Then
-/// everything is as the caller had it, its exception flags too. Libraries that are linked with
-/// -ffast-math leave threads that flush. It stands at every public boundary.
+/// While it lives, this thread rounds to nearest, flushes nothing to zero and traps nothing. Its
+/// destructor restores the caller's state, exception flags too. Libraries that are linked with
+/// -ffast-math leave threads that flush. Every public boundary has one.
 class FloatEnvironment {
  public:
   FloatEnvironment() { enter(); }
@@ -27,7 +27,7 @@ class FloatEnvironment {
   FloatEnvironment(const FloatEnvironment&) = delete;
   FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
-  /// Calls f, which is the caller's, in the caller's environment; what f makes of it is kept.
+  /// Calls the caller's f in the caller's environment; f's changes to it are kept.
   template <class F>
   auto outside(const F& f) {
     const Outside guard(*this);
@@ -44,8 +44,8 @@ class FloatEnvironment {
   };
 
   // C libraries differ in whether their default environment flushes, and mingw-w64's (10.0) leaves
-  // the control register of SSE as it was, its rounding too: so that is set here. On AArch64 the
-  // default is a control register of 0, which flushes nothing.
+  // the control register of SSE as it was, its rounding too: so that register is set here. On
+  // AArch64 the default is a control register of 0, which flushes nothing.
   void enter() {
     std::fegetenv(&callers_);
 #ifdef VKH_SSE

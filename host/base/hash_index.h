@@ -1,6 +1,6 @@
 // Finds equal elements of an array by hashing: the table holds element numbers, the keys stay with
-// the caller. Files come from anywhere, so the hash has a secret: against one without, 8.5 MB of
-// chosen positions took 40 s.
+// the caller. Files come from anywhere, so the hash has a secret: without one, 8.5 MB of chosen
+// positions took 40 s.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ namespace vkh {
 
 using HashSecret = std::array<uint64_t, 2>;
 
-/// Drawn once a process. What a HashIndex finds does not depend on it.
+/// The secret, drawn once a process. The results of a HashIndex do not depend on it.
 inline const HashSecret& hash_secret() {
   static const HashSecret secret = [] {
     HashSecret words{};
     try {
       std::random_device source;
       for (uint64_t& word : words) word = uint64_t{source()} << 32 | source();
-    } catch (const std::exception&) {  // no source here: better than none that differs
+    } catch (const std::exception&) {  // no random source here: this secret is better than none
       const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
       words = {static_cast<uint64_t>(now), reinterpret_cast<uintptr_t>(&words)};
     }
@@ -32,9 +32,8 @@ inline const HashSecret& hash_secret() {
   return secret;
 }
 
-/// SipHash (Aumasson and Bernstein, 2012) of whole words, each as 8 little-endian bytes: nobody who
-/// does not know the secret can choose words that collide. Of 1-3 rounds, as in hash tables at
-/// large.
+/// SipHash (Aumasson and Bernstein, 2012) of whole words, each as 8 little-endian bytes: without
+/// the secret, words that collide cannot be chosen. It has 1-3 rounds, as is usual in hash tables.
 template <int kRounds = 1, int kLastRounds = 3, size_t kCount>
 uint64_t keyed_hash(const HashSecret& secret, const std::array<uint64_t, kCount>& words) {
   uint64_t a = secret[0] ^ 0x736f6d6570736575u, b = secret[1] ^ 0x646f72616e646f6du;
@@ -64,7 +63,7 @@ uint64_t keyed_hash(const HashSecret& secret, const std::array<uint64_t, kCount>
   return a ^ b ^ c ^ d;
 }
 
-/// Positions are one if their bits are, after -0 became +0.
+/// Makes -0 +0, so that equal positions have equal bits.
 inline uint64_t position_bits(double x) { return std::bit_cast<uint64_t>(x + 0.0); }
 
 inline uint64_t hash_position(const HashSecret& secret, const glm::dvec3& p) {

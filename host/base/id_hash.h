@@ -6,7 +6,7 @@
 
 namespace vkh {
 
-/// FNV-1a of its bytes, mixed: the same on every machine.
+/// FNV-1a of the id's bytes, mixed: the same on every machine.
 uint64_t hash_of_id(std::string_view id);
 
 }  // namespace vkh

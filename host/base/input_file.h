@@ -1,4 +1,4 @@
-// A file that several threads read, each where it likes.
+// A file that several threads read at any offset.
 #pragma once
 
 #include <cstddef>
@@ -7,21 +7,22 @@
 
 namespace vkh {
 
-/// Read and not mapped: who cuts a mapped file short ends the process that looks at it (SIGBUS),
-/// and reading is as fast (pieces of 1 MiB from Linux's page cache, two threads: 6.5 against 5
-/// GB/s).
+/// A file that is read and not mapped: cutting a mapped file short ends the process that looks at
+/// it (SIGBUS), and reading is as fast (pieces of 1 MiB from Linux's page cache, two threads: 6.5
+/// against 5 GB/s).
 class InputFile {
  public:
-  /// What is no regular file, or may not be read, is not open.
+  /// Leaves it closed if the path is no regular file, or may not be read.
   explicit InputFile(const std::filesystem::path& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
   bool is_open() const { return handle_ != kClosed; }
-  /// When it was opened.
+  /// The size when it was opened.
   uint64_t size() const { return size_; }
-  /// The bytes from `offset` on, at most `count`; fewer where the file ends or cannot be read.
+  /// Reads the bytes from `offset` on, at most `count`; fewer where the file ends or cannot be
+  /// read.
   size_t read(uint64_t offset, char* to, size_t count) const;
 
  private:

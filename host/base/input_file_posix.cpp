@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-// A pipe is not opened: its writer would meet a reader that goes away.
+// Opens no pipe: its writer would meet a reader that goes away.
 InputFile::InputFile(const std::filesystem::path& path) {
   struct stat known = {};
   if (stat(path.c_str(), &known) != 0 || !S_ISREG(known.st_mode)) return;
@@ -28,7 +28,7 @@ InputFile::~InputFile() {
 }
 
 size_t InputFile::read(uint64_t offset, char* to, size_t count) const {
-  constexpr size_t kMost = size_t{1} << 30;  // of one call; Linux ends it at 2 GiB
+  constexpr size_t kMost = size_t{1} << 30;  // per call; Linux ends it at 2 GiB
   size_t done = 0;
   while (done < count) {
     const ssize_t got = pread(static_cast<int>(handle_), to + done, std::min(count - done, kMost),

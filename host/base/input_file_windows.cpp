@@ -8,7 +8,7 @@
 namespace vkh {
 namespace {
 
-/// One read of at most 1 GiB; the bytes that came.
+/// Makes one read of at most 1 GiB; returns the bytes read.
 DWORD read_once(HANDLE file, uint64_t offset, char* to, size_t count) {
   constexpr size_t kMost = size_t{1} << 30;
   OVERLAPPED place{};
@@ -27,7 +27,7 @@ DWORD read_once(HANDLE file, uint64_t offset, char* to, size_t count) {
 
 }  // namespace
 
-// Overlapped: of a file that is opened otherwise Windows lets one thread read at a time.
+// Opens it overlapped: otherwise Windows lets one thread read a file at a time.
 InputFile::InputFile(const std::filesystem::path& path) {
   const HANDLE file = CreateFileW(
       path.c_str(), GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,

@@ -31,9 +31,10 @@ const Unit* find_unit(const std::string& name) {
 
 constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
 
-/// Encloses x, which comes of a number of 53 bits by a product and a quotient or two in 113 bits.
-/// The number was rounded to nearest, twice if it was a percentage. A diagonal is off by four ulps
-/// at most: its extents are rounded, and libstdc++'s hypot of three adds two roundings to a root.
+/// Encloses x, the result of a product and a quotient or two in Float128 (113 bits) from a number
+/// of 53 bits. The number was rounded to nearest, twice if it was a percentage. A diagonal is off
+/// by four ulps at most: its extents are rounded, and libstdc++'s hypot of three adds two roundings
+/// to a root.
 Limit around(Float128 x) {
   constexpr int kUlps = 16;
   const auto nearest = static_cast<double>(x);
@@ -45,7 +46,7 @@ Limit around(Float128 x) {
   return limit;
 }
 
-/// "write 0.1mm; ", where that is known and another word than what was typed.
+/// Returns "write 0.1mm; " if the meaning is known and differs from the typed text.
 std::string proposal(const std::string& meant, const std::string& typed) {
   return meant.empty() || meant == typed ? std::string() : "write " + meant + "; ";
 }

@@ -1,4 +1,4 @@
-// Lengths as people type them, and what they are in a file's own unit.
+// Lengths as people type them, and their values in a file's own unit.
 #pragma once
 
 #include <string>
@@ -8,45 +8,45 @@
 
 namespace vkh {
 
-/// Such as "1e-6diag", "0.1%", "0.1abs" or "0.1mm".
+/// A length such as "1e-6diag", "0.1%", "0.1abs" or "0.1mm".
 struct Length {
   enum class Of {
     kDiagonal,  ///< a fraction of diag(A)
     kFiles,     ///< in the files' own unit, whatever it is
     kUnit,      ///< in `unit`
   };
-  std::string requested;  ///< as typed
-  double number = 0;      ///< of what `of` says; of a percentage its hundredth
+  std::string requested;  ///< the text as the user typed it
+  double number = 0;      ///< in terms of `of`; a percentage's hundredth
   Of of = Of::kDiagonal;
   std::string unit = {};
 };
 
-/// Of a length that is known to lie between a limit's ends, the decimal of fifteen digits there, if
-/// there is one: what was typed, as a rule. What holds at both ends holds for it.
+/// Returns, for a length known to lie between a limit's ends, the decimal of fifteen digits there,
+/// if there is one: usually the typed number. A statement that holds at both ends holds for it.
 double typed_length(const Limit& limit);
-/// It, as people read it: as it was typed where that has at most twelve digits; else, as of a share
-/// of a diagonal, "about" and four.
+/// Writes the limit for people: as it was typed if that has at most twelve digits; otherwise, for
+/// example for a share of a diagonal, "about" and four digits.
 std::string length_in_words(const Limit& limit);
 
 /// Whether a number alone is a fraction of diag(A), or refused.
 enum class PlainNumber { kFraction, kRefused };
 
-/// Throws UsageError that names `option`, what was typed and what was expected. A length is
+/// Throws UsageError that names `option`, the typed text and the expected form. A length is
 /// positive and finite.
 Length parse_length(const char* option, const std::string& text, PlainNumber plain);
 
-/// "um", "mm", "cm", "m", "in" or "ft"; throws UsageError that names `option`.
+/// Accepts "um", "mm", "cm", "m", "in" or "ft"; throws UsageError that names `option`.
 void check_unit(const char* option, const std::string& unit);
 
-/// The length in the files' unit: `file_unit`, or empty where nobody says which. Encloses it: in
-/// exact arithmetic it is from `within` to `beyond`, which are 32 ulps apart. A share of a diagonal
-/// is of that of the coordinates as they are read, whatever their delta. Throws UsageError,
-/// naming `option`, where a length in millimetres meets files that are in nobody knows what.
+/// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
+/// arithmetic it is from `within` to `beyond`, which are 32 ulps apart. A share of a diagonal
+/// refers to the diagonal of the coordinates as they are read, whatever their delta. Throws
+/// UsageError, naming `option`, if a length in millimetres meets files of an unknown unit.
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
                double diagonal_a);
 
 /// The same for a length that decides: also refuses a share of a diagonal that is 0 or no normal
-/// double, of which nobody knows how far it is off.
+/// double, since its error is unknown.
 Limit limit_in_files(const Length& length, const char* option, const std::string& file_unit,
                      double diagonal_a);
 

@@ -12,7 +12,7 @@
 namespace vkh {
 namespace {
 
-/// A unit as people type it, in lower case: so many of one that lengths have.
+/// A unit as people type it, in lower case, and its factor to a unit of lengths.
 struct TypedUnit {
   std::string_view typed;
   double of;
@@ -88,7 +88,7 @@ const TypedUnit* typed_unit(const std::string& text) {
   return found == kTypedUnits.end() ? nullptr : found;
 }
 
-/// Where the number that `text` begins with ends, with its exponent, if it has one.
+/// The end of the number that `text` begins with, including its exponent, if it has one.
 size_t number_end(const std::string& text) {
   const size_t digits = std::min(text.find_first_not_of("0123456789.,"), text.size());
   if (digits == text.size() || (text[digits] != 'e' && text[digits] != 'E')) return digits;
@@ -99,7 +99,7 @@ size_t number_end(const std::string& text) {
   return end == power ? digits : end;
 }
 
-/// A number and a unit, as parse_length has them; nothing where the number is none.
+/// Writes a number and a unit in the form of parse_length; nothing if the number is none.
 std::string as_parsed(const std::string& number, const TypedUnit& unit) {
   double value = 0;
   const char* const end = number.data() + number.size();
@@ -130,7 +130,7 @@ std::string length_meant(const std::string& text) {
   const std::string thousands = as_parsed(without_commas(number), *unit);
   number[comma] = '.';
   const std::string decimal = as_parsed(number, *unit);
-  // 0,100 is no thousands.
+  // A number such as 0,100 has no thousands.
   const bool is_either = number.size() == comma + 4 && comma > 0 && number[0] != '0';
   return is_either && !decimal.empty() ? decimal + " or " + thousands : decimal;
 }

@@ -1,13 +1,13 @@
-// Guesses the length or unit that somebody meant who typed what is none: "0,1mm", "4mil", "inch".
+// Guesses the length or unit that a user meant by a text that is none: "0,1mm", "4mil", "inch".
 #pragma once
 
 #include <string>
 
 namespace vkh {
 
-/// How to write the length that `text` may be, such as "0.1mm", or "1.000mm or 1000mm" where it may
-/// be two. `text` itself where it is written so, and nothing where it says no unit or length that
-/// is known.
+/// Returns how to write the length that `text` may be, such as "0.1mm", or "1.000mm or 1000mm" if
+/// it may be two. Returns `text` itself if it is already so written, and nothing if it has no known
+/// unit or length.
 std::string length_meant(const std::string& text);
 
 /// The unit that `text` may be, such as "in"; else nothing.

@@ -1,4 +1,4 @@
-// Notes: what people should know about an answer or a file, one line each. A line begins with a
+// Notes that people should know about an answer or a file, one line each. A line begins with a
 // code, which programs may rely on: "polygons: 3 faces of more than three corners were
 // triangulated". docs/guide.md lists the codes.
 #pragma once
@@ -9,9 +9,9 @@
 namespace vkh {
 
 enum class NoteCode {
-  // on a file
+  // Notes on a file.
   kPolygons,    ///< faces of more than three corners became triangles
-  kBodies,      ///< a file holds more than bodies, which was left out, or included
+  kBodies,      ///< a file holds other things than bodies, left out or included
   kShortFaces,  ///< faces of fewer than three corners were left out
   kElements,    ///< points, lines and curves were left out
   kSurfaces,    ///< free-form surfaces were left out
@@ -22,7 +22,7 @@ enum class NoteCode {
   kPositions,   ///< primitives without positions were left out
   kMorph,       ///< morph targets of weight 0 were left out
   kAnimations,  ///< animations were left out
-  // on the pair
+  // Notes on the pair.
   kUnitAssumed,  ///< one file does not say its unit, and the other does
   kUnitsDiffer,  ///< the files are in different units
   kTolerance,    ///< a tolerance of 0, which hardly any interval meets
@@ -32,16 +32,16 @@ enum class NoteCode {
   kSurvey,       ///< statistics, a field or a picture are missing
 };
 
-/// Such as "short-faces".
+/// The code's name, such as "short-faces".
 std::string_view code_name(NoteCode code);
 
-/// "short-faces: " and the text.
+/// Joins "short-faces: " and the text.
 std::string note_of(NoteCode code, const std::string& text);
 
 /// The code that a note begins with; empty where it has none.
 std::string_view code_of_note(std::string_view note);
 
-/// Whether build servers are told, too: what was measured is not all that the file says.
+/// Whether build servers get it too: the measured surface is not all that the file holds.
 bool is_on_surface(std::string_view note);
 
 }  // namespace vkh

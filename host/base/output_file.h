@@ -1,4 +1,4 @@
-// A file that an answer goes to: looked at before a run, written after it, whole or not at all.
+// A file for an answer: checked before a run, written after it, whole or not at all.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 namespace vkh {
 
 /// A regular file is written beside its place and renamed, so that an older one is whole until the
-/// new one is; where that cannot be, as it is mounted by itself, it is written over. Links are
-/// followed: their target is replaced. Pipes, terminals and whatever is
-/// standard output already are not replaced but written to.
-/// output_file_posix.cpp and output_file_windows.cpp are two forms of it.
+/// new one is; if that cannot be, as for a file that is mounted by itself, it is written over.
+/// Links are followed: their target is replaced. Pipes, terminals and the file that is already
+/// standard output are not replaced but written to. output_file_posix.cpp and
+/// output_file_windows.cpp are its two implementations.
 class OutputFile {
  public:
-  /// `option` is named by messages. Throws UsageError, and has changed nothing, where `path` is one
-  /// of `inputs` under any name, or cannot be written. A pipe that nobody reads is refused: opening
-  /// it would wait for a reader, for ever if none comes.
+  /// Names `option` in messages. Throws UsageError, and has changed nothing, if `path` is one of
+  /// `inputs` under any name, or cannot be written. A pipe without a reader is refused: opening it
+  /// would wait for one, without end if none comes.
   OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -35,15 +35,15 @@ class OutputFile {
   [[noreturn]] void refuse(const std::string& why) const;
 
   std::string option_, path_;
-  std::string target_;  ///< what the links of `path_` lead to
-  /// A descriptor or a HANDLE, open for writing, where there is nothing to rename.
+  std::string target_;  ///< the target of `path_`'s links
+  /// A descriptor or a HANDLE, open for writing, if there is nothing to rename.
   std::intptr_t special_ = -1;
 };
 
 /// A file that grows by whole lines, by one process at a time.
 class LineFile {
  public:
-  /// Opens it, makes it where there is none, and locks it. Throws UsageError where it is no regular
+  /// Opens it, creates it if it does not exist, and locks it. Throws UsageError if it is no regular
   /// file, one of `inputs` under any name, or another process has it.
   LineFile(std::string option, std::string path, const std::vector<std::string>& inputs);
   ~LineFile();
@@ -51,21 +51,21 @@ class LineFile {
   LineFile& operator=(const LineFile&) = delete;
 
   uint64_t size() const { return size_; }
-  /// Whether its first bytes are those, or all of it is the beginning of them.
+  /// Whether it begins with `text`, or all of it is a beginning of `text`.
   bool begins_with(std::string_view text);
-  /// Hands out each line that is whole, without its end; what comes after the last is cut off: a
-  /// process ended while it wrote it. Throws OutputError.
+  /// Hands out each whole line, without its end, and cuts off the bytes after the last: a process
+  /// ended while it wrote them. Throws OutputError.
   void read(const std::function<void(std::string_view)>& take);
-  /// Throws OutputError, and has then taken away what was written of the line. Whoever reads the
-  /// file sees the line once this returns, whatever becomes of this process.
+  /// Throws OutputError after taking away the written part of the line. A reader of the file sees
+  /// the line once this returns, whatever becomes of this process.
   void append(std::string_view line);
-  void sync() const;  ///< nor is it lost with the machine's power, once this returns
+  void sync() const;  ///< keeps lines through a power loss, once this returns
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
   std::string option_, path_;
   std::intptr_t file_ = -1;  ///< a descriptor or a HANDLE
-  uint64_t size_ = 0;        ///< of whole lines
+  uint64_t size_ = 0;        ///< the whole lines' size
 };
 
 }  // namespace vkh

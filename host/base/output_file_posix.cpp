@@ -29,7 +29,8 @@ bool is_same(const struct stat& x, const struct stat& y) {
   return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
-/// A dangling link's target is made, so realpath() will not do. Empty: links without end.
+/// Follows the links without realpath(), since a dangling link's target is made. Empty: links
+/// without end.
 std::string end_of_links(const std::string& path) {
   constexpr int kMostLinks = 40;  // Linux's own limit
   fs::path at = path;
@@ -37,7 +38,7 @@ std::string end_of_links(const std::string& path) {
   for (int i = 0; i < kMostLinks; ++i) {
     const fs::path target = fs::read_symlink(at, none);
     if (none) return at.string();
-    at = at.parent_path() / target;  // target alone, if that is absolute
+    at = at.parent_path() / target;  // replaces the folder if the target is absolute
   }
   return {};
 }
@@ -59,7 +60,7 @@ class NoBrokenPipe {
   void (*before_)(int);
 };
 
-/// False, with errno, if it cannot be, or if a pipe's reader takes nothing for ten seconds.
+/// Returns false, with errno, if it cannot be, or if a pipe's reader takes nothing for ten seconds.
 bool write_all(int file, std::string_view text) {
   constexpr int kPatienceMs = 10'000;
   const NoBrokenPipe guard;
@@ -80,7 +81,7 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
-/// A new file in `folder`, under a name that nobody has; -1 with errno.
+/// Creates a new file in `folder`, under an unused name; -1 with errno.
 int create_beside(const std::string& folder, mode_t mode, std::string& name) {
   constexpr int kMostTries = 1000;
   for (int i = 0; i < kMostTries; ++i) {
@@ -127,7 +128,7 @@ void OutputFile::refuse(const std::string& why) const {
   throw UsageError(option_ + " '" + path_ + "': " + why);
 }
 
-// Kept open until it is written to: a pipe's reader would take its closing for the end.
+// Keeps the file open until it is written to: a pipe's reader would take its closing for the end.
 void OutputFile::open_special(unsigned mode) {
   if (S_ISBLK(mode)) refuse("is a disk, not a file");
   special_ = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -136,7 +137,7 @@ void OutputFile::open_special(unsigned mode) {
   refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
 }
 
-// An answer that took an hour must not meet a folder that is not there.
+// Checks the folder early: an answer that took an hour must not meet a missing one.
 void OutputFile::check_place() const {
   const std::string folder = folder_of(target_);
   if (fs::path(target_).filename().empty()) refuse("is a folder's name");
@@ -153,8 +154,8 @@ void OutputFile::write(std::string_view text) const {
     throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(errno));
 }
 
-// Where nothing can be renamed over the older file: it is mounted by itself, or its folder is not
-// ours to write.
+// Writes over an older file that nothing can be renamed over: it is mounted by itself, or its
+// folder is not ours to write.
 void OutputFile::write_over(std::string_view text) const {
   const int file = open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   const bool good = file >= 0 && write_all(file, text);
@@ -172,7 +173,7 @@ void OutputFile::replace(std::string_view text) const {
   if (good && older) good = fchmod(file, older->st_mode & 07777) == 0;
   good = good && write_all(file, text);
   int error = good ? 0 : errno;
-  if (file >= 0 && close(file) != 0 && good) error = errno;  // where a quota or NFS says it
+  if (file >= 0 && close(file) != 0 && good) error = errno;  // a quota or NFS may report here
   if (error == 0 && rename(beside.c_str(), target_.c_str()) != 0) error = errno;
   if (error == 0) return;
   if (file >= 0) unlink(beside.c_str());
@@ -199,7 +200,7 @@ LineFile::LineFile(std::string option, std::string path, const std::vector<std::
   const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
   file_ = file;
-  // Some file systems have no locks: then nobody is kept out.
+  // Some file systems have no locks: then no process is kept out.
   const bool is_taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (is_taken) close(file);
   if (is_taken) refuse("another process writes to it");
@@ -217,7 +218,7 @@ bool LineFile::begins_with(std::string_view text) {
 
 void LineFile::read(const std::function<void(std::string_view)>& take) {
   const int file = static_cast<int>(file_);
-  std::string text;  // what is there of a line
+  std::string text;  // the beginning of a line
   uint64_t whole = 0;
   for (off_t at = 0;;) {
     char block[1 << 16];
@@ -246,7 +247,7 @@ void LineFile::append(std::string_view line) {
   }
   const int error = errno;
   if (ftruncate(static_cast<int>(file_), static_cast<off_t>(size_)) != 0) {
-    // What was written of it stays: the next process cuts it off.
+    // The written part of the line stays: the next process cuts it off.
   }
   errno = error;
   fail("cannot be written");

@@ -37,7 +37,7 @@ class File {
   HANDLE handle_;
 };
 
-/// What Windows says of an error, in one line.
+/// Returns Windows' text for an error, in one line.
 std::string text_of(DWORD error) {
   wchar_t* text = nullptr;
   constexpr DWORD kHow = FORMAT_MESSAGE_ALLOCATE_BUFFER | FORMAT_MESSAGE_FROM_SYSTEM |
@@ -64,12 +64,12 @@ bool is_same(const FileId& x, const FileId& y) {
          x.nFileIndexLow == y.nFileIndexLow;
 }
 
-/// A file that is looked at, and neither read nor written; a folder, too.
+/// Opens a file or folder for its status, neither to read nor to write.
 File look_at(const std::string& path) {
   return {path_of(path), 0, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS};
 }
 
-/// Looking at a pipe would be taken for a reader.
+/// Recognises a pipe by name: opening it would count as a reader.
 bool is_pipe(const std::string& path) {
   std::string start = path.substr(0, 9);
   std::replace(start.begin(), start.end(), '/', '\\');
@@ -89,7 +89,7 @@ std::string final_name(HANDLE handle) {
   return name.size() < room ? utf8_of(name) : std::string();
 }
 
-/// A new file in `folder`, under a name that nobody has.
+/// Creates a new file in `folder`, under an unused name.
 File create_beside(const fs::path& folder, DWORD flags, fs::path& name) {
   constexpr int kMostTries = 1000;
   for (int i = 0;; ++i) {
@@ -100,7 +100,7 @@ File create_beside(const fs::path& folder, DWORD flags, fs::path& name) {
   }
 }
 
-/// False, with GetLastError(), if it cannot be.
+/// Returns false, with GetLastError(), if it cannot be.
 bool write_all(HANDLE file, std::string_view text) {
   constexpr size_t kMostAtOnce = size_t{1} << 26;
   while (!text.empty()) {
@@ -161,7 +161,7 @@ void OutputFile::refuse(const std::string& why) const {
   throw UsageError(option_ + " '" + path_ + "': " + why);
 }
 
-// NUL, a console, a pipe: kept open until it is written to.
+// Keeps NUL, a console or a pipe open until it is written to.
 void OutputFile::open_special(unsigned kind) {
   File file(path_of(path_), GENERIC_WRITE, OPEN_EXISTING, 0);
   if (file.is_open()) {
@@ -174,8 +174,8 @@ void OutputFile::open_special(unsigned kind) {
   refuse("cannot be opened for writing: " + text_of(error));
 }
 
-// An answer that took an hour must not meet a folder that is not there. Only trying tells what
-// access lists allow; what is tried is gone as it is closed.
+// Checks the folder early: an answer that took an hour must not meet a missing one. Only a trial
+// shows what access lists allow; the file of the trial is gone as it is closed.
 void OutputFile::check_place() const {
   const fs::path target = path_of(target_), folder = folder_of(target);
   if (target.filename().empty()) refuse("is a folder's name");
@@ -195,7 +195,7 @@ void OutputFile::write(std::string_view text) const {
     throw OutputError(option_ + " '" + path_ + "': cannot be written: " + text_of(GetLastError()));
 }
 
-// Where the older file is held open by somebody, or its folder is not ours to write.
+// Writes over an older file that another process holds open, or whose folder is not ours to write.
 void OutputFile::write_over(std::string_view text) const {
   File file(path_of(target_), GENERIC_WRITE, TRUNCATE_EXISTING, 0);
   if (file.is_open() && write_all(file.handle(), text) && file.close()) return;
@@ -209,7 +209,7 @@ void OutputFile::replace(std::string_view text) const {
   File file = create_beside(folder_of(target), 0, beside);
   const bool is_made = file.is_open();
   bool good = is_made && write_all(file.handle(), text) && file.close();
-  // The first keeps the older file's access list.
+  // ReplaceFileW keeps the older file's access list.
   good = good &&
          ((has_older && ReplaceFileW(target.c_str(), beside.c_str(), nullptr,
                                      REPLACEFILE_IGNORE_MERGE_ERRORS, nullptr, nullptr) != 0) ||
@@ -227,7 +227,7 @@ void LineFile::fail(const std::string& what) const {
   throw OutputError(option_ + " '" + path_ + "': " + what + ": " + text_of(GetLastError()));
 }
 
-// Nobody else may write to it while it is open: that is the lock.
+// Lets no other process write to it while it is open: that is the lock.
 LineFile::LineFile(std::string option, std::string path, const std::vector<std::string>& inputs)
     : option_(std::move(option)), path_(std::move(path)) {
   const auto refuse = [&](const std::string& why) {
@@ -274,7 +274,7 @@ bool LineFile::begins_with(std::string_view text) {
 
 void LineFile::read(const std::function<void(std::string_view)>& take) {
   const HANDLE file = handle_of(file_);
-  std::string text;  // what is there of a line
+  std::string text;  // the beginning of a line
   uint64_t whole = 0;
   if (!go_to(file, 0)) fail("cannot be read");
   for (;;) {

@@ -29,11 +29,11 @@ void for_each_index(size_t count, const std::function<void(size_t)>& work, size_
   size_t least = count;
   std::exception_ptr error;
   const auto some = [&] {
-    const FloatEnvironment ours;  // a new thread's is not this one's everywhere
+    const FloatEnvironment ours;  // not every system gives a new thread this thread's
     for (size_t i = next++; i < count; i = next++) {
       try {
         work(i);
-      } catch (...) {  // those before it have been taken, and each is ended by who has it
+      } catch (...) {  // each earlier item was taken, and its thread ends it
         const std::lock_guard lock(one_at_a_time);
         if (i < least) error = std::current_exception();
         least = std::min(i, least);
@@ -42,7 +42,7 @@ void for_each_index(size_t count, const std::function<void(size_t)>& work, size_
     }
   };
   std::vector<std::future<void>> shares = {};
-  shares.push_back(std::async(std::launch::deferred, some));  // here, when it is waited for
+  shares.push_back(std::async(std::launch::deferred, some));  // runs here, when it is waited for
   for (size_t i = 1; i < std::min(threads, count); ++i)
     shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
   for (std::future<void>& share : shares) share.wait();

@@ -7,26 +7,26 @@
 
 namespace vkh {
 
-/// As many as there are cores, within reason.
+/// The number of cores, within reason.
 size_t thread_count();
 
-/// As many as pay for so much to be written: to begin one costs as much as some of it, and more
-/// where all cores are busy.
+/// The number of threads worth starting to write so many bytes: starting one costs as much as
+/// writing some of them, and more if all cores are busy.
 size_t threads_for(uint64_t bytes);
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
-/// there are any to be had, on so many in all. Throws what the least of those that threw did, after
-/// all have ended: whichever thread is sooner.
+/// any are available, on `threads` in all. Throws, after all have ended, the exception of the least
+/// index that threw, whichever thread was sooner.
 void for_each_index(size_t count, const std::function<void(size_t)>& work,
                     size_t threads = thread_count());
 
 constexpr size_t kBlock = size_t{1} << 15;
 inline size_t block_count(size_t count) { return (count + kBlock - 1) / kBlock; }
-/// Calls work(block, begin, end) for all blocks of kBlock of `count` items, as for_each_index.
+/// Calls work(block, begin, end) for all blocks of kBlock of `count` items, as for_each_index does.
 using RangeWork = std::function<void(size_t number, size_t begin, size_t end)>;
 void for_each_block(size_t count, const RangeWork& work);
 
-/// memcpy on several threads, where it is worth them.
+/// Copies as memcpy does, on several threads if it is worth them.
 void copy_together(void* to, const void* from, size_t bytes);
 
 }  // namespace vkh

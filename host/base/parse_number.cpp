@@ -5,7 +5,7 @@
 
 namespace vkh {
 
-// By the decade of its first digit: what is no double is far from 1 on one side or the other.
+// Decides by the decade of the first digit: a number that is no double is far from 1 on one side.
 bool is_tiny_decimal(std::string_view word) {
   constexpr int64_t kFar = int64_t{1} << 62;  // beyond the digits of any file
   const size_t e = std::min(word.find_first_of("eE"), word.size());

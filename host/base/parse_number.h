@@ -9,12 +9,12 @@
 
 namespace vkh {
 
-/// Of a decimal that is no double: true if it lies below the least one, not beyond the largest.
+/// Whether a decimal that is no double lies below the least one, not beyond the largest.
 bool is_tiny_decimal(std::string_view word);
 
-/// Reads all of `word` as a decimal number of type T, correctly rounded; false if any of it is
-/// left over (1/3, 1,5, 0x1p3), if it is nan or inf, or if it is too large for T. What lies below
-/// the least double is a zero of its sign. The leading plus that from_chars refuses is accepted.
+/// Reads all of `word` as a decimal number of type T, correctly rounded; false if any of it is left
+/// over (1/3, 1,5, 0x1p3), if it is nan or inf, or if it is too large for T. A number below the
+/// least double becomes a zero of its sign. The leading plus that from_chars refuses is accepted.
 template <class T>
 bool parse_number(std::string_view word, T& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);

@@ -6,14 +6,14 @@
 
 namespace vkh {
 
-/// -1 for a character that is no hexadecimal digit.
+/// Returns -1 for a character that is no hexadecimal digit.
 constexpr int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/// "my%20part" is "my part"; a percent before anything but two digits stands for itself.
+/// Turns "my%20part" into "my part"; a percent before anything but two digits stands for itself.
 inline std::string without_percents(std::string_view text) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {

@@ -1,5 +1,5 @@
 // Sums, products and quotients of finite doubles, rounded in a known direction. Exact results stay
-// exact. Of sums that overflow, only add_up's of positive and add_down's of negative numbers hold.
+// exact. For sums that overflow, only add_up's of positive and add_down's of negative numbers hold.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace vkh {
 
-/// What rounding to nearest took from a + b: exact, unless the sum overflows (Knuth's two-sum).
+/// The amount that rounding to nearest took from a + b: exact, unless the sum overflows (Knuth's
+/// two-sum).
 inline double sum_error(double a, double b) {
   const double sum = a + b;
   const double from_b = sum - a;
@@ -28,8 +29,8 @@ inline double add_down(double a, double b) {
   return sum_error(a, b) < 0 ? std::nextafter(sum, -std::numeric_limits<double>::infinity()) : sum;
 }
 
-/// Of an interval: the least double that is no smaller. It is at most a double exactly where the
-/// exact width is.
+/// The least double that is no smaller than an interval's width. It is at most a double exactly
+/// where the exact width is.
 inline double width_up(double lower, double upper) { return add_up(upper, -lower); }
 
 /// Whether an interval is closed: upper - lower <= tolerance in exact arithmetic.
@@ -37,15 +38,15 @@ inline bool is_within(double lower, double upper, double tolerance) {
   return width_up(lower, upper) <= tolerance;
 }
 
-/// x * y of finite numbers, neither negative, rounded down. A product of two doubles is exact in
-/// 113 bits.
+/// Rounds x * y of finite numbers, neither negative, down. A product of two doubles is exact in
+/// Float128 (113 bits).
 inline double multiply_down(double x, double y) {
   const Float128 exact = float128(x) * float128(y);
   const double product = static_cast<double>(exact);
   return float128(product) > exact ? std::nextafter(product, 0.0) : product;
 }
 
-/// x / y of a number that is not negative by a positive one, rounded up.
+/// Rounds x / y of a number that is not negative by a positive one up.
 inline double divide_up(double x, double y) {
   const double quotient = x / y;
   if (!std::isfinite(quotient)) return quotient;

@@ -1,4 +1,4 @@
-// What one thread at a time may use.
+// A guard that one thread at a time may hold.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,8 @@ namespace vkh {
 
 class SerialGuard {
  public:
-  /// Waits for the guard of other threads. Throws UsageError within a turn of this one, which it
-  /// would wait for for ever.
+  /// Waits while other threads hold the guard. Throws UsageError if this thread already holds it,
+  /// since it would wait without end.
   class Hold {
    public:
     explicit Hold(SerialGuard& guard) : guard_(guard) {
@@ -34,7 +34,7 @@ class SerialGuard {
 
  private:
   std::mutex mutex_;
-  std::atomic<std::thread::id> owner_ = std::thread::id();  // only its own thread sees itself here
+  std::atomic<std::thread::id> owner_ = std::thread::id();  // a thread sees only itself here
 };
 
 }  // namespace vkh

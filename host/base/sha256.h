@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), by which an answer names what it is about.
+// SHA-256 (FIPS 180-4), by which an answer names its files.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@ struct FileHash {
   bool operator==(const FileHash&) const = default;
 };
 
-/// 64 hexadecimal digits, of a file. Empty: the file cannot be read, `keep_going` said no, or this
-/// build has no library for it (libcrypto; on Windows the system's own).
+/// The hash of a file in 64 hexadecimal digits. Empty: the file cannot be read, `keep_going`
+/// returned false, or this build has no library for it (libcrypto; on Windows the system's own).
 std::string sha256_of(const std::filesystem::path& path, const std::function<bool()>& keep_going);
 
-/// Of bytes that `next` hands out in pieces, an empty one last. Empty: no library.
+/// The hash of bytes that `next` hands out in pieces, an empty one last. Empty: no library.
 std::string sha256_of_pieces(const std::function<std::string_view()>& next);
 
 }  // namespace vkh

@@ -1,7 +1,7 @@
-// What operating systems do differently; files that are written are beside it (output_file.h). Each
-// has a page of its own: system_posix.cpp, system_windows.cpp.
+// The differences of operating systems; output files are beside it (output_file.h). Each system has
+// a file of its own: system_posix.cpp, system_windows.cpp.
 //
-// A file's name in a string is UTF-8 on Windows, and the bytes that it has elsewhere.
+// A file's name in a string is UTF-8 on Windows, and the system's own bytes elsewhere.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ inline std::string name_of(const std::filesystem::path& path) {
   return {name.begin(), name.end()};
 }
 
-/// Where a file is, or would be: absolute, links followed. A relative name of a file that is not
-/// there yet stays relative without absolute().
+/// The place of a file, existing or not: absolute, links followed. Without absolute(), a relative
+/// name of a file that does not exist yet stays relative.
 inline std::filesystem::path place_of(const std::string& name) {
   std::error_code none;
   const std::filesystem::path whole = std::filesystem::absolute(path_of(name), none);
@@ -27,7 +27,7 @@ inline std::filesystem::path place_of(const std::string& name) {
   return none ? whole.lexically_normal() : place;
 }
 
-/// What follows the program's name on the command line.
+/// The words after the program's name on the command line.
 std::vector<std::string> command_line(int argc, const char* const* argv);
 
 /// While it lives, standard output and error take UTF-8, and lines that end in LF alone. A console
@@ -49,27 +49,27 @@ void note_interrupts();
 bool is_interrupted();
 
 /// %LOCALAPPDATA%\vkhausdorff; elsewhere $XDG_CACHE_HOME/vkhausdorff or ~/.cache/vkhausdorff. Empty
-/// where none is known.
+/// if none is known.
 std::filesystem::path user_cache_folder();
 
 unsigned long process_id();
 
-/// What this machine is called; empty where it has no name.
+/// This machine's name; empty if it has none.
 std::string host_name();
 
-/// Ends the program now, without exit handlers, and without the libraries' own: threads of ours may
-/// be within a driver.
+/// Ends the program now, without exit handlers, and without the libraries' own: our threads may be
+/// within a driver.
 [[noreturn]] void end_process(int code);
 
 using AnyFunction = void (*)();
 
 /// A function of the Vulkan loader, which is never closed again: drivers keep threads and exit
-/// handlers of their own. Null where there is no loader.
+/// handlers of their own. Null if there is no loader.
 AnyFunction vulkan_loader_function(const char* name);
-/// What the loader is called, and where it comes from.
+/// The loader's name and source.
 extern const char* const kVulkanLoader;
 /// Whether the system's drivers stand on another interface (macOS: Metal). The loader lists such
-/// drivers, which may leave out parts of Vulkan, to those alone who ask.
+/// drivers, which may leave out parts of Vulkan, only to programs that ask for them.
 extern const bool kAsksForPortability;
 
 }  // namespace vkh

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The console's, which outlives the program; 0: there is none, or it was given back.
+// The console's code page, which outlives the program; 0: there is no console, or it was restored.
 std::atomic<UINT> g_code_page = 0;
 
 void leave_console() {
@@ -25,7 +25,7 @@ void leave_console() {
 
 std::atomic<bool> g_interrupted = false;
 
-// Called on a thread of its own. False: the default handler ends the program.
+// Runs on a thread of its own. False: the default handler ends the program.
 BOOL WINAPI on_control(DWORD event) {
   const bool is_asked_to_end = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
   if (is_asked_to_end && !g_interrupted.exchange(true)) return TRUE;
@@ -55,7 +55,7 @@ std::string utf8_of(std::wstring_view text) {
   return out;
 }
 
-// argv is in the code page of old, where most names cannot be said.
+// Ignores argv, which is in the old code page and cannot hold most names.
 std::vector<std::string> command_line(int, const char* const*) {
   int count = 0;
   wchar_t** words = CommandLineToArgvW(GetCommandLineW(), &count);
@@ -99,15 +99,15 @@ std::string host_name() {
 
 unsigned long process_id() { return GetCurrentProcessId(); }
 
-// Not ExitProcess, which _Exit calls: it ends the other threads first, then has every library say
-// goodbye, and waits for ever for a lock that one of those threads held.
+// Avoids ExitProcess, which _Exit calls: it ends the other threads first, then notifies every
+// library, and waits without end for a lock that one of those threads held.
 void end_process(int code) {
   TerminateProcess(GetCurrentProcess(), static_cast<UINT>(code));
-  std::abort();  // it does not return
+  std::abort();  // TerminateProcess does not return
 }
 
 AnyFunction vulkan_loader_function(const char* name) {
-  // From the program's folder or Windows' own, not from the one that it is run in.
+  // Searches the program's folder and Windows' own, not the current one.
   const HMODULE library =
       LoadLibraryExW(L"vulkan-1.dll", nullptr, LOAD_LIBRARY_SEARCH_DEFAULT_DIRS);
   return library == nullptr ? nullptr

@@ -8,7 +8,7 @@
 
 namespace vkh {
 
-// Deciding once keeps a binary body's first LF out of it.
+// Decides once, which keeps a binary body's first LF out of it.
 char line_terminator(std::string_view text) {
   const size_t end = text.find_first_of("\r\n");
   if (end == std::string_view::npos) return '\n';
@@ -19,7 +19,7 @@ char line_terminator(std::string_view text) {
 TextScanner::TextScanner(std::string_view part, std::string_view name, char comment,
                          char terminator, MixedLineEnds mixed)
     : text_(part), name_(name), comment_(comment), terminator_(terminator) {
-  // Searched for once, so that the lines of most texts need not be.
+  // Searches the whole text once, so that the lines of most texts need no search.
   other_terminator_ = terminator_ == '\n' ? '\r' : '\n';
   checks_line_ends_ =
       mixed == MixedLineEnds::kRefused && part.find(other_terminator_) != std::string_view::npos;
@@ -36,7 +36,7 @@ std::string_view TextScanner::physical_line() {
   return line;
 }
 
-// At the end of a line, the other terminator is blank space: CR LF, or CR CR LF.
+// Accepts the other terminator at the end of a line as blank space: CR LF, or CR CR LF.
 void TextScanner::check_line_end(std::string_view line) const {
   const size_t at = line.find(other_terminator_);
   if (at == std::string_view::npos) return;
@@ -47,7 +47,7 @@ void TextScanner::check_line_end(std::string_view line) const {
          "lines that all end alike");
 }
 
-// Cuts the backslash off that continues a line, and any comment, and what is blank before them.
+// Cuts off the backslash that continues a line, and any comment, and the blanks before them.
 bool TextScanner::cut_continuation(std::string_view& line) const {
   const auto trim = [&line] {
     while (!line.empty() && is_space(line.back())) line.remove_suffix(1);

@@ -11,12 +11,12 @@
 
 namespace vkh {
 
-/// What to do with a line of text that holds the other terminator in its midst: a carriage return
-/// among lines that end in LF, or the reverse. What stands behind it is a line of its own to some
-/// readers, and part of a comment or a name to others.
+/// The treatment of a line of text with the other terminator in its midst: a carriage return among
+/// lines that end in LF, or the reverse. Some readers take the rest as a line of its own, and
+/// others as part of a comment or a name.
 enum class MixedLineEnds { kRefused, kIgnored };
 
-/// Whether C's isspace() holds of it, whatever the locale.
+/// Whether C's isspace() holds for it, whatever the locale.
 inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 /// Lines end in LF or CR LF (or CR CR LF); only a text whose first line ends in a CR alone ends
@@ -29,7 +29,7 @@ class TextScanner {
   TextScanner(std::string_view text, std::string_view name, char comment = '\0',
               MixedLineEnds mixed = MixedLineEnds::kRefused)
       : TextScanner(text, name, comment, line_terminator(text), mixed) {}
-  /// Of a text's part: with the text's line_terminator.
+  /// Scans a part of a text, with the text's line_terminator.
   TextScanner(std::string_view part, std::string_view name, char comment, char terminator,
               MixedLineEnds mixed = MixedLineEnds::kRefused);
 
@@ -45,11 +45,11 @@ class TextScanner {
 
   /// The next word of the current line, empty at its end.
   std::string_view word();
-  /// How the next word of the current line begins; '\0' at its end.
+  /// The first character of the next word of the current line; '\0' at its end.
   char peek() const;
   /// The next word of this line or a later one, empty at the end of the text.
   std::string_view word_across_lines();
-  /// Skips what is left of the current line.
+  /// Skips the rest of the current line.
   void skip_line() { cursor_ = line_.size(); }
 
   /// Reads a number from the current line; fails if there is none. `what` names it in the error.
@@ -57,7 +57,7 @@ class TextScanner {
   T number(const char* what) {
     return number_in<T>(word(), what);
   }
-  /// The number that a word is; fails if it is none.
+  /// Reads the number that a word is; fails if it is none.
   template <class T>
   T number_in(std::string_view text, const char* what) const {
     T value{};

@@ -19,8 +19,9 @@ namespace vkh {
 class ThreadPool {
  public:
   ThreadPool() = default;
-  /// `threads` of 0: one a core. `keep_going` is asked by one thread at a time, and no more after
-  /// it said false; then whatever the pool does ends with Interrupted, which says `called_off`.
+  /// Uses one thread per core for `threads` of 0. One thread at a time calls `keep_going`, and none
+  /// does after it returned false; then every call of the pool ends with Interrupted, whose text is
+  /// `called_off`.
   ThreadPool(size_t threads, std::function<bool()> keep_going, std::string called_off)
       : threads_(threads == 0 ? thread_count() : threads),
         keep_going_(std::move(keep_going)),
@@ -30,13 +31,14 @@ class ThreadPool {
 
   size_t threads() const { return threads_; }
 
-  /// Throws Interrupted once `keep_going` said false.
+  /// Throws Interrupted once `keep_going` returned false.
   void check_going() const;
 
-  /// Calls work(0) to work(count - 1), several at once. Where one throws, no more are begun.
+  /// Calls work(0) to work(count - 1), several at once. If one throws, no more are begun.
   void for_each(size_t count, const std::function<void(size_t)>& work) const;
 
-  /// Elements of a part, 0.1 to 1 ms of work: what is worth a thread, and is called off in time.
+  /// Elements of a part, 0.1 to 1 ms of work: enough to be worth a thread, and to be called off in
+  /// time.
   static constexpr size_t kPart = size_t{1} << 14;
   static constexpr size_t parts_of(size_t count) { return (count + kPart - 1) / kPart; }
 
@@ -73,7 +75,7 @@ class Array {
   size_t size_ = 0;
 };
 
-/// So many values, each a copy of this one.
+/// An array of `size` copies of `value`.
 template <class T>
 Array<T> filled(const ThreadPool& pool, size_t size, T value) {
   Array<T> array(size);
@@ -83,8 +85,8 @@ Array<T> filled(const ThreadPool& pool, size_t size, T value) {
   return array;
 }
 
-/// As resize() of an empty vector, but called off in time. A system gives memory page by page as it
-/// is first written to, which takes longer than the writing: so each thread asks for some.
+/// Resizes an empty vector, but is called off in time. A system gives memory page by page as it is
+/// first written to, which takes longer than the writing: so each thread touches some.
 template <class T>
 void resize_together(const ThreadPool& pool, std::vector<T>& vector, size_t size) {
   constexpr size_t kPage = 4096;
@@ -101,7 +103,7 @@ void resize_together(const ThreadPool& pool, std::vector<T>& vector, size_t size
   }
 }
 
-/// From counts of parts to where each part begins; returns the sum.
+/// Turns counts of parts into the offsets where each part begins; returns the sum.
 size_t starts_of(std::vector<size_t>& counts);
 
 }  // namespace vkh

@@ -1,4 +1,4 @@
-// Windows speaks UTF-16; everything else here speaks UTF-8.
+// Conversions between the UTF-16 of Windows and the UTF-8 used everywhere else.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace vkh {
 
-/// What is no UTF-16 becomes U+FFFD.
+/// Replaces invalid UTF-16 by U+FFFD.
 std::string utf8_of(std::wstring_view text);
 
 }  // namespace vkh

@@ -13,7 +13,7 @@
 namespace vkh {
 namespace {
 
-// All that a picture depends on besides its answer.
+// Lists all that a picture depends on besides its answer.
 std::string text_of(const PictureStyle& look) {
   const PictureOptions& o = look.options;
   const glm::dvec3& from = o.view.direction;
@@ -80,7 +80,7 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
   if (error) failures_.push_back(pair.entry.name.id + ": " + reason_of(error));
 }
 
-// A picture of a survey that was cut short would be taken for the whole one later on.
+// Writes no picture of a survey that was cut short: it would later be taken for a whole one.
 void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const NamedEntry& entry = pair.entry;
   SurveyWish wish;
@@ -102,7 +102,7 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   if (!images_) return;
   for (const Side& side : sides_of(measured)) {
     std::string& picture = pictures[side.back ? 1 : 0];
-    if (picture.empty())  // says why there is none
+    if (picture.empty())  // throws the reason why there is none
       picture = picture_of(side, answer, asked_.look, pair.solver.device());
     images_->write(id, side.back, std::move(picture), key);
   }

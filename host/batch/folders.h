@@ -1,4 +1,4 @@
-// What a batch draws: a picture and a report a pair, in folders with an index page each.
+// The drawings of a batch: a picture and a report per pair, in folders with an index page each.
 #pragma once
 
 #include <functional>
@@ -25,31 +25,32 @@ struct EndedPair {
   const NamedEntry& entry;
   const EntryMeshes& meshes;
   Solver& solver;
-  std::function<bool()> goes_on;  ///< false: what is drawn is to end
+  std::function<bool()> goes_on;  ///< false: the drawing is to end
 };
 
 /// Threads may share it.
 class BatchFolders {
  public:
-  /// Makes them. Throws UsageError where one cannot be written, or a file in it would replace one
-  /// that is `taken`.
+  /// Makes the folders. Throws UsageError if one cannot be written, or a file in it would replace
+  /// one that is `taken`.
   BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& entries,
                const std::vector<std::string>& taken);
 
-  /// Whether files of this answer, and drawn as is asked, are there from before.
+  /// Whether files of this answer, drawn as requested, exist from before.
   bool has(const RecordName& name, bool symmetric) const;
 
   /// Surveys the pair and writes its files, one pair at a time on a thread. Never throws: an answer
   /// is not lost over its picture.
   void draw(const EndedPair& pair, Answer answer) noexcept;
 
-  /// An index a folder, one for both if they are one: of all that `file` of results has. Throws
-  /// OutputError.
+  /// Writes an index per folder, one for both if they are one, of all pairs in the results `file`.
+  /// Throws OutputError.
   void write_indexes(const std::string& file, const std::vector<Entry>& entries,
                      bool has_limit) const;
-  std::vector<std::string> indexes() const;  ///< their files' names
+  std::vector<std::string> indexes() const;  ///< the indexes' file names
 
-  /// Why files were not written, a line a pair; and pairs that the batch's end left without.
+  /// The reasons for files that were not written, a line per pair; and pairs that the batch's end
+  /// left without.
   std::vector<std::string> failures() const;
   size_t left() const;
 

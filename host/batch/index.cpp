@@ -71,8 +71,8 @@ Mark mark_of(const Record& record) {
   return has_verdict ? Mark{"pass", "PASS"} : Mark{"plain", "CLOSED"};
 }
 
-/// Of A's diagonal: at least, where a pair is beyond its limit, for its run ends there; else at
-/// most.
+/// The ratio to A's diagonal: a lower bound if a pair is beyond its limit, since its run ends
+/// there; else an upper bound.
 double ratio_of(const Record& record) {
   if (record.code == kExitBeyond) return record.diagonal > 0 ? record.lower / record.diagonal : 0;
   if (!std::isfinite(record.upper)) return std::numeric_limits<double>::infinity();
@@ -93,7 +93,7 @@ bool is_worse(const IndexRow& x, const IndexRow& y) {
   return x.record.name.id < y.record.name.id;
 }
 
-/// Words that begin with a verdict, two spaces behind it, in two.
+/// The two parts of words that begin with a verdict and two spaces.
 struct Said {
   std::string verdict, rest;
 };
@@ -105,7 +105,7 @@ Said said_in(const std::string& words) {
   return {"", words};
 }
 
-/// As the report's badge.
+/// The heading in the style of the report's badge.
 std::string heading_of(const std::string& words) {
   const auto [verdict, rest] = said_in(words);
   const char* style = verdict.empty()     ? "plain"
@@ -116,7 +116,7 @@ std::string heading_of(const std::string& words) {
          "</b><span>" + html_text(rest) + "</span></h1>\n";
 }
 
-/// What its row's other cells do not say.
+/// The words that its row's other cells do not have.
 std::string more_words(const Record& record) {
   const bool says_more = record.code != kExitClosed || !record.verdict.empty();
   return says_more ? "<small>" + html_text(said_in(record.words).rest) + "</small>" : "";

@@ -1,4 +1,4 @@
-// The index page of a folder that a batch has drawn: its pairs, the worst first.
+// The index page of a folder of a batch's drawings: its pairs, the worst first.
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ struct IndexRow {
 
 struct IndexContents {
   std::vector<IndexRow> rows;
-  const std::string& results;  ///< the file that they are from
+  const std::string& results;  ///< the file of the results
   const PictureStyle& look;
   size_t left = 0;  ///< pairs without a result
   bool has_limit = false;
-  bool has_pictures = false, has_reports = false;  ///< the folder is one of those
+  bool has_pictures = false, has_reports = false;  ///< the kinds of files in this folder
 };
 
 /// The whole page, which needs no script and no network.

@@ -26,7 +26,7 @@ std::string lower_word(std::string text) {
   return text;
 }
 
-// Spreadsheets write TRUE.
+// Accepts TRUE too, as spreadsheets write it.
 bool truth_of(const std::string& text) {
   const std::string word = lower_word(text);
   if (word == "true" || word == "1" || word == "yes") return true;
@@ -34,7 +34,7 @@ bool truth_of(const std::string& text) {
   throw InputError("'" + text + "': expected true or false for symmetric");
 }
 
-/// False: a batch knows no such member.
+/// Returns false for a member that a batch does not know.
 bool put(Entry& entry, const std::string& name, const std::string& text) {
   constexpr std::array kNames{"id", "a", "b", "tol", "max", "unit"};
   const std::array<std::string*, 6> places{&entry.id,        &entry.a,   &entry.b,
@@ -56,7 +56,7 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-/// The folder that a list's names start from: a pipe's (/dev/fd/63) says nothing of its writer.
+/// The folder that a list's names start from: a pipe's (/dev/fd/63) is not its writer's.
 std::filesystem::path folder_of_list(const std::string& path) {
   std::error_code none;
   const bool is_pipe = std::filesystem::exists(path_of(path), none) &&
@@ -64,7 +64,7 @@ std::filesystem::path folder_of_list(const std::string& path) {
   return is_pipe ? std::filesystem::path() : path_of(path).parent_path();
 }
 
-/// What is collected while a list is read.
+/// The entries and notes that are collected while a list is read.
 class Collected {
  public:
   explicit Collected(std::string path) : path_(std::move(path)), folder_(folder_of_list(path_)) {}
@@ -74,7 +74,7 @@ class Collected {
          {std::pair{"id", &entry.id}, {"a", &entry.a}, {"b", &entry.b}}) {
       if (text->empty()) refuse(line, std::string("no ") + name + "; expected " + kExpected);
     }
-    // A result could not have it: two such ids might be one there.
+    // A result could not hold such an id: two of them might become one there.
     if (!is_utf8(entry.id)) refuse(line, "the id '" + entry.id + "' is no UTF-8");
     const auto [known, is_new] = lines_.emplace(entry.id, line);
     if (!is_new)
@@ -100,7 +100,7 @@ class Collected {
   std::set<std::string> strangers_;
 };
 
-// Of the three that there must be, each once.
+// Requires each of the three columns once.
 void check_heading(const std::vector<std::string>& heading, uint64_t line, const Collected& to) {
   for (const char* name : {"id", "a", "b"}) {
     const auto times = std::count(heading.begin(), heading.end(), name);
@@ -140,7 +140,7 @@ void read_csv(std::istream& text, Collected& to) {
   }
 }
 
-// Numbers and truths may be written as such.
+// Accepts numbers and truth values that are not quoted.
 std::string text_of(const nlohmann::json& value) {
   if (value.is_null()) return "";
   return value.is_string() ? value.get<std::string>() : value.dump();

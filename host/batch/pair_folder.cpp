@@ -30,7 +30,7 @@ std::string lowered(std::string text) {
   return text;
 }
 
-// Letters as they are, and one _ for what may be no part of a name, however long it is.
+// Keeps letters, and puts one _ for characters that may be no part of a name, however many.
 std::string cleaned(const std::string& id) {
   std::string name;
   for (const char c : id) {
@@ -38,7 +38,7 @@ std::string cleaned(const std::string& id) {
     const bool is_kept = is_small_or_digit(lowered({c})[0]) || c == '-' || c == '_';
     if (is_kept || !name.ends_with('_')) name += is_kept ? c : '_';
   }
-  while (name.starts_with('-')) name.erase(0, 1);  // which programs would take for an option
+  while (name.starts_with('-')) name.erase(0, 1);  // programs would take it for an option
   return name.empty() ? "pair" : name;
 }
 
@@ -54,7 +54,7 @@ bool ends_like_a_hash(const std::string& name) {
   return std::all_of(name.end() - kDigits, name.end(), is_small_or_digit);
 }
 
-uint32_t crc_of(std::string_view bytes) {  // of PNG's chunks
+uint32_t crc_of(std::string_view bytes) {  // the checksum of PNG's chunks
   uint32_t crc = ~0u;
   for (const char byte : bytes) {
     crc ^= static_cast<unsigned char>(byte);
@@ -69,7 +69,8 @@ std::string big_endian(uint32_t word) {
   return bytes;
 }
 
-// As a text chunk before the last one, which has 12 bytes; or as a comment behind a page.
+// Adds the mark as a text chunk before the last one, which has 12 bytes; or as a comment behind a
+// page.
 std::string marked(std::string text, const std::string& ending, const std::string& key) {
   constexpr size_t kLastChunk = 12;
   const std::string hash = digits_of(hash_of_id(key));
@@ -125,10 +126,10 @@ void PairFolder::open(const std::vector<std::string>& ids,
     for (const bool back : {false, true}) names.insert(lowered(name_of(id, back)));
   }
   check_taken(names, taken);
-  (void)OutputFile(option_, path_in(kIndex), {});  // refuses what cannot be written
+  (void)OutputFile(option_, path_in(kIndex), {});  // refuses a folder that cannot be written
 }
 
-// A name in the folder, or a link there to elsewhere.
+// Refuses a name in the folder, or a link there to elsewhere.
 void PairFolder::check_taken(const std::set<std::string>& names,
                              const std::vector<std::string>& taken) const {
   const fs::path folder = place_of(folder_);
@@ -159,7 +160,7 @@ bool PairFolder::has(const std::string& id, bool back, const std::string& key) c
 void PairFolder::replace(const std::string& name, const std::string& text) const {
   try {
     OutputFile(option_, path_in(name), {}).write(text);
-  } catch (const UsageError& error) {  // a folder that is gone by now
+  } catch (const UsageError& error) {  // the folder no longer exists
     throw OutputError(error.what());
   }
 }

@@ -1,5 +1,5 @@
-// A folder with files about pairs, named by the pairs' ids. Each file says what it is of, so that
-// none passes for one of other inputs or options.
+// A folder with files about pairs, named by the pairs' ids. Each file names its inputs and options,
+// so that none passes for one of others.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace vkh {
 
-/// What an id's files are called, without an ending: a function of the id alone. An id of up to 64
-/// small letters, digits, - and _ is its own name. Any other one has what is left of it, and its
-/// hash: so names of two ids differ, also where a file system makes no difference between letters.
-/// No name is "index", one that Windows keeps for devices, or another one's with "-b".
+/// The name of an id's files without an ending, a function of the id alone. An id of up to 64 small
+/// letters, digits, - and _ is its own name. Any other id has its cleaned name and its hash: so
+/// names of two ids differ, also if a file system makes no difference between letters. No name is
+/// "index", one that Windows keeps for devices, or another one's with "-b".
 std::string file_stem(const std::string& id);
 
 class PairFolder {
@@ -24,12 +24,12 @@ class PairFolder {
   PairFolder(std::string option, std::string folder, std::string ending)
       : option_(std::move(option)), folder_(std::move(folder)), ending_(std::move(ending)) {}
 
-  /// Makes the folder where there is none. Throws UsageError where it cannot be written, or where a
-  /// file of one of `ids`, or the index, would replace one that is `taken`.
+  /// Makes the folder if it does not exist. Throws UsageError if it cannot be written, or if a file
+  /// of one of `ids`, or the index, would replace one that is `taken`.
   void open(const std::vector<std::string>& ids, const std::vector<std::string>& taken) const;
 
   const std::string& option() const { return option_; }
-  /// In the folder; `back`: of the way back.
+  /// The name in the folder; `back`: that of the reverse direction.
   std::string name_of(const std::string& id, bool back) const;
   std::string path_in(const std::string& name) const;
 

@@ -25,18 +25,20 @@ std::string sha256_of_text(const std::string& text) {
   });
 }
 
-// Names hold no line's end (files_beneath), and counts say where a list ends.
+// Joins names and hashes: names hold no line's end (files_beneath), and counts mark where a list
+// ends.
 std::string hashes_in_text(const Input& input) {
   std::string text = input.sha256 + '\n' + std::to_string(input.files.size());
   for (const FileHash& file : input.files) text += '\n' + file.path + '\n' + file.sha256;
   return text;
 }
 
-// All that an answer depends on, but for the device; and a refusal, which --max-input decides, too.
+// Hashes all that an answer depends on, except for the device, and --max-input, which may decide a
+// refusal.
 std::string key_of(const PairJob& job, const Answer& known, bool shares_b) {
   std::string text = program_version();
   const auto add = [&](const std::string& part) { text += '\n' + part; };
-  add("all files");  // which keys were not of before 0.2.0
+  add("all files");  // before 0.2.0, keys did not cover all files
   for (const Input& input : known.inputs) add(hashes_in_text(input));
   add(job.tolerance.requested);
   add(job.max ? job.max->requested : "");
@@ -67,7 +69,7 @@ std::set<std::string> shared_files(const std::vector<Entry>& entries) {
   return more;
 }
 
-// A thread that asks for what another one reads waits for it.
+// A thread that requests a file that another thread reads waits for it.
 InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
   ReadLimits limits = base_.limits;
   limits.keep_going = keep_going_;
@@ -122,14 +124,14 @@ NamedEntry EntryReader::name(const Entry& entry) {
 
 EntryReader::MeshPointer EntryReader::mesh_of(const std::string& file,
                                               const ReadLimits& limits) const {
-  constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones are as many as there are threads
+  constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones are read one per thread
   ReadLimits of_this = limits;
   of_this.keep_going = keep_going_;
   of_this.threads = size_of(file) < kLarge ? 1 : 0;
   return std::make_shared<const Mesh>(read_mesh(path_of(file), of_this));
 }
 
-// Those used last, so that a list that goes back and forth between two B's reads each once.
+// Keeps those used last, so that a list that goes back and forth between two B's reads each once.
 void EntryReader::drop_old() {
   constexpr size_t kMost = 256;  // as many as are kept prepared
   constexpr uint64_t kMostBytes = uint64_t{1} << 29;
@@ -175,7 +177,7 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   meshes.a = mesh_of(entry.job.file_a, entry.job.limits);
   meshes.b = meshes.shares_b ? shared_mesh_of(entry.job.file_b, entry.job.limits)
                              : mesh_of(entry.job.file_b, entry.job.limits);
-  Answer known = entry.known;  // which a length that is not resolved must not cost its hashes
+  Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
   take_meshes(entry.job, *meshes.a, *meshes.b, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {
     known.inputs[i].path = entry.known.inputs[i].path;

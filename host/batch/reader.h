@@ -1,4 +1,4 @@
-// From an entry of a list to what is solved: names and hashes first, then meshes.
+// The steps from an entry of a list to a pair to solve: names and hashes first, then meshes.
 #pragma once
 
 #include <future>
@@ -15,16 +15,16 @@
 
 namespace vkh {
 
-/// Of a file, while it is read and as a mesh, about.
+/// The memory per byte of a file, while it is read and as a mesh, about.
 constexpr uint64_t kBytesOfAByte = 3;
 
-/// An entry with what is known of it before its meshes are read.
+/// An entry with the facts known before its meshes are read.
 struct NamedEntry {
   const Entry* entry = nullptr;
   PairJob job;
   RecordName name;
-  Answer known;             ///< with its inputs' hashes
-  uint64_t file_bytes = 0;  ///< of all files that are read for it alone
+  Answer known;             ///< the known answer, with its inputs' hashes
+  uint64_t file_bytes = 0;  ///< the size of all files that are read for it alone
 };
 
 struct EntryMeshes {
@@ -32,18 +32,19 @@ struct EntryMeshes {
   bool shares_b = false;
 };
 
-/// Files that lists name as B more than once: their meshes are kept for each other, and prepared.
+/// The files that lists name as B more than once: their meshes are kept for each other, and
+/// prepared.
 std::set<std::string> shared_files(const std::vector<Entry>& entries);
 
 /// Threads may share it.
 class EntryReader {
  public:
-  /// `base`: what is asked of every pair. `shared`: of the whole list, whatever the shard, since
-  /// answers depend on it. `keep_going`: false ends what is read with Interrupted.
+  /// `base`: the request for every pair. `shared`: the files of the whole list, whatever the shard,
+  /// since answers depend on it. `keep_going`: false ends reading with Interrupted.
   EntryReader(PairJob base, std::set<std::string> shared, std::function<bool()> keep_going)
       : base_(std::move(base)), shared_(std::move(shared)), keep_going_(std::move(keep_going)) {}
 
-  /// Throws UsageError for what an entry says of itself.
+  /// Throws UsageError for an entry's wrong options.
   NamedEntry name(const Entry& entry);
   /// Throws what read_mesh and take_meshes throw. Fills entry.known.
   EntryMeshes read(NamedEntry& entry);
@@ -63,8 +64,8 @@ class EntryReader {
   std::set<std::string> shared_;
   std::function<bool()> keep_going_;
   std::mutex mutex_;
-  std::map<std::string, std::shared_future<InputHashes>> hashes_;  // of shared files
-  std::map<std::string, Kept> meshes_;                             // likewise
+  std::map<std::string, std::shared_future<InputHashes>> hashes_;  // the hashes of shared files
+  std::map<std::string, Kept> meshes_;                             // the meshes of shared files
   uint64_t uses_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a batch adds up to, as people read it at its end.
+// The totals of a batch, for people to read at its end.
 #pragma once
 
 #include <iosfwd>
@@ -10,13 +10,13 @@
 
 namespace vkh {
 
-/// "2.64 %", rounded up.
+/// Writes a percentage such as "2.64 %", rounded up.
 std::string percent_up(double ratio);
 
 class Totals {
  public:
   void add(const Record& record);
-  /// Of an earlier run, which this one need not do again.
+  /// Adds a record of an earlier run, which this run need not do again.
   void add_kept(const Record& record);
 
   size_t pairs() const { return closed_ + within_ + beyond_ + open_ + failed_; }
@@ -28,16 +28,17 @@ class Totals {
     double wall_s = 0, read_s = 0;
     StreamTimes device;
     std::vector<DeviceDescription> devices;
-    std::string results;  ///< the file
+    std::string results;  ///< the results file
     bool has_limit = false;
   };
-  /// A line in words, then a table.
+  /// Prints a line in words, then a table.
   void print(std::ostream& out, const Run& run) const;
-  /// That line: how many pairs have what was asked.
+  /// Returns that line: how many pairs have the requested result.
   std::string in_words(const Run& run) const;
-  /// "median 2.64 %, ..., largest 5.8 %": of their upper bounds, as shares of diag(A). Empty: none.
+  /// Returns "median 2.64 %, ..., largest 5.8 %": the pairs' upper bounds, as shares of diag(A).
+  /// Empty: none.
   std::string percentiles() const;
-  /// Of results that were merged; `missing`: pairs that have none.
+  /// Prints the totals of merged results; `missing`: pairs that have none.
   void print_merged(std::ostream& out, size_t missing, const std::string& results) const;
 
  private:
@@ -53,7 +54,7 @@ class Totals {
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
   std::vector<Place> top_;             // the farthest, in order
   std::vector<double> ratios_;         // upper / diag(A)
-  std::vector<std::string> failures_;  // the first ones
+  std::vector<std::string> failures_;  // the first failures
 };
 
 }  // namespace vkh

@@ -2,7 +2,7 @@
 
 namespace vkh {
 
-// Delegating: what was created is destroyed if a later step throws.
+// Delegates: the objects made so far are destroyed if a later step throws.
 Attachment::Attachment(const Device& device, VkExtent2D extent, const AttachmentKind& kind)
     : Attachment(device, Empty{}) {
   create_image(extent, kind);

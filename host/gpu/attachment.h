@@ -5,17 +5,17 @@
 
 namespace vkh {
 
-/// What an attachment is made as.
+/// The kind of an attachment.
 struct AttachmentKind {
   VkFormat format;
   VkImageUsageFlags usage;
   VkImageAspectFlags aspect;
 };
 
-/// An image of one sample a pixel with its view, bound to its own allocation; it stays where it is.
+/// An image of one sample per pixel with its view, bound to its own allocation; it cannot be moved.
 class Attachment {
  public:
-  /// Throws MemoryError if there is not so much.
+  /// Throws MemoryError if there is not enough memory.
   Attachment(const Device& device, VkExtent2D extent, const AttachmentKind& kind);
   ~Attachment();
   Attachment(const Attachment&) = delete;

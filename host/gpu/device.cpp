@@ -37,7 +37,8 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<uint32_t>* count) 
   return info;
 }
 
-/// What Vulkan lists in two calls: how many, then which. `call` takes the count and the array.
+/// Lists what Vulkan reports in two calls: how many, then which. `call` takes the count and the
+/// array.
 template <class T, class Call>
 std::vector<T> list_of(const Call& call) {
   uint32_t count = 0;
@@ -69,7 +70,8 @@ bool offers_portability(const VulkanApi& vk) {
   return has_extension(list, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
 }
 
-/// Those that the engine asks for; and one that a device which has it must be created with.
+/// Names the extensions that the engine needs, and one that a device which has it must be created
+/// with.
 std::vector<const char*> device_extensions(const VulkanApi& vk, const VkhDeviceInfo& chosen) {
   constexpr const char* kSubset = "VK_KHR_portability_subset";  // its macro is in a beta header
   uint32_t count = 0;
@@ -87,7 +89,7 @@ VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation)
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   app.pApplicationName = "vkhausdorff";
-  app.apiVersion = VK_API_VERSION_1_3;  // a device may have synchronization2 by that alone
+  app.apiVersion = VK_API_VERSION_1_3;  // 1.3 alone may give a device synchronization2
   std::vector<const char*> extensions;
   if (validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkInstanceCreateInfo info{};
@@ -170,7 +172,7 @@ struct Choice {
   DeviceDescription description;
 };
 
-// Usable or not, in the order of preference; `index` is the place in that order.
+// Lists devices, usable or not, in the order of preference; `index` is the place in that order.
 std::vector<Choice> enumerate(const VulkanApi& vk, VkInstance instance) {
   const auto physicals = list_of<VkPhysicalDevice>([&](uint32_t* count, VkPhysicalDevice* all) {
     check(vk.EnumeratePhysicalDevices(instance, count, all), "listing Vulkan devices");
@@ -212,7 +214,7 @@ std::string nothing_usable(const std::vector<Choice>& choices, const std::string
   return text;
 }
 
-// What is used where it is there.
+// The features that are used if the device has them.
 struct Wishes {
   VkPhysicalDeviceFeatures2 features{};
   VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
@@ -378,7 +380,7 @@ VkhDeviceInfo Device::engine_info() const {
 
 std::vector<DeviceDescription> list_devices() {
   const FloatEnvironment ours;
-  Device none{Device::Empty{}};  // whatever happens, it takes its instance with it
+  Device none{Device::Empty{}};  // destroys its instance, whatever happens
   none.create_instance(false);
   std::vector<DeviceDescription> descriptions;
   for (const Choice& c : enumerate(none.vk_, none.instance_)) descriptions.push_back(c.description);

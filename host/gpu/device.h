@@ -1,4 +1,4 @@
-// A Vulkan instance, device and queue: our own, or somebody else's that we may use.
+// A Vulkan instance, device and queue: our own, or another owner's that we may use.
 #pragma once
 
 #include <atomic>
@@ -23,11 +23,11 @@ struct DeviceRequest {
                             ///< host sees it; else copied there from memory of the host
 };
 
-/// Handles of the caller's, who keeps and destroys them, after the Device and all that was made
-/// with it. The device: created with the extensions that vkhGetRequiredExtensions names and with
-/// scalarBlockLayout and synchronization2 enabled. The queue: of a family with compute; nobody else
-/// may use it while a call of Solver runs, unless all submit under `queue_mutex`: another Device
-/// that adopted it is somebody else.
+/// Handles of the caller, who keeps and destroys them, after the Device and all that was made with
+/// it. The device: created with the extensions that vkhGetRequiredExtensions names and with
+/// scalarBlockLayout and synchronization2 enabled. The queue: of a family with compute; no other
+/// code may use it while a call of Solver runs, unless all submit under `queue_mutex`: that
+/// includes another Device that adopted it.
 struct AdoptedDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;  ///< Vulkan 1.2 or later
@@ -40,21 +40,22 @@ struct AdoptedDevice {
   std::mutex* queue_mutex = nullptr;  ///< held around every vkQueueSubmit; null: the Device's own
 };
 
-/// One compute queue and what it belongs to. Solvers of one Device may run on as many threads.
+/// One compute queue with its device. Solvers of one Device may run on as many threads.
 class Device {
  public:
   /// Owns instance, device and queue. Throws DeviceError if nothing usable matches, with each
   /// device's reason. Discrete before integrated before virtual before CPU.
   explicit Device(const DeviceRequest& request = {});
-  /// Destroys nothing but its own objects. Throws DeviceError that names what is missing. What was
-  /// enabled at creation cannot be asked for and is the caller's to know.
+  /// Destroys nothing but its own objects. Throws DeviceError that names what is missing. Vulkan
+  /// cannot report what was enabled at creation: the caller has to know it.
   explicit Device(const AdoptedDevice& adopted);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
   const DeviceDescription& description() const { return description_; }
-  /// Warnings and errors of the validation layer so far; the text of each went to stderr.
+  /// The number of warnings and errors of the validation layer so far; the text of each went to
+  /// stderr.
   uint32_t validation_messages() const { return *messages_; }
 
   const VulkanApi& vk() const { return vk_; }
@@ -62,19 +63,20 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   VkPhysicalDevice physical() const { return physical_; }
-  /// Its family draws, too; pictures need that (host/show).
+  /// Whether its queue's family draws too; pictures need that (host/show).
   bool has_graphics() const { return has_graphics_; }
   std::mutex& queue_mutex() const { return *queue_mutex_; }
-  /// Not every queue family that one adopts has timestamps; times on the GPU are then not measured.
+  /// Whether the queue has timestamps: not every adopted family does, and GPU times are then not
+  /// measured.
   bool has_timestamps() const { return has_timestamps_; }
-  /// Buffers can be given by address: those for storage are made for it.
+  /// Whether buffers can be given by address: storage buffers are then made for it.
   bool has_addresses() const { return has_addresses_; }
   bool maps_memory() const { return maps_memory_; }
   double timestamp_period_ns() const { return timestamp_period_ns_; }
-  /// Waits until the device has nothing to do, and returns whether it was lost. Not of one that was
-  /// adopted: other threads may use its queues.
+  /// Waits until the device has nothing to do, and returns whether it was lost. An adopted
+  /// device does not allow this: other threads may use its queues.
   bool is_lost() const;
-  /// For the engine's C API.
+  /// The handles for the engine's C API.
   VkhDeviceInfo engine_info() const;
 
  private:
@@ -104,7 +106,7 @@ class Device {
   bool has_addresses_ = false;
   bool maps_memory_ = true;
   double timestamp_period_ns_ = 1;
-  // The messenger keeps its address, and calls from any thread.
+  // The messenger keeps the counter's address, and calls from any thread.
   std::unique_ptr<std::atomic<uint32_t>> messages_ = std::make_unique<std::atomic<uint32_t>>(0);
 };
 

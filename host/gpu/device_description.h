@@ -1,4 +1,4 @@
-// What a device is called and whether it will do, for people and programs.
+// A device's name and whether it is usable, for people and programs.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,7 @@ std::optional<uint32_t> find_type(const VkPhysicalDeviceMemoryProperties& memory
   return std::nullopt;
 }
 
-// Cached memory is a wish, the rest a must.
+// Requires the other properties, and prefers cached memory.
 uint32_t memory_type(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
                      Placement placement) {
   const VkMemoryPropertyFlags flags = wanted(placement);
@@ -58,7 +58,7 @@ uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement
   return memory_type(memory_of(device), allowed, placement);
 }
 
-// Delegating, here and below: what was created is destroyed if a later step throws.
+// Delegates, here and below: the objects made so far are destroyed if a later step throws.
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                Placement placement)
     : Buffer() {
@@ -161,9 +161,9 @@ Submitter::~Submitter() {
   vk.DestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
-// A wait may fail for want of memory while the device works on, and nothing that it uses may go
-// before it has ended. Not vkDeviceWaitIdle: the device may be somebody else's, with queues in use
-// on other threads.
+// Waits in a loop: a wait may fail for want of memory while the device works on, and nothing that
+// it uses may go before it has ended. vkDeviceWaitIdle will not do: the device may be another
+// owner's, with queues in use on other threads.
 void Submitter::finish() {
   constexpr int kMostTries = 100;
   constexpr std::chrono::milliseconds kPause(10);
@@ -189,7 +189,8 @@ VkCommandBuffer Submitter::begin() {
 void Submitter::submit_and_wait(const std::function<void()>& waiting) {
   const VulkanApi& vk = device_.vk();
   check(vk.EndCommandBuffer(commands_), "recording");
-  // Here and not behind the wait: a reset that fails leaves nothing that the next wait believes.
+  // The reset is here and not behind the wait: one that fails leaves nothing that the next wait
+  // believes.
   check(vk.ResetFences(device_.handle(), 1, &fence_), "resetting a fence");
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;

@@ -9,17 +9,18 @@
 
 namespace vkh {
 
-/// kMapped: the device's own, and the host writes into it.
+/// kMapped is the device's own memory that the host writes into.
 enum class Placement { kDevice, kMapped, kUpload, kReadback };
 
-/// What memory of this kind is, of the types that a buffer or an image allows. Throws DeviceError.
+/// The memory type for this placement, among the types that a buffer or an image allows. Throws
+/// DeviceError.
 uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement);
 
 /// A buffer bound to its own allocation; move-only. Host-visible ones stay mapped.
 class Buffer {
  public:
   Buffer() = default;
-  /// Throws MemoryError if there is not so much.
+  /// Throws MemoryError if there is not enough memory.
   Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
@@ -30,7 +31,7 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_; }
   VkDeviceSize size() const { return size_; }
-  bool is_in_host() const { return in_host_; }  ///< no memory of the device's own
+  bool is_in_host() const { return in_host_; }  ///< true: not in the device's own memory
   std::byte* mapped() const { return static_cast<std::byte*>(mapped_); }
 
  private:
@@ -43,8 +44,8 @@ class Buffer {
   void* mapped_ = nullptr;
 };
 
-/// Whether there is Placement::kMapped for so many bytes: where the host sees all of the device's
-/// memory, and for what is small beside the part that it sees.
+/// Whether there is Placement::kMapped for so many bytes: if the host sees all of the device's
+/// memory, or if the size is small beside the part that it sees.
 bool is_mappable(const Device& device, VkDeviceSize size);
 
 /// Makes `buffer` at least `size` bytes; its content is lost if it grows.
@@ -72,7 +73,7 @@ class Submitter {
  private:
   struct Empty {};
   Submitter(const Device& device, Empty) : device_(device) {}
-  void finish();  // what was submitted and not waited for
+  void finish();  // waits for what was submitted
 
   const Device& device_;
   VkCommandPool pool_ = VK_NULL_HANDLE;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Drivers look at the header of what they are given and trust the rest, so the file has a checksum.
+// Drivers look at the header of their data and trust the rest, so the file has a checksum.
 constexpr uint64_t kMagic = 0x31706970686b76u;  // "vkhpip1"
 // A VkPipelineCacheHeaderVersionOne and nothing after it: the driver keeps no pipelines (lavapipe).
 constexpr size_t kEmptyBytes = 32;
@@ -24,7 +24,8 @@ struct FileHeader {
   uint64_t magic = kMagic, bytes = 0, checksum = 0;
 };
 
-// The same in every process: names and checksums of files. Against accidents, not against people.
+// Mixes the same way in every process, for names and checksums of files. It protects against
+// accidents, not against people.
 uint64_t mix_bits(uint64_t hash, uint64_t word) {
   hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
   return hash ^ (hash >> 29);
@@ -54,7 +55,7 @@ std::string hexadecimal(uint64_t value) {
   return text.data();
 }
 
-// One file a device, driver and set of kernels.
+// Names one file per device, driver and set of kernels.
 std::string file_name(const Device& device) {
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;

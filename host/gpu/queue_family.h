@@ -1,4 +1,4 @@
-// Which of a device's queues the host submits to.
+// Chooses the queue family that the host submits to.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline bool draws(const VkQueueFamilyProperties& family) {
   return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
 }
 
-/// The first of the best: with timestamps, for stages are timed then; and of those one that draws.
+/// The first of the best: with timestamps, since stages are timed then; among these one that draws.
 inline uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
   const auto worth = [](const VkQueueFamilyProperties& f) {
     const int more = (f.timestampValidBits > 0 ? 2 : 0) + (draws(f) ? 1 : 0);

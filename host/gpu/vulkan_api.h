@@ -105,7 +105,8 @@ void load_device(VulkanApi& vk, VkDevice device);
 
 /// Throws DeviceError: "`what` failed: out of host memory", or another reason.
 void check(VkResult result, const char* what);
-/// Likewise; what could not be made is null afterwards, which Vulkan leaves open.
+/// Throws the same way; a handle that could not be made is null afterwards, which Vulkan leaves
+/// open.
 template <class Handle>
 void check_made(VkResult result, Handle& handle, const char* what) {
   if (result != VK_SUCCESS) handle = VK_NULL_HANDLE;

@@ -12,7 +12,7 @@ struct Candidate {
   ClosestPoint at;
 };
 
-// Closest point of segment xy; corner numbers i, j say which barycentrics it moves.
+// The closest point of segment xy; i and j are the corners whose barycentrics it sets.
 Candidate on_edge(const glm::dvec3& p, const glm::dvec3& x, const glm::dvec3& y, int i, int j) {
   const glm::dvec3 e = y - x;
   const double ee = glm::dot(e, e);

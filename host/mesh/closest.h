@@ -1,4 +1,4 @@
-// The closest point of one triangle, in double: for showing the witness, not for certifying it.
+// The closest point of one triangle, in double: to show the witness, not to certify it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,7 +10,7 @@ struct ClosestPoint {
   glm::dvec3 barycentric{};
 };
 
-/// Degenerate triangles are segments or points.
+/// Takes degenerate triangles as segments or points.
 ClosestPoint closest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                            const glm::dvec3& c);
 

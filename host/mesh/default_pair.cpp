@@ -15,7 +15,8 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-/// Vertex indices around a closed curve, counter-clockwise seen from +z; not repeated at the end.
+/// The vertex indices around a closed curve, counter-clockwise seen from +z; not repeated at the
+/// end.
 using Loop = std::vector<uint32_t>;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -48,7 +49,7 @@ double cross(const dvec2& v, const dvec2& w) { return v.x * w.y - v.y * w.x; }
 struct Circle {
   dvec2 centre{0};
   double radius = 0;
-  uint32_t count = 0;  ///< vertices
+  uint32_t count = 0;  ///< the number of vertices
 };
 
 struct Teeth {
@@ -58,7 +59,7 @@ struct Teeth {
 };
 
 struct Thread {
-  double crest = 0;  ///< radius; the root's is that of the ring it starts from
+  double crest = 0;  ///< the crest's radius; the root's is that of the ring it starts from
   double pitch = 0;
   uint32_t turns = 0;
 };
@@ -90,7 +91,7 @@ class PartBuilder {
   std::vector<glm::uvec3> faces_;
 };
 
-// Rounded to float32 as an STL file would.
+// Rounds to float32 as an STL file would.
 uint32_t PartBuilder::add(const dvec2& p, double z) {
   vertices_.push_back(round_to_float({p.x, p.y, z}));
   return static_cast<uint32_t>(vertices_.size() - 1);
@@ -132,8 +133,9 @@ Loop PartBuilder::keyed(double radius, double z) {
   return loop;
 }
 
-// Walks both loops at once by the angle about `centre`, from which both are seen without overlap.
-// Loops of different counts give the fans and needles that CAD tessellations are made of.
+// Traverses both loops at once by the angle about `centre`, from which both are seen without
+// overlap. Loops of different counts give the fans and needles that are typical of CAD
+// tessellations.
 void PartBuilder::band(const Loop& from, const Loop& to, const dvec2& centre) {
   // Equal angles go to `from` first; far above float32 rounding, far below one column.
   constexpr double kSameAngle = 1e-3;
@@ -220,7 +222,8 @@ Loop PartBuilder::thread(const Loop& bottom, const Thread& thread) {
   return top;
 }
 
-// A flat ring between two loops, cut into one sector a hole; both counts are multiples of theirs.
+// A flat ring between two loops, cut into one sector per hole; both counts are multiples of the
+// holes'.
 void PartBuilder::plate(const Loop& inner, const Loop& outer, const std::vector<Loop>& holes,
                         bool faces_up) {
   const size_t sectors = holes.size();

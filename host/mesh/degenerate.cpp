@@ -6,9 +6,9 @@
 
 namespace vkh {
 
-// The cross product of two edges is zero if and only if the
-// triangle's three projections along the axes are collinear. One that is surely not decides: a face
-// in a plane of the axes has two that are, which would cost exact sums.
+// The cross product of two edges is zero if and only if the triangle's three projections along the
+// axes are collinear. One projection that is surely not collinear decides: a face in a plane of the
+// axes has two collinear ones, which would cost exact sums.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   if (a == b || b == c || c == a) return true;
   const std::array<std::array<Point2, 3>, 3> projections = {

@@ -8,7 +8,8 @@
 namespace vkh {
 namespace {
 
-// A vertex at the same position, the same for all of them. Nothing where all positions differ.
+// Returns for each vertex one at the same position, the same for all of them; nothing if all
+// positions differ.
 Array<uint32_t> one_at_position(const std::vector<glm::dvec3>& vertices, const ThreadPool& pool) {
   const auto position = [&vertices](uint32_t v) -> const glm::dvec3& { return vertices[v]; };
   PositionIndex index(pool, vertices.size(), position);
@@ -20,9 +21,9 @@ Array<uint32_t> one_at_position(const std::vector<glm::dvec3>& vertices, const T
   return own == vertices.size() ? Array<uint32_t>() : std::move(one);
 }
 
-// Faces brought together by their least corner, by counting, and those of a corner sorted by the
-// other two: neighbours in memory stay neighbours, which a hash would scatter, and no file can make
-// it slow.
+// Groups faces by their least corner, by counting, and sorts the faces of a corner by the other
+// two: neighbours in memory stay neighbours, which a hash would scatter, and no file can make it
+// slow.
 class FaceGroups {
  public:
   FaceGroups(const Mesh& mesh, Array<uint32_t> one, const ThreadPool& pool)
@@ -57,8 +58,8 @@ class FaceGroups {
     return std::atomic_ref<uint32_t>(end_[vertex]).fetch_add(count, std::memory_order_relaxed);
   }
 
-  // Faces that follow each other often share their least corner; a fan's all do, and threads would
-  // wait for each other.
+  // Counts in runs: faces that follow each other often share their least corner; a fan's all do,
+  // and threads would wait for each other.
   void count() {
     pool_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
       uint32_t vertex = 0, run = 0;
@@ -84,7 +85,7 @@ class FaceGroups {
     });
   }
 
-  // Of each vertex's faces the other two corners; its begin becomes its end.
+  // Stores the other two corners of each vertex's faces; the vertex's begin becomes its end.
   void bring_together() {
     others_ = Array<uint64_t>(faces_.size());
     pool_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
@@ -116,7 +117,7 @@ class FaceGroups {
   const std::vector<glm::uvec3>& faces_;
   const Array<uint32_t> one_;
   const ThreadPool& pool_;
-  Array<uint32_t> end_;  // where a vertex's faces end, and the next one's are
+  Array<uint32_t> end_;  // the end of a vertex's faces, where the next one's begin
   Array<uint64_t> others_;
 };
 

@@ -72,7 +72,7 @@ inline int exact_turn(const Point2& a, const Point2& b, const Point2& c) {
   return sum.sign();
 }
 
-/// Sign of (a-c) x (b-c) without exact arithmetic: 0 where rounding leaves it open.
+/// The sign of (a-c) x (b-c) without exact arithmetic: 0 where rounding leaves it open.
 inline int sure_turn(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (a[0] - c[0]) * (b[1] - c[1]);
   const double right = (a[1] - c[1]) * (b[0] - c[0]);

@@ -1,4 +1,4 @@
-// Which face of its file a triangle of a mesh is of.
+// Maps a triangle of a mesh to its face of the file.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@
 namespace vkh {
 
 /// A file's faces are numbered from 0 as they stand in it. One of more than three corners is fanned
-/// into triangles that follow each other, and one of fewer has none. Where each is a triangle,
-/// nothing is kept; else runs of faces of equally many triangles, so that a mesh of quads is one
+/// into triangles that follow each other, and one of fewer has none. If each is a triangle, nothing
+/// is kept; otherwise runs of faces with equally many triangles, so that a mesh of quads is one
 /// run.
 class FileFaces {
  public:
-  /// Of faces that follow each other: how many triangles and faces there are up to its end.
+  /// A run of faces that follow each other: the number of triangles and faces up to its end.
   struct Run {
     uint32_t triangles = 0, faces = 0;
     bool operator==(const Run&) const = default;
   };
 
   FileFaces() = default;
-  /// What runs() gave of a mesh of so many triangles; is_valid() says whether it may have.
+  /// Takes the runs() of a mesh of so many triangles; is_valid() checks whether they may be its.
   explicit FileFaces(std::vector<Run> runs) : runs_(std::move(runs)) {}
   bool is_valid(uint64_t triangle_count) const {
     Run before;
@@ -47,7 +47,7 @@ class FileFaces {
     return before.faces +
            beyond / ((run->triangles - before.triangles) / (run->faces - before.faces));
   }
-  /// Of all triangles of a mesh, in their order.
+  /// The faces of all triangles of a mesh, in their order.
   std::vector<uint32_t> of_all(size_t triangle_count) const {
     std::vector<uint32_t> faces(triangle_count);
     Run before;
@@ -61,18 +61,18 @@ class FileFaces {
     std::iota(at, faces.end(), before.faces);
     return faces;
   }
-  /// Faces of the file of a mesh of so many triangles.
+  /// The number of the file's faces for a mesh of so many triangles.
   uint64_t count(uint64_t triangle_count) const {
     return end().faces + (triangle_count - end().triangles);
   }
 
-  /// The next face that is not one triangle, with its first triangle's number. Fewer than 2^32
-  /// faces and triangles in all.
+  /// Adds the next face that is not one triangle, with its first triangle's number. There are fewer
+  /// than 2^32 faces and triangles in all.
   void add(size_t first, size_t triangle_count) {
     extend(after_triangles(first));
     extend({static_cast<uint32_t>(first + triangle_count), end().faces + 1});
   }
-  /// Those of the file's next block, with its first triangle's number.
+  /// Adds the faces of the file's next block, with its first triangle's number.
   void append(const FileFaces& block, size_t first) {
     if (block.are_triangles()) return;
     const Run start = after_triangles(first);

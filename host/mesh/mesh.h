@@ -20,8 +20,8 @@ static_assert(sizeof(DVec3) == 24 && sizeof(UVec3) == 12 && alignof(DVec3) == al
               "VkHausdorff's vectors must be packed: compile this file without the GLM_FORCE_ "
               "definitions that change glm::vec<3, double, glm::packed_highp>");
 
-/// What was counted while a mesh was accepted; all of it is reported, none of it changes the
-/// geometry but the unreferenced vertices, which are not part of a mesh and are dropped.
+/// The counts taken while a mesh was accepted; all of them are reported, none changes the geometry
+/// but the unreferenced vertices, which are not part of a mesh and are dropped.
 struct MeshCounts {
   uint64_t vertices = 0;      ///< referenced vertices, kept
   uint64_t faces = 0;         ///< triangles, after polygons were triangulated
@@ -37,8 +37,8 @@ enum class PolygonKind {
   kFan,        ///< convex, or all its corners lie on a line: the fan covers it
   kClipped,    ///< simple or weakly simple, not convex: ears were clipped
   kCrossing,   ///< its outline crosses itself: there is only the fan
-  kNoArea,     ///< its corners lie on no line, and the outline encloses nothing: likewise
-  kIntricate,  ///< undecided after 4,096 tests a corner: likewise
+  kNoArea,     ///< its corners lie on no line, and the outline encloses nothing: only the fan
+  kIntricate,  ///< undecided after 4,096 tests a corner: only the fan
 };
 
 /// Whether the triangles are the fan because nothing else is known.
@@ -52,20 +52,20 @@ struct Triangulation {
   static constexpr int kOnlyFan = 3;
 
   uint64_t face = 0;     ///< as the file counts from 0
-  uint32_t corners = 0;  ///< of the face
+  uint32_t corners = 0;  ///< the face's corner count
   int axis = kOnlyFan;   ///< the triangles tile the outline as it is seen along this: 0, 1, 2
-  std::vector<UVec3> triangles = {};  ///< corners by their place in the face; none of an only fan
+  std::vector<UVec3> triangles = {};  ///< corners by their place in the face; none for an only fan
 };
 
 /// How the faces of more than three corners became triangles.
 struct Polygons {
-  uint64_t clipped = 0;       ///< not convex: triangulated by their outline
-  uint64_t fanned = 0;        ///< of those below: measured as the fan of their corners
-  uint64_t first_fanned = 0;  ///< its face, as the file counts from 0
+  uint64_t clipped = 0;       ///< faces that are not convex: triangulated by their outline
+  uint64_t fanned = 0;        ///< faces measured as the fan of their corners
+  uint64_t first_fanned = 0;  ///< the first fanned face, as the file counts from 0
   /// Whether the outline of that face crosses itself, encloses no area or is too intricate.
   PolygonKind first_kind = PolygonKind::kFan;
-  /// Any triangulation of the same outlines is as near to this mesh, both ways: what corners that
-  /// lie in no plane leave open. Those that have only a fan are not among them.
+  /// Any triangulation of the same outlines is as near to this mesh, both ways: corners that lie in
+  /// no plane leave it open. Faces that have only a fan are not among them.
   double ambiguity = 0;
   uint64_t ambiguous_face = 0;     ///< the first with this ambiguity, as the file counts from 0
   bool any_triangulation = false;  ///< Mesh::delta has the ambiguity: ReadLimits has the same
@@ -80,21 +80,21 @@ struct Mesh {
   std::string name;  ///< the file's path, or what a caller named it; starts every error line
   std::vector<DVec3> vertices;
   std::vector<UVec3> faces;
-  FileFaces file_faces = {};  ///< which face of the file each of them is of, for people
+  FileFaces file_faces = {};  ///< the file's face of each of them, for people
   MeshCounts counts;
   Polygons polygons = {};
-  /// The surface is at most this far from the exact one, both ways: what a reader rounded beyond
-  /// "as given", such as a scene's transforms, moves each vertex by at most this, and polygons of
-  /// any triangulation add their ambiguity. h is 1-Lipschitz in it, and the certified interval is
-  /// wider by it.
+  /// The surface is at most this far from the exact one, both ways: rounding by a reader beyond "as
+  /// given", such as a scene's transforms, moves each vertex by at most this, and polygons of any
+  /// triangulation add their ambiguity. h is 1-Lipschitz in it, and the certified interval is wider
+  /// by it.
   double delta = 0;
-  bool has_all_bodies = false;  ///< of a scene every shape was read, whether it is printed or not
-  std::string unit = {};  ///< of the coordinates, where the file says: "m", "mm", "in"; else empty
+  bool has_all_bodies = false;  ///< every shape of a scene was read, printed or not
+  std::string unit = {};  ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
   std::vector<std::string> notes;  ///< one line each, for people: "polygons: 3 faces of more than
                                    ///< three corners were triangulated"
 };
 
-/// Of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.
+/// The memory of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.
 inline uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {
   return sizeof(DVec3) * vertex_count + sizeof(UVec3) * face_count;
 }
@@ -102,14 +102,13 @@ inline uint64_t mesh_bytes(const Mesh& mesh) {
   return mesh_bytes(mesh.vertices.size(), mesh.faces.size());
 }
 
-/// Throws InputError that names the element where a coordinate is not finite, an index is out of
-/// range, there is no face, `delta` is not a finite number of 0 or more, or `file_faces` are not
-/// those of so many triangles. Solver asks this of every mesh, for anything may be written into
-/// one.
+/// Throws InputError that names the element if a coordinate is not finite, an index is out of
+/// range, there is no face, `delta` is not a finite number of 0 or more, or `file_faces` do not fit
+/// so many triangles. Solver checks every mesh so, since a caller may write anything into one.
 void check_mesh(const Mesh& mesh);
 
-/// Throws UsageError where the interval is of every triangulation of A's or B's polygons, and
-/// `what`, such as an area, would be of the one that was made.
+/// Throws UsageError if the interval covers every triangulation of A's or B's polygons, and `what`,
+/// such as an area, would be of the one that was made.
 void refuse_any_triangulation(const Mesh& a, const Mesh& b, const std::string& what);
 
 /// Checks and cleans a mesh: drops unreferenced vertices, counts degenerate and duplicate faces.

@@ -1,10 +1,10 @@
-// By exact orientations of the corners' projection along the axis in which Newell's normal is
+// Uses exact orientations of the corners' projection along the axis in which Newell's normal is
 // largest: to drop a coordinate rounds nothing.
 //
 // Triangles that turn to the left, or not at all, and whose directed edges add up to the outline,
 // cover each point of the projection as often as the outline winds round it. So ears that are
-// clipped tile the polygon if and only if no two of them overlap, which is tested: that finds all
-// that crosses itself, whatever the clipping did.
+// clipped tile the polygon if and only if no two of them overlap, which is tested: that finds every
+// outline that crosses itself, whatever the clipping did.
 #include "host/mesh/polygon.h"
 
 #include <algorithm>
@@ -38,11 +38,12 @@ class Corners {
 
 using Ring = std::vector<Point2>;
 
-// Tests of a corner against an ear, or of two triangles, for each corner of a polygon: so much that
-// 4,096 corners are always decided, and that a file's cost stays proportional to its size.
+// The number of tests of a corner against an ear, or of two triangles, for each corner of a
+// polygon: so many that 4,096 corners are always decided, and a file's cost stays proportional to
+// its size.
 constexpr uint64_t kTestsPerCorner = 4096;
 
-// The largest coordinate becomes about 1, so that products neither overflow nor vanish.
+// Scales the largest coordinate to about 1, so that products neither overflow nor vanish.
 double scale_of(const Corners& corners) {
   double largest = 0;
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -62,8 +63,8 @@ glm::dvec3 newell(const Corners& corners) {
   return sum;
 }
 
-// From the largest component of the normal to the smallest; of equal ones the first axis first. No
-// std::stable_sort, which takes memory for its buffer.
+// Orders axes from the largest component of the normal to the smallest; of equal ones the first
+// axis first. std::stable_sort would take memory for its buffer.
 std::array<int, 3> axes_by_size(const glm::dvec3& normal) {
   std::array<int, 3> axes = {0, 1, 2};
   std::sort(axes.begin(), axes.end(), [&](int i, int j) {
@@ -85,9 +86,9 @@ Ring projected(const Corners& corners, int axis) {
 
 enum class Shape { kConvex, kWindsOften, kOther };
 
-// Convex: all turns to one side, no turn back on a straight corner, and one turn in all.
-// Directions, which are told apart by the order of an edge's ends, change from one half to the
-// other twice a turn.
+// A ring is convex if all turns are to one side, no straight corner turns back, and there is one
+// turn in all. Directions, which are told apart by the order of an edge's ends, change from one
+// half to the other twice a turn.
 Shape shape_of(Ring ring) {
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
@@ -116,7 +117,7 @@ int area_sign(const Ring& ring) {
   return twice.sign();
 }
 
-// Each pair of corners that differ, and any third, is a segment.
+// Whether each pair of corners that differ, and any third, is a segment.
 bool are_on_a_line(const Corners& corners) {
   size_t other = 0;
   while (other < corners.size() && corners[other] == corners[0]) ++other;
@@ -130,7 +131,7 @@ using Triangle = std::array<uint32_t, 3>;
 
 class Clipper {
  public:
-  /// The ring turns to the left in all.
+  /// Requires a ring that turns to the left in all.
   explicit Clipper(const Ring& ring) : ring_(ring), tests_left_(kTestsPerCorner * ring.size()) {
     const auto count = static_cast<uint32_t>(ring.size());
     next_.reserve(count);
@@ -142,7 +143,7 @@ class Clipper {
     fill_cells();
   }
 
-  /// The triangles, or nothing where they do not tile what is inside the ring.
+  /// Returns the triangles, or nothing if they do not tile the ring's inside.
   std::optional<std::vector<Triangle>> clip() {
     uint32_t left = static_cast<uint32_t>(ring_.size());
     uint32_t at = without_spikes(left);
@@ -158,7 +159,7 @@ class Clipper {
     if (do_overlap()) return std::nullopt;
     return std::move(triangles_);
   }
-  /// Whether clip() ended for this alone.
+  /// Whether clip() ended only because its tests ran out.
   bool is_out_of_tests() const { return tests_left_ == 0; }
 
  private:
@@ -190,7 +191,7 @@ class Clipper {
       take(at);
       at = before_[at];
       --left;
-      passed = passed > 0 ? passed - 1 : 0;  // the corner before may be one now
+      passed = passed > 0 ? passed - 1 : 0;  // the corner before may be a spike now
     }
     return at;
   }
@@ -200,7 +201,7 @@ class Clipper {
     return turn_of(a, b, c) == 0 && !(a < b && b < c) && !(c < b && b < a);
   }
 
-  // A straight corner only where there is no ear: its triangle is a segment.
+  // Returns a straight corner only if there is no ear: its triangle is a segment.
   std::optional<uint32_t> find_ear(uint32_t at, uint32_t left) {
     std::optional<uint32_t> straight;
     for (uint32_t i = 0; i < left && tests_left_ > 0; ++i, at = next_[at]) {
@@ -241,7 +242,7 @@ class Clipper {
     return false;
   }
 
-  // A corner inside the ear, or one on its rim from which an edge goes inside.
+  // Whether q lies inside the ear, or on its rim with an edge that goes inside.
   bool does_block(uint32_t q, const Triangle& ear) const {
     std::array<bool, 3> is_on{};
     for (size_t k = 0; k < 3; ++k) {
@@ -261,7 +262,7 @@ class Clipper {
 
   void spend(uint64_t tests) { tests_left_ -= std::min(tests, tests_left_); }
 
-  // About a corner a cell.
+  // Makes cells of about eight corners each.
   void fill_cells() {
     low_ = high_ = ring_[0];
     for (const Point2& p : ring_) {
@@ -282,8 +283,8 @@ class Clipper {
     is_gone_.assign(ring_.size(), false);
   }
 
-  // Rounded, but in order: between the cells of a triangle's least and greatest coordinates are
-  // those of all points in it.
+  // Rounds in order: between the cells of a triangle's least and greatest coordinates are the cells
+  // of all points in it.
   std::array<size_t, 2> cell_of(const Point2& p) const {
     std::array<size_t, 2> cell{};
     for (size_t k = 0; k < 2; ++k) {
@@ -302,7 +303,7 @@ class Clipper {
     return std::max({point(t[0])[k], point(t[1])[k], point(t[2])[k]});
   }
 
-  // True also where tests run out.
+  // Returns true also if tests run out.
   bool do_overlap() {
     std::vector<Triangle> solid;
     for (const Triangle& t : triangles_) {
@@ -331,8 +332,8 @@ class Clipper {
     return sum / (high_[k] / 2 - low_[k] / 2);
   }
 
-  // Two triangles have no inner point in common if and only if a line along an edge of one has the
-  // other on its outer side.
+  // Tests for a separating line: two triangles have no inner point in common if and only if a line
+  // along an edge of one has the other on its outer side.
   bool do_part(const Triangle& a, const Triangle& b) const {
     for (size_t k = 0; k < 3; ++k) {
       if (std::all_of(b.begin(), b.end(),
@@ -351,9 +352,10 @@ class Clipper {
   std::vector<Triangle> triangles_;
 };
 
-// Along the axis, the largest difference of the corners' heights e over a plane. A triangulation
-// whose projection is the outline's has over each point of it a point whose height over the plane
-// is between the least and the greatest e, so two such are that near to each other both ways.
+// Returns the largest difference of the corners' heights e over a plane, along the axis. A
+// triangulation whose projection is the outline's has over each point of it a point whose height
+// over the plane is between the least and the greatest e, so two such are that near to each other
+// both ways.
 //
 // Each of e's three terms passes at most four roundings of u = 2^-53: e is off by less than 5 u
 // times the sum of their sizes, and by 2^-1072 where products underflow. 8 u covers the rounding
@@ -378,7 +380,7 @@ double ambiguity_of(const Corners& corners, const glm::dvec3& normal, int axis) 
   return (most - least) * (1 + 8 * kUnit) + 16 * kUnit * size + 0x1p-1068;
 }
 
-// Which triangles the ring has: none where it has its fan.
+// The triangles of the ring: none if it has its fan.
 struct Outline {
   PolygonKind kind = PolygonKind::kCrossing;
   std::vector<Triangle> triangles;
@@ -396,8 +398,8 @@ Outline clipped(Ring&& ring, int axis, int sign) {
   return {PolygonKind::kClipped, std::move(*triangles), axis};
 }
 
-// Without memory or exact arithmetic, for meshes of quads. Four turns to one side of less than half
-// a turn each are one turn in all.
+// Needs no memory or exact arithmetic, for meshes of quads. Four turns to one side of less than
+// half a turn each are one turn in all.
 bool is_surely_convex_quad(const Corners& corners, int axis) {
   if (corners.size() != 4) return false;
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -1,4 +1,4 @@
-// Triangles of a polygon that a file gives by its corners.
+// Triangulates a polygon that a file gives by its corners.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -10,19 +10,19 @@
 
 namespace vkh {
 
-/// A hash table with a secret, as HashIndex, of a fixed size. `Position` gives an element's.
+/// A hash table with a secret, like HashIndex, but of a fixed size. `Position` gives an element's.
 template <class Position>
 class PositionIndex {
  public:
-  /// For `count` elements at most: two slots of three are taken then.
+  /// Takes `count` elements at most: two slots of three are taken then.
   PositionIndex(const ThreadPool& pool, size_t count, Position position)
       : slots_(filled(pool, count + count / 2 + 16, kFree)), position_(position) {}
 
-  /// found[e - begin] becomes, for the elements from begin to end, an element at the same position:
-  /// for all of a position the same one, but which depends on who came first. Returns how many
-  /// became their own.
+  /// Sets found[e - begin], for the elements from begin to end, to an element at the same position:
+  /// the same one for all elements of a position, but the first thread decides which. Returns how
+  /// many became their own.
   size_t insert(uint32_t begin, uint32_t end, uint32_t* found) {
-    constexpr uint32_t kAhead = 16;  // so many slots are fetched at once: each is a cache miss
+    constexpr uint32_t kAhead = 16;  // slots fetched at once: each is a cache miss
     std::array<uint64_t, kAhead> hashes;
     size_t own = 0;
     for (uint32_t first = begin; first < end; first += std::min(kAhead, end - first)) {
@@ -48,8 +48,8 @@ class PositionIndex {
     return static_cast<size_t>(static_cast<unsigned __int128>(hash) * slots_.size() >> 64);
   }
 
-  // A slot holds the hash's lower half, so that hardly any other position is looked at. Relaxed:
-  // positions were there before the threads.
+  // Inserts one element. A slot holds the hash's lower half, so that hardly any other position is
+  // compared. Relaxed order suffices: positions existed before the threads.
   uint32_t insert(uint32_t element, uint64_t hash) {
     const uint64_t mine = hash << 32 | element;
     for (size_t at = start_of(hash);; at = at + 1 == slots_.size() ? 0 : at + 1) {

@@ -1,4 +1,4 @@
-// double -> float, and back, that the compiler keeps.
+// Conversions from double to float and back that the compiler keeps.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -25,7 +25,7 @@ FacePositions positions_of(const Mesh& mesh, const glm::uvec3& f) {
   return face;
 }
 
-// Each once, in order.
+// Returns each face once, in order.
 std::vector<FacePositions> sorted_faces(const Mesh& mesh) {
   std::vector<FacePositions> faces;
   faces.reserve(mesh.faces.size());

@@ -1,4 +1,4 @@
-// Is a mesh part of another, face by face, as given?
+// Tests whether a mesh is part of another, face by face, as given.
 #pragma once
 
 #include "host/mesh/mesh.h"
@@ -9,7 +9,7 @@ namespace vkh {
 /// h(part, whole) is 0.
 bool has_faces_of(const Mesh& whole, const Mesh& part);
 
-/// For each face of `part` a face of `whole` that is the same, as above; kNoFace where none is.
+/// Returns for each face of `part` a face of `whole` that is the same; kNoFace if there is none.
 constexpr uint32_t kNoFace = UINT32_MAX;
 std::vector<uint32_t> same_faces(const Mesh& whole, const Mesh& part);
 

@@ -16,8 +16,8 @@ namespace {
 
 using glm::dvec3;
 
-// Dearer by this share of the squared length: on a plane every collapse costs nothing but rounding
-// noise, and short edges should go first there.
+// Raises the cost by this share of the squared length: on a plane every collapse costs nothing but
+// rounding noise, and short edges should go first there.
 constexpr double kLengthCost = 1e-6;
 // A face may turn by at most 78 degrees in one collapse.
 constexpr double kTurnCosine = 0.2;
@@ -57,7 +57,7 @@ struct Quadric {
     return glm::dot(ap, p) + 2 * glm::dot(b, p) + c;
   }
 
-  /// Where it is least, by Cramer's rule; false where that is a line or a plane.
+  /// Finds its minimum by Cramer's rule; false if the minimum is a line or a plane.
   bool minimum(dvec3& p) const {
     const dvec3 yz_cross = glm::cross(row_y(), row_z());
     const double det = glm::dot(row_x(), yz_cross);

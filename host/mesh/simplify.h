@@ -1,4 +1,4 @@
-// Fewer faces for nearly the same shape.
+// Reduces the faces of a mesh at nearly the same shape.
 #pragma once
 
 #include <cstddef>

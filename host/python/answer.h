@@ -1,4 +1,5 @@
-// What Python gets: one object for a directed or a symmetric distance, plain values in it.
+// The result that Python gets: one object for a directed or a symmetric distance, plain values in
+// it.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,25 +12,25 @@
 
 namespace vkh::python {
 
-/// Of a symmetric run, the witness is that of the direction with the larger lower bound, told in
-/// terms of A and B all the same.
+/// In a symmetric run, the witness is that of the direction with the larger lower bound, always in
+/// terms of A and B.
 struct Answer {
   double lower = 0, upper = 0;
   Status status = Status::kClosed;
-  std::optional<Verdict> verdict;  ///< where a limit was given
+  std::optional<Verdict> verdict;  ///< present if a limit was given
   SurfacePoint witness_a, witness_b;
   pybind11::dict stats;
-  pybind11::object survey = pybind11::none(), survey_back = pybind11::none();  ///< of A, of B
-  std::optional<size_t> index = {};           ///< of a pair of distances()
-  pybind11::object id = pybind11::none();     ///< likewise, where the pair has one
-  pybind11::object error = pybind11::none();  ///< instead of an answer: the exception
+  pybind11::object survey = pybind11::none(), survey_back = pybind11::none();  ///< for A, for B
+  std::optional<size_t> index = {};           ///< number of a pair in distances()
+  pybind11::object id = pybind11::none();     ///< the pair's id in distances(), if it has one
+  pybind11::object error = pybind11::none();  ///< the exception, instead of an answer
 
   bool closed() const { return status == Status::kClosed; }
-  /// "pass", "fail", "undecided"; null without a limit.
+  /// Returns "pass", "fail", "undecided"; null without a limit.
   const char* verdict_name() const;
 };
 
-/// The class Result.
+/// Defines the class Result.
 void define_result(pybind11::module_& m);
 
 Answer answer_of(const Report& report);

@@ -10,7 +10,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Short, whatever it is: never an array.
+/// Shows any value, but short: never an array.
 std::string shown(py::handle given) {
   constexpr size_t kMost = 60;
   if (given.is_none() || PyBool_Check(given.ptr()) || PyLong_CheckExact(given.ptr()) ||

@@ -22,7 +22,8 @@ namespace py = pybind11;
 // Text of a Python object, such as a shape or a dtype.
 std::string in_words(const py::object& object) { return py::cast<std::string>(py::str(object)); }
 
-// Whatever NumPy takes for an array, of three columns. Rows of none are left to make_mesh.
+// Makes an array of all that NumPy takes for one, of three columns. Rows of none are left to
+// make_mesh.
 py::array array_from(const std::string& what, const py::object& object,
                      const std::string& expected) {
   py::array array = py::array::ensure(object);
@@ -35,7 +36,7 @@ py::array array_from(const std::string& what, const py::object& object,
   return array;
 }
 
-// A row-major copy in native byte order, where it is not that already.
+// Makes a row-major copy in native byte order, unless it is that already.
 template <class T>
 py::array_t<T, py::array::c_style | py::array::forcecast> as(const py::array& array) {
   return py::array_t<T, py::array::c_style | py::array::forcecast>(array);
@@ -60,8 +61,8 @@ std::vector<glm::dvec3> floats_from(const py::array& given) {
   return vertices;
 }
 
-// Those that float64 has all of: others would be rounded, and what is certified would not be what
-// was given.
+// Takes integers that float64 has exactly: others would be rounded, and the certified mesh would
+// not be the given one.
 template <class Integer>
 std::vector<glm::dvec3> integers_from(const std::string& what, const py::array& given) {
   constexpr Integer kMost = Integer{1} << 53;

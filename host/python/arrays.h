@@ -1,5 +1,5 @@
-// NumPy arrays to meshes. Everything that is wrong with an array is a ValueError that names it and
-// says what was expected.
+// Converts NumPy arrays to meshes. Every error in an array is a ValueError that names it and what
+// was expected.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -11,7 +11,7 @@
 
 namespace vkh::python {
 
-/// What make_mesh takes.
+/// The input of make_mesh.
 struct RawMesh {
   std::string name;
   std::vector<glm::dvec3> vertices;
@@ -19,10 +19,10 @@ struct RawMesh {
 };
 
 /// vertices: (n, 3) float32, float64, or integers that float64 has exactly; faces: (m, 3) of any
-/// integer type. Copied: nothing of the arrays is kept. `name` is "A" or "B", for messages.
+/// integer type. Arrays are copied: nothing of them is kept. `name` is "A" or "B", for messages.
 RawMesh raw_mesh_from(const std::string& name, const pybind11::object& vertices,
                       const pybind11::object& faces);
-/// Likewise, within a Call.
+/// Does the same and makes the mesh, within a Call.
 Mesh mesh_from(const std::string& name, const pybind11::object& vertices,
                const pybind11::object& faces);
 

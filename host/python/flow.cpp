@@ -13,7 +13,7 @@
 namespace vkh::python {
 namespace {
 
-// Never destroyed: see interpreter.cpp.
+// This is never destroyed: see interpreter.cpp.
 struct Alive {
   std::mutex mutex;
   std::set<Flow*> flows;
@@ -25,7 +25,7 @@ Alive& alive() {
 
 }  // namespace
 
-// What GPUs take, which take most: 3 lanes of 16 pairs, and as many that wait for them.
+// The default for GPUs, which take most: 3 workers of 16 pairs, and as many that wait for them.
 size_t Flow::default_ahead(const StreamOptions& devices) {
   const size_t lanes = devices.lanes != 0 ? devices.lanes : 3;
   const size_t together = devices.together != 0 ? devices.together : 16;
@@ -36,7 +36,7 @@ Flow::Flow(FlowAsked asked) : asked_(std::move(asked)) {
   if (asked_.ahead == 0) asked_.ahead = default_ahead(asked_.devices);
   StreamOptions devices = asked_.devices;
   devices.first = asked_.options;
-  devices.waiting = asked_.ahead;  // so that nobody ever waits in push()
+  devices.waiting = asked_.ahead;  // so that no thread ever waits in push()
   stream_.emplace(devices, [this](StreamResult&& result) { deliver(std::move(result)); });
   const std::lock_guard lock(alive().mutex);
   alive().flows.insert(this);
@@ -66,7 +66,7 @@ void Flow::put(FlowPair pair) {
   jobs_changed_.notify_one();
 }
 
-// One is enough, where there are no more to be had.
+// Goes on with one thread if no more are available.
 void Flow::add_thread() {
   try {
     threads_.emplace_back([this] { work(); });
@@ -115,7 +115,7 @@ void Flow::solve(FlowPair pair) {
   if (asked_.max) whole.options.limit = limit_for(*asked_.max, *whole.a);
   try {
     stream_->push(std::move(whole));
-  } catch (...) {  // no device is left, and the fault is not the pair's: wait() says so
+  } catch (...) {  // no device is left, and the fault is not the pair's: wait() reports it
   }
 }
 
@@ -125,7 +125,7 @@ void Flow::deliver(StreamResult&& result) {
   results_changed_.notify_all();
 }
 
-// With mutex_.
+// Called with mutex_ locked.
 std::optional<StreamResult> Flow::next_result() {
   if (results_.empty() || is_ended_) return std::nullopt;
   StreamResult result = std::move(results_.front());
@@ -169,7 +169,7 @@ void Flow::end() {
   threads_.clear();
   try {
     stream_->finish();
-  } catch (...) {  // nobody asks for it any more
+  } catch (...) {  // no caller asks for it any more
   }
 }
 

@@ -18,18 +18,19 @@ namespace {
 
 namespace py = pybind11;
 
-// Where the threads are that are in calls of ours.
+// Counts the threads that are in calls of ours.
 struct State {
   std::mutex mutex;  // never held by one that waits for the GIL
   std::condition_variable changed;
   int outside = 0;       // without the GIL
   int inside = 0;        // with it, or in Python and on the way to it
   bool ending = false;   // nothing starts, what runs is cancelled
-  bool is_over = false;  // nobody comes back
+  bool is_over = false;  // no thread comes back
   std::thread::id ender;
 };
 
-// Never destroyed: threads may wait in it when the process exits. A forked process gets one anew.
+// This is never destroyed: threads may wait in it when the process exits. A forked process gets one
+// anew.
 std::atomic<State*> g_state = nullptr;
 std::atomic<bool> g_used = false, g_forked = false;
 
@@ -57,7 +58,7 @@ void move_one(int& from, int& to) {
   state().changed.notify_all();
 }
 
-// With the GIL, which a thread that must not come back gives away for good.
+// Gives the GIL away for good, on a thread that must not come back.
 void leave_python() {
   State& s = state();
   std::unique_lock lock(s.mutex);
@@ -69,13 +70,14 @@ void leave_python() {
   move_one(s.inside, s.outside);
 }
 
-// A driver's own exit handlers join its threads (Mesa's does), which a forked process has not.
+// A driver's own exit handlers join its threads (Mesa's does), which a forked process does not
+// have.
 void leave_at_once(int status, void*) {
   std::fflush(nullptr);
   _exit(status);
 }
 
-// By value: pybind11's type of a translator.
+// The argument is by value: pybind11's type of a translator.
 void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param)
   try {
     if (thrown) std::rethrow_exception(thrown);
@@ -103,7 +105,7 @@ void end_interpreter(const std::function<void()>& end, const std::function<void(
   }
   constexpr std::chrono::milliseconds kPatience(1000), kStep(20);
   State& s = state();
-  const auto interrupt = std::signal(SIGINT, SIG_DFL);  // whoever does not want to wait
+  const auto interrupt = std::signal(SIGINT, SIG_DFL);  // for a user who does not want to wait
   bool all_came = false;
   {
     const py::gil_scoped_release release;
@@ -167,9 +169,9 @@ bool ask(Reply (*question)(void*), void* about) {
   }
   Reply reply = Reply::kCancel;
   PyGILState_STATE gil{};
-  // Where the interpreter has ended, it ends a thread that wants the GIL by unwinding it: not
-  // through the driver and noexcept code. Nothing else comes here: this is C. Not by reference to
-  // abi::__forced_unwind, of which there is no object.
+  // After its end, the interpreter ends a thread that wants the GIL by unwinding it: not through
+  // the driver and noexcept code. Nothing else comes here: this is C. It is not caught by reference
+  // to abi::__forced_unwind, of which there is no object.
   try {
     gil = PyGILState_Ensure();
     reply = question(about);

@@ -10,7 +10,7 @@ namespace vkh::python {
 /// The interpreter ends, and nothing may run any more. Python sees SystemExit, which ends a thread
 /// without a word, as the interpreter would; on the thread that ends it, RuntimeError.
 struct Ended {};
-/// A Python exception is set, and is on its way through code that has not the GIL.
+/// A Python exception is set, and is on its way through code that does not have the GIL.
 struct Raised {};
 
 /// Called once, when the module is made.
@@ -26,7 +26,7 @@ bool is_ending();
 void mark_used();
 bool is_forked();
 
-/// Around whatever Python calls. Throws Ended, and RuntimeError in a forked process.
+/// Surrounds each call from Python. Throws Ended, and RuntimeError in a forked process.
 class Call {
  public:
   Call();
@@ -38,7 +38,7 @@ class Call {
   const void* state_;
 };
 
-/// Within a Call: other threads of Python run as long as it lives. Python must not be touched.
+/// Used within a Call: other threads of Python run as long as it lives. Python must not be touched.
 class WithoutGil {
  public:
   WithoutGil();
@@ -56,7 +56,7 @@ enum class Reply { kGoOn, kCancel, kRaised };
 /// does, and Raised.
 bool ask(Reply (*question)(void*), void* about);
 
-/// Waits for `ready`, and does `change` before anybody else does one. Throws Ended.
+/// Waits for `ready`, and does `change` before any other thread does one. Throws Ended.
 void change_when(const std::function<bool()>& ready, const std::function<void()>& change);
 void change_now(const std::function<void()>& change);
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace py = pybind11;
 
-// By way of a call, which all translators of exceptions stand behind.
+// Converts by a call, which all translators of exceptions stand behind.
 py::object exception_of(const std::exception_ptr& error) {
   try {
     py::cpp_function([&] { std::rethrow_exception(error); })();

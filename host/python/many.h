@@ -1,4 +1,4 @@
-// What stands behind distances(): the package's generator puts pairs in and takes results out.
+// The stream behind distances(): the package's generator puts pairs in and takes results out.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,7 +12,7 @@ namespace vkh::python {
 
 class Flow;
 
-/// Used by one thread of Python at a time, as the generator that has it sees to.
+/// Used by one thread of Python at a time; the generator that has it sees to that.
 class PythonStream {
  public:
   PythonStream(const pybind11::args& positional, const pybind11::kwargs& named);
@@ -21,21 +21,21 @@ class PythonStream {
   PythonStream& operator=(const PythonStream&) = delete;
 
   bool has_room() const;
-  /// Without waiting. Throws what is wrong with the arrays; `b`: None with against=.
+  /// Puts a pair without waiting. Throws the error in the arrays; `b`: None with against=.
   void put(size_t index, const pybind11::object& id, const pybind11::object& a,
            const pybind11::object& b);
-  /// A Result, or None: if none is there yet, or with `waits` if none will be.
+  /// Returns a Result, or None: if none is there yet, or with `waits` if none will be.
   pybind11::object take(bool waits);
-  /// Waits until nothing runs. Silent wherever there is nothing to close.
+  /// Waits until nothing runs. Does nothing if there is nothing to close.
   void close();
 
  private:
   std::shared_ptr<Flow> flow_;
   bool is_symmetric_ = false;
-  std::map<size_t, pybind11::object> ids_;  // of pairs that are put and not taken
+  std::map<size_t, pybind11::object> ids_;  // for pairs that are put and not taken
 };
 
-/// The class _Stream of _core, and _failed().
+/// Defines the class _Stream of _core, and _failed().
 void define_many(pybind11::module_& m);
 
 }  // namespace vkh::python

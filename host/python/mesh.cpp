@@ -33,7 +33,7 @@ uint64_t file_size(const std::string& file) {
   return stat(file.c_str(), &about) == 0 ? static_cast<uint64_t>(about.st_size) : 0;
 }
 
-// Why a file could not be opened, as the system says it; 0: it can be.
+// The system's reason why a file could not be opened; 0: it can be.
 int fault_of(const std::string& file) {
   struct stat about {};
   if (stat(file.c_str(), &about) != 0) return errno;
@@ -53,7 +53,7 @@ Mesh read_file(const std::string& file, ReadLimits limits) {
   }
 }
 
-// Ctrl-C is heard by this thread alone, so that another one reads.
+// Reads on another thread, since only this one handles Ctrl-C.
 MeshPointer read_now(const std::string& file, ReadLimits limits = {}) {
   constexpr std::chrono::milliseconds kStep(20);
   try {
@@ -81,7 +81,7 @@ bool is_path(const py::object& object) {
   return py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__");
 }
 
-// The bytes that the system knows it by.
+// The bytes by which the system knows a file.
 std::string file_from(const char* argument, const py::object& object) {
   const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(object.ptr()));
   if (!path) throw py::error_already_set();
@@ -100,7 +100,7 @@ bool is_pair(const py::object& object) {
          py::len(object) == 2;
 }
 
-// None where there is none. What else is wrong with it is raised.
+// Returns none if there is no such attribute. Other errors of it are raised.
 py::object attribute(const py::object& object, const char* name) {
   auto value = py::reinterpret_steal<py::object>(PyObject_GetAttrString(object.ptr(), name));
   if (value) return value;
@@ -109,7 +109,7 @@ py::object attribute(const py::object& object, const char* name) {
   return py::none();
 }
 
-// (vertices, faces); None of both for an object that has none.
+// Returns (vertices, faces); None for both if an object has none.
 py::tuple arrays_of(const py::object& object) {
   if (is_pair(object)) return py::tuple(object);
   py::object faces = attribute(object, "faces");
@@ -150,7 +150,7 @@ py::array file_faces_of(const Mesh& mesh) {
   return read_only(py::array_t<uint32_t>(static_cast<py::ssize_t>(faces.size()), faces.data()));
 }
 
-// For pickles: (runs, 2).
+// Packs runs for pickles: (runs, 2).
 py::array runs_of(const FileFaces& faces) {
   const std::vector<FileFaces::Run>& runs = faces.runs();
   static_assert(sizeof(FileFaces::Run) == 2 * sizeof(uint32_t));
@@ -175,7 +175,7 @@ py::array triangles_of(const Triangulation& one) {
                                reinterpret_cast<const uint32_t*>(one.triangles.data()));
 }
 
-// For pickles.
+// Packs polygons for pickles.
 py::tuple polygons_state(const Polygons& p) {
   py::list triangulations;
   for (const Triangulation& one : p.triangulations)
@@ -331,7 +331,7 @@ void raise(const FileFault& fault) {
 }
 
 uint64_t MeshGiven::bytes() const {
-  constexpr uint64_t kBytesOfAByte = 3;  // of a file, while it is read and as a mesh, about
+  constexpr uint64_t kBytesOfAByte = 3;  // about; a file, while it is read and as a mesh
   if (mesh != nullptr) return 0;
   if (!file.empty()) return kBytesOfAByte * file_size(file);
   return mesh_bytes(arrays.vertices.size(), arrays.faces.size());

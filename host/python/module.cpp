@@ -1,5 +1,5 @@
-// vkhausdorff._core: what the Python package vkhausdorff has, distance, Solver, and gate for
-// arrays.
+// vkhausdorff._core: the compiled part of the Python package vkhausdorff: distance, Solver, and
+// gate for arrays.
 #include <pybind11/pybind11.h>
 
 #include "engine/vkhausdorff.h"
@@ -90,7 +90,7 @@ PYBIND11_MODULE(_core, m) {
   namespace py = pybind11;
   using namespace vkh::python;
   const py::object own_name = m.attr("__name__");
-  m.attr("__name__") = "vkhausdorff";  // what is defined below is the package's
+  m.attr("__name__") = "vkhausdorff";  // the package's name, for all that is defined below
   m.doc() = "Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan).";
   m.attr("__version__") = VKH_VERSION_STRING;
   py::register_exception<vkh::DeviceError>(m, "DeviceError", PyExc_RuntimeError);
@@ -109,7 +109,7 @@ PYBIND11_MODULE(_core, m) {
     }
   });
   py::options quiet;
-  // (*args, **kwargs) says nothing: the texts have them, as inspect.signature reads them.
+  // (*args, **kwargs) is no information: the texts have them, as inspect.signature reads them.
   quiet.disable_function_signatures();
   define_result(m);
   define_distance(m);

@@ -13,7 +13,7 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-/// A text, or what os.fspath() makes one of.
+/// Reads a text, or an object from which os.fspath() makes one.
 std::string path_from(const py::object& given) {
   constexpr const char* kExpected = "the path of a file that ends in .vhc, or None";
   py::object text = given;
@@ -37,7 +37,7 @@ Certificate::Certificate(const Arguments& given, const SolveOptions& options) : 
   file_.emplace("certificate", path_from(*path), std::vector<std::string>{});
 }
 
-// A run that was called off, or took all of its time, is proven to what it can be at once.
+// If a run was called off, or took all of its time, its bound is proven to what it can be at once.
 std::optional<Proof> Certificate::proof_of(Solver& solver, const PairView& pair,
                                            const Report& report) const {
   if (!std::isfinite(report.upper)) return std::nullopt;

@@ -28,7 +28,7 @@ py::tuple point_of(const SurfacePoint& p) {
   return py::make_tuple(p.point.x, p.point.y, p.point.z);
 }
 
-// For pickles.
+// Packs a point for pickles.
 py::tuple state_of(const SurfacePoint& p) {
   const auto xyz = [](const glm::dvec3& v) { return py::make_tuple(v.x, v.y, v.z); };
   return py::make_tuple(p.face, xyz(p.barycentric), xyz(p.point));
@@ -44,7 +44,7 @@ SurfacePoint point_from(const py::handle& state) {
           .point = xyz(state[py::int_(2)])};
 }
 
-// By its name: numbers of enumerators are nobody's to keep.
+// Finds an enumerator by its name: numbers of enumerators may change.
 template <class Enum>
 Enum named(const std::string& name, const char* (*name_of)(Enum), Enum last) {
   for (int i = 0; i <= static_cast<int>(last); ++i) {
@@ -82,13 +82,13 @@ Answer answer_from_state(const py::tuple& state) {
   }
 }
 
-// Whether there is an answer or not.
+// Reads a member whether there is an answer or not.
 template <class Get>
 auto of_any(Get get) {
   return [get](const py::object& self) { return get(made<Answer>(self, "Result")); };
 }
 
-/// Raises the exception that is there instead of an answer.
+/// Raises the exception that stands instead of an answer.
 const Answer& answered(const py::object& self) {
   const auto& r = made<Answer>(self, "Result");
   if (r.error.is_none()) return r;
@@ -101,7 +101,7 @@ auto of_result(Get get) {
   return [get](const py::object& self) { return get(answered(self)); };
 }
 
-// Of A's survey; None without one.
+// Reads a member of A's survey; None without one.
 auto of_survey(const char* name) {
   return of_result([name](const Answer& r) {
     return r.survey.is_none() ? py::object(py::none()) : py::object(r.survey.attr(name));
@@ -124,13 +124,13 @@ py::object survey_met(const Answer& r) {
   return py::bool_(met(r.survey) && met(r.survey_back));
 }
 
-// What is proven of the pair; not what the run cost.
+// The proven values of the pair; not the cost of the run.
 py::tuple proven(const Answer& r) {
   return py::make_tuple(r.lower, r.upper, status_name(r.status), r.verdict_name(),
                         state_of(r.witness_a), state_of(r.witness_b), r.survey, r.survey_back);
 }
 
-// Exceptions are equal to themselves alone: of two, what they say is compared.
+// Compares two exceptions by their texts, since each is equal to itself alone.
 bool same_errors(const py::object& x, const py::object& y) {
   if (x.is_none() || y.is_none()) return x.is(y);
   return py::type::of(x).is(py::type::of(y)) && py::str(x).equal(py::str(y));
@@ -206,7 +206,7 @@ void define_surveys(py::class_<Answer>& result) {
                              "symmetric run");
 }
 
-// Two are equal where the same is proven, whatever it cost.
+// Results are equal if the same is proven, whatever it cost.
 void define_values(py::class_<Answer>& result) {
   result
       .def("to_dict", dict_of,
@@ -224,7 +224,7 @@ void define_values(py::class_<Answer>& result) {
           [](const py::tuple& state) { return answer_from_state(state); }));
 }
 
-// What distances() says of a pair besides.
+// Defines what distances() adds about a pair.
 void define_place(py::class_<Answer>& result) {
   result
       .def_property_readonly("index", of_any([](const Answer& r) { return r.index; }),

@@ -13,7 +13,7 @@ namespace {
 
 namespace py = pybind11;
 
-// Never destroyed: see interpreter.cpp.
+// This is never destroyed: see interpreter.cpp.
 std::set<Session*>& sessions_alive() {
   static auto* alive = new std::set<Session*>;
   return *alive;
@@ -100,7 +100,7 @@ void Session::reopen() {
   is_lost_ = false;
 }
 
-// A lost device may show itself by another error first, so that it is asked after each.
+// A lost device may show itself by another error first, so that it is checked after each.
 void Session::run(const std::function<void(Solver&)>& work) {
   try {
     if (is_lost_) reopen();

@@ -19,13 +19,14 @@ namespace py = pybind11;
 
 constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as '0' or part of a name";
 
-/// The limit of gate(): one for all, or of each face.
+/// The limit of gate(): one for all, or one per face.
 struct GateWish {
   Limit limit;
   std::optional<std::vector<Limit>> of_faces;
 };
 
-/// In A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for A's faces.
+/// Reads it in A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for
+/// A's faces.
 GateWish read_gate_wish(const Arguments& given, const Mesh& a) {
   constexpr const char* kExpected =
       "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or a "
@@ -44,7 +45,7 @@ GateWish read_gate_wish(const Arguments& given, const Mesh& a) {
   return {{}, std::move(of_faces)};
 }
 
-/// What both functions and a Solver's run are asked with.
+/// The options of both functions and of a Solver's run.
 SolveOptions heard_options(const Arguments& given) {
   static const py::object* none = new py::none();
   SolveOptions options = options_of(given);
@@ -56,7 +57,7 @@ SolveOptions heard_options(const Arguments& given) {
 }
 
 // One session a device, kept between calls of distance(): making one takes longer than most runs.
-// Never destroyed, but freed: see interpreter.cpp.
+// It is never destroyed, but freed: see interpreter.cpp.
 std::map<std::string, std::unique_ptr<Session>>& sessions() {
   static auto* kept = new std::map<std::string, std::unique_ptr<Session>>;
   return *kept;
@@ -69,14 +70,14 @@ Session& session_for(const std::string& device) {
   return *sessions().try_emplace(device, std::move(made)).first->second;
 }
 
-// KeyboardInterrupt that came too late to be heard by a run is raised after it.
+// Raises a KeyboardInterrupt that came too late for a run after it.
 template <class Found>
 Answer answered(const Found& found) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   return answer_of(found);
 }
 
-/// What both functions are given.
+/// The arguments of both functions.
 struct Given {
   SolveOptions options;
   bool is_symmetric;
@@ -98,7 +99,7 @@ struct Given {
 };
 
 Answer solve(Given& given) {
-  SymmetricReport both;  // its way there, where that is all that is asked
+  SymmetricReport both;  // its forward direction, if that is all that is asked
   Surveys surveys;
   session_for(given.device).use([&](Solver& s) {
     SurveyRun run(given.survey, given.options, *given.a, surveys);
@@ -124,7 +125,7 @@ Answer solve(Given& given) {
   return answer;
 }
 
-/// Where each face of A has a limit of its own.
+/// Solves with a limit of its own for each face of A.
 Answer solve_by_face(const Given& given, const std::vector<Limit>& limits) {
   if (given.is_symmetric)
     throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
@@ -181,7 +182,7 @@ Answer gate(const py::args& positional, const py::kwargs& named) {
     throw UsageError(
         "certificate: is of the interval, not to be had with area or limits of A's faces");
   if (asked.of_faces) return solve_by_face(given, *asked.of_faces);
-  // What is asked of its area is decided by the survey.
+  // The survey decides questions about its area.
   if (!given.survey.area) given.options.limit = asked.limit;
   return solve(given);
 }
@@ -242,7 +243,7 @@ void PythonSolver::close() {
   session.reset();  // unless a run in flight has it, too
 }
 
-// Nobody calls it any more: no run is in flight.
+// No thread calls it any more: no run is in flight.
 PythonSolver::~PythonSolver() {
   if (session_ == nullptr || is_forked()) return;
   try {

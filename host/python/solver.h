@@ -1,4 +1,4 @@
-// What Python calls: distance(), gate(), and the Solver that keeps B.
+// The functions that Python calls: distance(), gate(), and the Solver that keeps B.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 namespace vkh::python {
 
 Answer distance(const pybind11::args& positional, const pybind11::kwargs& named);
-/// The same with a limit: the answer has a verdict.
+/// Does the same with a limit: the answer has a verdict.
 Answer gate(const pybind11::args& positional, const pybind11::kwargs& named);
 
 /// Frees the devices that distance() keeps, and those of all Solvers.

@@ -67,7 +67,7 @@ void read_bands(const Arguments& given, double diagonal_a, SurveyAsked& asked) {
   for (const py::handle band : *bands) read_band(band, diagonal_a, asked);
 }
 
-/// A number, or "99.5%".
+/// Reads a number, or "99.5%".
 double share_from(py::handle given) {
   constexpr const char* kExpected =
       "a share of the area above 0 and at most 1, such as 0.995 or '99.5%', or None";
@@ -192,7 +192,7 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
   return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-/// (key, (lower, upper)), of which Python makes what it shows.
+/// (key, (lower, upper)), from which Python makes the values that it shows.
 py::tuple pair_of(const py::object& key, double lower, double upper) {
   return py::make_tuple(key, py::make_tuple(lower, upper));
 }
@@ -226,7 +226,8 @@ py::object object_of(const SurveyAsked& asked, const Surveyed& found) {
       .attr("made")(field, statistics, found.upper, survey.is_met, stats);
 }
 
-// The limit's band is the last. From below of the limit rounded down, from above of it rounded up.
+// The limit's band is the last. Its share from below is for the limit rounded down, its share from
+// above for the limit rounded up.
 Verdict verdict_on_area(const SurveyAsked& asked, const SurveyResult& survey) {
   if (!survey.statistics) return Verdict::kUndecided;
   const std::vector<AreaWithin>& bands = survey.statistics->bands;

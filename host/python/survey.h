@@ -1,4 +1,4 @@
-// What Python asks about all of A besides its distance, and what it gets of it.
+// The questions of Python about all of A besides its distance, and their results.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -17,12 +17,12 @@
 
 namespace vkh::python {
 
-/// A string such as '0.1%' or '0.01abs'. Arrays are in nobody knows what: '0.1mm' is refused.
+/// Reads a string such as '0.1%' or '0.01abs'. Arrays have no known unit: '0.1mm' is refused.
 Length length_from(const char* name, const char* expected, pybind11::handle given,
                    PlainNumber plain);
 
 /// A distance as the caller gave it, and where among SurveyOptions::bands it is: its `text`, or the
-/// number itself. What a text stands for lies from the first of them to the last.
+/// number itself. The value of a text lies from the first of them to the last.
 struct Band {
   std::string text;
   size_t first, last;
@@ -35,9 +35,10 @@ struct SurveyAsked {
   std::optional<double> area;
 };
 
-/// The keywords field, statistics, bands and survey_time. Of A's own diagonal, as `tol` is.
+/// Reads the keywords field, statistics, bands and survey_time, in terms of A's own diagonal, as
+/// `tol` is.
 SurveyAsked read_survey(const Arguments& given, const Mesh& a);
-/// And those of gate(), whose limit is `max`: it is a band, too, of the text it was given as.
+/// Reads those of gate(), whose limit is `max`: it is a band, too, of the text it was given as.
 void read_area(const Arguments& given, const Limit& limit, SurveyAsked& asked);
 
 struct Surveyed {
@@ -45,13 +46,13 @@ struct Surveyed {
   double upper = 0;  ///< no distance of the mesh is above it
 };
 
-/// Of A, and of B on the way back.
+/// The survey of A, and of B in the reverse direction.
 struct Surveys {
   Surveyed a, b;
 };
 
-/// Around the runs of a call, within Session::use. Without a limit the surveys are in the run that
-/// looks for the distance; beside one that only decides a limit they have runs of their own.
+/// Surrounds the runs of a call, within Session::use. Without a limit the surveys are in the run
+/// that looks for the distance; beside one that only decides a limit they have runs of their own.
 class SurveyRun {
  public:
   SurveyRun(const SurveyAsked& asked, const SolveOptions& options, const Mesh& a, Surveys& found,
@@ -59,9 +60,9 @@ class SurveyRun {
   SurveyRun(const SurveyRun&) = delete;
   SurveyRun& operator=(const SurveyRun&) = delete;
 
-  /// To run with.
+  /// The options to run with.
   const SolveOptions& options() const { return options_; }
-  /// After it: runs of one wave, one for each direction, where surveys are apart.
+  /// Called after it: runs of one wave, one for each direction, if surveys are apart.
   void beside(const std::function<void(const SolveOptions&)>& run);
 
  private:
@@ -74,12 +75,12 @@ class SurveyRun {
   bool is_any_, is_apart_, is_cancelled_ = false;
 };
 
-/// No distance is above any face's. And where a run ended before its survey could begin, no face's
-/// is above the distance.
+/// Narrows the bounds: no distance is above any face's. If a run ended before its survey could
+/// begin, no face's is above the distance.
 void narrow(const SurveyAsked& asked, Report& report, Surveyed& survey);
 
-/// With the GIL: the answer has them, and the verdict on a share of area. `b`: null in a directed
-/// run.
+/// Adds the surveys, and the verdict on a share of area, to the answer, with the GIL. `b`: null in
+/// a directed run.
 void add_surveys(const SurveyAsked& asked, const Surveyed& a, const Surveyed* b, Answer& answer);
 
 }  // namespace vkh::python

@@ -1,4 +1,4 @@
-// The SHA-256 of a mesh's faces as positions, by which a certificate names what it is of.
+// The SHA-256 of a mesh's faces as positions, by which a certificate names its mesh.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace vkh {
 
-/// Of nine doubles a face, little-endian, -0 as 0: 64 hexadecimal digits. Empty: no library.
+/// The hash of nine doubles a face, little-endian, -0 as 0: 64 hexadecimal digits. Empty: no
+/// library.
 std::string sha256_of_corners(const Mesh& mesh);
 
 }  // namespace vkh

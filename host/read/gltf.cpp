@@ -13,7 +13,7 @@ namespace vkh {
 namespace gltf {
 namespace {
 
-/// Of a primitive; points and lines stand before these.
+/// The mode of a primitive; points and lines stand before these.
 enum Mode : uint8_t { kTriangles = 4, kStrip = 5, kFan = 6 };
 
 class Reader {
@@ -70,7 +70,7 @@ class Reader {
   }
 
  private:
-  /// Where a position went: the vertex, for the column that is being read.
+  /// The place where a position went: the vertex, for the column that is being read.
   struct Slot {
     uint32_t column = 0, vertex = 0;
   };
@@ -123,7 +123,7 @@ class Reader {
     for (uint32_t i = range.begin; i < range.begin + range.count; ++i) use(i);
   }
 
-  // Before anything is added, and so before anything is allocated for it.
+  // Counts before anything is added, and so before anything is allocated for it.
   void count(const Instance& instance) {
     if (instance.detail->skin != kNone) {
       fail("nodes", instance.node, "a skin, whose pose decides the shape",
@@ -271,7 +271,7 @@ Chunks chunks_of(const MeshSource& source) {
   return chunks;
 }
 
-// A GLB's binary chunk names no file, and need not be read for it. Empty where the file is no GLB.
+// A GLB's binary chunk names no file, and need not be read for it. Empty if the file is no GLB.
 std::string json_of_glb(const MeshSource& source) {
   constexpr uint64_t kHeaders = 20;
   const std::string head = head_of(source, kHeaders);

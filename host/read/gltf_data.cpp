@@ -62,7 +62,7 @@ double number_at(const char* at, uint16_t component) {
   }
 }
 
-// The specification's: the least of a signed type is -1, as is the one above it.
+// The specification's rule: the least of a signed type is -1, as is the one above it.
 double normalised(double x, uint16_t component) {
   const double most = component == kByte           ? 127
                       : component == kUnsignedByte ? 255
@@ -73,7 +73,7 @@ double normalised(double x, uint16_t component) {
 
 }  // namespace
 
-// The row of a number, or what replaces it.
+// The row of a number, or its replacement.
 const char* Column::row(uint64_t number, uint64_t width) const {
   uint32_t low = 0, high = sparse_count;
   while (low < high) {
@@ -286,7 +286,8 @@ Column Data::column(uint32_t number, uint32_t width, uint64_t row_bytes) {
   if (accessor.view != kNone) {
     const Slice slice = view(accessor.view, column.place);
     if (slice.stride != 0) column.stride = slice.stride;
-    // No overflow: a stride and a count have 32 bits, and what is left to compare is a size.
+    // There is no overflow: a stride and a count have 32 bits, and the rest of the comparison is a
+    // size.
     const uint64_t size = slice.bytes.size(), last = column.stride * (column.count - 1);
     if (column.stride < row_bytes || accessor.offset > size || last > size - accessor.offset ||
         row_bytes > size - accessor.offset - last) {
@@ -294,7 +295,7 @@ Column Data::column(uint32_t number, uint32_t width, uint64_t row_bytes) {
            "elements within its " + counted(size, "byte"));
     }
     column.rows = slice.bytes.data() + accessor.offset;
-  } else if (column.count > input_bytes_) {  // zeros, but for a few: not more than a file could say
+  } else if (column.count > input_bytes_) {  // zeros, but for a few: no more than a file could hold
     fail(column.place, counted(column.count, "element") + " of zeros",
          "fewer than the file has bytes");
   }

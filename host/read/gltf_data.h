@@ -21,16 +21,16 @@ struct Column {
   uint32_t count = 0;
   uint16_t component = 0;
   bool is_normalized = false;
-  // What replaces some rows.
+  // Some rows are replaced by these.
   uint32_t sparse_count = 0;
   const char* sparse_rows = nullptr;  ///< their numbers, ascending
   uint16_t sparse_component = 0;
   const char* sparse_values = nullptr;
   std::string place;  ///< for errors
 
-  uint32_t index(uint64_t row) const;       ///< of a SCALAR of unsigned integers
-  glm::dvec3 position(uint64_t row) const;  ///< of a VEC3; normalised integers are rounded
-  /// By how much of itself a coordinate may be off: 2^-53 where it was divided.
+  uint32_t index(uint64_t row) const;       ///< for a SCALAR of unsigned integers
+  glm::dvec3 position(uint64_t row) const;  ///< for a VEC3; normalised integers are rounded
+  /// The error of a coordinate, as a fraction of itself: 2^-53 if it was divided.
   double relative_off() const { return is_normalized ? 0x1p-53 : 0; }
 
  private:
@@ -40,7 +40,7 @@ struct Column {
 /// The file that a buffer names.
 struct NamedFile {
   std::string name;            ///< as it is opened, from the document's folder; empty: none
-  std::filesystem::path path;  ///< empty where `wrong` says why it is not opened
+  std::filesystem::path path;  ///< empty where `wrong` has the reason why it is not opened
   std::string wrong;
 };
 
@@ -55,7 +55,7 @@ class Data {
   bool has_data(uint32_t accessor) const;
 
   /// Adds the buffers that hold an accessor's numbers. Opens no file, and leaves out what is not
-  /// there: whoever reads the accessor says so.
+  /// there: the reader of the accessor reports it.
   void add_buffers(uint32_t accessor, std::set<uint32_t>& buffers) const;
   /// Finds the file of a buffer that has its data neither in the document nor in its chunk.
   NamedFile file_of(uint32_t buffer) const;
@@ -89,18 +89,18 @@ class Data {
   uint64_t input_bytes_;
   std::map<uint32_t, std::vector<char>> buffers_, unpacked_;
   std::map<std::string, uint32_t> files_;  ///< the buffer that read each
-  std::vector<bool> is_ascending_;         ///< sparse accessors whose numbers were looked at
+  std::vector<bool> is_ascending_;         ///< sparse accessors whose numbers have been checked
 };
 
-/// What "data:...;base64," holds, of text as JSON writes it; false where it is none.
+/// Decodes the contents of "data:...;base64,", from text as JSON writes it; false if it is none.
 bool decode_base64(std::string_view uri, std::vector<char>& out);
 
-/// Whether a URI has data in itself; as JSON writes it, too.
+/// Returns whether a URI has data in itself; as JSON writes it, too.
 bool is_data(std::string_view uri);
 
 /// The names that a URI, as JSON writes it, may have of a file: its percents resolved and, where
-/// that differs, as it is written. None that leaves the folder or names another place than a file:
-/// an absolute path, "..", a scheme.
+/// that differs, as it is written. Leaves out a name that leaves the folder or names another place
+/// than a file: an absolute path, "..", a scheme.
 std::vector<std::string> files_beneath(std::string_view uri);
 
 }  // namespace vkh::gltf

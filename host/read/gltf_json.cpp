@@ -15,7 +15,7 @@
 namespace vkh::gltf {
 namespace {
 
-/// These leave a document's shape alone: they are of materials, textures, lights and notes.
+/// These leave a document's shape alone: they are about materials, textures, lights and notes.
 bool is_known(std::string_view extension) {
   for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                         "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_"}) {
@@ -26,13 +26,14 @@ bool is_known(std::string_view extension) {
          extension == "KHR_node_visibility" || extension == "KHR_animation_pointer";
 }
 
-/// The number of a name among names; the last is any other.
+/// The number of a name among names; the last stands for any other.
 template <class T, size_t kCount>
 T named(const std::array<std::string_view, kCount>& names, std::string_view name) {
   return static_cast<T>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// nlohmann's SAX interface; its names. Throws InputError where the document is at fault.
+/// Implements nlohmann's SAX interface, with its names. Throws InputError if the document is at
+/// fault.
 class Handler {
  public:
   Handler(const MeshSource& source, const JsonText& text) : source_(source), text_(text) {}
@@ -61,7 +62,7 @@ class Handler {
   void finish() const;
 
  private:
-  /// An object that is open, and that of its members whose value comes.
+  /// An object that is open, and the member whose value comes.
   struct Frame {
     Is is = Is::kRoot;
     const Member* member = nullptr;  ///< null: one that does not matter
@@ -96,9 +97,9 @@ class Handler {
 
   const MeshSource& source_;
   const JsonText& text_;
-  std::array<Frame, 8> frames_;  // what matters lies five deep at most
+  std::array<Frame, 8> frames_;  // objects that matter lie five deep at most
   size_t depth_ = 0, skipped_ = 0;
-  uint32_t count_ = 0;  // of the numbers in the array that is open
+  uint32_t count_ = 0;  // numbers in the array that is open
 };
 
 bool Handler::key(std::string& key) {
@@ -257,7 +258,8 @@ void Handler::begin(Is is) {
   }
 }
 
-// What has to be there, so that an entry is never larger than its text by more than a factor.
+// Checks the members that have to be there, so that an entry is never larger than its text by more
+// than a factor.
 void Handler::end(Is is) {
   switch (is) {
     case Is::kMesh:

@@ -17,7 +17,7 @@ class JsonString {
 
   explicit JsonString(std::string_view text) : text_(text) {}
 
-  /// From 0 to 255, or kEnd, or kNoEscape where a backslash begins none.
+  /// Returns 0 to 255, or kEnd, or kNoEscape where a backslash begins none.
   int next() {
     if (pending_ < pending_count_) return static_cast<unsigned char>(bytes_[pending_++]);
     if (at_ >= text_.size()) return kEnd;
@@ -36,7 +36,7 @@ class JsonString {
                                             : static_cast<unsigned char>(kBytes[number]);
   }
 
-  // Four hexadecimal digits; false where there are none.
+  // Reads four hexadecimal digits; false if there are none.
   bool unit(uint32_t& value) {
     value = 0;
     for (int i = 0; i < 4; ++i) {
@@ -49,7 +49,7 @@ class JsonString {
     return true;
   }
 
-  // One beyond 0xffff is a pair of surrogates; half a pair is none.
+  // Reads a code point. One beyond 0xffff is a pair of surrogates; half a pair is none.
   int code_point() {
     uint32_t code = 0, low = 0;
     if (!unit(code) || (code & 0xfc00) == 0xdc00) return kNoEscape;
@@ -75,7 +75,7 @@ class JsonString {
 
   std::string_view text_;
   size_t at_ = 0;
-  std::array<char, 3> bytes_{};  // of a code point, after its first
+  std::array<char, 3> bytes_{};  // the bytes of a code point, after its first
   uint32_t pending_ = 0, pending_count_ = 0;
 };
 

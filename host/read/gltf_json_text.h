@@ -8,8 +8,8 @@
 
 namespace vkh::gltf {
 
-/// The bytes that a parser is given for a document's: those, but strings of more than kLongest
-/// bytes are empty.
+/// The bytes that a parser is given for a document's: the same ones, but strings of more than
+/// kLongest bytes are empty.
 class JsonText {
  public:
   static constexpr size_t kLongest = 2048;
@@ -59,7 +59,7 @@ class JsonText {
   bool in_string_ = false, is_escaped_ = false, is_too_long_ = false;
 };
 
-/// As the parser takes it: an input iterator whose state is the text's.
+/// The parser's view of the text: an input iterator with the text's own state.
 class JsonIterator {
  public:
   using iterator_category = std::input_iterator_tag;

@@ -10,7 +10,7 @@
 
 namespace vkh::gltf {
 
-/// What an object of the document is.
+/// The kinds of objects of the document.
 enum class Is : uint8_t {
   kRoot,
   kAsset,
@@ -36,7 +36,7 @@ enum class Is : uint8_t {
   kBuffer
 };
 
-/// What a member of one holds. An index is below 2^32 - 1.
+/// The kinds of values of a member. An index is below 2^32 - 1.
 enum class Holds : uint8_t {
   kObject,
   kIndex,
@@ -48,7 +48,7 @@ enum class Holds : uint8_t {
   kStrings
 };
 
-/// What an array of numbers is.
+/// The kinds of arrays of numbers.
 enum class Numbers : uint8_t {
   kOther,
   kRoots,
@@ -65,8 +65,8 @@ struct Member {
   Is of;
   std::string_view key;
   Holds holds;
-  Is object = Is::kRoot;                ///< of kObject and kObjects
-  void (*take)(Model&, uint64_t) = {};  ///< of kIndex, kSize, kBool
+  Is object = Is::kRoot;                ///< for kObject and kObjects
+  void (*take)(Model&, uint64_t) = {};  ///< for kIndex, kSize, kBool
   Numbers numbers = Numbers::kOther;
 };
 
@@ -104,7 +104,7 @@ constexpr Member numbers(Is of, std::string_view key, Numbers what) {
 constexpr Member text(Is of, std::string_view key) { return {of, key, Holds::kString}; }
 
 constexpr uint32_t narrow(uint64_t x) { return static_cast<uint32_t>(x); }
-/// A component type's number, or 0 where it is none.
+/// A component type's number, or 0 if it is none.
 constexpr uint16_t component(uint64_t x) {
   return x > 0xffff ? uint16_t{0} : static_cast<uint16_t>(x);
 }
@@ -193,7 +193,7 @@ inline constexpr Member kMembers[] = {
 };
 inline constexpr size_t kMemberCount = std::size(kMembers);
 
-/// Null where it does not matter.
+/// The member, or null if it does not matter.
 inline const Member* member_of(Is is, std::string_view key) {
   const auto* const found =
       std::find_if(std::begin(kMembers), std::end(kMembers),

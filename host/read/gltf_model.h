@@ -1,5 +1,5 @@
-// What a glTF 2.0 document says of shape, and nothing else. An entry takes no more than five times
-// the bytes that the least text of it has, so that no document is larger in memory than six times
+// The shape in a glTF 2.0 document, and nothing else. An entry takes no more than five times the
+// bytes that the least text of it has, so that no document is larger in memory than six times
 // itself.
 #pragma once
 
@@ -14,31 +14,31 @@ namespace vkh::gltf {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-/// Of a pool's entries, which follow each other.
+/// A range of a pool's entries, which follow each other.
 struct Range {
   uint32_t begin = 0, count = 0;
 };
 
-/// Only nodes that say something have one: {} is legal and takes three bytes.
+/// Details of a node; one without any has none: {} is legal and takes three bytes.
 struct NodeDetail {
   uint32_t mesh = kNone, skin = kNone;
-  Range children;  ///< of Model::indices
+  Range children;  ///< range in Model::indices
   uint32_t placing = kNone;
-  bool is_hidden = false;         ///< KHR_node_visibility: with all below it
+  bool is_hidden = false;         ///< KHR_node_visibility: hidden with all below it
   bool instances = false;         ///< EXT_mesh_gpu_instancing
-  bool has_morph_weight = false;  ///< one that is not 0
+  bool has_morph_weight = false;  ///< a weight that is not 0
 };
 
-/// Where in Model::numbers each part begins, or kNone.
+/// The places in Model::numbers where each part begins, or kNone.
 struct NodePlacing {
   uint32_t translation = kNone, rotation = kNone, scale = kNone, matrix = kNone;
 };
 
-/// Only primitives with faces are kept: a mesh may stand at many nodes, and what is looked at there
-/// gives some.
+/// Keeps only primitives with faces: a mesh may stand at many nodes, and every primitive that is
+/// looked at there gives some.
 struct MeshEntry {
   Range primitives;
-  uint32_t line_count = 0, placeless_count = 0;  ///< points and lines; without positions
+  uint32_t line_count = 0, placeless_count = 0;  ///< points and lines; primitives without positions
   bool has_morph_weight = false;
 };
 
@@ -70,7 +70,7 @@ struct Accessor {
 enum class Filter : uint8_t { kPlain, kOctahedral, kQuaternion, kExponential, kUnknown };
 enum class Packing : uint8_t { kAttributes, kTriangles, kIndices, kUnknown };
 
-/// EXT_meshopt_compression of a view.
+/// EXT_meshopt_compression for a view.
 struct Packed {
   uint64_t offset = 0, length = 0;
   uint32_t buffer = kNone, count = 0, stride = 0;
@@ -85,15 +85,15 @@ struct View {
 
 struct BufferEntry {
   uint64_t length = 0;
-  std::string_view uri;  ///< in the file's own bytes, as JSON writes it; no data: none
+  std::string_view uri;  ///< in the file's own bytes, as JSON writes it; no data: empty
 };
 
 struct Model {
   uint32_t scene = kNone;
   bool has_animations = false;
-  std::deque<uint32_t> scenes;  ///< kNone, or a number of `roots`
-  std::deque<Range> roots;      ///< of `indices`
-  std::deque<uint32_t> nodes;   ///< kNone, or a number of `details`
+  std::deque<uint32_t> scenes;  ///< kNone, or a number in `roots`
+  std::deque<Range> roots;      ///< ranges of `indices`
+  std::deque<uint32_t> nodes;   ///< kNone, or a number in `details`
   std::deque<NodeDetail> details;
   std::deque<NodePlacing> placings;
   std::deque<uint32_t> indices;
@@ -107,11 +107,11 @@ struct Model {
   std::deque<BufferEntry> buffers;
 };
 
-/// Reads the JSON of a document; `json` lies in source.bytes. Rejects what is no glTF 2, what
-/// says a thing twice, and what asks for an extension that is not known here.
+/// Reads the JSON of a document; `json` lies in source.bytes. Rejects a document that is no glTF 2,
+/// that has a thing twice, or that asks for an extension that is not known here.
 Model read_model(const MeshSource& source, std::string_view json);
 
-/// "accessors[3]": the place that an error names.
+/// Returns "accessors[3]": the place that an error names.
 std::string place_of(const char* list, size_t index);
 
 }  // namespace vkh::gltf

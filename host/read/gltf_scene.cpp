@@ -9,7 +9,7 @@
 namespace vkh::gltf {
 namespace {
 
-// Deeper than any file that people made; a level takes 200 bytes.
+// More levels than any file that people made has; a level takes 200 bytes.
 constexpr size_t kMostLevels = 256;
 // A unit quaternion of floats is off by 1e-7, one that was typed by 1e-4.
 constexpr double kUnitWithin = 1e-3;
@@ -68,7 +68,8 @@ void Scene::walk(const Enter& enter) const {
   }
 }
 
-// Each node has one parent, or is a root once: so a walk ends, and costs no more than the file.
+// Each node has one parent, or is a root once: so a traversal ends, and costs no more than the
+// file.
 void Scene::check_trees() {
   std::vector<bool> seen(model_.nodes.size());
   walk([&](uint32_t node, const scene::Affine&, scene::Affine&) {

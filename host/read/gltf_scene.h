@@ -24,10 +24,10 @@ class Scene {
   /// Rejects a document without a scene, and nodes that are no trees.
   Scene(const MeshSource& source, const Model& model);
 
-  /// Each node with a mesh that is not left out, a parent before its children, in the order of the
-  /// file.
+  /// Calls use() for each node with a mesh that is not left out, a parent before its children, in
+  /// the order of the file.
   void for_each(const std::function<void(const Instance&)>& use) const;
-  /// What people should know of it.
+  /// The notes for people about it.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -45,7 +45,7 @@ class Scene {
   bool is_hidden(uint32_t node) const;
   bool is_all() const { return source_.limits.bodies == Bodies::kAll; }
   scene::Affine map_of(uint32_t node) const;
-  /// Calls enter(node, level) for each, which says whether to go on to its children.
+  /// Calls enter(node, level) for each, which returns whether to go on to its children.
   template <class Enter>
   void walk(const Enter& enter) const;
   [[noreturn]] void fail(uint32_t node, const std::string& what, const std::string& expected) const;

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression, by meshoptimizer where it was there when this was built.
+// EXT_meshopt_compression, by meshoptimizer if it was there when this was built.
 #pragma once
 
 #include <string_view>
@@ -12,10 +12,10 @@ inline uint64_t unpacked_bytes(const Packed& packed) {
   return uint64_t{packed.count} * packed.stride;
 }
 
-/// Null, or what is wrong with its description: before anything is allocated.
+/// Returns null, or the error in its description: before anything is allocated.
 const char* unpack_problem(const Packed& packed);
 
-/// False where the data are not whole.
+/// Returns false if the data are not whole.
 bool unpack(const Packed& packed, std::string_view from, std::vector<char>& out);
 
 }  // namespace vkh::gltf

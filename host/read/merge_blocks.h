@@ -1,5 +1,5 @@
-// Corners of triangles, three each, become vertices: those of equal positions one, numbered in the
-// order in which they come first.
+// Merges corners of triangles, three each, into vertices: corners of equal positions become one
+// vertex, numbered in the order in which they come first.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,8 @@ struct MergedCorners {
   std::vector<glm::uvec3> faces;
 };
 
-/// `Corner` is a vector of floats or doubles. Fewer than 2^32 - 1 of them, and three for each face.
+/// `Corner` is a vector of floats or doubles. There are fewer than 2^32 - 1 of them, three for each
+/// face.
 template <class Corner>
 class CornerMerger {
  public:
@@ -31,7 +32,7 @@ class CornerMerger {
   }
 
  private:
-  // Each corner's number becomes that of one of its position.
+  // Sets each corner's number to that of one corner of its position.
   void bring_together() {
     const auto position = [this](uint32_t c) { return glm::dvec3(corners_[c]); };
     PositionIndex index(pool_, corners_.size(), position);
@@ -42,7 +43,7 @@ class CornerMerger {
     });
   }
 
-  // least_ of that one becomes the first corner of its position.
+  // Sets least_ of that corner to the first corner of its position.
   void find_first() {
     least_ = Array<uint32_t>(corners_.size());
     pool_.for_parts(corners_.size(), [&](size_t, size_t begin, size_t end) {

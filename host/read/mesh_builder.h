@@ -1,4 +1,4 @@
-// What a reader makes its mesh with, within the source's limits.
+// The builder with which a reader makes its mesh, within the source's limits.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace vkh {
 
-/// Ends an error about points alone: it says what was expected.
+/// Ends an error about points alone: what was expected.
 inline constexpr const char* kAMesh = "a mesh: export the surface as triangles (STL, OBJ, PLY)";
 
-/// "1 face", "2 faces": for notes and errors.
+/// Returns "1 face", "2 faces": for notes and errors.
 std::string counted(uint64_t count, const std::string& noun);
 
 /// Collects a file's vertices and faces, within the source's limits.
@@ -22,28 +22,28 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(const MeshSource& source) : name_(source.name), limits_(source.limits) {}
 
-  /// Of the blocks of a file, in order. Throws InputError if together they break the limits.
+  /// Joins the blocks of a file, in order. Throws InputError if together they break the limits.
   static MeshBuilder joined(const MeshSource& source, std::vector<MeshBuilder>&& blocks);
-  /// Of what was read without one.
+  /// Takes what was read without a builder.
   MeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
               std::vector<glm::uvec3> faces);
 
   const std::string& name() const { return name_; }
   const std::vector<glm::dvec3>& vertices() const { return vertices_; }
   size_t face_count() const { return faces_.size(); }
-  /// Three a face.
+  /// A corner by its number, three a face.
   uint32_t& corner(size_t number) { return faces_[number / 3][static_cast<int>(number % 3)]; }
 
   std::vector<std::string> notes;
 
-  /// What a header announces, checked against the limits before anything is allocated.
+  /// Checks what a header announces against the limits before anything is allocated.
   void check_room(uint64_t vertex_count, uint64_t face_count) const;
   void reserve(uint64_t vertex_count, uint64_t face_count);
   void add_vertex(const glm::dvec3& position) {
     make_room(1, 0);
     vertices_.push_back(position);
   }
-  /// The one added last.
+  /// Drops the vertex that was added last.
   void drop_vertex() { vertices_.pop_back(); }
   void add_triangle(const glm::uvec3& face) {
     make_room(0, 1);
@@ -52,7 +52,7 @@ class MeshBuilder {
   /// Fans a polygon from its first corner, until finish() triangulates it; one of fewer than three
   /// corners is ignored and noted.
   void add_face(std::span<const uint32_t> corners);
-  /// Those that were added by other means, from the triangle `first` on.
+  /// Counts faces that were added by other means, from the triangle `first` on.
   void count_faces(uint64_t polygons, uint64_t short_faces, const FileFaces& faces, size_t first) {
     polygons_ += polygons;
     short_faces_ += short_faces;
@@ -62,7 +62,7 @@ class MeshBuilder {
   Mesh finish(const std::string& place, Positions positions = Positions::kAny) &&;
 
  private:
-  /// Before so many more are added.
+  /// Makes room before so many more are added.
   void make_room(size_t vertex_count, size_t face_count) {
     constexpr uint64_t kRowsOfTick = 1 << 14;  // about 1 ms
     if (mesh_bytes(vertices_.size() + vertex_count, faces_.size() + face_count) >

@@ -1,5 +1,5 @@
-// Mesh files in: OBJ, STL, PLY, OFF, glTF, 3MF. The format is told by the content first, by the
-// extension where content cannot tell.
+// Reads mesh files: OBJ, STL, PLY, OFF, glTF, 3MF. The content decides the format first, the
+// extension where content cannot.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 namespace vkh {
 
 /// Reads a mesh file. Throws InputError with one line: file, line or byte or element, what is
-/// wrong, what was expected. Never allocates from a header's word: counts are checked against the
-/// file's size first.
+/// wrong, what was expected. Never allocates by a header's word alone: counts are checked against
+/// the file's size first.
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// A file that holds numbers of a mesh file, such as a glTF document's buffer.
@@ -24,14 +24,14 @@ struct FileBeneath {
 };
 
 /// The files that read_mesh reads besides `path` itself, each once, in the order of their names.
-/// They are found in the mesh file's own bytes: none is opened. Returns none where the mesh file
+/// They are found in the mesh file's own bytes: none is opened. Returns none if the mesh file
 /// cannot be read or is refused, whatever lies beneath it. Throws Interrupted if limits.keep_going
-/// says so.
+/// returns false.
 std::vector<FileBeneath> files_beneath(const std::filesystem::path& path,
                                        const ReadLimits& limits = {});
 
-/// Of each face of a PLY file, as the file numbers them, the scalar property of that name. Throws
-/// InputError likewise, also where there is no such property.
+/// Reads the scalar property of that name for each face of a PLY file, as the file numbers them.
+/// Throws InputError as read_mesh does, also if there is no such property.
 std::vector<double> read_face_property(const std::filesystem::path& path, std::string_view name);
 
 }  // namespace vkh

@@ -1,8 +1,8 @@
 // OBJ: vertices and faces. Materials, normals, textures and groups are no geometry and are skipped.
 //
-// By our own hand: tinyobjloader (2.0.0rc10) reads on one thread and does not keep our contract.
-// Its coordinates are off by ulps, nan and inf become 0, '1,5' and '1/3' become 1; indices go
-// through atoi, which wraps 2^32+3 to 3; continued lines and '2/2/' are refused.
+// This parser is our own: tinyobjloader (2.0.0rc10) reads on one thread and does not keep our
+// contract. Its coordinates are off by ulps, nan and inf become 0, '1,5' and '1/3' become 1;
+// indices go through atoi, which wraps 2^32+3 to 3; continued lines and '2/2/' are refused.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* kIndexForms = "a vertex index such as 7, 7/1, 7//1 or 7/1/1";
 
-// Every keyword of the format, so that no face is lost in silence. v and f are read. What moves no
-// point of a surface is skipped: names, groups, display, materials, texture coordinates, normals,
-// tinyobj's bone weights and tags (vw, t), materials that were pasted in and colours (newmtl to
-// vc), and the words that only describe a curve or a free-form surface. What is no triangle mesh is
-// noted: points, lines and curves; free-form surfaces, which we do not read; files and commands
-// that are called; lines that begin with $ or //, as programs write remarks that OBJ has no sign
-// for. Any other word is refused: F, fo (the first versions' f), V, a keyword misspelt or glued to
-// something, text.
+// Every keyword of the format, so that no face is lost in silence. v and f are read. A line that
+// moves no point of a surface is skipped: names, groups, display, materials, texture coordinates,
+// normals, tinyobj's bone weights and tags (vw, t), materials that were pasted in and colours
+// (newmtl to vc), and the words that only describe a curve or a free-form surface. A line that is
+// no triangle mesh is noted: points, lines and curves; free-form surfaces, which we do not read;
+// files and commands that are called; lines that begin with $ or //, as programs write remarks that
+// OBJ has no sign for. Any other word is refused: F, fo (the first versions' f), V, a keyword
+// misspelt or glued to something, text.
 enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kRemark, kUnknown };
 
 // A line of a material library (MTL), as some exporters paste it into the mesh: those that name a
@@ -60,19 +60,19 @@ Line kind_of(std::string_view keyword) {
   return is_map(keyword) ? Line::kSkipped : Line::kUnknown;
 }
 
-/// Of what a block's faces refer to.
+/// The vertices that a block's faces refer to.
 struct Range {
-  int64_t least = 0;     ///< that is relative, from the block's first vertex
-  int64_t greatest = 0;  ///< from 1; a face may stand before its vertices
+  int64_t least = 0;     ///< the least relative one, from the block's first vertex
+  int64_t greatest = 0;  ///< counted from 1; a face may stand before its vertices
 };
 
-/// Lines that hold what is no triangle mesh.
+/// Lines that hold something other than a triangle mesh.
 struct Ignored {
   uint64_t elements = 0;  ///< points, lines and curves
   uint64_t surfaces = 0;
   uint64_t calls = 0;
   uint64_t remarks = 0;
-  std::string first_remark = {};  ///< how it begins, quoted
+  std::string first_remark = {};  ///< its beginning, quoted
 
   void add(const Ignored& more) {
     elements += more.elements;
@@ -121,7 +121,7 @@ class ObjReader {
   std::string place() const { return scanner_.place(); }
 
  private:
-  /// What a line may be continued by on the next one.
+  /// The ways in which a line may be continued on the next one.
   enum class Continued { kNot, kByNumbers, kByNames };
 
   void read_line() {
@@ -162,12 +162,12 @@ class ObjReader {
       continued_ = Continued::kNot;
     } else if (line != Line::kUnknown) {
       continued_ = continued_by(keyword);
-    }  // else as the line that this one continues
+    }  // otherwise as the line that this one continues
   }
 
-  // Of the lines that begin with no keyword: what continues a skipped line, as those of long curves
-  // (numbers) and group lists (names) do, but not what may be a face; and the Ctrl-Z by which DOS
-  // programs end a text. A line with a keyword is never taken for a continuation.
+  // Handles lines that begin with no keyword: skips what continues a skipped line, as those of long
+  // curves (numbers) and group lists (names) do, but not what may be a face; and the Ctrl-Z by
+  // which DOS programs end a text. A line with a keyword is never taken for a continuation.
   bool is_skipped_too(std::string_view keyword) {
     if (continued_ == Continued::kByNumbers) {
       return keyword.find_first_not_of("+-.0123456789eE/\\") == std::string_view::npos;
@@ -177,7 +177,7 @@ class ObjReader {
            block_.is_last;
   }
 
-  // 'FACE 1 2 4' and 'f<no-break space>1 2 4', but not a group's name such as 'front'.
+  // Recognises 'FACE 1 2 4' and 'f<no-break space>1 2 4', but not a group's name such as 'front'.
   bool may_be_geometry(std::string_view keyword) {
     if (std::string_view("fFvV").find(keyword.front()) == std::string_view::npos) return false;
     const std::string_view next = scanner_.word();
@@ -185,7 +185,7 @@ class ObjReader {
            (!next.empty() && next.find_first_not_of("+-.0123456789/") == std::string_view::npos);
   }
 
-  // x y z, then perhaps a weight or a colour: checked to be numbers, not used.
+  // Reads x y z, then perhaps a weight or a colour: checked to be numbers, not used.
   void read_vertex() {
     glm::dvec3 p{};
     for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
@@ -212,7 +212,7 @@ class ObjReader {
     builder_.add_face(corners_);
   }
 
-  // The position index of i, i/j, i//k or i/j/k, where j and k may be missing.
+  // Reads the position index of i, i/j, i//k or i/j/k, where j and k may be missing.
   int32_t checked_corner(std::string_view word) {
     int64_t position = 0;
     std::string_view rest = word;
@@ -235,7 +235,8 @@ class ObjReader {
     scanner_.fail(quoted(word) + " in a face", kIndexForms);
   }
 
-  // Of a block that is not the first, those that are relative are known when those before it are.
+  // Resolves an index. In a block that is not the first, a relative one is known when the blocks
+  // before it are.
   uint32_t resolve(int64_t index) {
     const auto count = static_cast<int64_t>(builder_.vertices().size());
     if (index == 0 || (block_.is_first && index < -count)) fail_index(index, scanner_.place());
@@ -250,7 +251,7 @@ class ObjReader {
     return static_cast<uint32_t>(index - 1);
   }
 
-  // Of the triangles that the face is fanned into.
+  // Notes the relative corners of the triangles that the face is fanned into.
   void note_relative() {
     if (std::none_of(indices_.begin(), indices_.end(), [](int32_t i) { return i < 0; })) return;
     size_t number = 3 * builder_.face_count();
@@ -277,7 +278,7 @@ class ObjReader {
   Ignored ignored_;
   std::vector<int32_t> indices_;
   std::vector<uint32_t> corners_, relative_;
-  Continued continued_ = Continued::kNot;  ///< by what the skipped line before may go on
+  Continued continued_ = Continued::kNot;  ///< the way in which the skipped line before may go on
   Range range_;
   std::string greatest_place_;
 };
@@ -312,7 +313,7 @@ Mesh read_obj_whole(const MeshSource& source) {
   return std::move(builder).finish(reader.place());
 }
 
-/// What is kept of a block, beside its builder.
+/// The results of a block, beside its builder.
 struct ObjBlock {
   Ignored ignored;
   Range range;

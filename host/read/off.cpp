@@ -1,5 +1,5 @@
 // OFF as Geomview writes it: the keyword is optional, '#' begins a comment, a vertex's first three
-// numbers are its position, and what follows a face's corners is its colour. As others write it,
+// numbers are its position, and a face's corners are followed by its colour. As others write it,
 // the first count is glued to the keyword, that of edges is missing, and rows go on in the next
 // line.
 #include <algorithm>
@@ -109,11 +109,11 @@ class RowReader {
     }
   }
 
-  /// Of the first vertex that was read; 0 if none was.
+  /// Words of the first vertex that was read; 0 if none was.
   uint64_t words_of_vertex() const { return words_of_first_; }
 
  private:
-  // What follows a position is its colour, normal or texture, alike in all rows. A row of another
+  // A position is followed by its colour, normal or texture, alike in all rows. A row of another
   // length is a face that a wrong count makes a vertex, and with as wrong a count of faces it would
   // be lost in silence.
   void read_vertex(uint64_t v) {
@@ -152,7 +152,7 @@ class RowReader {
     return word.empty() ? scanner_.word_across_lines() : word;
   }
 
-  // Behind a row of several lines nothing may stand: rows that lack a word would be read as other
+  // Nothing may stand behind a row of several lines: rows that lack a word would be read as other
   // rows.
   void check_wrapped(const char* what, uint64_t number) {
     if (scanner_.line_number() == line_) return;
@@ -167,7 +167,7 @@ class RowReader {
   const Counts& counts_;
   MeshBuilder& builder_;
   std::vector<uint32_t> corners_;
-  size_t line_ = 0;  ///< in which the row begins
+  size_t line_ = 0;  ///< the line in which the row begins
   uint64_t words_of_first_ = 0;
 };
 

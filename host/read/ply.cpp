@@ -1,7 +1,8 @@
 // PLY, ASCII and binary of both byte orders: any scalar types, any further properties, lists and
 // elements, in any order. ASCII coordinates are correctly rounded doubles whatever their column's
-// float type, so that they equal the same text in any other format; binary floats are widened. What
-// is read of an integer column has to be of its type. Columns that are not read are not checked.
+// float type, so that they equal the same text in any other format; binary floats are widened. A
+// value that is read from an integer column has to be of its type. Columns that are not read are
+// not checked.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +20,7 @@ namespace {
 
 using namespace ply;
 
-/// How many lines, and the first of them.
+/// The number of lines, and the first of them.
 struct Lines {
   uint64_t count = 0;
   size_t first = 0;
@@ -43,8 +44,8 @@ class AsciiBody {
     scanner_.fail("the file ends at " + row_place(element, row),
                   std::to_string(element.count) + " of them");
   }
-  // Behind a face's corners words change nothing: rows are lines, and each list says how long it
-  // is. Behind a vertex's coordinates they may be one of them, of a row that begins with something
+  // Words behind a face's corners change nothing: rows are lines, and each list has its own length.
+  // Behind a vertex's coordinates they may be one of them, of a row that begins with something
   // else; and a row of another element may be a face, where counts are wrong.
   void end_row(bool is_face) {
     const auto word = scanner_.word();
@@ -62,7 +63,8 @@ class AsciiBody {
     }
     return value;
   }
-  // A float column is kept as written. What its type cannot hold at all contradicts the header.
+  // A float column is kept as written. A value that its type cannot hold at all contradicts the
+  // header.
   double real(Scalar type, const char* what) {
     constexpr double kBeyondFloat = 0x1.ffffffp127;  // rounds to infinity
     if (is_integer(type)) return static_cast<double>(integer(type));
@@ -262,7 +264,7 @@ class BodyReader {
   void read_corners(const Property& list) {
     corners_.clear();
     const uint64_t count = read_list_count(body_, list);
-    // One vertex too many or too few announced, and the zeros of an index are read as a count.
+    // If one vertex too many or too few is announced, the zeros of an index are read as a count.
     if (count == 0 && !Body::kRowsAreLines) {
       body_.fail("a face of no corners", "at least one, or other counts in the header");
     }
@@ -284,7 +286,7 @@ class BodyReader {
   std::vector<uint32_t> corners_;
 };
 
-/// A scalar of each face; all else is passed over.
+/// Reads a scalar of each face; all else is passed over.
 template <class Body>
 std::vector<double> read_scalar(const Header& header, const Layout& layout, size_t scalar,
                                 Body body) {
@@ -346,7 +348,7 @@ Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64
   blocks.for_each(row_count, [&](size_t i, const Rows& rows) {
     BodyReader reader(header, layout, AsciiBody(rows.scanner, source), builders[i]);
     reader.read(rows.begin, rows.end);
-    if (reader.body().has_notes())  // which have lines of the whole file
+    if (reader.body().has_notes())  // they have lines of the whole file
       reject(source.name, "byte 0", "lines beside the rows", "none");
   });
   return MeshBuilder::joined(source, std::move(builders)).finish("byte 0");

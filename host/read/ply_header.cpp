@@ -59,14 +59,14 @@ Encoding read_encoding(TextScanner& scanner) {
   return static_cast<Encoding>(found - kNames.begin());
 }
 
-// A word too many is a header that we do not understand.
+// A word too many means a header that we do not understand.
 void expect_line_end(TextScanner& scanner) {
   if (const auto word = scanner.word(); !word.empty()) {
     scanner.fail(quoted(word) + " after a header's line", "its end");
   }
 }
 
-// One line after the first; false at end_header.
+// Reads one line after the first; false at end_header.
 bool parse_line(TextScanner& scanner, Header& header, bool& has_format) {
   const std::string_view word = scanner.word();
   if (word == "comment" || word == "obj_info") return true;
@@ -109,7 +109,7 @@ uint64_t least_row_bytes(const Element& element, Encoding encoding) {
   return bytes;
 }
 
-// Before anything is allocated. Rows of no bytes would never end.
+// Checks before anything is allocated. Rows of no bytes would never end.
 void check_sizes(const Header& header, const MeshSource& source, uint64_t body_bytes) {
   uint64_t room = body_bytes + (header.encoding == Encoding::kAscii ? 1 : 0);
   for (const Element& element : header.elements) {
@@ -135,7 +135,7 @@ bool is_corner_list(const Property& property) {
          std::find(kCornerLists.begin(), kCornerLists.end(), property.name) != kCornerLists.end();
 }
 
-// Triangle strips (of Stanford's scans) and the like: measuring only the faces beside them would
+// Triangle strips (in Stanford's scans) and the like: measuring only the faces beside them would
 // certify a part of the model. Edges have corners, but no area.
 void check_no_other_faces(const Header& header, const MeshSource& source) {
   for (const Element& element : header.elements) {
@@ -246,7 +246,7 @@ std::string row_place(const Element& element, uint64_t row) {
   return "row " + std::to_string(row) + " of " + quoted(element.name);
 }
 
-// Blank bytes are padding, a few others litter; what has room for a triangle or a vertex may be
+// Blank bytes are padding, a few others litter; a rest with room for a triangle or a vertex may be
 // one, from counts that differ from the rows.
 void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBuilder& builder) {
   if (rest.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == std::string_view::npos) return;

@@ -18,8 +18,8 @@ namespace vkh::ply {
 enum class Encoding { kAscii, kLittle, kBig };
 enum class Scalar : uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
-// Names are the file's bytes, and elements lie in a deque: what a header of many lines is kept as
-// takes five times its size at most.
+// Names are the file's bytes, and elements lie in a deque: a header of many lines takes five times
+// its size in memory at most.
 struct Property {
   std::string_view name;
   Scalar type{};
@@ -30,7 +30,7 @@ struct Element {
   std::string_view name;
   uint64_t count = 0;
   std::vector<Property> properties;
-  size_t line = 0;  ///< of the file
+  size_t line = 0;  ///< line of the file
 
   std::string place() const { return "line " + std::to_string(line); }
 };
@@ -41,7 +41,7 @@ struct Header {
   std::string end_place;  ///< the line of end_header
 };
 
-/// What writers call the list of a face's corners.
+/// The names that writers give the list of a face's corners.
 inline constexpr std::array<std::string_view, 2> kCornerLists = {"vertex_indices", "vertex_index"};
 
 inline bool is_integer(Scalar type) { return type < Scalar::kFloat; }
@@ -63,15 +63,15 @@ uint64_t least_row_of_three(const Element& element);
 /// for, none has rows of no bytes, and none but 'face' holds faces.
 Header read_header(TextScanner& scanner, const MeshSource& source);
 
-/// What is read of a body.
+/// The parts of a body that are read.
 struct Layout {
   const Element* vertex = nullptr;
   const Element* face = nullptr;
-  std::array<size_t, 3> axes{};  ///< properties of `vertex`
-  size_t corners = 0;            ///< the property of `face`
+  std::array<size_t, 3> axes{};  ///< properties in `vertex`
+  size_t corners = 0;            ///< the property in `face`
 };
 
-/// Rejects a header that has not one of each, or of the wrong kind.
+/// Rejects a header that lacks one of each, or has one of the wrong kind.
 Layout layout_of(const Header& header, const MeshSource& source);
 
 /// The property of `layout.face` of that name; rejects none, several and a list.
@@ -84,7 +84,7 @@ std::string row_place(const Element& element, uint64_t row);
 /// row.
 void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBuilder& builder);
 
-/// A binary body on several threads. Throws InputError where anything is wrong, and where vertices
+/// Reads a binary body on several threads. Throws InputError if anything is wrong, and if vertices
 /// have lists.
 Mesh read_binary_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin);
 

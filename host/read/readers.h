@@ -1,4 +1,4 @@
-// What the readers share. The bytes of a file come in, a checked mesh goes out.
+// The part that the readers share. The bytes of a file come in, a checked mesh goes out.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace vkh {
 
 class TextScanner;
 
-/// Tells the format and calls its reader. All of these throw InputError and nothing else but
-/// std::bad_alloc, whatever the bytes are, and Interrupted if keep_going says so.
+/// Finds the format and calls its reader. All of these throw InputError and nothing else but
+/// std::bad_alloc, whatever the bytes are, and Interrupted if keep_going returns false.
 Mesh parse_mesh(const MeshSource& source);
 Mesh parse_obj(const MeshSource& source);
 Mesh parse_stl(const MeshSource& source);
@@ -33,11 +33,11 @@ Mesh parse_3mf(const MeshSource& source);
 /// document that is refused before its numbers are looked at.
 std::vector<FileBeneath> files_of_gltf(const MeshSource& source);
 
-/// Of a PLY: see read_face_property.
+/// The face property of a PLY: see read_face_property.
 std::vector<double> parse_face_property(const MeshSource& source, std::string_view name);
 
-/// True if a file of that beginning is exactly as long as the triangle count at byte 80 says. No
-/// text passes: its bytes there would announce more than 6 GB.
+/// Returns true if a file of that beginning is exactly as long as the triangle count at byte 80
+/// requires. No text passes: its bytes there would announce more than 6 GB.
 bool is_exact_binary_stl(std::string_view head, uint64_t size);
 
 /// Reads what follows the last row that a text announced, and notes it. A line that begins with a

@@ -73,7 +73,7 @@ std::string head_of(const MeshSource& source, size_t most) {
   return std::string(Windows::Window(windows).read(0, std::min<uint64_t>(most, source.size())));
 }
 
-// Of a small file several for each thread, so that none waits long for the last one.
+// A small file gives several blocks per thread, so that none waits long for the last one.
 size_t block_bytes_of(const MeshSource& source) {
   constexpr uint64_t kLeast = uint64_t{1} << 16, kMost = uint64_t{1} << 19;
   if (source.limits.block_bytes != 0) return source.limits.block_bytes;

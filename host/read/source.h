@@ -19,29 +19,29 @@ struct MeshSource {
   std::string_view bytes;  ///< the whole file, unless `file` is there
   ReadLimits limits = {};
   const InputFile* file = nullptr;  ///< read instead of `bytes`
-  /// Beneath which a file may name others that hold its data; empty: nowhere.
+  /// The folder beneath which a file may name others that hold its data; empty: nowhere.
   std::string folder = {};
-  uint64_t begin = 0;         ///< where the mesh begins in `file`: after a byte-order mark
-  bool* by_blocks = nullptr;  ///< for tests: becomes true where it was read by blocks
+  uint64_t begin = 0;         ///< the byte where the mesh begins in `file`: after a byte-order mark
+  bool* by_blocks = nullptr;  ///< for tests: becomes true if it was read by blocks
 
   uint64_t size() const { return file != nullptr ? file->size() - begin : bytes.size(); }
 };
 
-/// Throws Interrupted if whoever waits for the file has called it off.
+/// Throws Interrupted if the caller that waits for the file has called it off.
 void check_going(const std::string& name, const ReadLimits& limits);
 
-/// Those who read the source, at its limits.
+/// The threads that read the source, at its limits.
 ThreadPool pool_of(const MeshSource& source);
 
-/// For whoever watches.
+/// Reports progress to a caller that watches.
 inline void count_read(const MeshSource& source, uint64_t bytes) {
   if (source.limits.bytes_read != nullptr) *source.limits.bytes_read += bytes;
 }
 
-/// All of it in memory. Throws InputError if the file has become shorter than it was.
+/// Reads all of it into memory. Throws InputError if the file has become shorter than it was.
 std::string read_all(const MeshSource& source);
 
-/// Pieces of a source, for several threads at once. Of a file they are read into memory that is
+/// Pieces of a source, for several threads at once. Pieces of a file are read into memory that is
 /// used again.
 class Windows {
  public:
@@ -77,10 +77,11 @@ class Windows {
 /// The first `most` bytes, or all.
 std::string head_of(const MeshSource& source, size_t most);
 
-/// Bytes that one thread reads at a time: what the limits say, or a fitting part of the file.
+/// The bytes that one thread reads at a time: the limit if there is one, or a fitting part of the
+/// file.
 size_t block_bytes_of(const MeshSource& source);
 
-/// What `read` makes of the source with all its bytes in memory.
+/// The result of `read` for the source with all its bytes in memory.
 template <class Read>
 auto in_memory(const MeshSource& source, const Read& read) {
   if (source.file == nullptr) return read(source);
@@ -91,8 +92,8 @@ auto in_memory(const MeshSource& source, const Read& read) {
   return read(whole);
 }
 
-/// By blocks where there are several and `by_blocks` has no objection. It need not say what is
-/// wrong with a file: after an InputError, `whole` reads all in one, and finds the first mistake
+/// Reads by blocks if there are several and `by_blocks` has no objection. It need not report what
+/// is wrong with a file: after an InputError, `whole` reads all in one, and finds the first mistake
 /// and its line.
 template <class ByBlocks, class Whole>
 auto by_blocks_or_whole(const MeshSource& source, const ByBlocks& by_blocks, const Whole& whole) {
@@ -101,7 +102,7 @@ auto by_blocks_or_whole(const MeshSource& source, const ByBlocks& by_blocks, con
       auto mesh = by_blocks(source);
       if (source.by_blocks != nullptr) *source.by_blocks = true;
       return mesh;
-    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): said by what follows
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): `whole` reports it
     }
   }
   return in_memory(source, whole);

@@ -1,5 +1,5 @@
-// STL, binary and ASCII. It stores three positions a triangle and no vertices: those of equal bits
-// (after -0 became +0) are made one vertex.
+// STL, binary and ASCII. It stores three positions a triangle and no vertices: positions of equal
+// bits (after -0 became +0) are made one vertex.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -60,7 +60,7 @@ glm::vec3 load_position(const char* at) {
   return {load<float>(at), load<float>(at + 4), load<float>(at + 8)};
 }
 
-// The count of the header, which the file's size has to allow.
+// The count in the header, which the file's size has to allow.
 uint64_t checked_count(const MeshSource& source) {
   const uint64_t size = source.size();
   if (size < kHeaderBytes) {
@@ -83,15 +83,16 @@ uint64_t checked_count(const MeshSource& source) {
   return count;
 }
 
-// A date, a name, a version: what exporters sign with. It is no triangle, but digits make floats.
+// Recognises a date, a name, a version: what exporters sign with. It is no triangle, but digits
+// make floats.
 bool is_signature(std::string_view rest) {
   const auto printable = [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); };
   return std::all_of(rest.begin(), rest.end(), printable) &&
          rest.find("vertex") == std::string_view::npos;
 }
 
-// Three different corners, none of them a million times farther out than the mesh; padding hardly
-// ever looks so.
+// Checks for three different corners, none of them a million times farther out than the mesh;
+// padding hardly ever looks so.
 bool looks_like_triangle(const char* at, double mesh_size) {
   constexpr double kFar = 0x1p20;
   std::array<glm::dvec3, 3> corners{};
@@ -132,7 +133,7 @@ uint64_t attribute_of(std::string_view bytes, uint64_t triangle_begin) {
 }
 
 // A triangle's last two bytes are the count of attribute bytes that follow it. Nearly all writers
-// have 0 or a colour there and nothing behind it, so the counts are believed where they, and only
+// have 0 or a colour there and nothing behind it, so the counts are believed if they, and only
 // they, make the file's size.
 bool has_attribute_bytes(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes || is_exact_binary_stl(bytes, bytes.size())) return false;
@@ -175,8 +176,8 @@ Mesh read_binary(const MeshSource& source) {
   return std::move(builder).finish(byte_place(kHeaderBytes));
 }
 
-// Merged corners are refused by whoever reads them one by one: a corner that is there already is
-// counted before it is found.
+// Merged corners that break the limit are refused as a reader of one corner after the other does: a
+// corner that is there already is counted before it is found.
 template <class Corner>
 MeshBuilder merged(const MeshSource& source, const ThreadPool& pool, Array<Corner> corners) {
   constexpr uint64_t kSpare = 12;
@@ -226,7 +227,7 @@ bool is_word(std::string_view word, std::string_view lower) {
   });
 }
 
-// `Use` gets each corner and the end of each facet.
+// `Use` receives each corner and the end of each facet.
 template <class Use>
 class AsciiReader {
  public:
@@ -234,7 +235,7 @@ class AsciiReader {
       : block_(block), scanner_(block.scanner(source.name)), use_(use) {}
 
   // A block that is not the first begins inside a solid, at a facet; one that is not the last ends
-  // so. Then what precedes and follows it is one text with it.
+  // so. The text before and behind it is then one with it.
   void read() {
     if (block_.is_first) {
       expect({"solid"});
@@ -252,14 +253,15 @@ class AsciiReader {
  private:
   static constexpr const char* kFacetOrEnd = "'facet' or 'endsolid'";
 
-  // To the end of the line. A name is any words, but a file without line ends would hide in it.
+  // Skips to the end of the line. A name is any words, but a file without line ends would hide in
+  // it.
   void skip_name() {
     for (auto word = scanner_.word(); !word.empty(); word = scanner_.word()) {
       if (is_word(word, "endfacet")) fail_word(word, "a facet to begin on a line of its own");
     }
   }
 
-  /// False where the block ends inside it.
+  /// Returns false if the block ends inside it.
   bool read_solid() {
     for (;;) {
       const std::string_view word = scanner_.word_across_lines();
@@ -290,7 +292,7 @@ class AsciiReader {
     use_.end_facet();
   }
 
-  // "endloop", or "end loop".
+  // Expects "endloop", or "end loop".
   void expect_end(const std::string& what) {
     const std::string_view word = scanner_.word_across_lines();
     if (is_word(word, "end")) return expect({what.c_str()});
@@ -362,7 +364,7 @@ bool is_ascii(std::string_view bytes) {
          is_word(bytes.substr(begin, 5), "solid") && bytes.find('\0') == std::string_view::npos;
 }
 
-/// Of a block.
+/// The corners and facets of a block.
 struct KeepingUse {
   std::vector<glm::dvec3> corners;
 
@@ -370,7 +372,7 @@ struct KeepingUse {
   void end_facet() {}
 };
 
-/// One block's corners after the other's, each freed as it is copied.
+/// Joins one block's corners after the other's, each freed as it is copied.
 Array<glm::dvec3> joined(const ThreadPool& pool, std::vector<KeepingUse> blocks) {
   std::vector<size_t> starts;
   starts.reserve(blocks.size());

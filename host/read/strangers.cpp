@@ -12,7 +12,7 @@ struct Format {
   std::string_view name;  ///< with its article
   Holds holds;
   std::string_view extensions;  ///< each between blanks
-  std::string_view magic = {};  ///< how such files begin
+  std::string_view magic = {};  ///< the beginning of such files
 };
 
 constexpr std::array<Format, 41> kFormats = {{
@@ -79,7 +79,7 @@ Stranger told(const Format& format) {
   return {name + ", which is not read", "the mesh exported" + as};
 }
 
-// Tells a format in XML by its root element, behind a declaration and comments.
+// Recognises a format in XML by its root element, behind a declaration and comments.
 Stranger stranger_in_xml(std::string_view head) {
   struct Root {
     std::string_view begin, extension;
@@ -97,7 +97,7 @@ Stranger stranger_in_xml(std::string_view head) {
   return {};
 }
 
-// Lines of 80 columns, with a letter and a number at their ends.
+// Recognises lines of 80 columns, with a letter and a number at their ends.
 bool is_iges(std::string_view head) {
   return head.size() >= 80 && head[72] == 'S' && head[79] == '1' &&
          head.substr(73, 6).find_first_not_of(" 0") == std::string_view::npos;

@@ -6,15 +6,15 @@
 
 namespace vkh {
 
-/// Says what such a file is, and what to do. `what` is empty where the format is not known.
+/// Describes such a file, and what to do. `what` is empty if the format is not known.
 struct Stranger {
   std::string what;      ///< "a STEP file (CAD surfaces, no triangles)"
   std::string expected;  ///< "a mesh: export the part as STL, OBJ, PLY, OFF, glTF or 3MF"
 };
 
-/// By how a file begins.
+/// Recognises a format by how a file begins.
 Stranger stranger_by_content(std::string_view head);
-/// By the extension of its name, in lower case and with its point.
+/// Recognises a format by the extension of its name, in lower case and with its point.
 Stranger stranger_by_extension(std::string_view extension);
 
 }  // namespace vkh

@@ -20,7 +20,7 @@ char terminator_of(const MeshSource& source) {
   return line_terminator(head);
 }
 
-// Whether the line that ends at `end` is known not to be continued: all of it is there, or
+// Returns whether the line that ends at `end` is known not to be continued: all of it is there, or
 // something else than blanks at its end.
 bool is_uncontinued(std::string_view text, size_t end, char terminator) {
   size_t last = end;
@@ -28,7 +28,7 @@ bool is_uncontinued(std::string_view text, size_t end, char terminator) {
   return last > 0 && text[last - 1] != '\\';
 }
 
-/// Whether the line at `at` begins with 'facet'; nothing where more of it is needed.
+/// Returns whether the line at `at` begins with 'facet'; nothing where more of it is needed.
 std::optional<bool> is_facet(std::string_view text, size_t at, char terminator) {
   constexpr std::string_view kWord = "facet";
   while (at < text.size() && is_space(text[at]) && text[at] != terminator) ++at;
@@ -40,7 +40,8 @@ std::optional<bool> is_facet(std::string_view text, size_t at, char terminator) 
   return is_space(text[at]);
 }
 
-/// Where the first block in `text` begins, after its first byte; nothing where it does not say.
+/// The place where the first block in `text` begins, after its first byte; nothing if it is not
+/// clear yet.
 std::optional<size_t> first_start(std::string_view text, Cut cut, char terminator) {
   for (size_t end = text.find(terminator); end != std::string_view::npos;
        end = text.find(terminator, end + 1)) {
@@ -72,7 +73,7 @@ TextBlocks::TextBlocks(const MeshSource& source, uint64_t begin, Cut cut)
 }
 
 // A block begins where the first line does after so many bytes, and ends where the next one begins.
-// Both are found from what follows those bytes alone, so that neighbours agree.
+// Both are found from the text after those bytes alone, so that neighbours agree.
 TextBlock TextBlocks::block_at(size_t i, Windows::Window& window) const {
   constexpr uint64_t kMost = uint64_t{1} << 20;  // beyond the block, for its last line
   const uint64_t from = begin_ + i * block_bytes_;

@@ -9,17 +9,17 @@
 
 namespace vkh {
 
-/// Which lines may begin a block.
+/// The lines that may begin a block.
 enum class Cut {
   kLine,         ///< any
-  kUncontinued,  ///< those that a backslash does not make part of the line before
-  kFacet,        ///< those that begin with the word facet
+  kUncontinued,  ///< lines that a backslash does not make part of the line before
+  kFacet,        ///< lines that begin with the word facet
 };
 
 struct TextBlock {
   std::string_view text;
   char terminator = '\n';                  ///< line_terminator of the whole text
-  bool is_first = false, is_last = false;  ///< of the text that was cut
+  bool is_first = false, is_last = false;  ///< in the text that was cut
 
   TextScanner scanner(std::string_view name, char comment = '\0') const {
     return {text, name, comment, terminator};
@@ -31,22 +31,22 @@ TextBlock whole_text(const MeshSource& source);
 
 class TextBlocks {
  public:
-  /// Of what follows the byte `begin`. Throws InputError where the text does not soon tell how its
+  /// Cuts the text after the byte `begin`. Throws InputError if the text does not soon show how its
   /// lines end.
   TextBlocks(const MeshSource& source, uint64_t begin, Cut cut);
 
   size_t count() const { return count_; }
-  /// Whether for_each counts what was read from now on.
+  /// Returns whether for_each counts what was read from now on.
   void count_bytes(bool counts) { counts_ = counts; }
-  /// What was cut, but nobody is asked whether to go on: the pool is.
+  /// The source that was cut, but without its keep_going: the pool asks that.
   const MeshSource& source() const { return quiet_; }
-  /// One for each block.
+  /// Makes one builder for each block.
   std::vector<MeshBuilder> builders() const {
     return std::vector<MeshBuilder>(count_, MeshBuilder(quiet_));
   }
 
-  /// Calls work(i, block) for all that are not empty. Throws InputError where no line begins that
-  /// may begin a block, and what `work` throws.
+  /// Calls work(i, block) for all that are not empty. Throws InputError if no line begins that may
+  /// begin a block, and what `work` throws.
   template <class F>
   void for_each(const ThreadPool& pool, const F& work) {
     pool.for_each(count_, [&](size_t i) {
@@ -97,7 +97,7 @@ class RowBlocks {
   }
 
  private:
-  /// Of each block the number of its first row, and of all.
+  /// The number of the first row of each block, and of all.
   std::vector<size_t> count(uint64_t row_count);
   void check_end(TextScanner& scanner) const;
 
@@ -106,9 +106,9 @@ class RowBlocks {
   char comment_;
 };
 
-/// Where a header of a text is looked for.
+/// The bytes in which a header of a text is looked for.
 inline constexpr uint64_t kTextHeader = uint64_t{1} << 20;
-/// Throws InputError if more of it may follow what was looked at.
+/// Throws InputError if more of it may follow the bytes that were looked at.
 void check_header_ends(const TextScanner& header, const MeshSource& source);
 
 }  // namespace vkh

@@ -1,5 +1,5 @@
-// 3MF: what its build puts on the plate. libzip unpacks, expat parses; lib3mf 1.8, which Debian 12
-// and Ubuntu 24.04 have, rounds every coordinate to float.
+// 3MF: the objects that its build puts on the plate. libzip unpacks, expat parses; lib3mf 1.8,
+// which Debian 12 and Ubuntu 24.04 have, rounds every coordinate to float.
 #include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/read/readers.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kOrAll = "--bodies all, which measures everything as it lies";
 constexpr size_t kMostLevels = 256;
-// More than any mesh can have, and no sum of two of them wraps.
+// A count larger than any mesh can have, and no sum of two of them wraps.
 constexpr uint64_t kManyFaces = uint64_t{1} << 40;
 
 class Builder {
@@ -41,7 +41,7 @@ class Builder {
     add_note();
     const std::string unit = model_.unit;
     slots_ = {};
-    model_ = {};  // before the mesh is made of what was built
+    model_ = {};  // before the mesh is made of the built shapes
     Mesh mesh = std::move(builder_).finish("byte " + std::to_string(source_.bytes.size()));
     mesh.delta = delta_;
     mesh.unit = unit;
@@ -62,7 +62,7 @@ class Builder {
   };
   using Counts = std::array<Count, kRoleCount>;
 
-  /// Where a position of an object went, for the use that is being added.
+  /// The place where a position of an object went, for the use that is being added.
   struct Slot {
     uint64_t use = 0;
     uint32_t vertex = 0;
@@ -83,8 +83,8 @@ class Builder {
     }
   }
 
-  // Components that give no face are left out: an object may be used often, and each time what is
-  // looked at shall give some.
+  // Leaves out components that give no face: an object may be used often, and each time its
+  // components that are looked at shall give some.
   void count_object(uint32_t number) {
     Object& object = model_.objects[number];
     object.face_count = object.measured_count = object.faces.end - object.faces.begin;
@@ -105,14 +105,15 @@ class Builder {
 
   static void add(uint64_t& sum, uint64_t faces) { sum = std::min(kManyFaces, sum + faces); }
 
-  // It gives faces, or ends in a refusal.
+  // Returns whether it gives faces, or ends in a refusal.
   bool is_looked_at(const Object& object) const {
     return object.measured_count > 0 ||
            (object.others != kNone &&
             others_[object.others][static_cast<size_t>(Role::kNegative)].shapes > 0);
   }
 
-  // Adds what an object gives, in some role, to what uses it, and returns whether that is read.
+  // Adds the faces that an object gives, in some role, to its user, and returns whether they are
+  // read.
   bool add_use(Object& user, Role role, const Object& object) {
     if (object.face_count == 0) return false;
     add(user.face_count, object.face_count);
@@ -195,7 +196,7 @@ class Builder {
     }
   }
 
-  // What a slicer says of a component stands with the object of the root that has it.
+  // A slicer's entry for a component stands with the object of the root that has it.
   Role role_of(const Use& use, uint32_t user, const Object& object) const {
     if (!use.is_printed) return Role::kUnprinted;
     if (user != kNone && model_.objects[user].part == 0) {
@@ -251,7 +252,7 @@ class Builder {
     }
   }
 
-  // "bodies: left out: 1 modifier (12 faces), 2 support blockers (24 faces)".
+  // Adds a note such as "bodies: left out: 1 modifier (12 faces), 2 support blockers (24 faces)".
   void add_note() {
     if (build_.others == kNone) return;
     std::string list;
@@ -275,8 +276,8 @@ class Builder {
   std::vector<Level> levels_;
   std::vector<Slot> slots_;
   uint64_t use_ = 0;
-  Object build_;               // which uses the items
-  std::deque<Counts> others_;  // by role, of objects that have shapes which are no bodies
+  Object build_;               // the build, which uses the items
+  std::deque<Counts> others_;  // by role, for objects that have shapes which are no bodies
   double delta_ = 0;
 };
 

@@ -20,7 +20,7 @@ constexpr std::string_view kSlices =
     "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07|slicestackid";
 constexpr std::string_view kModelRelation =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-// Colours and names of faces; where other parts hold objects.
+// Colours and names of faces; objects in other parts.
 constexpr std::array<std::string_view, 4> kKnown = {
     kCore, kProduction, "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};
@@ -62,7 +62,7 @@ class Part : public XmlReader {
   }
 
  private:
-  /// Where the element that is open stands.
+  /// The place where the element that is open stands.
   enum class In {
     kNothing,
     kModel,
@@ -118,13 +118,13 @@ class Part : public XmlReader {
   const MeshSource& source_;
   Model& model_;
   uint32_t part_;
-  std::vector<std::pair<std::string, std::string>> namespaces_;  // of the root element
+  std::vector<std::pair<std::string, std::string>> namespaces_;  // namespaces of the root element
   std::array<In, 8> way_{};
   size_t depth_ = 0, skipped_ = 0;
-  std::string key_, value_;  // of the metadata that is open
+  std::string key_, value_;  // for the metadata that is open
 };
 
-// Shapes that are no triangles, in any namespace, and in a place that matters.
+// Refuses shapes that are no triangles, in any namespace, and in a place that matters.
 void Part::refuse_foreign(std::string_view name) const {
   for (const std::string_view shape : {"beamlattice", "displacementmesh", "levelset", "booleans"}) {
     if (name.ends_with(std::string("|") + std::string(shape)))
@@ -173,7 +173,7 @@ void Part::close(std::string_view /*name*/) {
   if (closed == In::kMetadata) close_metadata();
 }
 
-// Cura's settings of an object: "cura:infill_mesh" is True.
+// Handles Cura's settings of an object: "cura:infill_mesh" is True.
 void Part::close_metadata() {
   const std::string_view key = std::string_view(key_).substr(key_.rfind(':') + 1);
   const std::string_view value = trimmed(value_);
@@ -320,7 +320,7 @@ Use Part::use(const Attributes& attributes) {
   return out;
 }
 
-// So that those that they refer to stand before them: the root's last.
+// Sorts the objects so that those that they refer to stand before them: the root's last.
 void order(const MeshSource& source, Model& model) {
   const auto key = [&](uint32_t i) {
     return std::pair(model.objects[i].part, model.objects[i].id);
@@ -372,7 +372,8 @@ Model read_model(const MeshSource& source, Package& package) {
   return model;
 }
 
-// Rows of the file's matrix are columns of ours: its points stand before the matrix.
+// The map of a use. Rows of the file's matrix are columns of ours: its points stand before the
+// matrix.
 scene::Affine map_of(const Model& model, const Use& use) {
   scene::Affine map;
   if (use.transform == kNone) return map;

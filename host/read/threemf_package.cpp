@@ -18,7 +18,7 @@ struct CloseEntry {
 
 constexpr const char* kExpected = "a 3MF file";
 
-// From the root on, without "." and "..".
+// Resolves a name from the root on, without "." and "..".
 std::string without_dots(std::string_view name) {
   std::vector<std::string_view> steps;
   while (!name.empty()) {
@@ -61,7 +61,7 @@ Package::Package(const MeshSource& source)
 
 Package::~Package() = default;
 
-// A name as it is written comes first: not all who write packages know of percents.
+// A name as it is written comes first: not all who write packages know about percents.
 int64_t Package::find(const std::string& part) const {
   const std::string plain = without_dots(part);
   for (const std::string& name : {plain, without_percents(plain)}) {

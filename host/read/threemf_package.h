@@ -13,7 +13,7 @@ namespace vkh::threemf {
 /// Needs no more memory than the archive's own list of parts; a part is never in memory as a whole.
 class Package {
  public:
-  /// The source's bytes have to outlive it. Rejects what is no zip archive.
+  /// The source's bytes have to outlive it. Rejects a file that is no zip archive.
   explicit Package(const MeshSource& source);
   ~Package();
   Package(const Package&) = delete;
@@ -21,7 +21,7 @@ class Package {
 
   bool has(const std::string& part) const { return find(part) >= 0; }
   /// Unpacks a part, named from the root on, with or without its first slash: use(piece) for each
-  /// piece, in order. What is unpacked counts against --max-input. Rejects a part that is not
+  /// piece, in order. The unpacked bytes count against --max-input. Rejects a part that is not
   /// there, encrypted or damaged.
   /// Percents in the name, and "." and "..", mean what they do in a URI.
   void read(const std::string& part, const std::function<void(std::string_view)>& use);

@@ -10,7 +10,8 @@
 namespace vkh::threemf {
 namespace {
 
-// PrusaSlicer's, and what relatives write in its place or, saying the same, beside it.
+// PrusaSlicer's file, and the files that relatives write in its place or, with the same contents,
+// beside it.
 constexpr const char* kSlic3rConfigs[] = {"Metadata/Slic3r_PE_model.config",
                                           "Metadata/SuperSlicer_model.config",
                                           "Metadata/Slic3r_model.config"};

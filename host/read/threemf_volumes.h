@@ -1,4 +1,4 @@
-// Reads what slicers keep beside a 3MF model: which of its volumes are no bodies.
+// Reads the data that slicers keep beside a 3MF model: which of its volumes are no bodies.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace vkh::threemf {
 
-/// Tells what a shape is for. Only bodies are printed as they lie; a negative volume is subtracted.
+/// The purpose of a shape. Only bodies are printed as they lie; a negative volume is subtracted.
 enum class Role {
   kBody,
   kModifier,
@@ -26,7 +26,7 @@ enum class Role {
 };
 constexpr size_t kRoleCount = static_cast<size_t>(Role::kUnprinted) + 1;
 
-/// "modifier", "support blocker".
+/// Returns "modifier", "support blocker".
 std::string name_of(Role role);
 
 /// Kinds by PrusaSlicer (Metadata/Slic3r_PE_model.config, and its descendants) and by Bambu Studio
@@ -37,7 +37,7 @@ struct Volumes {
     uint32_t first = 0, last = 0;
     Role role = Role::kBody;
   };
-  std::map<uint32_t, std::vector<Range>> ranges;  ///< by object of the root part, in order
+  std::map<uint32_t, std::vector<Range>> ranges;  ///< by object in the root part, in order
   std::map<std::pair<uint32_t, uint32_t>, Role> components;  ///< by object, and by its component's
 };
 

@@ -13,25 +13,25 @@ namespace vkh::threemf {
 class Attributes {
  public:
   explicit Attributes(const char** pairs) : pairs_(pairs) {}
-  /// Null where there is none.
+  /// The value, or null if there is none.
   const char* find(std::string_view name) const;
 
  private:
   const char** pairs_;
 };
 
-/// What reads a part. Names of elements are "URI|name".
+/// The reader of a part. Names of elements are "URI|name".
 class XmlReader {
  public:
   virtual ~XmlReader() = default;
   virtual void open(std::string_view name, const Attributes& attributes) = 0;
   virtual void close(std::string_view name) = 0;
-  /// Between tags, in pieces.
+  /// Called with the text between tags, in pieces.
   virtual void text(std::string_view /*piece*/) {}
-  /// A prefix of a namespace, before the element that declares it.
+  /// Called with a prefix of a namespace, before the element that declares it.
   virtual void declare(std::string_view /*prefix*/, std::string_view /*uri*/) {}
 
-  size_t line = 1;  ///< of what is being read
+  size_t line = 1;  ///< line of the text that is being read
 };
 
 /// Throws what the reader throws, and rejects what is no XML, has a document type (entities are
@@ -39,7 +39,7 @@ class XmlReader {
 void read_xml(const MeshSource& source, Package& package, const std::string& part,
               XmlReader& reader);
 
-/// "part '3D/3dmodel.model', line 7"... the file's line first, as errors have it.
+/// Returns "part '3D/3dmodel.model', line 7"... the file's line first, as errors have it.
 std::string place_in(const std::string& part, size_t line);
 
 }  // namespace vkh::threemf

@@ -10,7 +10,7 @@ namespace vkh::scene {
 namespace {
 
 constexpr double kUlp = 0x1p-53;
-// What computing a bound itself, a dozen roundings to nearest, may take off it.
+// The most that computing a bound itself, a dozen roundings to nearest, may take off it.
 constexpr double kOutward = 1 + 0x1p-40;
 
 // A number that is not negative, rounded up, and by a little more than needed.
@@ -20,14 +20,14 @@ struct Entry {
   double value = 0, off = 0;
 };
 
-// `off` bounds what is known to be off the quad already.
+// `off` bounds the error that the Float128 has already.
 Entry rounded(Float128 value, Float128 off) {
   const auto near = static_cast<double>(value);
   if (!std::isfinite(near)) return {near, std::numeric_limits<double>::infinity()};
   return {near, up(magnitude(value - float128(near)) + off)};
 }
 
-// Sums in 113 bits, and what each sum's rounding took, exactly (Knuth's two-sum).
+// Sums in Float128, and what each sum's rounding took, exactly (Knuth's two-sum).
 class Float128Sum {
  public:
   void add(Float128 term) {
@@ -36,8 +36,8 @@ class Float128Sum {
     lost_ += magnitude((sum_ - (sum - of_term)) + (term - of_term));
     sum_ = sum;
   }
-  // Terms of finite doubles never reach the ends of quads' exponents. The losses' own sum, of four
-  // at most, is off by less than the factor.
+  // Terms of finite doubles never reach the ends of Float128's exponents. The losses' own sum, of
+  // four at most, is off by less than the factor.
   Entry entry(Float128 off) const { return rounded(sum_, off + lost_ * (1 + float128(0x1p-100))); }
 
  private:
@@ -76,7 +76,7 @@ bool is_power_of_two(double x) {
   return std::abs(std::frexp(x, &exponent)) == 0.5;
 }
 
-// One coordinate, times a power of two that does not underflow, and nothing else.
+// The row is one coordinate, times a power of two that does not underflow, and nothing else.
 bool is_exact(const std::array<double, 4>& row, const std::array<double, 4>& off) {
   if (row[3] != 0 || off != std::array<double, 4>{}) return false;
   int terms = 0;
@@ -155,7 +155,7 @@ Mover::Mover(const Affine& map, double relative) : map_(map) {
 glm::dvec3 Mover::operator()(const glm::dvec3& p, double& delta) const {
   if (is_still_) return p;
   glm::dvec3 moved;
-  double off = 0;  // of the three coordinates: no less than the distance
+  double off = 0;  // over the three coordinates: no less than the distance
   for (size_t r = 0; r < 3; ++r) {
     const auto& [x, y, z, t] = map_.m[r];
     moved[static_cast<int>(r)] = x * p.x + y * p.y + z * p.z + t;
@@ -165,7 +165,7 @@ glm::dvec3 Mover::operator()(const glm::dvec3& p, double& delta) const {
     if (relative_[r] == 0) continue;
     const double terms =
         std::abs(x) * size.x + std::abs(y) * size.y + std::abs(z) * size.z + std::abs(t);
-    off += relative_[r] * terms + 0x1p-1060;  // what underflows is less than that
+    off += relative_[r] * terms + 0x1p-1060;  // an underflow loses less than that
   }
   delta = std::max(delta, off * kOutward);
   return moved;

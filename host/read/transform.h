@@ -7,7 +7,7 @@
 
 namespace vkh::scene {
 
-/// x -> m (x, 1). An exact entry of the map lies within `off` of the stored one.
+/// Maps x -> m (x, 1). An exact entry of the map lies within `off` of the stored one.
 struct Affine {
   using Rows = std::array<std::array<double, 4>, 3>;
   Rows m = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -16,18 +16,19 @@ struct Affine {
 
 bool is_identity(const Affine& map);
 
-/// Translation, rotation, scale, as a scene gives them: x -> t + R(q) (s x). The rotation is that
-/// of the quaternion's direction, whatever its length: x, y, z, w.
+/// Translation, rotation, scale, in a scene's terms: x -> t + R(q) (s x). The rotation is that of
+/// the quaternion's direction, whatever its length: x, y, z, w.
 struct Placing {
   std::array<double, 3> translation = {0, 0, 0}, scale = {1, 1, 1};
   std::array<double, 4> rotation = {0, 0, 0, 1};
 };
-/// Nothing for a quaternion of length 0.
+/// Returns nothing for a quaternion of length 0.
 std::optional<Affine> affine_of(const Placing& placing);
-/// |q|^2, to tell one that is no rotation by more than its rounding.
+/// |q|^2, which shows one that is no rotation by more than its rounding.
 double squared_length(const std::array<double, 4>& rotation);
 
-/// outer after inner. Each entry is rounded once, from 113 bits; what that took off is exact.
+/// Applies outer after inner. Each entry is rounded once, from Float128; what that took off is
+/// exact.
 Affine compose(const Affine& outer, const Affine& inner);
 
 /// Applies a map to points, and bounds how far each lies from its exact image.
@@ -36,12 +37,13 @@ class Mover {
   /// A point's coordinates are themselves off by `relative` of their size at most.
   Mover(const Affine& map, double relative);
 
-  /// Adds to `delta` where this point needs more than all before.
+  /// Adds to `delta` if this point needs more than all before.
   glm::dvec3 operator()(const glm::dvec3& point, double& delta) const;
 
  private:
   Affine map_;
-  /// Of the sum of a row's terms, by size: what rounding it, and the point, takes at most.
+  /// A fraction of the sum of a row's terms, by size: what rounding it, and the point, takes at
+  /// most.
   std::array<double, 3> relative_{};
   bool is_still_ = false;  ///< nothing is moved, nothing is off
 };

@@ -90,7 +90,7 @@ size_t Views::best_of(const std::vector<Panel>& panels) const {
 }
 
 std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const {
-  constexpr double kLeast = 0.015, kMost = 0.06, kMostToB = 0.2;  // of the diagonal
+  constexpr double kLeast = 0.015, kMost = 0.06, kMostToB = 0.2;  // fractions of the diagonal
   constexpr double kLeastTimes = 3;
   if (area.width < 1) return std::nullopt;
   const glm::uvec3& f = picture_.mesh.faces[spot_.face];
@@ -106,7 +106,7 @@ std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const 
   inset.camera.centre = spot_.point;
   inset.camera.scale = area.width / (2 * radius);
   inset.camera.reach = inset.camera.before = 1.01 * diagonal_;
-  if (!best.shows_spot) {  // along its normal, from within what hides it
+  if (!best.shows_spot) {  // looks along its normal, from within what hides it
     inset.camera.axes = axes_of(normal_at_spot(), options_.up);
     inset.camera.before = radius;
   }
@@ -122,7 +122,7 @@ namespace {
   throw UsageError(std::string(option) + " '" + text + "': expected " + expected);
 }
 
-/// All numbers of "1,2,3" or "1600x1000"; empty where there is anything else.
+/// All numbers of "1,2,3" or "1600x1000"; empty if there is anything else.
 template <class Number>
 std::vector<Number> numbers_of(const std::string& text, char between) {
   std::vector<Number> numbers;

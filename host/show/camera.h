@@ -1,4 +1,4 @@
-// From where a mesh is seen, without perspective: lengths in a picture can be compared.
+// The place from which a mesh is seen, without perspective: lengths in a picture can be compared.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Axes {
 inline Axes axes_of(glm::dvec3 towards_viewer, Up up) {
   const glm::dvec3 back = glm::normalize(towards_viewer);
   glm::dvec3 above = up == Up::kZ ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-  // From above and below, what a person who leans forward has at the top.
+  // A view from above or below has at the top what a person who leans forward has there.
   constexpr double kSteep = 0.999;
   if (std::abs(glm::dot(above, back)) > kSteep)
     above = up == Up::kZ ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, back.y > 0 ? -1 : 1);
@@ -47,8 +47,8 @@ struct Camera {
   Axes axes;
   glm::dvec3 centre{};  ///< it is in the middle of the area
   double scale = 1;     ///< pixels a unit
-  double reach = 1;     ///< how far behind `centre` something is drawn
-  double before = 1;    ///< how far before it, towards the viewer
+  double reach = 1;     ///< distance behind `centre` up to which something is drawn
+  double before = 1;    ///< the same before it, towards the viewer
   Area area;
 
   glm::dvec3 turned(glm::dvec3 v) const {
@@ -78,14 +78,14 @@ inline Box box_of(const Mesh& mesh) {
   return box;
 }
 
-/// Of a mesh that is one point: anything that is not 0.
+/// The diagonal; for a mesh that is one point, anything that is not 0.
 inline double diagonal_of(const Mesh& mesh) {
   const Box box = box_of(mesh);
   const double diagonal = glm::distance(box.lo, box.hi);
   return diagonal > 0 ? diagonal : 1;
 }
 
-/// The whole mesh in the area, as large as it gets.
+/// Fits the whole mesh into the area, as large as it gets.
 inline Camera fitted(const Mesh& mesh, const Axes& axes, const Area& area) {
   Camera camera{.axes = axes, .area = area};
   camera.centre = box_of(mesh).centre();
@@ -101,7 +101,7 @@ inline Camera fitted(const Mesh& mesh, const Axes& axes, const Area& area) {
   return camera;
 }
 
-/// Whether the triangle is before `p` (a pixel, with its depth), by more than `slack`.
+/// Returns whether the triangle is before `p` (a pixel, with its depth), by more than `slack`.
 inline bool hides(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                   const glm::dvec3& p, double slack) {
   if (std::max({a.z, b.z, c.z}) <= p.z + slack) return false;
@@ -115,9 +115,9 @@ inline bool hides(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
   return (u * a.z + v * b.z + w * c.z) / all > p.z + slack;
 }
 
-/// Whether no face stands before the point.
+/// Returns whether no face stands before the point.
 inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
-  constexpr double kSlack = 1e-5;  // of the diagonal: the point's own faces are no screen
+  constexpr double kSlack = 1e-5;  // fraction of the diagonal: the point's own faces are no screen
   const glm::dvec3 p = camera.pixel(point);
   const double slack = kSlack * diagonal_of(mesh);
   return std::none_of(mesh.faces.begin(), mesh.faces.end(), [&](const glm::uvec3& f) {
@@ -126,7 +126,7 @@ inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
   });
 }
 
-/// The worst place: the witness, or else the middle of the face of the largest upper.
+/// The worst place: the witness, or otherwise the middle of the face of the largest upper.
 struct Spot {
   glm::dvec3 point{};
   std::optional<glm::dvec3> closest;  ///< on B
@@ -144,7 +144,7 @@ struct Panel {
 /// Chooses views of a mesh.
 class Views {
  public:
-  /// `unit`: pixels of what is one in a picture of 1600 x 1000.
+  /// `unit`: pixels per unit of a picture of 1600 x 1000.
   Views(const Picture& picture, const PictureOptions& options, double unit)
       : picture_(picture),
         options_(options),
@@ -154,9 +154,9 @@ class Views {
 
   const Spot& spot() const { return spot_; }
   std::vector<Panel> panels_in(const Area& area) const;
-  /// The one that shows the spot best.
+  /// The panel that shows the spot best.
   size_t best_of(const std::vector<Panel>& panels) const;
-  /// The spot, magnified; none where there is no room.
+  /// The spot, magnified; none if there is no room.
   std::optional<Panel> inset_in(const Area& area, const Panel& best) const;
 
  private:

@@ -122,7 +122,7 @@ void Canvas::polygon(const std::vector<glm::dvec2>& corners, Rgb colour) {
 }
 
 void Canvas::hatch(const Area& area, double period) {
-  constexpr double kStripe = 0.42;  // as mesh.frag
+  constexpr double kStripe = 0.42;  // as in mesh.frag
   constexpr Rgb kStripes{74, 64, 51};
   const double slant = std::sqrt(0.5);
   cover(area, kStripes, 1, [&](glm::dvec2 p) {
@@ -145,14 +145,14 @@ void Canvas::arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour, dou
 
 }  // namespace vkh::drawing
 
-// Letters and PNG: whatever is done by stb's libraries of one file.
+// Letters and PNG: the parts that stb's libraries of one file do.
 #ifdef VKH_HAS_STB
 
 namespace vkh {
 namespace drawing {
 namespace {
 
-constexpr int kUnknown = 0xfffd;  // stands for what is no character
+constexpr int kUnknown = 0xfffd;  // stands for an invalid character
 
 const stbtt_fontinfo& font() {
   static const stbtt_fontinfo loaded = [] {
@@ -163,7 +163,7 @@ const stbtt_fontinfo& font() {
   return loaded;
 }
 
-/// The bytes of the character that `text` begins with; 1 for a byte that begins none.
+/// The number of bytes of the character that `text` begins with; 1 for a byte that begins none.
 size_t length_of_first(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   const size_t length = first < 0x80   ? 1
@@ -186,7 +186,7 @@ int character_of(std::string_view bytes) {
   return character;
 }
 
-/// The same, a string a character.
+/// Splits the text into one string per character.
 std::vector<std::string_view> characters_of(std::string_view text) {
   std::vector<std::string_view> all;
   while (!text.empty()) {

@@ -1,4 +1,4 @@
-// What is drawn over the mesh, anti-aliased on the host: letters, lines, bars.
+// Draws over the mesh, anti-aliased on the host: letters, lines, bars.
 #pragma once
 
 #include <string>
@@ -20,21 +20,21 @@ class Canvas {
   void paste(const Layer& layer, uint32_t x, uint32_t y);
   void blend(int64_t x, int64_t y, Rgb colour, double opacity);
 
-  /// Corners are round where there is a `radius`.
+  /// Corners are round if there is a `radius`.
   void fill(const Area& area, Rgb colour, double opacity = 1, double radius = 0);
   void frame(const Area& area, double width, Rgb colour);
   void line(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour);
   void disc(glm::dvec2 centre, double radius, Rgb colour);
   void ring(glm::dvec2 centre, double radius, double width, Rgb colour);
-  /// Convex, its corners in the order of a clock's hand.
+  /// Draws a convex polygon, its corners in the order of a clock's hand.
   void polygon(const std::vector<glm::dvec2>& corners, Rgb colour);
-  /// Stripes as an undecided face has them.
+  /// Draws stripes as an undecided face has them.
   void hatch(const Area& area, double period);
-  /// A line with a head at `to`, so wide, and with a `margin` around all of it.
+  /// Draws a line with a head at `to`, so wide, and with a `margin` around all of it.
   void arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour, double margin = 0);
 
  private:
-  /// `inside(p)`: how far p is inside of the shape, in pixels.
+  /// `inside(p)`: the depth of p inside the shape, in pixels.
   template <class Inside>
   void cover(const Area& bounds, Rgb colour, double opacity, const Inside& inside);
 
@@ -44,17 +44,17 @@ class Canvas {
 enum class Align { kLeft, kCentre, kRight };
 
 struct Ink {
-  double size = 16;  ///< of the em, in pixels
+  double size = 16;  ///< size of the em, in pixels
   Rgb colour = kInk;
   Align align = Align::kLeft;
 };
 
-/// UTF-8; a box for what the font lacks. `at`: on the base line.
+/// Writes UTF-8; a box for what the font lacks. `at`: on the base line.
 void write(Canvas& canvas, glm::dvec2 at, std::string_view text, const Ink& ink);
 double text_width(std::string_view text, double size);
-/// No wider than `width`: from its middle as much is left out as has to be.
+/// Shortens to no more than `width`: leaves out as much from the middle as is needed.
 std::string shortened(const std::string& text, double size, double width);
-/// Lines no wider than `width`, at most so many; what there is no room for is left out.
+/// Breaks into lines no wider than `width`, at most `most`; text without room is left out.
 std::vector<std::string> wrapped(const std::string& text, double size, double width, size_t most);
 
 }  // namespace vkh::drawing

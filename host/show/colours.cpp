@@ -18,20 +18,21 @@ double largest_finite(const std::vector<double>& values) {
   return largest;
 }
 
-/// One where a face looks at the viewer, so that its colour is the map's own. Light comes from the
-/// upper left, and falls on both sides of a face. `normal`: as the viewer sees it, of any length.
+/// The light on a face: 1 if it looks at the viewer, so that its colour is the map's own. Light
+/// comes from the upper left, and falls on both sides of a face. `normal`: as the viewer sees it,
+/// of any length.
 double light_on(glm::dvec3 normal) {
   constexpr double kDarkest = 0.6;
   const glm::dvec3 light = glm::normalize(glm::dvec3(-0.32, 0.42, 0.85));
   const double length = glm::length(normal);
   if (!(length > 0)) return 1;
-  // Wrapped around the edges of what is lit, so that faces turned away keep their shape.
+  // The light wraps around the edges of the lit part, so that faces turned away keep their shape.
   const double lit = glm::dot(normal, light) * (normal.z < 0 ? -1 : 1) / length;
   const double share = std::min((1 + lit) / (1 + light.z), 1.0);
   return kDarkest + (1 - kDarkest) * share * share;
 }
 
-/// How dark edges are: not at all where a face is so thin that its edges would be most of it.
+/// The darkness of edges: 0 for a face so thin that its edges would be most of it.
 uint8_t edge_strength(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   constexpr double kNone = 8, kFull = 22, kDarkest = 0.38;  // altitudes in pixels; share
   const glm::dvec2 u(b - a), v(c - a), w(c - b);
@@ -69,7 +70,8 @@ class FaceWriter {
   }
 
  private:
-  // Of what is seen, so a pixel's y turns around, and its depth is in pixels, too.
+  // The normal of the face as it is seen, so a pixel's y turns around, and its depth is in pixels,
+  // too.
   glm::dvec3 normal_of(const std::array<glm::dvec3, 3>& at) const {
     const auto seen = [&](size_t i) {
       return glm::dvec3(at[i].x, -at[i].y, at[i].z * camera_.scale);
@@ -110,7 +112,7 @@ Scale::Scale(const Picture& picture, const PictureOptions& options)
 
 double Scale::share_of(double length) const {
   const double width = range_.upper - range_.lower;
-  // A range without width has one colour, and what is above it another.
+  // A range without width has one colour, and lengths above it another.
   if (!(width > 0)) return length > range_.upper ? 1 : 0;
   return std::clamp(length / width - range_.lower / width, 0.0, 1.0);
 }

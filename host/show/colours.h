@@ -1,4 +1,4 @@
-// Which colour a face has, and how light falls on it.
+// The colour of a face, and the light on it.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace vkh::drawing {
 
-inline constexpr Rgb kUnbounded{215, 215, 215};  ///< of a face whose upper is infinite: hatched
+inline constexpr Rgb kUnbounded{215, 215, 215};  ///< for a face with an infinite upper: hatched
 
-/// Lengths to colours.
+/// Maps lengths to colours.
 class Scale {
  public:
   Scale(const Picture& picture, const PictureOptions& options);
 
   const Enclosure& range() const { return range_; }
   uint32_t bands() const { return bands_; }
-  double share_of(double length) const;  ///< of the range, in [0, 1]
+  double share_of(double length) const;  ///< share of the range, in [0, 1]
   Rgb at_share(double share) const;
   Rgb colour(double length) const { return at_share(share_of(length)); }
 
@@ -28,7 +28,7 @@ class Scale {
   Enclosure range_;
 };
 
-/// Tells apart for all kinds of colour vision, and in grey.
+/// A colour per verdict that all kinds of colour vision tell apart, also in grey.
 Rgb verdict_colour(Verdict verdict);
 
 struct FaceLook {
@@ -37,10 +37,11 @@ struct FaceLook {
 };
 FaceLook look_of(const Picture& picture, const Scale& scale, size_t face);
 
-/// What a raster asks for: the picture's faces, as the camera sees them.
+/// Fills in the picture's faces for a raster, as the camera sees them.
 FillFaces faces_for(const Picture& picture, const Scale& scale, const Camera& camera);
 
-/// By verdict where there is a limit; else what the scale does not show.
+/// Counts of faces, by verdict if there is a limit; otherwise of those that the scale does not
+/// show.
 struct FaceCounts {
   size_t within = 0, beyond = 0, undecided = 0;
   size_t above = 0;      ///< upper is above the range

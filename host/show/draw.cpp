@@ -18,7 +18,7 @@ struct Places {
   double footer;  ///< base line of the first line below
 };
 
-/// Pixels of what is one in a picture of 1600 x 1000; letters of 15 units stay legible.
+/// Pixels per unit of a picture of 1600 x 1000; letters of 15 units stay legible.
 double unit_of(const PictureOptions& options) {
   constexpr double kLeast = 0.6;
   const double width = options.width, height = options.height;
@@ -68,7 +68,7 @@ class Drawing {
                   const std::optional<Panel>& inset);
   void draw_pin(const Panel& panel, const Layer& layer, double clear);
   Area place_for_label(const Panel& panel, const Layer& layer, double clear, glm::dvec2 size) const;
-  /// Of what points at the witness: none of the faces' colours.
+  /// The colour of pointers to the witness: none of the faces' colours.
   Rgb pin_colour() const { return picture_.limit ? kInk : kSignal; }
   void draw_ring(glm::dvec2 at, double radius);
   void draw_frame(const Area& area);
@@ -193,7 +193,7 @@ void Drawing::draw_ring(glm::dvec2 at, double radius) {
   canvas_.ring(at, radius, 2.5 * unit_, pin_colour());
 }
 
-/// Around what is magnified.
+/// Draws a frame around the magnified part.
 void Drawing::draw_frame(const Area& area) {
   canvas_.frame(area, 3.5 * unit_, kPaper);
   canvas_.frame(area, 1.5 * unit_, kInk);
@@ -231,7 +231,7 @@ void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
   draw_ruler(sheet_, best.camera, {left + (panels.size() == 1 ? 120 : 4) * unit_, bottom});
 }
 
-/// How much of the box lies over the mesh, from 0 to 1; and as much again if any of it does.
+/// The share of the box that lies over the mesh, from 0 to 1; and as much again if any of it does.
 double covered(const Layer& layer, const Area& views, const Area& box) {
   double sum = 0;
   size_t count = 0;
@@ -246,7 +246,8 @@ double covered(const Layer& layer, const Area& views, const Area& box) {
   return sum / static_cast<double>(std::max<size_t>(count, 1)) + (sum > 0 ? 1 : 0);
 }
 
-/// Near the spot, but no nearer than `clear`, and beside the mesh where there is room.
+/// Places the label near the spot, but no nearer than `clear`, and beside the mesh if there is
+/// room.
 Area Drawing::place_for_label(const Panel& panel, const Layer& layer, double clear,
                               glm::dvec2 size) const {
   constexpr int kDirections = 24;
@@ -272,7 +273,7 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, double cle
   return best;
 }
 
-/// An arrow to the worst place, with the number that it proves; a ring where it is hidden.
+/// Draws an arrow to the worst place, with the number that it proves; a ring if it is hidden.
 void Drawing::draw_pin(const Panel& panel, const Layer& layer, double clear) {
   if (!picture_.witness) return;
   const double u = unit_;
@@ -297,7 +298,8 @@ void Drawing::draw_pin(const Panel& panel, const Layer& layer, double clear) {
         {14 * u, kGrey, Align::kCentre});
 }
 
-/// From the witness to its closest point on B, as far as the inset shows it; whether it ends there.
+/// Draws a line from the witness to its closest point on B, as far as the inset shows it; returns
+/// whether it ends there.
 bool Drawing::draw_closest(const Camera& camera) {
   if (!views_.spot().closest) return false;
   const double u = unit_;

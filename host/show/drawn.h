@@ -1,4 +1,4 @@
-// What is drawn of an answer once its faces have bounds: pictures, and the report as a page.
+// Draws an answer once its faces have bounds: pictures, and the report as a page.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@
 
 namespace vkh {
 
-/// How pictures are to look.
+/// The look of pictures.
 struct PictureStyle {
   PictureOptions options;
-  std::optional<std::array<Length, 2>> range;  ///< of colours; none: each picture has its own
+  std::optional<std::array<Length, 2>> range;  ///< range of colours; none: each picture has its own
 };
 
-/// An answer with its surveys, and what it is of.
+/// An answer with its surveys and its inputs.
 struct Measured {
   const Answer& answer;
   const Mesh& a;
   const Mesh& b;
 };
 
-/// One direction of an answer, and what was surveyed of it.
+/// One direction of an answer, and its survey.
 struct Side {
   const Mesh& mesh;
   const Report& report;
@@ -33,25 +33,25 @@ struct Side {
   bool back;
 };
 
-/// One, or both of a symmetric answer. Throws OutputError where nothing was surveyed.
+/// Returns one, or both of a symmetric answer. Throws OutputError if nothing was surveyed.
 std::vector<Side> sides_of(const Measured& measured);
 
-/// A mesh as people know it: its file's name without the folder.
+/// The name of a mesh as people know it: its file's name without the folder.
 std::string label_of(const Answer& answer, bool back);
 
 Enclosure interval_of(const Side& side);
 
-/// A PNG's bytes. Throws what draw() throws, and UsageError for a range that the files' units do
-/// not resolve.
+/// Returns a PNG's bytes. Throws what draw() throws, and UsageError for a range that the files'
+/// units do not resolve.
 std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
                        const Device& device);
 
-/// One for each side; an empty one where the device does not draw. A report without pictures is one
-/// all the same: they only stand in where there is no WebGL.
+/// Returns one picture per side; an empty one if the device does not draw. A report without
+/// pictures is one all the same: they only stand in where there is no WebGL.
 std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
                                           const Device& device);
 
-/// A page, with `pictures` of the sides.
+/// Returns a page, with `pictures` of the sides.
 std::string report_of(const Measured& measured, std::span<const std::string> pictures);
 
 }  // namespace vkh

@@ -1,4 +1,4 @@
-// Texts from files and people, made harmless where they stand in a page.
+// Makes texts from files and people harmless where they stand in a page.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline constexpr std::array kUnseen = {
 inline constexpr std::array kMarkup = {Replacement{"&", "&amp;"}, Replacement{"<", "&lt;"},
                                        Replacement{">", "&gt;"}, Replacement{"\"", "&quot;"},
                                        Replacement{"'", "&#39;"}};
-// Within strings alone, for nowhere else has JSON such characters.
+// Replacements within strings alone, since JSON has such characters nowhere else.
 inline constexpr std::array kInScript = {
     Replacement{"<", "\\u003c"}, Replacement{">", "\\u003e"}, Replacement{"&", "\\u0026"},
     Replacement{"\u2028", "\\u2028"}, Replacement{"\u2029", "\\u2029"}};
@@ -53,13 +53,13 @@ std::string replaced(std::string_view text, const std::array<Replacement, kCount
 
 }  // namespace escape
 
-/// For text and for attributes in quotes. Control characters and those that turn a line's direction
-/// are written out, as \xNN and \u{NNNN}. `text` is UTF-8.
+/// Escapes for text and for attributes in quotes. Control characters and those that turn a line's
+/// direction are written out, as \xNN and \u{NNNN}. `text` is UTF-8.
 inline std::string html_text(const std::string& text) {
   return escape::replaced(escape::replaced(printable(text), escape::kUnseen), escape::kMarkup);
 }
 
-/// JSON, for a script element: the same JSON, in which nothing can end the element.
+/// Escapes JSON for a script element: the same JSON, in which nothing can end the element.
 inline std::string script_json(std::string_view json) {
   return escape::replaced(json, escape::kInScript);
 }

@@ -11,7 +11,7 @@
 namespace vkh::drawing {
 namespace {
 
-/// number * 10^exponent, with as many decimals as the exponent has.
+/// Prints number * 10^exponent, with as many decimals as the exponent has.
 std::string fixed_text(int64_t number, int exponent) {
   std::string digits = std::to_string(std::abs(number));
   if (exponent >= 0) {
@@ -26,7 +26,7 @@ std::string fixed_text(int64_t number, int exponent) {
 
 int exponent_of(double x) { return static_cast<int>(std::floor(std::log10(x))); }
 
-/// 1, 2 or 5 times a power of ten, the least that is no smaller than x.
+/// The least number that is 1, 2 or 5 times a power of ten and no smaller than x.
 struct RoundNumber {
   int64_t digit;
   int exponent;
@@ -61,7 +61,7 @@ Ticks ticks_of_bands(const Scale& scale) {
   return ticks;
 }
 
-/// The bar itself; a tip stands on it where there are lengths above it.
+/// The bar itself; a tip stands on it if there are lengths above it.
 struct Bar {
   Area area;
   const Scale& scale;
@@ -126,7 +126,7 @@ void draw_interval(const Sheet& sheet, const Bar& bar) {
 
 std::string faces_text(size_t count) { return grouped(count) + (count == 1 ? " face" : " faces"); }
 
-/// What the bar does not show, below it.
+/// Writes below the bar what it does not show.
 double draw_notes(const Sheet& sheet, const Area& area) {
   const FaceCounts counts = count_faces(sheet.picture, sheet.scale);
   std::vector<std::string> notes;
@@ -153,7 +153,7 @@ Ticks ticks_of(const Enclosure& range, size_t most) {
   const double width = range.upper - range.lower;
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   Ticks ticks;
-  // Below, powers of ten have few bits left, or none.
+  // In narrower ranges, powers of ten have few bits left, or none.
   if (!(width > 1e-12 * largest) || !std::isfinite(width) || largest < 1e-290) {
     ticks.at = {range.upper};
     ticks.text = {decimal(range.upper, 4, Rounding::kUp)};
@@ -173,7 +173,7 @@ Ticks ticks_of(const Enclosure& range, size_t most) {
 }
 
 PrintedInterval printed(const Picture& picture) {
-  constexpr int kEnough = 9;  // digits; more only where they tell on which side of the limit it is
+  constexpr int kEnough = 9;  // digits; more only if they decide on which side of the limit it is
   const Enclosure& h = picture.interval;
   double gap = h.upper - h.lower;
   int most = kEnough;

@@ -1,11 +1,11 @@
-// What explains the colours, beside the mesh.
+// The legend beside the mesh, which explains the colours.
 #pragma once
 
 #include "host/show/canvas.h"
 
 namespace vkh::drawing {
 
-/// A picture while it is drawn. `unit`: pixels of what is one in a picture of 1600 x 1000.
+/// A picture while it is drawn. `unit`: pixels per unit of a picture of 1600 x 1000.
 struct Sheet {
   Canvas& canvas;
   const Picture& picture;
@@ -13,13 +13,13 @@ struct Sheet {
   double unit;
 };
 
-/// Round numbers, of a power of ten where they are very small or large.
+/// Round numbers, with a power of ten if they are very small or large.
 struct Ticks {
   std::vector<double> at;
   std::vector<std::string> text;
   std::string power;  ///< "1e-9", or empty
 };
-/// Round numbers in the range, from two to about `most`.
+/// Returns round numbers in the range, from two to about `most`.
 Ticks ticks_of(const Enclosure& range, size_t most);
 
 /// The interval's ends as they are printed, rounded outward, and neither on the other side of the
@@ -28,22 +28,22 @@ struct PrintedInterval {
   std::string lower, upper;
 };
 PrintedInterval printed(const Picture& picture);
-/// "0.1 mm"; a number alone where nobody knows the unit.
+/// Returns "0.1 mm"; a number alone if the unit is not known.
 std::string with_unit(const Picture& picture, const std::string& number);
-/// What was asked about: a length, and no bound.
+/// The limit as the user asked for it: a length, and no bound.
 std::string limit_text(const Picture& picture);
-/// And, of a share of a diagonal, how long that is.
+/// The same, and for a share of a diagonal its length.
 std::string limit_caption(const Picture& picture);
-/// "12,345".
+/// Groups digits: "12,345".
 std::string grouped(size_t count);
 
-/// A bar with ticks, and the interval on it.
+/// Draws a bar with ticks, and the interval on it.
 void draw_bar(const Sheet& sheet, const Area& area);
-/// The three verdicts, and how many faces have each.
+/// Draws the three verdicts, and how many faces have each.
 void draw_verdicts(const Sheet& sheet, const Area& area);
-/// Where x, y and z point to.
+/// Draws the directions of x, y and z.
 void draw_axes(const Sheet& sheet, const Axes& axes, glm::dvec2 origin);
-/// A round length of the mesh, to scale; `at`: its left end.
+/// Draws a round length of the mesh, to scale; `at`: its left end.
 void draw_ruler(const Sheet& sheet, const Camera& camera, glm::dvec2 at);
 
 }  // namespace vkh::drawing

@@ -6,13 +6,13 @@ layout(location = 1) noperspective in vec3 barycentric;
 layout(location = 2) flat in uint face_hatched;
 
 layout(push_constant) uniform Samples {
-  float half_edge;     // of an edge's width, in samples
-  float hatch_period;  // likewise, along a row
+  float half_edge;     // half of an edge's width, in samples
+  float hatch_period;  // period along a row, in samples
 };
 
 layout(location = 0) out vec4 colour;
 
-const float kStripe = 0.42;  // of a period
+const float kStripe = 0.42;  // share of a period
 const vec3 kStripeColour = vec3(0.29, 0.25, 0.20);
 
 float nearest_edge() {

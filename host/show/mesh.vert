@@ -1,8 +1,8 @@
 // One corner of a face, projected by the host: coordinates of any size and place keep their bits.
 #version 450
 
-layout(location = 0) in vec3 position;  // as Vulkan clips them
-layout(location = 1) in vec4 colour;    // shaded; a: how dark the face's edges are
+layout(location = 0) in vec3 position;  // in Vulkan's clip space
+layout(location = 1) in vec4 colour;    // shaded; a: the darkness of the face's edges
 layout(location = 2) in uint hatched;   // 1: the face is
 
 layout(location = 0) flat out vec4 face_colour;

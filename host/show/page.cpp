@@ -1,4 +1,4 @@
-// A page put together: pieces into the template, and meshes until they fit.
+// Puts a page together: pieces into the template, and meshes until they fit.
 #include "host/show/page.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr size_t kPlaces = 10;
-constexpr double kApart = 1.0 / 20;       // of the diagonal, between two of them
+constexpr double kApart = 1.0 / 20;       // fraction of the diagonal, between two of them
 constexpr size_t kLeastFaces = 100;       // fewer show nothing: such a page has no view
 constexpr size_t kMostFaces = 5'000'000;  // corners are numbered in three bytes
-constexpr size_t kCurvePoints = 1000;     // more than a screen has columns for
+constexpr size_t kCurvePoints = 1000;     // more than the columns of a screen
 
-/// Texts by the names that the template has for them.
+/// The texts by the names that the template has for them.
 using Pieces = std::vector<std::pair<std::string_view, std::string>>;
 
 std::string filled(std::string_view frame, const Pieces& pieces) {
@@ -62,7 +62,7 @@ class PageWriter {
     find_places();
   }
 
-  // Fewer faces until the file is small enough; a page without a view is better than none.
+  // Takes fewer faces until the file is small enough; a page without a view is better than none.
   std::string text() {
     keep_pictures();
     const size_t bare = assembled({}).size();
@@ -86,7 +86,7 @@ class PageWriter {
     std::vector<bool> is_decimated;
   };
 
-  // The largest distance that is known: uppers that are infinite are shown apart.
+  // Finds the largest known distance: infinite uppers are shown apart.
   void find_top() {
     for (const PageDirection* side : sides_) {
       for (size_t f = 0; f < side->field->face_count(); ++f) {
@@ -104,7 +104,7 @@ class PageWriter {
     }
   }
 
-  // Together they may take two fifths of the page: more is a mistake of their size.
+  // Pictures may together take two fifths of the page: more is a mistake of their size.
   void keep_pictures() {
     size_t bytes = 0;
     for (const PageDirection* side : sides_) bytes += side->picture.size() * 4 / 3;

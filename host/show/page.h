@@ -13,7 +13,7 @@
 
 namespace vkh {
 
-/// Of one direction, the mesh that was measured. Whatever is pointed at stays the caller's.
+/// The measured mesh of one direction. All that is pointed at stays the caller's.
 struct PageDirection {
   const Mesh* mesh = nullptr;
   const Field* field = nullptr;
@@ -28,12 +28,12 @@ struct PageContents {
 };
 
 struct PageLimits {
-  size_t bytes = 5'000'000;  ///< of the file: meshes are decimated until it is no larger
-  size_t faces = 150'000;    ///< of a shown mesh: more would be slow to turn without a GPU
+  size_t bytes = 5'000'000;  ///< size of the file: meshes are decimated until it is no larger
+  size_t faces = 150'000;    ///< for a shown mesh: more would be slow to turn without a GPU
 };
 
-/// The whole file. What it says is of the answer's JSON, which it carries. Counts, shares and the
-/// histogram are of every face; only the view may be decimated, and says so.
+/// Returns the whole file. Its statements come from the answer's JSON, which it carries. Counts,
+/// shares and the histogram are over every face; only the view may be decimated, and shows so.
 std::string to_page(const PageContents& contents, const PageLimits& limits = {});
 
 }  // namespace vkh

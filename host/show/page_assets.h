@@ -1,4 +1,4 @@
-// What tools/page makes and the build embeds (tools/page/embed.py).
+// The assets that tools/page makes and the build embeds (tools/page/embed.py).
 #pragma once
 
 #include <string_view>

@@ -21,7 +21,8 @@ constexpr int kDecades = 6;           // below the largest distance; less is as 
 constexpr double kLinearSteps = 250;  // at least so many: finer than a hand drags
 constexpr double kNiceFactors[] = {5, 2, 1};
 
-// The double nearest to a decimal of few digits. The decimal itself lies between its neighbours.
+// Makes the double nearest to a decimal of few digits. The decimal itself lies between its
+// neighbours.
 Step step_of(double digits, int exponent) {
   const std::string text =
       number_text(digits, std::chars_format::fixed, 0) + "e" + std::to_string(exponent);
@@ -65,7 +66,7 @@ void add_log(std::vector<Step>& steps, double top) {
   }
 }
 
-// Steps that it overlaps give way, so that both ends of all limits ascend.
+// Puts the limit in: steps that it overlaps give way, so that both ends of all limits ascend.
 void add_asked(std::vector<Step>& steps, const Limit& asked) {
   std::erase_if(steps, [&](const Step& step) {
     return step.limit.beyond >= asked.within && step.limit.within <= asked.beyond;
@@ -94,7 +95,8 @@ double area_of(const Mesh& mesh, const glm::uvec3& face) {
   return length(cross(mesh.vertices[face.y] - a, mesh.vertices[face.z] - a)) / 2;
 }
 
-// Faces that are within from step k on were counted at k, those within none at the end.
+// Sums up to a step: faces that are within from step k on were counted at k, those within none at
+// the end.
 template <class T>
 std::vector<T> sums_up_to(std::vector<T> at) {
   std::partial_sum(at.begin(), at.end(), at.begin());
@@ -102,7 +104,7 @@ std::vector<T> sums_up_to(std::vector<T> at) {
   return at;
 }
 
-// Faces that are beyond steps 0 to k - 1 were counted at k.
+// Sums after a step: faces that are beyond steps 0 to k - 1 were counted at k.
 template <class T>
 std::vector<T> sums_after(std::vector<T> at) {
   at.erase(at.begin());

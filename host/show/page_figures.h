@@ -1,5 +1,5 @@
-// What a page counts: the tolerances that it can be set to, how much of a surface is within each,
-// and the worst places.
+// The figures of a page: the tolerances that it can be set to, how much of a surface is within
+// each, and the worst places.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,23 @@ struct Step {
   double value = 0;
   Limit limit;
   std::string label;       ///< without the unit
-  bool is_linear = false;  ///< one of those that are evenly apart
-  bool is_log = false;     ///< one of those with even ratios
+  bool is_linear = false;  ///< one of the steps that are evenly apart
+  bool is_log = false;     ///< one of the steps with even ratios
 };
 
-/// They ascend from 0 to at least `top`, the largest distance to be shown.
+/// Returns steps that ascend from 0 to at least `top`, the largest distance to be shown.
 std::vector<Step> tolerance_steps(double top, const std::optional<Limit>& asked);
 
-/// Between which steps a face stands: from step `within` on it is proven within it, before step
-/// `beyond` it is proven beyond it. So a byte or two say at every step what is proven of a face.
+/// The steps between which a face stands: from step `within` on it is proven within it, before step
+/// `beyond` it is proven beyond it. So a byte or two give the proven verdict of a face at every
+/// step.
 struct FaceSteps {
   uint32_t within = 0;  ///< as many as there are steps: within none of them
   uint32_t beyond = 0;
 };
 FaceSteps steps_of(const Enclosure& face, const std::vector<Step>& steps);
 
-/// Of all faces of a mesh, at each step.
+/// Counts over all faces of a mesh, at each step.
 struct Tally {
   std::vector<uint64_t> within, beyond;          ///< faces
   std::vector<double> within_area, beyond_area;  ///< shares of the area; 0 where there is none
@@ -43,15 +44,15 @@ struct Tally {
 Tally tally(const Mesh& mesh, const Field& field, const std::vector<Step>& steps);
 
 struct WorstPlace {
-  uint64_t face = 0;       ///< of Mesh::faces
-  uint64_t file_face = 0;  ///< the file's number of it
-  Enclosure distance;      ///< the face's
+  uint64_t face = 0;       ///< index in Mesh::faces
+  uint64_t file_face = 0;  ///< its number in the file
+  Enclosure distance;      ///< the face's bounds
   glm::dvec3 centre{};     ///< the mean of its corners
-  glm::dvec3 normal{};     ///< of unit length; 0 of a degenerate face
+  glm::dvec3 normal{};     ///< of unit length; 0 for a degenerate face
 };
 
-/// Faces of the largest upper first, each at least `apart` from those before it. Faces of equal
-/// upper are by their lower, then by their number. Faces that lie on B are left out.
+/// Returns faces by the largest upper first, each at least `apart` from those before it. Faces of
+/// equal upper are by their lower, then by their number. Faces that lie on B are left out.
 std::vector<WorstPlace> worst_places(const Mesh& mesh, const Field& field, size_t most,
                                      double apart);
 

@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Drawn, for fonts differ in what they have.
+// Signs are drawn, for fonts differ in their characters.
 constexpr const char* kTick = "M5 13l5 5 9-11";
 constexpr const char* kCross = "M6 6l12 12M18 6L6 18";
 constexpr const char* kOpen = "M9 9a3 3 0 1 1 4.2 2.7c-.8.4-1.2 1-1.2 2.3M12 17.6v.4";
 constexpr const char* kRuler = "M3 12h18M3 8v8M21 8v8";
 
-constexpr size_t kPrintedRows = 12;  // of statistics, as style.css has it
+constexpr size_t kPrintedRows = 12;  // for statistics, as style.css has it
 
 struct Badge {
   const char* style;
@@ -41,7 +41,7 @@ std::string fact(const char* name, const std::string& text, const std::string& m
   return out + "</dd></div>";
 }
 
-// Outward: 100 times a share is rounded, unless it is 0 or 1.
+// Rounds 100 times a share outward, unless it is 0 or 1.
 std::string percent_of_gap(double share, double gap, Rounding rounding) {
   double percent = 100 * share;
   if (share > 0 && share < 1) {
@@ -59,7 +59,7 @@ std::string share_text(const Enclosure& share) {
 
 constexpr const char* kNoBound = "no bound yet";
 
-// "0.0441 to 0.0443", each rounded outward to what matters beside `gap`.
+// Writes "0.0441 to 0.0443", each rounded outward to what matters beside `gap`.
 std::string range_number(const Enclosure& length, double gap) {
   if (!std::isfinite(length.upper)) {
     return length.lower > 0 ? "at least " + decimal(length.lower, 6, Rounding::kDown) : kNoBound;

@@ -10,25 +10,25 @@
 
 namespace vkh {
 
-/// What the page's pieces are made of. `json` is the answer's, read again: texts are from there,
-/// so that the page says what the JSON says, and in UTF-8.
+/// The source of the page's pieces. `json` is the answer's, read again: texts are from there, so
+/// that the page agrees with the JSON, and is in UTF-8.
 struct PageText {
   const Answer& answer;
   nlohmann::ordered_json json;
 };
 
-/// "0.0441 to 0.0443 mm", rounded outward; "at most" where nothing is known from below.
+/// Returns "0.0441 to 0.0443 mm", rounded outward; "at most" if nothing is known from below.
 std::string range_text(const Answer& answer, const Enclosure& length);
 
-/// 1234567 as "1,234,567".
+/// Returns 1234567 as "1,234,567".
 std::string grouped(uint64_t count);
 
 std::string title_text(const PageText& page);
 std::string verdict_html(const PageText& page);
 std::string facts_html(const PageText& page);
-/// A button for each direction, where there are two.
+/// Returns a button for each direction, if there are two.
 std::string directions_html(const PageText& page);
-/// The worst places of one direction, and its witness.
+/// Lists the worst places of one direction, and its witness.
 std::string places_html(const PageText& page, bool back, const std::vector<WorstPlace>& places);
 std::string statistics_html(const PageText& page, bool back, const Statistics& statistics);
 std::string inputs_html(const PageText& page);

@@ -1,4 +1,4 @@
-// A shown mesh as streams that deflate well: small differences, and equal bytes side by side.
+// Packs a shown mesh as streams that deflate well: small differences, and equal bytes side by side.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kUnknown = UINT32_MAX;
 
-/// Numbers as so many streams as they have bytes, the lowest first.
+/// Appends numbers as one stream for each of their bytes, the lowest first.
 void append_streams(std::string& out, const std::vector<uint32_t>& numbers, int bytes) {
   for (int i = 0; i < bytes; ++i) {
     for (const uint32_t number : numbers) out += static_cast<char>(number >> (8 * i) & 0xff);
@@ -28,7 +28,7 @@ uint32_t difference(uint32_t to, uint32_t from) {
   return static_cast<uint32_t>(wide < 0 ? -2 * wide - 1 : 2 * wide);
 }
 
-/// Vertices in the order in which faces need them: a new one is 0, a near one small.
+/// Numbers vertices in the order in which faces need them: a new one is 0, a near one small.
 struct Corners {
   std::vector<uint32_t> codes, order;  // order: the shown mesh's vertex numbers
 };
@@ -69,7 +69,7 @@ std::string deflated(std::string bytes) {
   const int result =
       compress2(reinterpret_cast<Bytef*>(out.data()), &size,
                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 6);
-  if (result != Z_OK) throw std::bad_alloc();  // all else is excluded by the sizes
+  if (result != Z_OK) throw std::bad_alloc();  // sizes exclude all other errors
   out.resize(size);
   return out;
 #else

@@ -1,4 +1,4 @@
-// What was measured, on what, and how: the page's record as HTML.
+// The record of a page as HTML: what was measured, on which device, and how.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -33,7 +33,7 @@ std::string text_or(const Json& text, const char* otherwise) {
   return text.is_string() && !text.get<std::string>().empty() ? text.get<std::string>() : otherwise;
 }
 
-/// A row of both inputs, left out where `is_worth` says so of neither.
+/// Writes a row for both inputs, left out if `is_worth` returns false for both.
 template <class Text>
 std::string input_row(const PageText& page, const char* name, const Text& text) {
   const Json& inputs = page.json["inputs"];
@@ -59,7 +59,7 @@ std::string input_notes(const Json& input) {
   return out;
 }
 
-// As a shell takes it; control characters stay as they are and are made visible later.
+// Quotes for a shell; control characters stay as they are and are made visible later.
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
@@ -91,7 +91,7 @@ std::string times_text(const PageText& page) {
   return out;
 }
 
-// The JSON's own digits, outward.
+// Writes the JSON's own digits, outward.
 std::string every_digit(const PageText& page) {
   const CertifiedInterval whole = interval_of(page.answer);
   return "[" + decimal(whole.lower, kJsonDigits, Rounding::kDown) + ", " +
@@ -112,7 +112,7 @@ std::string device_text(const Json& json) {
          "), Vulkan " + text_or(device["api_version"], "not known");
 }
 
-/// The files that were read besides A and B, each with its hash; left out where there are none.
+/// The files that were read besides A and B, each with its hash; left out if there are none.
 std::string beneath_row(const Json& inputs) {
   std::string cells;
   bool is_any = false;

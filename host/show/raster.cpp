@@ -21,7 +21,7 @@ constexpr AttachmentKind kDepthKind{kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHM
 
 // 30 MiB of corners: bindings of 128 MiB are no limit, nor is a device's visible memory.
 constexpr size_t kFacesAtOnce = size_t{1} << 19;
-constexpr uint32_t kMostSamples = 4;                 // a side: 16 a pixel
+constexpr uint32_t kMostSamples = 4;                 // per side: 16 a pixel
 constexpr uint64_t kMostInAll = uint64_t{40} << 20;  // 320 MiB of colour and depth
 
 struct Constants {
@@ -65,7 +65,7 @@ VkAttachmentDescription description_of(VkFormat format, VkImageLayout layout, bo
   return a;
 }
 
-// What is before a pass: another's drawing, or the copy of the last layer. After it: either.
+// Waits before a pass for another's drawing, or the copy of the last layer. After it: either.
 std::array<VkSubpassDependency, 2> dependencies() {
   constexpr VkPipelineStageFlags kDraws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
                                           VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
@@ -81,7 +81,7 @@ std::array<VkSubpassDependency, 2> dependencies() {
             kWrites | kReads | VK_ACCESS_TRANSFER_READ_BIT, 0}}};
 }
 
-/// Destroyed once a pipeline has it.
+/// A shader; destroyed once a pipeline has it.
 class Shader {
  public:
   template <size_t n>
@@ -189,7 +189,7 @@ Raster::Raster(const Device& device, Empty, uint32_t width, uint32_t height)
             VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback),
       pipeline_(device) {}
 
-// Delegating, here and below: what was created is destroyed if a later step throws.
+// Delegates, here and below: what was created is destroyed if a later step throws.
 Raster::Raster(const Device& device, uint32_t width, uint32_t height)
     : Raster(device, Empty{}, width, height) {
   make_framebuffer();

@@ -1,4 +1,4 @@
-// Faces to pixels, on the device.
+// Draws faces to pixels, on the device.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@ namespace vkh::drawing {
 
 /// One corner of a face, as mesh.vert reads it.
 struct Corner {
-  float x, y, z;      ///< of Vulkan's clip space
-  uint8_t colour[4];  ///< the last: how dark the face's edges are
+  float x, y, z;      ///< in Vulkan's clip space
+  uint8_t colour[4];  ///< the last: the darkness of the face's edges
   uint8_t hatched, pad[3];
 };
 
-/// Writes the corners of so many faces; one that is not to be seen has three times the same.
+/// Writes the corners of `face_count` faces; one that is not to be seen has three times the same.
 using FillFaces = std::function<void(size_t first_face, size_t face_count, Corner* corners)>;
 
 /// A part of a picture; opacity is the share of a pixel that faces cover, white is the rest.
@@ -72,7 +72,7 @@ class Raster {
   Layer averaged(VkExtent2D pixels) const;
 
   const Device& device_;
-  uint32_t samples_;  ///< a side of a pixel
+  uint32_t samples_;  ///< per side of a pixel
   VkExtent2D extent_;
   Attachment colour_, depth_;
   Submitter submitter_;

@@ -1,4 +1,4 @@
-// Decimation by a grid: what is asked of it is that no bound is lost, not that it is beautiful.
+// Decimation by a grid: it must lose no bound, but need not be beautiful.
 #include "host/show/shown.h"
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 constexpr uint32_t kNone = UINT32_MAX;
 constexpr double kMostCells = 1 << 20;  // along a side: three such numbers are 60 bits of a key
 constexpr int kTries = 12;              // each shrinks or grows the cells by a sixth or more
-constexpr double kFull = 0.8;           // of most_faces: worth no further try
+constexpr double kFull = 0.8;           // share of most_faces: worth no further try
 
 using Cells = std::array<uint32_t, 3>;
 
-/// One decimation, by cells of a given number along the longest side; ends early where that is too
+/// One decimation, by cells of a given number along the longest side; ends early if that is too
 /// many.
 class Clusters {
  public:
@@ -80,7 +80,7 @@ class Clusters {
     return true;
   }
 
-  // Faces whose corners are in three cells; one for each three cells, whichever way round.
+  // Keeps faces whose corners are in three cells; one for each three cells, whichever way round.
   bool keep_faces() {
     const HashSecret& secret = hash_secret();
     HashIndex triples(
@@ -103,7 +103,8 @@ class Clusters {
     return true;
   }
 
-  // A face within one cell or two: a shown face that touches them, or else it is shown itself.
+  // Gives each face within one cell or two a shown face that touches them, or otherwise shows it
+  // itself.
   bool stand_for_the_rest() {
     for (size_t f = 0; f < mesh_.faces.size(); ++f) {
       if (out_.face_of[f] != kNone) continue;
@@ -123,7 +124,7 @@ class Clusters {
     return add({first, first + 1, first + 2}, cells);
   }
 
-  // A cell's vertex is the mean of those in it. It is where something is shown: no bound rests on
+  // A cell's vertex is the mean of those in it. It is only a place for display: no bound rests on
   // it.
   void mesh_vertices_to_cells() {
     std::vector<glm::dvec3>& sums = out_.vertices;
@@ -142,8 +143,8 @@ class Clusters {
   size_t most_;
   double cells_;
   uint32_t cell_count_ = 0;
-  std::vector<uint32_t> cell_of_;   // of each vertex
-  std::vector<uint32_t> stand_in_;  // of each cell, the first shown face that touches it
+  std::vector<uint32_t> cell_of_;   // one per vertex
+  std::vector<uint32_t> stand_in_;  // the first shown face that touches each cell
   std::vector<glm::dvec3> apart_;   // corners of faces that are shown as they are
   Shown out_;
 };
@@ -159,7 +160,7 @@ Shown whole(const Mesh& mesh, const Place& place) {
   return shown;
 }
 
-// How many times more cells give about as many faces as there may be: they are a surface's.
+// The factor by which more cells give about as many faces as there may be: they are a surface's.
 double growth(size_t faces, size_t most) {
   const double room = 0.95 * static_cast<double>(most) / static_cast<double>(faces);
   return std::clamp(std::sqrt(room), 1.1, 4.0);

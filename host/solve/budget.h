@@ -1,5 +1,5 @@
-// How much may lie in memory: whoever reads takes of it before, in turn, and who is done gives
-// back.
+// Limits the bytes that may lie in memory: each reader takes its share before it reads, one after
+// the other, and gives it back when it is done.
 #pragma once
 
 #include <condition_variable>
@@ -17,8 +17,8 @@ class Budget {
     const std::lock_guard lock(mutex_);
     return next_++;
   }
-  /// Waits for those with earlier tickets, and for room; one that is larger than all of it waits
-  /// until nothing else is there. False: it was closed.
+  /// Waits for earlier tickets, and for room; a request larger than the whole budget waits until
+  /// nothing else is taken. Returns false if the budget was closed.
   bool take(uint64_t ticket, uint64_t bytes) {
     std::unique_lock lock(mutex_);
     turn_.wait(lock, [&] {
@@ -41,7 +41,7 @@ class Budget {
     is_closed_ = true;
     turn_.notify_all();
   }
-  uint64_t largest() const {  ///< that was taken at a time
+  uint64_t largest() const {  ///< the most that was taken at a time
     const std::lock_guard lock(mutex_);
     return largest_;
   }

@@ -1,4 +1,4 @@
-// Cells of A that a run's device bounds: what a survey asks, and is answered.
+// The cells of A that a run's device bounds: the question of a survey and its answer.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-/// One submission, which should take no longer than somebody waits for Ctrl-C. Without cells: faces
+/// One submission, which should take no longer than a user waits for Ctrl-C. Without cells: faces
 /// of A from `first` on, as many as there are bounds.
 struct CellBatch {
   std::span<const gpu::Cell> cells;
@@ -22,9 +22,9 @@ struct SurveyedPair {
   const Mesh& a;
   const Mesh& b;
   Frame frame;
-  double displacement;  ///< of both meshes, in the frame
+  double displacement;  ///< both meshes' together, in the frame
   double farthest;      ///< the run's upper bound: no distance is larger, in the files' units
-  bool on_cpu;          ///< batches are to be small
+  bool on_cpu;          ///< batches should be small
 };
 
 }  // namespace vkh

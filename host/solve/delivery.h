@@ -1,4 +1,4 @@
-// What came of pairs, on its way to the caller.
+// The results of pairs on their way to the caller.
 #pragma once
 
 #include <condition_variable>
@@ -11,8 +11,8 @@
 
 namespace vkh {
 
-/// Hands results out one at a time, on a thread of its own: writing sixteen took a lane of an H100
-/// 2.3 ms, beside 5.8 for the device's work on them (docs/log/measurements.md, batches).
+/// Hands results out one at a time, on a thread of its own: writing sixteen took a worker of an
+/// H100 2.3 ms, beside 5.8 for the device's work on them (docs/log/measurements.md, batches).
 class Delivery {
  public:
   explicit Delivery(std::function<void(StreamResult&&)> to);
@@ -22,7 +22,7 @@ class Delivery {
   Delivery& operator=(const Delivery&) = delete;
 
   void put(StreamResult&& result);
-  /// Until all that was put is handed out.
+  /// Waits until every result that was put is handed out.
   void wait();
 
  private:

@@ -16,7 +16,7 @@ namespace vkh {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Faces = std::vector<uint32_t>;  ///< of A, in the order of their limits
+using Faces = std::vector<uint32_t>;  ///< faces of A, in the order of their limits
 
 void check_limits(const Mesh& a, std::span<const Limit> limits) {
   if (limits.size() != a.faces.size()) {
@@ -30,7 +30,7 @@ void check_limits(const Mesh& a, std::span<const Limit> limits) {
   }
 }
 
-/// The part of A that some faces are.
+/// The part of A with these faces alone.
 Mesh part_of(const Mesh& a, const Faces& faces) {
   std::vector<uint32_t> place(a.vertices.size(), UINT32_MAX);
   std::vector<glm::dvec3> vertices;
@@ -66,7 +66,7 @@ class Search {
         start_(Clock::now()),
         b_(solver.prepare(b)) {
     const double diagonal_a = diagonal(bounding_box(a));
-    if (!options_.tolerance_is_absolute && diagonal_a > 0) {  // of A, not of its parts
+    if (!options_.tolerance_is_absolute && diagonal_a > 0) {  // a fraction of A, not of its parts
       options_.tolerance = multiply_down(options_.tolerance, diagonal_a);
       options_.tolerance_is_absolute = true;
     }
@@ -107,7 +107,7 @@ class Search {
                              [](const Limit& x, const Limit& y) { return x.beyond < y.beyond; });
   }
 
-  /// What is of all of A, and not of the parts that were asked about.
+  /// Fills in the values of all of A, beyond the parts that were asked about.
   void complete(bool is_decided, bool is_open) {
     Report& r = out_.report;
     const Box box = bounding_box(a_);
@@ -122,7 +122,7 @@ class Search {
     r.limit = out_.limit;
   }
 
-  /// Groups whose limits are within a factor of two. The least limits come first.
+  /// Gathers groups of limits within a factor of two. The least limits come first.
   void gather() {
     Faces faces(a_.faces.size());
     std::iota(faces.begin(), faces.end(), 0u);
@@ -137,8 +137,8 @@ class Search {
     open_.assign(std::make_move_iterator(groups.rbegin()), std::make_move_iterator(groups.rend()));
   }
 
-  /// One run: it ends where all are within the least limit or one is beyond the largest, and else
-  /// closes.
+  /// Makes one run: it ends if all faces are within the least limit or one is beyond the largest,
+  /// and otherwise closes.
   void decide(Faces group) {
     options_.limit = {least(group).within, most(group).beyond};
     SolveOptions options = options_;
@@ -148,7 +148,7 @@ class Search {
     r.witness_a.set_face(a_, group[std::min<uint64_t>(r.witness_a.face, group.size() - 1)]);
     const double lower = r.lower, upper = r.upper;
     const Status status = r.status;
-    // A run that ended in its first submission has asked nobody.
+    // A run that ended in its first submission has not called the callback.
     if (!is_cancelled_) options_.progress({.wave = r.waves, .lower = lower, .upper = upper});
     const bool is_beyond = r.has_witness && lower > limits_[r.witness_a.face].beyond;
     add(std::move(r), is_beyond);
@@ -166,7 +166,7 @@ class Search {
     }
   }
 
-  /// By limits. Faces of one limit that were asked about alone stay undecided.
+  /// Splits the group by limits. Faces of one limit that were asked about alone stay undecided.
   void halve(Faces group, bool is_smaller, Status status) {
     if (least(group).within == most(group).within) {
       if (is_smaller) open_.push_back(std::move(group));
@@ -185,8 +185,8 @@ class Search {
     open_.push_back(std::move(group));
   }
 
-  /// The whole's interval is the largest of each end; the witness is the one that decides, or that
-  /// of the largest lower bound.
+  /// Takes the largest of each end as the whole's interval; the witness is the one that decides, or
+  /// that of the largest lower bound.
   void add(Report r, bool is_beyond) {
     if (is_beyond) {
       out_.verdict = Verdict::kBeyond;
@@ -194,7 +194,7 @@ class Search {
     }
     Report& all = out_.report;
     const double upper = std::max(all.upper, r.upper);
-    const double lower = is_beyond ? r.lower : std::max(all.lower, r.lower);  // as the witness has
+    const double lower = is_beyond ? r.lower : std::max(all.lower, r.lower);  // that of the witness
     if (out_.runs == 1 || is_beyond || r.lower > all.lower) {
       r.candidates += all.candidates;
       r.queries += all.queries;
@@ -217,8 +217,8 @@ class Search {
   Clock::time_point start_;
   PreparedMesh b_;
   bool is_cancelled_ = false;
-  std::optional<Status> open_status_;  ///< of faces that stay undecided
-  std::vector<Faces> open_;            ///< the next one last
+  std::optional<Status> open_status_;  ///< status of faces that stay undecided
+  std::vector<Faces> open_;            ///< the next one is last
   FaceGate out_;
 };
 

@@ -1,4 +1,4 @@
-// Whether each face of A is within a limit of its own.
+// Decides whether each face of A is within a limit of its own.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace vkh {
 
-/// What came of it. The interval of `report` is a true one of h(A,B), and wide: it was not sought.
+/// The outcome. The interval of `report` is a true one of h(A,B) but wide: it was not sought.
 struct FaceGate {
   Verdict verdict = Verdict::kUndecided;
-  Report report;        ///< its witness, where beyond, is on a face that is beyond its limit
-  Limit limit;          ///< of that face; else the largest of all
-  uint64_t within = 0;  ///< faces that are proven to be within theirs
-  uint64_t runs = 0;    ///< of parts of A
+  Report report;        ///< its witness, if beyond, is on a face that is beyond its limit
+  Limit limit;          ///< that face's limit; otherwise the largest of all
+  uint64_t within = 0;  ///< faces that are proven to be within their limits
+  uint64_t runs = 0;    ///< runs of parts of A
 };
 
 /// `limits`: one for each face of A, each above 0; faces of like limits are asked about together,
 /// and apart where that decides nothing. Ends at the first face that is beyond. Throws what
 /// Solver::distance throws, and UsageError for limits that are not positive and finite, or too few.
-/// options.limit does not count; the time and the callback are those of all runs together.
+/// options.limit is ignored; the time and the callback are those of all runs together.
 FaceGate gate_faces(Solver& solver, const Mesh& a, const Mesh& b, std::span<const Limit> limits,
                     const SolveOptions& options);
 

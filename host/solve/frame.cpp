@@ -13,8 +13,8 @@
 namespace vkh {
 namespace {
 
-// Largest |coordinate - centre|. With the middle for centre it cannot overflow, and subtraction is
-// exact among subnormals.
+// The largest |coordinate - centre|. With the middle as centre it cannot overflow, and subtraction
+// is exact among subnormals.
 double extent_of(const Box& box, const glm::dvec3& centre) {
   double extent = 0;
   for (int i = 0; i < 3; ++i) {
@@ -30,8 +30,8 @@ int exponent_for(double extent) {
   return extent == 0 ? 0 : -exponent;
 }
 
-// Times 2^exponent in two steps: one could leave the range of double on the way. Each is exact, or
-// rounded where it underflows, as with std::ldexp, which takes five times as long.
+// Multiplies by 2^exponent in two steps: one could leave the range of double on the way. Each is
+// exact, or rounded where it underflows, as with std::ldexp, which takes five times as long.
 struct Scale {
   double first, second;
   explicit Scale(int exponent)
@@ -42,7 +42,7 @@ struct Scale {
 double scaled(double x, int exponent) { return Scale(exponent)(x); }
 
 // The nearest float, but 0 for one under 2^-126: a device may flush those as it reads them, and two
-// that differ would be one.
+// that differ would become one.
 float stored_float(double x) {
   const float near = nearest_float(x);
   return std::abs(near) >= std::numeric_limits<float>::min() ? near : 0.0f;
@@ -57,10 +57,10 @@ Halves halves_of(double exact) {
   return {high, stored_float(exact - static_cast<double>(high))};
 }
 
-// Of a coordinate: how far storing it displaces it, rounded up, and whether it needs a low part.
-// What two floats leave exactly, the rounding of the subtraction by its bound (2^-53 relative,
-// taken twice over), unless it was exact. Scaling is, but for underflow, which the last term takes:
-// a normal result has not been through one.
+// Computes how far storing a coordinate displaces it, rounded up, and whether it needs a low part.
+// The sum has what two floats leave, exactly, and the rounding of the subtraction by its bound
+// (2^-53 relative, taken twice over), unless it was exact. Scaling is exact but for underflow,
+// which the last term takes: a normal result has not been through one.
 double displaced(double given, double centre, const Scale& scale, bool& has_low) {
   const double offset = given - centre;
   const double exact = scale(offset);
@@ -73,7 +73,7 @@ double displaced(double given, double centre, const Scale& scale, bool& has_low)
   return left + subtraction + (scaled_exactly ? 0 : 0x1p-1000);
 }
 
-// Halved first only where the sum would overflow: a subnormal's half is rounded.
+// Halves first only where the sum would overflow: a subnormal's half is rounded.
 glm::dvec3 middle_of(const Box& box) {
   const glm::dvec3 sum = box.lo + box.hi;
   return std::isfinite(sum.x + sum.y + sum.z) ? sum / 2.0 : box.lo / 2.0 + box.hi / 2.0;
@@ -89,7 +89,7 @@ bool may_keep_origin(const Box& box) {
   return extent_of(box, glm::dvec3(0)) <= 4 * extent_of(box, middle_of(box));
 }
 
-// What a range of vertices adds to a StoredMesh.
+// The share of a range of vertices in a StoredMesh.
 struct Stored {
   double worst = 0;
   bool has_low = false;
@@ -99,7 +99,7 @@ struct VertexRange {
   size_t begin = 0, end = 0;
 };
 
-// Ranges of vertices that are worth a thread: 0.3 ms.
+// The number of ranges of vertices that are each worth a thread: 0.3 ms.
 size_t parts_of(const Mesh& mesh) {
   constexpr size_t kVerticesOfThread = 1 << 16;
   return std::max<size_t>(mesh.vertices.size() / kVerticesOfThread, 1);
@@ -113,13 +113,13 @@ void for_each_range(const Mesh& mesh, const F& work) {
   });
 }
 
-// Stops where `only_high` and a low part is needed.
+// Stops if `only_high` and a low part is needed.
 Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool only_high) {
   const Scale scale(frame.exponent);
   Stored stored;
   for (size_t v = range.begin; v < range.end && !(only_high && stored.has_low); ++v) {
-    double sum = 0;  // of the three coordinates: no less than their Euclidean norm, and it does not
-                     // underflow
+    double sum = 0;  // over the three coordinates: no less than their Euclidean norm, and it does
+                     // not underflow
     for (int i = 0; i < 3; ++i)
       sum += displaced(mesh.vertices[v][i], frame.centre[i], scale, stored.has_low);
     stored.worst = std::max(stored.worst, sum);
@@ -142,8 +142,8 @@ StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
   return out;
 }
 
-// Scaling is exact but for underflow, which leaves less than 2^-1000. Not part of what is asked
-// below: a mesh that is off its place is stored as well as any other.
+// Scaling is exact but for underflow, which leaves less than 2^-1000. Delta is not part of the
+// check below: a mesh that is off its place is stored as well as any other.
 StoredMesh with_delta(StoredMesh stored, const Frame& frame, const Mesh& mesh) {
   if (mesh.delta == 0) return stored;
   const double delta = scaled(mesh.delta, frame.exponent);
@@ -152,7 +152,7 @@ StoredMesh with_delta(StoredMesh stored, const Frame& frame, const Mesh& mesh) {
   return stored;
 }
 
-// Nothing where a coordinate needs a low part.
+// Returns nothing if a coordinate needs a low part.
 std::optional<StoredMesh> store_exactly(const Frame& frame, const Mesh& mesh) {
   StoredMesh stored = store_in(frame, mesh, true);
   if (stored.has_low || !(stored.displacement < 0x1p-61)) return std::nullopt;
@@ -183,7 +183,7 @@ Box join(const Box& x, const Box& y) {
 
 double diagonal(const Box& box) {
   const glm::dvec3 extent = box.hi - box.lo;
-  const double length = std::hypot(extent.x, extent.y, extent.z);  // nan of infinite extents
+  const double length = std::hypot(extent.x, extent.y, extent.z);  // nan for infinite extents
   return std::isfinite(length) ? length : std::numeric_limits<double>::max();
 }
 

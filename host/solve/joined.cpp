@@ -28,7 +28,7 @@ void add_stages(const std::vector<StageStats>& stages, std::vector<StageStats>& 
   }
 }
 
-// The same bounds in the same order, in every run.
+// Every run has the same bounds in the same order.
 void add_culled(const std::vector<CullCount>& culled, std::vector<CullCount>& all) {
   for (size_t i = 0; i < std::min(culled.size(), all.size()); ++i)
     all[i].candidates += culled[i].candidates;

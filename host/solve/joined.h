@@ -1,4 +1,4 @@
-// Reports of A's parts as one of A.
+// Joins the reports of A's parts into one of A.
 #pragma once
 
 #include <span>
@@ -7,16 +7,17 @@
 
 namespace vkh {
 
-/// Lower the largest, with its witness; upper the largest: comparisons alone, so nothing is
-/// rounded. Work is added up, times that run side by side are the longest. The status is that of
-/// the first part, and joined_status() the whole's. There is at least one part.
+/// The lower bound is the largest one, with its witness, and the upper is the largest: comparisons
+/// alone, so nothing is rounded. Work is added up; times that run side by side are the longest. The
+/// status is that of the first part; joined_status() returns the whole's. There is at least one
+/// part.
 Report joined_report(std::span<const Report> parts);
 
-/// Closed where the whole interval meets the tolerance, whatever ended its parts. Else what ended
-/// one that is open, a caller's wish before a budget; kPruned by whole.known_lower alone.
+/// Closed if the whole interval meets the tolerance, whatever ended its parts. Otherwise the status
+/// that ended an open one, a caller's wish before a budget; kPruned by whole.known_lower alone.
 Status joined_status(const Report& whole, std::span<const Report> parts);
 
-/// Of two runs of the same part: both intervals are true.
+/// Joins two runs of the same part: both intervals are true.
 Report narrowed(const Report& first, Report second);
 
 }  // namespace vkh

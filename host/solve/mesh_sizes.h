@@ -1,4 +1,5 @@
-// What meshes of a size take on a device, or why it takes none such.
+// The device memory that meshes of a size take, or the reason why the device takes none of that
+// size.
 #pragma once
 
 #include "engine/vkhausdorff.h"
@@ -9,12 +10,12 @@ struct MeshSize {
   uint32_t vertices = 0, faces = 0;
 };
 
-/// Whether the context's device takes a mesh of that size.
+/// Returns whether the context's device takes a mesh of that size.
 bool takes_as_a(VkhContext context, const MeshSize& a);
 bool takes_as_b(VkhContext context, const MeshSize& b);
 
-/// Throw DeviceError where a mesh of that size is too large for the context's device: with its
-/// size, the largest that is not, and what helps.
+/// Throw DeviceError if a mesh of that size is too large for the context's device: with its size,
+/// the largest that is not, and what helps.
 VkhWorkspaceRequirements workspace_for(VkhContext context, const MeshSize& a);
 VkhHierarchyRequirements hierarchy_for(VkhContext context, const MeshSize& b);
 

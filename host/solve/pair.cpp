@@ -19,15 +19,16 @@ constexpr double kPlainTolerance = 8 * kRoundedPosition;
 // With low parts, feet placed by 24-bit weights leave as much; tighter tolerances give up this part
 // of themselves for it.
 constexpr double kMostForWeights = 0.1;
-// Of the tolerance, kept for rounding it and the sum of it and the lower bound to float32.
+// The share of the tolerance that is kept for rounding it and the sum of it and the lower bound to
+// float32.
 constexpr double kKept = 1e-4;
 // 48-bit arithmetic in a frame of order 1 leaves less than this (3.9e-11 seen, where faces of A and
 // B are as large as the frame); asking for less would refine noise.
 constexpr double kToleranceFloor = 6e-11;
 
 // The limit in the frame, so that what the device proves of the stored meshes holds in the files'
-// units: to_files() takes off, or adds, what storing displaced. What no float is left for is
-// decided as the smallest one, within which nothing is.
+// units: to_files() subtracts, or adds, the displacement by storing. A limit for which no float is
+// left is decided as the smallest one, within which nothing is.
 float limit_in_frame(const Pair& pair, double within) {
   if (!(within > 0)) return 0;
   const double inner = pair.frame.to_frame(within) - pair.displacement;
@@ -43,7 +44,7 @@ float limit_up_in_frame(const Pair& pair, double beyond) {
   return std::max(most, 2 * std::numeric_limits<float>::min());
 }
 
-// Rounded down: what is known must not become more.
+// Rounds down: the known bound must not become larger.
 float known_in_frame(const Pair& pair, double known_lower) {
   const double known = std::clamp(pair.frame.to_frame(known_lower), 0.0, 1e30);
   return known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f;
@@ -65,8 +66,8 @@ FileInterval to_files(const VkhReport& r, const Pair& pair) {
   return pair.frame.to_files(lower, upper, pair.displacement, farthest);
 }
 
-// How finely the device has to work. Its errors are relative to the coordinates, which a prepared
-// B's frame lets exceed 1.
+// Sets how finely the device has to work. Its errors are relative to the coordinates, which a
+// prepared B's frame lets exceed 1.
 RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) {
   const SolveOptions& options = pair.options;
   const double size = std::max(1.0, pair.frame.extent(pair.joint));
@@ -99,7 +100,7 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
 
 namespace {
 
-constexpr double kCoarse = 1e-6;  // of A's diagonal: what plain floats have
+constexpr double kCoarse = 1e-6;  // a fraction of A's diagonal: the precision of plain floats
 
 SolveOptions coarser(const Pair& pair) {
   const double unit = pair.options.tolerance_is_absolute ? diagonal(pair.box_a) : 1;
@@ -109,13 +110,13 @@ SolveOptions coarser(const Pair& pair) {
   return coarse;
 }
 
-// Whether a finer run may decide what this one has not.
+// Returns whether a finer run may decide what this one has not.
 bool asks_for_more(const Report& r) {
   return !is_decided(r.lower, r.upper, r.limit) &&
          (r.status == Status::kClosed || r.status == Status::kPrecision);
 }
 
-// Both intervals are true; the work is that of both.
+// Joins two reports: both intervals are true; the work is that of both.
 Report joined(const Report& coarse, Report r) {
   if (coarse.lower > r.lower && coarse.has_witness) {
     r.lower = coarse.lower;

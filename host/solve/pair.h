@@ -1,4 +1,4 @@
-// A pair of meshes in its frame, and what the device is asked about it.
+// A pair of meshes in its frame, and the question to the device about it.
 #pragma once
 
 #include <functional>
@@ -23,17 +23,17 @@ struct Pair {
   const StoredMesh& stored_a;
   const StoredMesh* stored_b;  // null: resident
   const ResidentMesh* resident;
-  double displacement;  // of both
-  bool has_low;         // either
+  double displacement;  // both meshes' together
+  bool has_low;         // of either mesh
   Box box_a, joint;
   SolveOptions options = {};
   size_t number = 0;  // Progress::pair
 };
 
-/// What the device certifies of it, in the files' units.
+/// Converts the device's certified bounds of the pair to the files' units.
 FileInterval to_files(const VkhReport& report, const Pair& pair);
 
-/// `tolerance`: in the files' units. Budgets by the clock and what listens are not in it.
+/// `tolerance` is in the files' units. The result has neither time budgets nor callbacks.
 RunInput input_for(const Pair& pair, uint32_t switches, double tolerance);
 
 /// The pair's tolerance, in the files' units.
@@ -41,9 +41,9 @@ double tolerance_of(const Pair& pair);
 
 using Solve = std::function<std::vector<Report>(const std::vector<Pair>&)>;
 
-/// `solve`, but that a limit is asked about in plain floats first, where the tolerance is finer
-/// than these have, since they decide nearly every limit, and sooner; then of those that this left
-/// undecided.
+/// Calls `solve`, but asks about a limit in plain floats first if the tolerance is finer than these
+/// have, since they decide nearly every limit, and sooner; then asks again about the pairs that
+/// this left undecided.
 std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& solve);
 
 }  // namespace vkh

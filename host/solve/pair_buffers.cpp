@@ -16,7 +16,7 @@ constexpr VkBufferUsageFlags kWorking =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-// Room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
+// Adds room for the next, somewhat larger mesh: a driver takes tenths of milliseconds to allocate.
 VkDeviceSize roomy(VkDeviceSize bytes) {
   constexpr VkDeviceSize kLargest = VkDeviceSize{64} << 20;
   return bytes > kLargest ? bytes : std::bit_ceil(bytes);
@@ -24,7 +24,7 @@ VkDeviceSize roomy(VkDeviceSize bytes) {
 
 VkDeviceSize aligned(VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; }
 
-// High parts, low parts if there are any, faces, one after the other.
+// The high parts, low parts if there are any, and faces, one after the other.
 struct MeshBytes {
   VkDeviceSize high, low, faces;
   explicit MeshBytes(const MeshData& m)
@@ -54,7 +54,8 @@ VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
           .vertexLowOffset = offset + bytes.high};
 }
 
-// Of the device's memory, or of the host's, where `policy` lets it and the device has no more.
+// Allocates in the device's memory, or in the host's if `policy` allows it and the device has no
+// more.
 void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy) {
   try {
     grow(buffer, device, bytes, kWorking, Placement::kDevice);
@@ -118,9 +119,9 @@ void check_engine(VkhResult result, const char* what) {
   throw DeviceError(std::string(what) + ": " + reason);
 }
 
-// Where the host writes the meshes: straight into where the device reads them, or into memory of
-// the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. What of its
-// memory the host sees may be small, and taken.
+// Chooses where the host writes the meshes: directly to where the device reads them, or into memory
+// of the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. The part of
+// its memory that the host sees may be small, and taken.
 void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
   uploaded_bytes_ = bytes;
   bytes = roomy(bytes);
@@ -137,7 +138,7 @@ void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
     grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
 }
 
-// Either may be missing.
+// Either mesh may be missing.
 void PairBuffers::place_meshes(const MeshData& a, const MeshData& b, MemoryPolicy policy) {
   const VkDeviceSize bytes_a = bytes_of(a), bytes_b = bytes_of(b);
   take_meshes(bytes_a + bytes_b, policy);
@@ -151,7 +152,7 @@ void PairBuffers::write_meshes(const MeshData& a, const MeshData& b) {
   if (bytes_of(b) > 0) write(to + bytes_of(a), b);
 }
 
-// Where B's hierarchy is or will be built.
+// Chooses where B's BVH is or will be built.
 void PairBuffers::place_b(const VkhHierarchyRequirements& needed, const RunInput& in,
                           MemoryPolicy policy) {
   if (in.resident != nullptr) {
@@ -166,9 +167,9 @@ void PairBuffers::place_b(const VkhHierarchyRequirements& needed, const RunInput
   problem_.b.vertexCount = mesh_b_.vertexCount;
 }
 
-// Of a memory that is too small the run gets `share` at most, half of that where there is not so
-// much, and so on, and B's hierarchy what is left: all queries read it. What the caller asked for,
-// `given`, the run gets whole.
+// If memory is too small, the run gets `share` at most, half of that if there is not so much, and
+// so on, and B's BVH gets what is left: all queries read it. If the caller asked for a size,
+// `given`, the run gets the whole of it.
 VkDeviceSize PairBuffers::take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least,
                                                 VkDeviceSize share, bool given) {
   const VkDeviceSize most = given ? bytes : std::clamp(share, least, std::max(bytes, least));
@@ -243,21 +244,21 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   out.host_memory_bytes = host_bytes(in);
 }
 
-// The kept one, where it is large enough and not the run's own; else a new one, before which the
-// kept one goes unless it is.
+// Returns the kept memory if it is large enough and not the run's own; otherwise new memory. The
+// kept one is freed before that unless it is the run's own.
 VkhMemory PairBuffers::take_room(VkDeviceSize bytes) {
   const bool is_own = problem_.workspace.buffer == larger_.handle();
   if (is_own || larger_.size() < bytes) {
     if (!is_own) larger_ = Buffer();
     Buffer made(device_, bytes, kWorking, Placement::kDevice);
     std::swap(larger_, made);
-    if (is_own) left_ = std::move(made);  // until what it holds has been copied
+    if (is_own) left_ = std::move(made);  // until its contents have been copied
   }
   return {larger_.handle(), 0, bytes};
 }
 
-// Twice what is wanted, so that a frontier that still grows is moved seldom; at most half of the
-// device's memory.
+// Takes twice what is wanted, so that a frontier that still grows is moved seldom; at most half of
+// the device's memory.
 void PairBuffers::make_room(VkhContext context, RunOutput& out) {
   left_ = Buffer();
   const uint64_t wanted = out.report.wanted;
@@ -271,7 +272,7 @@ void PairBuffers::make_room(VkhContext context, RunOutput& out) {
   next_ = problem_.workspace;
   try {
     if (bytes > problem_.workspace.size) next_ = take_room(bytes);
-  } catch (const MemoryError&) {  // what has no room can wait
+  } catch (const MemoryError&) {  // candidates without room can wait
   }
   problem_.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
   out.workspace_bytes = next_->size;
@@ -335,7 +336,7 @@ void PairBuffers::read(RunOutput& out) const {
     std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
 }
 
-// The host writes the former and reads the latter, once: they need not be the device's own.
+// The host writes the cells and reads the bounds, once: they need not be the device's own.
 VkhCells PairBuffers::take_cells(const CellBatch& batch) {
   const auto count = static_cast<uint32_t>(batch.bounds.size());
   const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;

@@ -12,7 +12,7 @@
 namespace vkh {
 namespace {
 
-// Faces that are copied at once.
+// A range of faces that is copied at once.
 struct Piece {
   size_t from, to, count;
 };
@@ -29,7 +29,8 @@ std::vector<Piece> pieces_of(const FaceRanges& ranges) {
   return pieces;
 }
 
-// Which vertices are used: their places in the part, in their order. Threads mark the same ones.
+// Marks the vertices that are used and numbers them: their places in the part, in their order.
+// Threads may mark the same vertex.
 class Places {
  public:
   explicit Places(size_t vertices) : used_(vertices), place_(vertices) {}
@@ -37,7 +38,7 @@ class Places {
   void use(const glm::uvec3& face) {
     for (int k = 0; k < 3; ++k) used_[face[k]].store(true, std::memory_order_relaxed);
   }
-  /// Once all are marked. Returns how many there are.
+  /// Numbers the vertices once all are marked. Returns how many there are.
   size_t number() {
     std::vector<size_t> before(block_count(used_.size()) + 1);
     for_each_block(used_.size(), [&](size_t block, size_t begin, size_t end) {
@@ -62,16 +63,16 @@ class Places {
   std::vector<uint32_t> place_;
 };
 
-// Small enough for work that lies together to be shared: of BrunoLevy_v8_engine against its
-// alphawrap the half with more queries has 1.01 times the mean's in blocks of 1024, 1.9 times in
-// five turns or one. Large enough for few vertices to be in two parts, whose seeds both ask for
-// them: of alecjacobson_igea 1.68 times as many in blocks of 16, 1.19 times of 4096.
+// A block is small enough for work that lies together to be shared: of BrunoLevy_v8_engine against
+// its alphawrap the half with more queries has 1.01 times the mean's in blocks of 1024, 1.9 times
+// in five turns or one. It is large enough for few vertices to be in two parts, whose seeds both
+// ask for them: of alecjacobson_igea 1.68 times as many in blocks of 16, 1.19 times of 4096.
 size_t block_of_turns(size_t faces, size_t count) {
   constexpr size_t kTurns = 32, kLargest = 65536;
   return std::clamp<size_t>(faces / count / kTurns, 1, kLargest);
 }
 
-// What is of all of A, and a part's options do not know.
+// Sets what depends on all of A, and is unknown to a part.
 SolveOptions options_of_part(const SolveOptions& options, double diagonal_a) {
   SolveOptions out = options;
   const double tolerance = multiply_down(options.tolerance, diagonal_a);

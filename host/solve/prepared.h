@@ -1,4 +1,4 @@
-// The B's of one device that pairs share.
+// The prepared B meshes of one device, which pairs share.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,11 @@ namespace vkh {
 
 class PreparedMeshes {
  public:
-  /// `bytes`: what hierarchies that nobody uses may take of the device's memory, about.
+  /// `bytes`: about how much of the device's memory BVHs without a user may take.
   explicit PreparedMeshes(uint64_t bytes) : most_bytes_(bytes) {}
 
-  /// B, prepared now unless it was. Threads that ask meanwhile wait. Null: the device has no room.
+  /// Returns B, prepared now unless it was. Threads that ask meanwhile wait. Null: the device has
+  /// no room.
   std::shared_ptr<const PreparedMesh> get(Solver& solver, const std::shared_ptr<const Mesh>& b);
 
  private:
@@ -26,7 +27,7 @@ class PreparedMeshes {
 
   uint64_t most_bytes_;
   std::mutex mutex_;
-  std::vector<Kept> kept_;  // used last at the end
+  std::vector<Kept> kept_;  // the last one used is at the end
 };
 
 }  // namespace vkh

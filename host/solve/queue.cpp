@@ -7,7 +7,7 @@ namespace {
 
 uint64_t faces_of(const StreamPair& pair) { return pair.a->faces.size() + pair.b->faces.size(); }
 
-// An estimate: hierarchy, meshes and workspace as they are recommended.
+// An estimate: BVH, meshes and workspace as they are recommended.
 uint64_t device_bytes(const StreamPair& pair) {
   constexpr uint64_t kMostWorkspace = uint64_t{100} << 20;
   const uint64_t faces = faces_of(pair);
@@ -17,7 +17,7 @@ uint64_t device_bytes(const StreamPair& pair) {
 // A group lasts as long as its longest pair.
 bool is_like(const StreamPair& x, const StreamPair& y) {
   constexpr uint64_t kMostRatio = 4;
-  constexpr uint64_t kSmall = 2000;  // faces: waves of such pairs are empty dispatches for the most
+  constexpr uint64_t kSmall = 2000;  // faces: waves of such pairs are mostly empty dispatches
   const uint64_t n = std::max(faces_of(x), kSmall), m = std::max(faces_of(y), kSmall);
   return x.symmetric == y.symmetric && n <= kMostRatio * m && m <= kMostRatio * n;
 }
@@ -45,7 +45,7 @@ void PairQueue::put_back(std::vector<WaitingPair> pairs) {
 
 std::vector<WaitingPair> PairQueue::take(size_t most, uint64_t bytes) {
   std::unique_lock lock(mutex_);
-  // Pairs that others have may come back.
+  // Pairs that other threads hold may come back.
   work_.wait(lock, [&] { return !waiting_.empty() || is_closed_ || (is_ended_ && taken_ == 0); });
   std::vector<WaitingPair> group;
   if (waiting_.empty()) return group;

@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// How often a pair was on a device that was lost meanwhile, besides.
+/// A pair, and how often it was on a device that was lost meanwhile.
 struct WaitingPair {
   StreamPair pair;
   unsigned tries = 0;
@@ -20,22 +20,23 @@ class PairQueue {
  public:
   explicit PairQueue(size_t most) : most_(most) {}
 
-  /// Waits while `most` pairs wait. False: it is closed to all.
+  /// Waits while `most` pairs wait. Returns false if the queue is closed to all.
   bool put(StreamPair pair);
-  /// Without waiting: what a lost device had.
+  /// Puts back, without waiting, the pairs that a lost device had.
   void put_back(std::vector<WaitingPair> pairs);
 
-  /// The oldest, and with it others of like size: at most `most`, which take at most `bytes` of a
-  /// device. Waits for one; empty: there are none, nor will there be. Who takes some says done().
+  /// Takes the oldest pair, and with it others of like size: at most `most`, which take at most
+  /// `bytes` of a device. Waits for one; empty: there are none, nor will there be. A caller that
+  /// takes some calls done().
   std::vector<WaitingPair> take(size_t most, uint64_t bytes);
   void done(size_t pairs);
 
-  /// Waits until all that was put is done, or, once it is closed, what was taken.
+  /// Waits until all that was put is done, or, once the queue is closed, all that was taken.
   void wait();
 
   void end();             ///< no more will be put
-  void close();           ///< what waits is dropped; nothing is taken any more
-  bool is_empty() const;  ///< all that was put is done
+  void close();           ///< drops what waits; nothing is taken any more
+  bool is_empty() const;  ///< whether all that was put is done
 
  private:
   mutable std::mutex mutex_;

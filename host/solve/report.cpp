@@ -1,4 +1,4 @@
-// What a report means in words, and the interval of one or two directions.
+// The words for a report's results, and the interval of one or two directions.
 #include "host/solve/report.h"
 
 #include <algorithm>
@@ -9,15 +9,16 @@
 namespace vkh {
 namespace {
 
-/// Of what keeps a symmetric interval open: the direction with the larger upper.
+/// The status of the direction that keeps a symmetric interval open: the one with the larger upper.
 Status open_status(const Report& r, const Report& back) {
-  // Pruned by the way there (not by what a caller knew besides), the way back decides nothing.
+  // If pruned by the forward direction (not by what a caller knew besides), the reverse one decides
+  // nothing.
   const bool pruned =
       back.status == Status::kPruned && is_within(r.lower, back.upper, back.tolerance);
   const bool back_closed = back.status == Status::kClosed || pruned;
   const bool open_there = back_closed || (r.status != Status::kClosed && r.upper >= back.upper);
   const Status status = (open_there ? r : back).status;
-  // Each closed, but to tolerances that differ.
+  // Each direction is closed, but to tolerances that differ.
   return status == Status::kClosed ? Status::kPrecision : status;
 }
 
@@ -81,7 +82,7 @@ CertifiedInterval symmetric_interval(const Report& r, const Report& back) {
   both.upper = std::max(r.upper, back.upper);
   both.gap = gap_of(both.lower, both.upper, r.diagonal_a);
   // Two closed directions of one tolerance close the whole, and so does one that the other cannot
-  // reach: the width says so.
+  // reach: the width shows it.
   const double tolerance = std::min(r.tolerance, back.tolerance);
   const bool closed = is_within(both.lower, both.upper, tolerance);
   both.status = closed ? Status::kClosed : open_status(r, back);

@@ -1,4 +1,4 @@
-// What a run answers: a certified interval, its witness, why it ended and what it cost.
+// The answer of a run: a certified interval, its witness, why it ended and what it cost.
 #pragma once
 
 #include <cstdint>
@@ -24,22 +24,23 @@ enum class Status {
   kMemory,     ///< candidates were spilled and could not be refined
   kCancelled,  ///< the caller asked for the end
   kPruned,     ///< upper <= known_lower + tolerance, which was all that was asked; the interval is
-               ///< true, but lower was not sought: only upper says something
+               ///< true, but lower was not sought: only upper is informative
   kLimit,      ///< upper <= limit or lower > limit is proven, which was all that was asked
 };
 const char* status_name(Status status);  ///< "closed", "precision", "time", "waves", "memory",
                                          ///< "cancelled", "pruned", "limit"
 
-/// Whether a distance is within a limit; each but the last is proven.
+/// The answer to whether a distance is within a limit; each but the last is proven.
 enum class Verdict { kWithin, kBeyond, kUndecided };
 const char* verdict_name(Verdict verdict);  ///< "pass", "fail", "undecided"
 
 /// A point on a face, in the files' own coordinates.
 struct SurfacePoint {
-  uint64_t face = 0;  ///< of Mesh::faces: a triangle
+  uint64_t face = 0;  ///< index in Mesh::faces: a triangle
   DVec3 barycentric{};
   DVec3 point{};
-  uint64_t file_face = 0;  ///< the file's number of the face that this is of, for people
+  uint64_t file_face = 0;  ///< the number in the file of the face that this triangle is part of,
+                           ///< for people
 
   void set_face(const Mesh& mesh, uint64_t triangle) {
     face = triangle;
@@ -51,11 +52,11 @@ struct SurfacePoint {
 struct StageStats {
   std::string name;
   double gpu_ms = 0;
-  uint64_t times = 0;  ///< how many parts of it were timed
+  uint64_t times = 0;  ///< number of its parts that were timed
 };
 
-/// How many candidates a bound of the cascade closed; "lower_raised": later, because lower had
-/// risen past their u; "precision": at their u, because nothing finer can be decided.
+/// The number of candidates that a bound of the cascade closed; "lower_raised": later, because
+/// lower had risen past their u; "precision": at their u, because nothing finer can be decided.
 struct CullCount {
   const char* name = "";
   uint64_t candidates = 0;
@@ -70,8 +71,8 @@ struct WaveStats {
 
 struct Times {
   double upload_ms = 0;     ///< meshes to device buffers, frame included
-  double hierarchy_ms = 0;  ///< GPU: B's hierarchy
-  double solve_ms = 0;      ///< GPU: seed and waves and report, without the hierarchy
+  double hierarchy_ms = 0;  ///< GPU: B's BVH
+  double solve_ms = 0;      ///< GPU: seed and waves and report, without the BVH
   double wall_ms = 0;       ///< host clock around Solver::distance
 };
 
@@ -81,32 +82,32 @@ struct WitnessCheck {
   bool holds = false;  ///< every face of B is at least `lower` away from the witness
 };
 
-/// Likewise: are the closed and the open parts of each face of A the whole face?
+/// The host's check that the closed and the open parts of each face of A are the whole face.
 struct CoverageCheck {
   uint64_t whole = 0;    ///< faces whose parts sum to the whole, as exact integers
-  uint64_t waiting = 0;  ///< faces without a part: they have no bound yet, and `upper` knows
-  uint64_t wrong = 0;    ///< the rest: none
+  uint64_t waiting = 0;  ///< faces without a part: they have no bound yet, and `upper` reflects it
+  uint64_t wrong = 0;    ///< the rest: 0 if it holds
   double closed = 0;     ///< share of A's faces that was closed
   bool holds = false;
 };
 
-/// Of a mesh: Mesh::delta, by which the interval is wider, and Mesh::unit.
+/// Mesh::delta, by which the interval is wider, and Mesh::unit of a mesh.
 struct MeshPlace {
   double delta = 0;
   std::string unit = {};
 };
 
-/// One of several devices that a run did without.
+/// One of several devices, which a run did without.
 struct LeftOut {
-  size_t device = 0;  ///< of those that were given
+  size_t device = 0;  ///< index in the given devices
   std::string why;
 };
 
 struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
-  double diagonal_a = 0;        ///< of A's bounding box, rounded to nearest
-  double tolerance = 0;    ///< in the files' units; of a fraction: times diagonal_a, rounded down
+  double diagonal_a = 0;        ///< the diagonal of A's bounding box, rounded to nearest
+  double tolerance = 0;    ///< in the files' units; for a fraction: times diagonal_a, rounded down
   double known_lower = 0;  ///< SolveOptions::known_lower
   Limit limit;             ///< SolveOptions::limit
   SurfacePoint witness_a, witness_b;
@@ -114,10 +115,11 @@ struct Report {
   MeshCounts mesh_a, mesh_b;
   MeshPlace place_a, place_b;
   DeviceDescription device;
-  std::vector<DeviceDescription> more_devices;  ///< that took part, of a run over several
-  std::vector<LeftOut> left_out;                ///< likewise: that were lost, or had no memory
+  std::vector<DeviceDescription> more_devices;  ///< others that took part in a run over several
+  std::vector<LeftOut> left_out;                ///< devices that were lost, or had no memory
   uint64_t workspace_bytes = 0;
-  uint64_t host_memory_bytes = 0;  ///< what the device had no room for, and reads from the host
+  uint64_t host_memory_bytes = 0;  ///< bytes without room on the device, which it reads from the
+                                   ///< host
   uint32_t waves = 0;
   uint64_t candidates = 0, queries = 0, peak_frontier = 0;
   std::vector<CullCount> culled;
@@ -132,9 +134,9 @@ struct Report {
   double gap() const;  ///< (upper - lower) / diag(A), rounded up
 };
 
-/// By the interval alone, whatever ended the run.
+/// Judges by the interval alone, whatever ended the run.
 Verdict verdict_of(double lower, double upper, const Limit& limit);
-/// Whether a limit was asked about, and there is an answer.
+/// Returns whether a limit was asked about, and there is an answer.
 bool is_decided(double lower, double upper, const Limit& limit);
 
 /// (upper - lower) / diagonal_a, or the width itself where that is 0; rounded up.
@@ -145,11 +147,11 @@ struct CertifiedInterval {
   double gap = 0;  ///< (upper - lower) / diag(A), rounded up
   Status status = Status::kClosed;
 };
-/// Of max(h(A,B), h(B,A)): [max of the lowers, max of the uppers].
+/// The interval of max(h(A,B), h(B,A)): [max of the lowers, max of the uppers].
 CertifiedInterval symmetric_interval(const Report& a_to_b, const Report& b_to_a);
 
-/// Both directions. The way back was pruned by the way there: its own interval is true but may be
-/// wide (Status::kPruned).
+/// Both directions. The reverse direction was pruned by the forward one: its own interval is true
+/// but may be wide (Status::kPruned).
 struct SymmetricReport {
   Report a_to_b, b_to_a;
   CertifiedInterval interval() const { return symmetric_interval(a_to_b, b_to_a); }

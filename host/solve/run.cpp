@@ -14,12 +14,12 @@ namespace vkh {
 namespace {
 
 // Waves of the first submission, the begin's among them: enough for most pairs on a GPU; on a CPU
-// one wave can take seconds, and so can the hierarchy, which is then a submission of its own. Who
-// shares what is known has something to tell after one wave.
+// one wave can take seconds, and so can the BVH, which is then a submission of its own. A run that
+// shares its known bound has something to report after one wave.
 constexpr uint32_t kFirstWaves = 8;
 constexpr uint32_t kFewFirstWaves = 1;
-// Later submissions aim at this long, so that budgets and Ctrl-C are heard. An empty wave costs an
-// H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
+// Later submissions aim at this long, so that budgets and Ctrl-C take effect. An empty wave costs
+// an H200 some 8 us (reckoned), another report 22: so the second submission is short, and long runs
 // get longer ones.
 constexpr double kSubmissionMs = 100;
 constexpr uint32_t kSecondWaves = 2;
@@ -56,7 +56,7 @@ uint64_t bytes_of(std::span<const RunInput> inputs) {
   return bytes;
 }
 
-// Of a run that has not begun.
+// The report of a run that has not begun.
 VkhReport nothing_known() {
   VkhReport report{};
   report.upper = report.upperAbove = std::numeric_limits<float>::max();
@@ -103,7 +103,7 @@ VkhContext Runner::context_for(uint32_t switches) {
   return context;
 }
 
-// Where a mesh is too large to be bound, it is given by address, which gives the same bits.
+// If a mesh is too large to be bound, it is given by address, which gives the same bits.
 VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inputs) {
   const VkhContext context = context_for(switches);
   const bool fits = std::all_of(inputs.begin(), inputs.end(), [&](const RunInput& input) {
@@ -112,7 +112,7 @@ VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inpu
   return fits || !device_.has_addresses() ? context : context_for(switches | kSwitchByAddress);
 }
 
-// Seats are kept, for their buffers, unless there is no memory beside those of an earlier run, or
+// Pair buffers are kept for reuse, unless there is no memory beside those of an earlier run, or
 // they lie in the host's.
 void Runner::buffers(size_t count, const std::function<void(MemoryPolicy)>& take) {
   if (policy_ == MemoryPolicy::kHost) buffers_.clear();
@@ -144,7 +144,7 @@ VkCommandBuffer Runner::begin() {
   return commands;
 }
 
-// A timestamp, where the library writes none.
+// Writes a timestamp where the library writes none.
 void Runner::stamp(VkCommandBuffer commands, const char* name) {
   if (stage_times_ || !device_.has_timestamps()) return;
   device_.vk().CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, profile_.pool,
@@ -154,7 +154,7 @@ void Runner::stamp(VkCommandBuffer commands, const char* name) {
 
 ResidentMesh Runner::build(const MeshData& b) {
   const SerialGuard::Hold hold(guard_);
-  // A hierarchy is the same whatever the switches: it is built with pipelines that runs need too.
+  // A BVH is the same whatever the switches: it is built with pipelines that runs need too.
   std::array<RunInput, 1> alone;
   alone[0].b = b;
   context_ = context_for(default_switches(device_), alone);
@@ -176,7 +176,7 @@ void Runner::submit_and_wait(VkCommandBuffer commands) {
   submitter_.submit_and_wait({});
 }
 
-// With its hierarchy timed apart.
+// Records one pair, with its BVH timed apart.
 void Runner::record_one(VkCommandBuffer commands, const Submission& submission) {
   PairBuffers& buffers = *buffers_[submission.running[0]];
   VkhProblem& problem = buffers.problem();
@@ -242,7 +242,7 @@ void Runner::read_stages(const Submission& submission, std::vector<RunOutput>& o
   }
 }
 
-// Where memory is scarce, in order: who gets what must not depend on threads.
+// Takes memory in order, since it may be scarce: which pair gets what must not depend on threads.
 void Runner::take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
   const VkDeviceSize share = device_.description().memory_bytes / 4 / inputs.size();
   buffers(inputs.size(), [&](MemoryPolicy policy) {
@@ -255,7 +255,7 @@ void Runner::take_buffers(std::span<const RunInput> inputs, std::vector<RunOutpu
   });
 }
 
-// Submits, and takes what came of it. Returns how long that took, in milliseconds.
+// Submits, and reads the results. Returns how long that took, in milliseconds.
 double Runner::submit(const Submission& submission, std::vector<RunOutput>& outputs) {
   const double submitted = now_ms();
   submit_and_wait(record(submission, outputs));
@@ -310,7 +310,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   uint32_t submissions = 0;
   while (!submission.running.empty()) {
     if (!inputs[0].multiwave) submission.waves = 1;
-    // Exactly the budget: how they are grouped depends on the clock, the result must not.
+    // The budget is met exactly: how waves are grouped depends on the clock, the result must not.
     for (const size_t i : submission.running)
       submission.waves =
           std::min(submission.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);

@@ -15,15 +15,15 @@ namespace vkh {
 /// Pipelines for one set of switches; destroyed with the handle.
 using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
 
-/// Keeps contexts and buffers between runs. Threads take turns.
+/// Keeps contexts and buffers between runs. Calls from several threads run one after the other.
 class Runner {
  public:
   Runner(const Device& device, const std::filesystem::path& cache_folder);
   void make_ready(uint32_t switches);
   ResidentMesh build(const MeshData& b);
   /// Runs all of them side by side (vkhCmdRunTasks), each until it is done. They have the same
-  /// switches, `multiwave` and `stage_times`. Of several, the stages are one, "solve": of all, with
-  /// their hierarchies.
+  /// switches, `multiwave` and `stage_times`. Several runs have one stage, "solve", for all of them
+  /// and their BVHs.
   std::vector<RunOutput> run(std::span<const RunInput> inputs);
 
  private:
@@ -49,7 +49,7 @@ class Runner {
   std::map<uint32_t, ContextHandle> contexts_;
   Submitter submitter_;
   std::vector<std::unique_ptr<PairBuffers>> buffers_;
-  MemoryPolicy policy_ = MemoryPolicy::kDevice;  // of those
+  MemoryPolicy policy_ = MemoryPolicy::kDevice;  // the policy of buffers_
   VkhContext context_ = nullptr;
   VkhProfile profile_{};
   bool stage_times_ = true;

@@ -1,4 +1,4 @@
-// What a run did and where it found its witness, in a report's words.
+// Writes what a run did and where it found its witness into a report.
 #pragma once
 
 #include "host/solve/frame.h"

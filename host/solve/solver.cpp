@@ -27,16 +27,16 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Where the device found the stored meshes' h to be 0, and only what storing displaced is left: is
-// every face of A, as given, a face of B? Then h is 0, whatever the device did. A mesh that is off
-// its exact place is not given.
+// Called where the device found the stored meshes' h to be 0, and only the displacement by storing
+// is left: is every face of A, as given, a face of B? Then h is 0, whatever the device did. A mesh
+// that is off its exact place does not count as given.
 bool is_surely_zero(const VkhReport& r, const Pair& pair) {
   if (r.base != 0 || r.upperAbove != 0 || !(pair.displacement > 0)) return false;
   if (pair.a.delta > 0 || pair.b.delta > 0) return false;
   try {
     return has_faces_of(pair.b, pair.a);
   } catch (const std::bad_alloc&) {
-    return false;  // the answer that there is must not be lost over it
+    return false;  // the answer that there is must not be lost to this
   }
 }
 
@@ -86,7 +86,7 @@ const Mesh& PreparedMesh::mesh() const { return impl_->mesh; }
 
 namespace {
 
-// Watches the budgets between submissions and tells the caller how far the run is.
+// Watches the budgets between submissions and reports to the caller how far the run is.
 struct Watch {
   const Pair& pair;
   double diagonal_a;
@@ -154,7 +154,7 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   fill_counts(run.report, pair.frame, out);
   fill_stages(run, out);
   fill_witness(run.report, pair.a, pair.b, out);
-  // Before every face of A has a bound, `upper` says so: 3e38.
+  // Before every face of A has a bound, `upper` is 3e38.
   if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
   return out;
 }
@@ -168,7 +168,7 @@ void check_options(const SolveOptions& options) {
     throw UsageError("the limit must be 0 or more and finite");
 }
 
-// What the caller listens with runs in the caller's own floating-point environment.
+// Runs the caller's callbacks in the caller's own floating-point environment.
 SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
   if (!options.progress) return options;
   options.progress = [&ours, listen = std::move(options.progress)](const Progress& progress) {
@@ -179,7 +179,7 @@ SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
 
 }  // namespace
 
-// `pairs`: whose pipelines are the same.
+// `pairs` have the same pipelines.
 std::vector<Report> Solver::Impl::solve_alike(const std::vector<Pair>& pairs, uint32_t switches,
                                               Clock::time_point start) {
   std::vector<Watch> watches;
@@ -216,8 +216,8 @@ std::vector<Report> Solver::Impl::solve_alike(const std::vector<Pair>& pairs, ui
   return reports;
 }
 
-// Pairs with the same switches run side by side: which these are is each pair's own matter, so that
-// an answer does not depend on the pairs beside it.
+// Pairs with the same switches run side by side: which these are depends on each pair alone, so
+// that an answer does not depend on the pairs beside it.
 std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::time_point start) {
   std::map<uint32_t, std::vector<size_t>> alike;
   for (size_t i = 0; i < pairs.size(); ++i)
@@ -234,13 +234,14 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::t
 
 void Solver::make_ready(const SolveOptions& options) {
   const FloatEnvironment ours;
-  // Of an absolute tolerance it is not known yet whether it is fine.
+  // It is not known yet whether an absolute tolerance is fine.
   impl_->runner.make_ready(switches_for(options, 0, impl_->device) & ~kSwitchMultiwave);
 }
 
 namespace {
 
-// Each mesh once: many pairs may have one B. A prepared one was checked when it was prepared.
+// Checks each mesh once: many pairs may have one B. A prepared one was checked when it was
+// prepared.
 void check_meshes(std::span<const PairView> pairs) {
   std::set<const Mesh*> meshes;
   for (const PairView& pair : pairs) {
@@ -250,7 +251,7 @@ void check_meshes(std::span<const PairView> pairs) {
   for (const Mesh* mesh : meshes) check_mesh(*mesh);
 }
 
-// A mesh of the caller's as it is stored, in a frame around both or in that of a prepared B.
+// A caller's mesh as it is stored, in a frame around both or in that of a prepared B.
 struct Framed {
   FramedPair pair;
   double displacement_b = 0;
@@ -308,7 +309,7 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
 
 namespace {
 
-// Each pair's own, and what it listens with.
+// The options of each pair, with its callbacks.
 std::vector<SolveOptions> options_of(std::span<const PairView> pairs, const SolveOptions& options,
                                      FloatEnvironment& ours) {
   std::vector<SolveOptions> all;
@@ -386,7 +387,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     back.push_back({.a = b, .b = a});
     of_back.push_back(options_back(heard[i], both[i].a_to_b, elapsed_s));
   }
-  // Numbered as the pairs were.
+  // Progress has the numbers of the caller's pairs.
   for (SolveOptions& of_it : of_back) {
     of_it.progress = [&sought, listen = std::move(of_it.progress)](Progress progress) {
       progress.pair = sought[progress.pair];

@@ -1,4 +1,4 @@
-// Two meshes in, a certified interval out; blocking.
+// Takes two meshes and returns a certified interval; blocking.
 #pragma once
 
 #include <filesystem>
@@ -13,16 +13,16 @@
 
 namespace vkh {
 
-/// Mesh B on the device with its hierarchy, for many A's. Made by a Solver, used by any Solver of
-/// the same device, outlives neither the device nor its owner's handles.
+/// Mesh B on the device with its BVH, for many A's. Made by a Solver, used by any Solver of the
+/// same device, outlives neither the device nor its owner's handles.
 class PreparedMesh {
  public:
   PreparedMesh(PreparedMesh&&) noexcept;
   PreparedMesh& operator=(PreparedMesh&&) noexcept;
   ~PreparedMesh();
   const Mesh& mesh() const;
-  /// Whether h(a, this) is found with what is kept. False: A reaches four times farther than B, or
-  /// B is a single point; distance() then does what it does without preparation.
+  /// Returns whether h(a, this) is found with what is kept. False: A reaches four times farther
+  /// than B, or B is a single point; distance() then does what it does without preparation.
   bool serves(const Mesh& a) const;
 
  private:
@@ -32,21 +32,21 @@ class PreparedMesh {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Two meshes of the caller's, who keeps them, and what is asked about them.
+/// Two meshes that the caller keeps, and what is asked about them.
 struct PairView {
   const Mesh& a;
   const Mesh& b;
   const PreparedMesh* prepared = nullptr;  ///< b on the device; its answer is that of distance()
-  const SolveOptions* options = nullptr;   ///< of its own; null: those of the call. Switches,
+  const SolveOptions* options = nullptr;   ///< the pair's own; null: those of the call. Switches,
                                            ///< preset and memory should be the same for all
 };
 
-/// Keeps pipelines and buffers of one device between runs. Threads take turns; Solvers of their own
-/// on the same Device run at once. Everything throws InputError that names the mesh, and a
-/// vertex or face of it, where a mesh is none (check_mesh), whatever it holds, as long as it does
-/// not change during the call; DeviceError if the device is lost or out of memory; and UsageError
-/// for an unknown switch, a tolerance that is not positive and finite, or a call from a progress
-/// callback of the same Solver.
+/// Keeps pipelines and buffers of one device between runs. Calls from several threads run one after
+/// the other; Solvers of their own on the same Device run at once. Everything throws InputError
+/// that names the mesh, and a vertex or face of it, if a mesh is invalid (check_mesh), whatever it
+/// holds, as long as it does not change during the call; DeviceError if the device is lost or out
+/// of memory; and UsageError for an unknown switch, a tolerance that is not positive and finite, or
+/// a call from a progress callback of the same Solver.
 class Solver {
  public:
   /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
@@ -68,22 +68,22 @@ class Solver {
   /// mostly idle, takes 16 in half of the time (vkhCmdRunTasks). Every bound is that of distance().
   /// Each pair has a workspace of options.memory_bytes to itself, 99 MiB as a rule where that is 0,
   /// and the solver keeps them. Give pairs of like size, 16 or so, and no more than the device has
-  /// memory for. Times in a report are those of all together while it ran, stages are not told
+  /// memory for. Times in a report are those of all together while it ran, stages are not timed
   /// apart; options.progress is asked for each pair, and ends that one.
   std::vector<Report> distances(std::span<const PairView> pairs, const SolveOptions& options = {});
-  /// Likewise h(b, a) after that, and both as symmetric() has them. There is no way back of
-  /// PairView::prepared.
+  /// Does the same for h(b, a) after that, and returns both as symmetric() has them.
+  /// PairView::prepared has no reverse direction.
   std::vector<SymmetricReport> symmetrics(std::span<const PairView> pairs,
                                           const SolveOptions& options = {});
 
-  /// Uploads B and builds its hierarchy.
+  /// Uploads B and builds its BVH.
   PreparedMesh prepare(Mesh b);
   /// Encloses h(a, b). The answer depends on a and b alone, not on the A's before.
   Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
 
-  /// Encloses max(h(a, b), h(b, a)). The way back has the way there's tolerance, what is left of
-  /// the time, and is pruned by the way there's lower bound. It is not sought, its interval true
-  /// and wide, where the way there is beyond options.limit.
+  /// Encloses max(h(a, b), h(b, a)). The reverse direction has the forward direction's tolerance
+  /// and what is left of the time, and is pruned by the forward direction's lower bound. It is not
+  /// sought, its interval true and wide, if the forward direction is beyond options.limit.
   SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
  private:

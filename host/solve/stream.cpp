@@ -19,15 +19,15 @@ double seconds_from(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Devices are opened and taken apart one at a time: drivers share state that is theirs. And none is
+// Devices are opened and taken apart one at a time: drivers share state that is theirs. None is
 // taken apart while a thread ends that has used a driver: NVIDIA's (580.159.04) then may wait for
-// itself for ever, as the thread's own data of the driver goes.
+// itself forever, as the thread's own data of the driver goes.
 std::mutex& opening() {
   static auto* mutex = new std::mutex;
   return *mutex;
 }
 
-/// Of a device's life: opened, and taken apart again, in turn with others.
+/// Holds a device, which is opened and taken apart again one after the other with others.
 class OpenDevice {
  public:
   explicit OpenDevice(const std::string& selector) {
@@ -69,7 +69,7 @@ struct PairStream::Impl {
     join();
   }
 
-  // Of GPUs, which take most: 3 lanes of 16 pairs.
+  // Assumes GPUs, which take most: 3 workers of 16 pairs.
   static size_t waiting_for(const StreamOptions& options) {
     const size_t lanes = options.lanes != 0 ? options.lanes : 3;
     const size_t together = options.together != 0 ? options.together : 16;
@@ -102,7 +102,7 @@ struct PairStream::Impl {
                        ", is named more than once");
   }
 
-  // One life of a device: until nothing waits (true), or it is lost.
+  // Runs one life of a device: until nothing waits (true), or it is lost.
   bool live(const std::string& selector, bool& was_open) {
     auto open = std::make_unique<OpenDevice>(selector);
     if (!was_open) claim((**open).description());
@@ -131,14 +131,15 @@ struct PairStream::Impl {
         solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
         others.emplace_back([&, solver = solvers.back().get()] { run(*solver); });
       }
-    } catch (...) {  // with fewer lanes, then
+    } catch (...) {  // goes on with fewer workers
     }
     run(*solvers[0]);
     for (std::thread& thread : others) thread.join();
     return !lanes.is_lost;
   }
 
-  // What was asked for and cannot be had ends all; what is lost later leaves the rest to others.
+  // A device that was asked for and is not available ends all; one that is lost later leaves the
+  // rest to others.
   void serve(const std::string& selector) {
     const FloatEnvironment ours;
     size_t before = 0;
@@ -201,7 +202,7 @@ struct PairStream::Impl {
   std::set<uint32_t> claimed;
   std::vector<DeviceDescription> opened;
   StreamTimes times;
-  std::vector<std::unique_ptr<OpenDevice>> idle;  // that have nothing left to do
+  std::vector<std::unique_ptr<OpenDevice>> idle;  // devices that have nothing left to do
   std::vector<std::thread> threads;
 };
 
@@ -215,7 +216,7 @@ bool PairStream::push(StreamPair pair) {
   return false;
 }
 
-// Devices are taken apart later: what was delivered need not wait for that.
+// Devices are taken apart later: results that were delivered need not wait for that.
 void PairStream::finish() {
   impl_->queue.end();
   impl_->queue.wait();

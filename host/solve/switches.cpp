@@ -21,12 +21,12 @@ constexpr NamedSwitch kSwitches[] = {
         {"wide", kSwitchWide},
     {"multiwave", kSwitchMultiwave}};
 
-// The paper's baseline (docs/method.md, section 10): its cascade, and none of what it adds. The
-// bounds are certified all the same, and a point of A is queried once, where the paper queries the
-// three corners of each child: up to four times as many queries as ours.
+// The paper's baseline (docs/method.md, section 10): its cascade without what the paper adds to it.
+// The bounds are certified all the same, and a point of A is queried once, where the paper queries
+// the three corners of each child: up to four times as many queries as ours.
 constexpr uint32_t kBaseline = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4;
-// The paper's method. Walks start from what the candidate knows, since its worklist holds the
-// closest triangles, and its packet walk updates minima (docs/method.md, section 6).
+// The paper's method. Traversals start from what the candidate knows, since its worklist holds the
+// closest triangles, and its packet traversal updates minima (docs/method.md, section 6).
 constexpr uint32_t kPaper = kBaseline | VKH_SWITCH_SORT | VKH_SWITCH_PACKET | VKH_SWITCH_THIN |
                             VKH_SWITCH_DEFER | VKH_SWITCH_WARM_START;
 

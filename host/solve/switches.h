@@ -11,22 +11,23 @@
 
 namespace vkh {
 
-/// Several waves a submission. No stage of the engine: host/solve/run.cpp's, so its bit is not
-/// VkhSwitchBits'.
+/// Runs several waves per submission. It is no stage of the engine but host/solve/run.cpp's, so its
+/// bit is not one of VkhSwitchBits.
 constexpr uint32_t kSwitchMultiwave = 1u << 31;
-/// The device is of VKH_DEVICE_KIND_WIDE, else NARROW.
+/// The device is of VKH_DEVICE_KIND_WIDE, otherwise NARROW.
 constexpr uint32_t kSwitchWide = 1u << 29;
 /// VkhContextCreateInfo::byAddress: for meshes that the device cannot bind.
 constexpr uint32_t kSwitchByAddress = 1u << 28;
 
-/// What is on unless somebody asks for something else; what pays depends on the kind of device.
+/// The switches that are on by default; what pays depends on the kind of device.
 uint32_t default_switches(const Device& device);
 
-/// VkhSwitchBits that are on, kSwitchWide and kSwitchMultiwave. Throws UsageError for a name that
-/// is none.
+/// The VkhSwitchBits that are on, kSwitchWide and kSwitchMultiwave. Throws UsageError for an
+/// unknown name.
 uint32_t switches_of(const SolveOptions& options, const Device& device);
 
-/// Of A's diagonal. A sample is within 2^-20 of a face's edge of the farthest point: half of that.
+/// A fraction of A's diagonal. A sample is within 2^-20 of a face's edge of the farthest point:
+/// half of that.
 constexpr double kFineTolerance = 5e-7;
 /// The same, with VKH_SWITCH_SUBROOTS where 20 bits of barycentrics are too few for the tolerance.
 uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Device& device);

@@ -25,13 +25,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a part's run has told so far, and what became of it.
+/// The state of a part: what its run has reported so far, and its outcome.
 struct PartState {
   FaceRanges ranges;
   Progress last{.upper = std::numeric_limits<double>::infinity()};
   double proven = 0;  ///< a lower bound of its distance, and so of A's
-  double known = 0;   ///< what it was told that others had proven, at most
-  size_t device = 0;  ///< of the report
+  double known = 0;   ///< the largest bound that others had proven and it was given
+  size_t device = 0;  ///< the device of the report
   std::optional<Report> report;
 };
 
@@ -51,8 +51,9 @@ class Together {
   Report run() {
     work_off();
     Report all = joined();
-    // What a part was told may be more than the witness of the end shows: by a rounding, or where
-    // the device that had proven it was lost. It is then told that, and goes on from there.
+    // The bound that a part was given may be more than the witness of the end shows: by a rounding,
+    // or because the device that had proven it was lost. The part is then given the latter, and
+    // goes on from there.
     if (may_still_close(all)) {
       for (PartState& part : parts_) part.proven = 0;
       options_.known_lower = std::max(options_.known_lower, all.lower);
@@ -67,7 +68,7 @@ class Together {
  private:
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Every part that waits, by every device that is there. Throws the last one's error where it
+  /// Solves every part that waits, on every device that is there. Throws the last one's error if it
   /// leaves a part without an answer.
   void work_off() {
     for_each_index(
@@ -79,7 +80,8 @@ class Together {
     waiting_.clear();
   }
 
-  /// One device: part after part, until none is waiting and none is left that could be given back.
+  /// Runs one device: part after part, until none is waiting and none is left that could be given
+  /// back.
   void work(size_t device) {
     std::unique_lock lock(mutex_);
     while (!lost_[device]) {
@@ -116,7 +118,8 @@ class Together {
     }
   }
 
-  /// What a lost device proved nobody has a witness for.
+  /// Gives the part back without the bound that the lost device proved: no device has a witness for
+  /// it.
   void give_back(size_t device, size_t number, const std::string& why) {
     const std::lock_guard lock(mutex_);
     lost_[device] = true;
@@ -149,7 +152,7 @@ class Together {
     return known;
   }
 
-  /// Of all parts, to whom it may concern. An exception of theirs ends the other runs, too.
+  /// Reports the progress of all parts to the callback. Its exception ends the other runs, too.
   bool advance(size_t number, const Progress& progress) {
     const std::lock_guard lock(mutex_);
     PartState& part = parts_[number];
@@ -181,13 +184,13 @@ class Together {
     all.device = devices.begin()->second;
     for (auto next = ++devices.begin(); next != devices.end(); ++next)
       all.more_devices.push_back(next->second);
-    // The parts' own may be what others told them.
+    // The parts' own bounds may come from other parts.
     all.known_lower = asked_known_;
     all.status = joined_status(all, reports);
     return all;
   }
 
-  /// Has every part wait that stopped at what others had proven, and not at what is proven now.
+  /// Makes every part wait that stopped at what others had proven, and not at what is proven now.
   bool may_still_close(const Report& all) {
     if (all.status == Status::kClosed || is_over_ || options_.time_limit_s <= elapsed_s())
       return false;
@@ -208,12 +211,12 @@ class Together {
   const double diagonal_a_ = diagonal(bounding_box(a_));
   const Clock::time_point start_ = Clock::now();
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   std::vector<PartState> parts_;
   std::deque<size_t> waiting_;
   size_t running_ = 0;
-  std::vector<bool> lost_;  // devices
+  std::vector<bool> lost_;  // one per device
   std::vector<LeftOut> left_out_;
   std::exception_ptr loss_, error_;
   bool is_over_ = false;

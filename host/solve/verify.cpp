@@ -12,9 +12,11 @@ namespace vkh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// What quads are off by: 2^-113 for each of a few operations on coordinates; taken 256 times over.
+// The error of Float128 numbers: 2^-113 for each of a few operations on coordinates; taken 256
+// times over.
 const Float128 kFloat128Ulp = float128(0x1p-105);
-// Of a length computed in quads and rounded to double: hypot is within 2 ulp, the rest is nothing.
+// The error of a length computed in Float128 and rounded to double: hypot is within 2 ulp, the rest
+// is nothing.
 constexpr double kOutward = 0x1p-48;
 
 struct Triangle {
@@ -56,7 +58,7 @@ double outward(double distance, double direction) {
 
 struct DistanceBounds {
   double lower = 0, upper = 0;
-  bool beyond = false;  // d >= the bound asked about: decided in quads, where no double rounds
+  bool beyond = false;  // d >= the bound asked about: decided in Float128, where no double rounds
 };
 
 // d(p, t) and whether it is at least `bound`, for p known to within `scale` * kFloat128Ulp in each

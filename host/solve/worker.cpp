@@ -18,13 +18,13 @@ double gpu_s(const std::vector<StreamResult>& results) {
   return most / 1000;
 }
 
-// A pair that was on two devices, or twice on one, as they were lost is taken for the reason.
+// A pair that was on two devices, or twice on one, when they were lost is taken for the reason.
 constexpr unsigned kMostTries = 2;
 
 }  // namespace
 
 // On a GPU a pair of 10,000 faces leaves most of it idle: 16 at once take half of the time
-// (docs/benchmarks.md), and a third lane hides what the host does. A CPU device has no such room.
+// (docs/benchmarks.md), and a third worker hides what the host does. A CPU device has no such room.
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device) {
   constexpr size_t kLanes = 3, kTogether = 16;
   const bool on_cpu = device.type == "cpu";
@@ -38,7 +38,7 @@ LaneShape shape_for(const StreamOptions& options, const DeviceDescription& devic
 void Worker::work() {
   for (;;) {
     Group group = share_.queue.take(device_.shape.together, device_.shape.bytes);
-    if (device_.is_lost) {  // what another lane gave back is for another life
+    if (device_.is_lost) {  // pairs that another worker gave back are for another life
       share_.queue.put_back(std::move(group));
       return;
     }
@@ -100,7 +100,7 @@ void Worker::give_up(const WaitingPair& one) {
   share_.queue.done(1);
 }
 
-// What was too much together may do alone, and what one pair has wrong is not the others' fault.
+// Pairs that were too much together may fit alone, and one pair's error is not the others' fault.
 bool Worker::retry_apart(Group group) {
   for (size_t i = 0; i < group.size(); ++i) {
     Group one;

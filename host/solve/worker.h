@@ -1,5 +1,5 @@
-// One device of a stream, and the lanes on it: each a solver of its own, so that one frames and
-// uploads while another's submission runs.
+// One device of a stream, and the workers on it: each has a solver of its own, so that one frames
+// and uploads while another's submission runs.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// What the lanes of a stream share.
+/// The state that the workers of a stream share.
 struct WorkerShare {
   const StreamOptions& options;
   PairQueue& queue;
@@ -19,14 +19,14 @@ struct WorkerShare {
   std::atomic<bool> is_cancelled = false;
 };
 
-/// How many pairs a device runs at once.
+/// The number of pairs that a device runs at once.
 struct LaneShape {
   size_t lanes = 1, together = 1;
-  uint64_t bytes = 0;  ///< of the device's memory, for each lane
+  uint64_t bytes = 0;  ///< bytes of the device's memory, for each worker
 };
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device);
 
-/// What lanes of one device share: it is opened anew when all have ended.
+/// The state that workers of one device share: it is opened anew when all have ended.
 struct WorkerDevice {
   const Device& device;
   PreparedMeshes prepared;
@@ -34,7 +34,7 @@ struct WorkerDevice {
   std::atomic<bool> is_lost = false;
 };
 
-/// A lane's work until nothing waits, or the device is lost: then what it had is back in the queue.
+/// Works until nothing waits, or the device is lost: then its pairs are back in the queue.
 class Worker {
  public:
   Worker(WorkerShare& share, WorkerDevice& device, Solver& solver)

@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-/// No point of the cell is nearer.
+/// The least distance from below: no point of the cell is nearer.
 float lowest(const gpu::CellBounds& bounds);
 
 /// Cells of the faces of A: at first one a face, which is the face. A split halves a cell at the
@@ -23,21 +23,22 @@ class CellStore {
   const gpu::Cell& cell(size_t i) const { return cells_[i]; }
   const gpu::CellBounds& bounds(size_t i) const { return bounds_[i]; }
   uint32_t face(size_t i) const { return cells_[i].face; }
-  /// Of its face's area.
+  /// The cell's share of its face's area.
   double share(size_t i) const { return shares_[depth_[i]]; }
 
-  /// With what was found of some cells. None is named twice.
+  /// Narrows the bounds of some cells to what was found. No cell is named twice.
   void narrow(std::span<const size_t> which, std::span<const gpu::CellBounds> found);
-  /// Whether its longest edge's middle is a dyadic point of the face: 20 bits may have run out.
+  /// Returns whether its longest edge's middle is a dyadic point of the face: 20 bits may have run
+  /// out.
   bool can_split(size_t i) const { return opposite_[i] != kNoSplit; }
-  /// Each cell becomes one half of itself; the others are the last cells, in the same order. Both
-  /// keep what of its bounds holds for them, until they are narrowed. None is named twice.
+  /// Makes each cell one half of itself; the others are the last cells, in the same order. Both
+  /// keep the bounds that hold for them, until they are narrowed. No cell is named twice.
   void split(std::span<const size_t> which);
 
-  /// Of the greatest distance on a face: some point is so far, and none farther.
+  /// The greatest distance known on a face: some point is so far, and none is known to be farther.
   float reached(uint32_t face) const { return reached_[face]; }
   std::vector<float> highest_of_faces() const;
-  /// On any face.
+  /// The same on any face.
   float reached() const;
 
  private:
@@ -51,8 +52,8 @@ class CellStore {
   std::vector<gpu::Cell> cells_;
   std::vector<gpu::CellBounds> bounds_;
   std::vector<uint8_t> depth_;
-  std::vector<uint8_t> opposite_;  // which corner its longest edge is opposite of, or kNoSplit
-  std::vector<float> reached_;     // of each face
+  std::vector<uint8_t> opposite_;  // the corner opposite its longest edge, or kNoSplit
+  std::vector<float> reached_;     // one per face
   std::vector<double> shares_;
 };
 

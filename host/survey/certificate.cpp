@@ -11,7 +11,7 @@
 namespace vkh {
 namespace {
 
-// Of a sample's barycentrics; of one in a subroot.
+// Bits of a sample's barycentrics; bits of one in a subroot.
 constexpr unsigned kWitnessBits = 20, kMostWitnessBits = 40;
 
 class Bytes {
@@ -21,7 +21,7 @@ class Bytes {
   void unsigned_number(uint64_t x, int bytes) { append_unsigned(text, x, bytes); }
   void number(double x) { unsigned_number(std::bit_cast<uint64_t>(x == 0 ? 0.0 : x), 8); }
   void count(uint64_t x) { append_count(text, x); }
-  // 64 digits as 32 bytes; none: as many zeros.
+  // Writes 64 digits as 32 bytes; no digits: as many zeros.
   void digest(const std::string& digits) {
     const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
     for (size_t i = 0; i < 64; i += 2)
@@ -62,7 +62,8 @@ void add_triangulations(Bytes& out, const std::vector<Triangulation>& triangulat
   }
 }
 
-// How the file was read: what follows is fixed until points, units and transforms can be asked for.
+// Writes how the file was read: what follows is fixed until points, units and transforms can be
+// asked for.
 void add_description(Bytes& out, const Mesh& mesh) {
   constexpr uint64_t kSurface = 0, kNoMatrix = 0;
   out.unsigned_number(kSurface, 4);

@@ -1,4 +1,4 @@
-// A certificate file, whose bytes docs/certificate-file.md fixes.
+// A certificate file; docs/certificate-file.md fixes its bytes.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct CertifiedDirection {
 
 struct CertifiedMesh {
   const Mesh& mesh;
-  std::string sha256;  ///< of its file, in hexadecimal digits; empty: it has none
+  std::string sha256;  ///< hash of its file, in hexadecimal digits; empty: it has none
 };
 
 /// Throws OutputError where this build cannot hash.

@@ -1,4 +1,4 @@
-// What is known of d(x, B) over all of A: by faces, and in figures of the whole surface.
+// The known bounds of d(x, B) over all of A: by faces, and in figures of the whole surface.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace vkh {
 
-/// A true statement: what it stands for lies in [lower, upper]. `upper` may be infinite.
+/// A true statement: the quantity that it encloses lies in [lower, upper]. `upper` may be infinite.
 struct Enclosure {
   double lower = 0, upper = 0;
 };
 
-/// Of each face of A, by its number in the mesh: the largest d(x, B) over the face lies in
-/// [lower, upper], in the files' units, rounded outward.
+/// The bounds of each face of A, by its number in the mesh: the largest d(x, B) over the face lies
+/// in [lower, upper], in the files' units, rounded outward.
 struct Field {
   std::vector<double> lower, upper;
 
@@ -22,12 +22,12 @@ struct Field {
   Enclosure of(size_t face) const { return {lower[face], upper[face]}; }
 };
 
-/// Of one face: within the limit if upper is, beyond it if lower is; each is proven.
+/// The verdict of one face: within the limit if upper is, beyond it if lower is; each is proven.
 inline Verdict verdict_of(const Field& field, size_t face, const Limit& limit) {
   return verdict_of(field.lower[face], field.upper[face], limit);
 }
 
-/// Of all faces: the widest bounds, and how many have each verdict.
+/// The summary of all faces: the widest bounds, and how many have each verdict.
 struct FieldSummary {
   double width = 0;
   size_t within = 0, beyond = 0, undecided = 0;
@@ -48,8 +48,8 @@ struct Percentile {
 
 /// Each is weighted by area, and certified. Lengths are in the files' units.
 struct Statistics {
-  double area = 0;      ///< of A, rounded to nearest
-  Enclosure mean, rms;  ///< of d(x, B) over A
+  double area = 0;      ///< A's area, rounded to nearest
+  Enclosure mean, rms;  ///< moments of d(x, B) over A
   std::vector<AreaWithin> bands;
   std::vector<Percentile> percentiles;
   /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.

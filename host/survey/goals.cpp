@@ -16,8 +16,8 @@ void each_cell(const CellStore& store, const F& work) {
   });
 }
 
-// In the frame: what plain floats leave of a cell's bounds, a few times over. Splits gain nothing
-// below it.
+// A width in the frame: what plain floats leave of a cell's bounds, a few times over. Splits gain
+// nothing below it.
 constexpr double kFloor = 2e-6;
 
 double width(const Enclosure& e) { return e.upper - e.lower; }
@@ -35,12 +35,12 @@ Threshold in_frame(const Asked& asked, double distance) {
   return {d * (1 - 1e-15) - asked.displacement, d * (1 + 1e-15) + asked.displacement};
 }
 
-// Of a cell: how far its bounds are apart.
+// The distance between a cell's bounds.
 double spread(const gpu::CellBounds& b) {
   return static_cast<double>(b.highest) - static_cast<double>(lowest(b));
 }
 
-// A cell is in the way that lifts its face's highest too far above what the face reaches.
+// A cell scores if it lifts its face's highest too far above what the face reaches.
 Scores score_faces(const CellStore& store, const Asked& asked) {
   const SurveyOptions& options = asked.options;
   const double wanted = options.field_tolerance > 0
@@ -58,7 +58,7 @@ Scores score_faces(const CellStore& store, const Asked& asked) {
   return scores;
 }
 
-// Or too far for the limit, on a face that is not known to be beyond it.
+// A cell scores if it is too far for the limit, on a face that is not known to be beyond it.
 Scores score_verdicts(const CellStore& store, const Asked& asked) {
   const double within = in_frame(asked, asked.options.limit.within).down;
   const double beyond = in_frame(asked, asked.options.limit.beyond).up;
@@ -78,7 +78,7 @@ double area_of(const CellStore& store, const Areas& areas, size_t i) {
   return store.share(i) * areas.of_face[store.face(i)];
 }
 
-// What of a cell's area is not known to be within a distance, or beyond it.
+// Adds the part of a cell's area that is not known to be within a distance, or beyond it.
 void score_undecided(const CellStore& store, const Areas& areas, const Threshold& at,
                      std::vector<double>& scores) {
   each_cell(store, [&](size_t i) {
@@ -111,7 +111,7 @@ bool is_enough(const Enclosure& share, const SurveyOptions& options) {
   return share.lower >= *options.enough || share.upper < *options.enough;
 }
 
-// A percentile's own width is not what its distribution's is: at both ends of it there may be area
+// A percentile's own width differs from its distribution's: at both ends of it there may be area
 // that is undecided.
 Scores score_distribution(const CellStore& store, const Areas& areas, const Asked& asked) {
   const auto reached = static_cast<double>(store.reached());
@@ -133,7 +133,7 @@ Scores score_distribution(const CellStore& store, const Areas& areas, const Aske
   return {positive(scores), is_met};
 }
 
-// The mean, and then its square's: a cell's part of the width.
+// Scores a cell by its part of the width of the mean, and then of its square's.
 Scores score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
   const Moments moments = moments_of(store, areas);
   const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
@@ -191,8 +191,8 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
   const std::vector<Enclosure> shares = shares_within(store, areas, at);
   std::vector<AreaWithin> all;
   for (size_t i = 0; i < at.size(); ++i) {
-    // All is within what no distance is above: by the threshold, which displacement moves, only
-    // nearly all may be.
+    // All area is within a distance that none exceeds: by the threshold, which displacement moves,
+    // only nearly all may be.
     const bool is_all = distances[i] >= asked.largest;
     all.push_back({distances[i], is_all ? Enclosure{1, 1} : shares[i]});
   }

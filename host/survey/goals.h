@@ -1,4 +1,4 @@
-// What a survey is refined for: which cells are in the way of what was asked, and how much.
+// The goals of a survey: which cells are in the way of what was asked, and how much.
 #pragma once
 
 #include <functional>
@@ -18,21 +18,22 @@ struct Scored {
     return score > other.score || (score == other.score && cell < other.cell);
   }
 };
-/// The cells to split; none where the goal is met, or no split would bring it nearer.
+/// The cells to split; none if the goal is met, or no split would bring it nearer.
 struct Scores {
   std::vector<Scored> cells;
   bool is_met = false;
 };
 using Goal = std::function<Scores(const CellStore&)>;
 
-/// Of lengths in the frame, on the stored meshes.
+/// Converts lengths in the frame, on the stored meshes, to the files' units.
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
 
-/// One after the other: faces, then the mean and the root mean square, then the distribution.
+/// The goals one after the other: faces, then the mean and the root mean square, then the
+/// distribution.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas);
 
-/// Nothing where A has no area.
+/// Returns nothing if A has no area.
 std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
                                         const SurveyedPair& pair, const SurveyOptions& options);
 

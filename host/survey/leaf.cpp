@@ -14,8 +14,8 @@ namespace vkh {
 namespace {
 
 constexpr double kUlp = 0x1p-52;
-// What distance_up may be off by, in kUlp of the largest coordinate seen from p: 2 for the corners,
-// under 12 for the closest point and its place by barycentrics, and 4 of the length itself.
+// The error of distance_up, in kUlp of the largest coordinate seen from p: 2 for the corners, under
+// 12 for the closest point and its place by barycentrics, and 4 of the length itself.
 constexpr double kOff = 32;
 
 struct TwoDoubles {
@@ -65,8 +65,8 @@ class Cutting {
   Cutting(const Part& part, const Row& near, const Row& far, double upper)
       : part_(part), near_(near), far_(far), upper_(upper) {}
 
-  // Where both are within reach: `near` is from the start of the edge to some place, `far` from
-  // some place to the end, for both distances are convex.
+  // The place on the edge where both are within reach: `near` is from the start of the edge to some
+  // place, `far` from some place to the end, for both distances are convex.
   std::optional<uint16_t> on(size_t from, size_t to) const {
     const double falls = near_.distance[to] - far_.distance[to];
     const double rises = far_.distance[from] - near_.distance[from];
@@ -91,9 +91,9 @@ class Cutting {
   double upper_;
 };
 
-constexpr size_t kTried = 3;  // on each side of a cut: those that reach farthest
+constexpr size_t kTried = 3;  // rows on each side of a cut: those that reach farthest
 
-// Of the rows, those that hold at all of `at`, the best first by the distances of `by`.
+// The rows that hold at all of `at`, the best first by the distances of `by`.
 std::vector<const Row*> holding(const Rows& rows, std::initializer_list<size_t> at,
                                 std::initializer_list<size_t> by, double upper) {
   std::vector<const Row*> found;

@@ -1,4 +1,4 @@
-// What proves an upper bound over a part of a face of A: one triangle of B, or two with a cut
+// The proof of an upper bound over a part of a face of A: one triangle of B, or two with a cut
 // between (docs/certificate-file.md). Distances are taken in double, and rounded up by more than
 // they can be off.
 #pragma once
@@ -20,7 +20,7 @@ struct Point2 {
 /// x + t (y - x), for t in [0, 1] of sixteen bits.
 Point2 between(const Point2& x, const Point2& y, double t);
 
-/// Corners of a part.
+/// The corners of a part.
 using Part = std::array<Point2, 3>;
 
 /// A mesh's vertices, scaled by a power of two so that they are of order 1.
@@ -36,14 +36,14 @@ class ScaledMesh {
   std::vector<glm::dvec3> vertices_;
 };
 
-/// >= d(p, t), by little.
+/// A distance >= d(p, t), by little.
 double distance_up(const Point2& p, const std::array<glm::dvec3, 3>& t);
 
 struct Leaf {
   static constexpr uint8_t kUncut = 3;  ///< all of it is within reach of `first`
-  uint8_t alone = kUncut;               ///< else: the corner on the side of `first`
+  uint8_t alone = kUncut;               ///< otherwise: the corner on the side of `first`
   uint32_t first = 0, second = 0;       ///< faces of B
-  /// On the edges from that corner, in units of 2^-16.
+  /// The cuts on the edges from that corner, in units of 2^-16.
   uint16_t cut_next = 0, cut_last = 0;
 };
 
@@ -52,21 +52,21 @@ constexpr size_t kMostHints = 8;
 struct Hints {
   std::array<uint32_t, kMostHints> face{};
   size_t count = 0;
-  /// If it is not there already, and there is room.
+  /// Adds a face if it is not there already, and there is room.
   void add(uint32_t one);
 };
 
-/// As distance_up, of the part's middle.
+/// The same as distance_up, from the part's middle.
 double middle_distance_up(const Part& part, const std::array<glm::dvec3, 3>& t);
 
-/// Of all faces, those nearest to the part's middle, the nearest first; the part is small.
+/// The faces nearest to the part's middle, the nearest first; the part is small.
 Hints nearest_faces(const Part& part, const ScaledMesh& b);
 
-/// Which of them proves that the part is within `upper` of B, or none does.
+/// The one of the hints that proves that the part is within `upper` of B, or none does.
 std::optional<Leaf> proof_of(const Part& part, const ScaledMesh& b, const Hints& hints,
                              double upper);
 
-/// The best single one, and how far the part is from it at most.
+/// The best single face, and how far the part is from it at most.
 struct Nearest {
   Leaf leaf;
   double upper = 0;

@@ -4,7 +4,7 @@
 
 namespace vkh {
 
-/// Bytes, and numbers as differences from the one before.
+/// Writes bytes, and numbers as differences from the one before.
 class NumberWriter {
  public:
   std::string bytes;

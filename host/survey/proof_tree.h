@@ -1,5 +1,5 @@
-// How the faces of A are halved, and what proves each leaf: written as docs/certificate-file.md
-// says.
+// The tree in which the faces of A are halved, with what proves each leaf, written in the format of
+// docs/certificate-file.md.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace vkh {
 
-/// Trees of some faces, in their order: tree i is that of node i.
+/// The trees of some faces, in their order: tree i is that of node i.
 class ProofTree {
  public:
   explicit ProofTree(size_t face_count) : nodes_(face_count), face_count_(face_count) {}
 
   void prove(uint32_t node, const Leaf& leaf) { nodes_[node].leaf = leaf; }
-  /// Halves it; the halves are the result and the one after it.
+  /// Halves the node; the halves are the result and the one after it.
   uint32_t halve(uint32_t node, uint8_t opposite);
-  /// Blocks of all of it.
+  /// All trees, as blocks.
   std::string written() const;
 
  private:

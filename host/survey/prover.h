@@ -1,5 +1,5 @@
 // A proof of an upper bound: A in parts, each with what proves it. The device finds which faces of
-// B are near a part; nothing rests on that.
+// B are near a part; no proof rests on that.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,23 @@ namespace vkh {
 
 struct ProofJob {
   const Mesh &a, &b;
-  const Report& report;         ///< of a run of these meshes: report.upper is to be proven
-  const SolveOptions& options;  ///< of that run
+  const Report& report;         ///< from a run of these meshes: report.upper is to be proven
+  const SolveOptions& options;  ///< options of that run
   /// Asked between submissions, with how many leaves there are; false: what is left is proven to
   /// what it can be at once, and the bound is larger.
   std::function<bool(size_t)> goes_on;
 };
 
-/// Of one direction.
+/// The proof of one direction.
 struct Proof {
-  double upper = 0;    ///< what is proven: at least what was asked
+  double upper = 0;    ///< the bound that is proven: at least what was asked
   std::string blocks;  ///< docs/certificate-file.md
   size_t leaves = 0, cut_leaves = 0, asked_cells = 0;
   size_t unproven = 0;  ///< leaves that proved more than was asked: `upper` is larger for them
   double ms = 0;
 };
 
-/// In a run of its own.
+/// Proves the bound in a run of its own.
 Proof prove(Solver& solver, const ProofJob& job);
 
 }  // namespace vkh

@@ -41,8 +41,8 @@ double length_of(const glm::dvec3& v) { return std::hypot(v.x, v.y, v.z); }
 
 // Half of |e x f|. Differences are off by kUnit of themselves, a component of the product by 4
 // kUnit of its parts, so the vector by less than 16 |e| |f| kUnit, and its length by 4 of itself.
-// Where a product underflows it is off by 2^-1075, a component by twice that, and so all of it by
-// less than 2^-1072. Vertices that are off by delta move it by 2 delta (|e| + |f| + 2 delta).
+// If a product underflows it is off by 2^-1075, a component by twice that, and so all of it by less
+// than 2^-1072. Vertices that are off by delta move it by 2 delta (|e| + |f| + 2 delta).
 FaceArea area_of(const glm::dvec3& e, const glm::dvec3& f, double delta) {
   const double e_length = length_of(e), f_length = length_of(f);
   const double area = 0.5 * length_of(glm::cross(e, f));
@@ -107,7 +107,7 @@ struct Thresholds {
   std::span<const double> surely, perhaps;
 };
 
-// Areas of what is surely within each of some distances that ascend, and of what may be.
+// The areas that are surely, and perhaps, within each of some distances that ascend.
 struct Within {
   explicit Within(size_t count) : surely(count), perhaps(count) {}
   std::vector<Sum> surely, perhaps;
@@ -119,7 +119,7 @@ class Adder {
   Adder(std::span<const double> at, std::vector<Sum>& sums)
       : at_(at), sums_(sums), whole_(at.size() + 1) {}
 
-  // `at_corners`: of an affine function. From `most` on, the whole part is within.
+  // `at_corners`: values of an affine function. From `most` on, the whole part is within.
   void add(double area, const std::array<float, 3>& at_corners, float most) {
     const auto [a, b, c] = at_corners;
     const auto least = static_cast<double>(std::min({a, b, c}));
@@ -142,7 +142,7 @@ class Adder {
  private:
   std::span<const double> at_;
   std::vector<Sum>& sums_;
-  std::vector<Sum> whole_;  // what is all within from this distance on
+  std::vector<Sum> whole_;  // area that is all within from this distance on
 };
 
 double part_of(const CellStore& cells, const Areas& areas, size_t i) {
@@ -200,7 +200,7 @@ Extremes extremes_of(const CellStore& cells) {
   return all;
 }
 
-// All and nothing are exact.
+// Shares of all and of nothing are exact.
 Enclosure share_of(double least, double most, const Areas& areas) {
   return {std::clamp((least - areas.error) / (areas.whole + areas.error), 0.0, 1.0),
           std::clamp((most + areas.error) / (areas.whole - areas.error), 0.0, 1.0)};
@@ -237,7 +237,8 @@ namespace {
 constexpr size_t kSections = 32;
 constexpr int kPasses = 4;
 
-// Where a share is reached: `perhaps` at `down`, `surely` at `up`; each bracket gets narrower.
+// The bracket of a reached share: `perhaps` at `down`, `surely` at `up`; each bracket gets
+// narrower.
 struct Bracket {
   double low, high;
   std::vector<double> cuts() const {
@@ -278,7 +279,7 @@ std::vector<double> cuts_of(const std::vector<Bracket>& brackets) {
 
 }  // namespace
 
-// Below `low` of a bracket a share is not reached: so much that may be within is too little. At
+// A share is not reached below `low` of a bracket: so much that may be within is too little. At
 // `high` it is: so much is surely within.
 std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
                                    std::span<const double> shares) {

@@ -1,4 +1,4 @@
-// From cells to certified figures of all of A.
+// Certified figures of all of A from its cells.
 #pragma once
 
 #include <span>
@@ -14,9 +14,10 @@ namespace vkh {
 struct Areas {
   std::vector<double> of_face;
   double whole = 0;
-  double error = 0;  ///< of `whole`, and of any sum of parts of the faces
-  Frame unit;        ///< in which they are
-  /// Whether A has an area that figures can be shares of. Below 2^-700 products of it underflow.
+  double error = 0;  ///< error of `whole`, and of any sum of parts of the faces
+  Frame unit;        ///< unit of these areas
+  /// Returns whether A has an area that figures can be shares of. Below 2^-700 products of it
+  /// underflow.
   bool is_positive() const { return whole > 2 * error && whole >= 0x1p-700; }
 };
 Areas areas_of(const Mesh& a);
@@ -30,15 +31,15 @@ struct Threshold {
   double down, up;
 };
 
-/// Of each threshold the share of A's area within it. `areas.whole` exceeds its error twice.
+/// The share of A's area within each threshold. `areas.whole` exceeds its error twice.
 std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
                                      std::span<const Threshold> thresholds);
 
-/// Of each share, the least distance that so much of A's area is within, in the frame.
+/// The least distance that each share of A's area is within, in the frame.
 std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
                                    std::span<const double> shares);
 
-/// Of d(x, B) over the cell, from below.
+/// The mean of d(x, B) over the cell, from below.
 double mean_lower(const gpu::CellBounds& bounds);
 
 struct Moments {

@@ -16,7 +16,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// A submission takes about so long, so that Ctrl-C is heard.
+// A submission takes about so long, so that Ctrl-C takes effect.
 constexpr double kSubmissionMs = 50;
 
 // Bounds cells in batches, until the budget ends.
@@ -25,7 +25,7 @@ class Bounding {
   Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
       : bound_(bound), options_(options), batch_(pair.on_cpu ? 1024 : 65536) {}
 
-  // Whole faces.
+  // Bounds whole faces.
   void faces(CellStore& store) {
     all(store.count(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
       bound({.cells = {}, .first = static_cast<uint32_t>(first), .bounds = bounds});
@@ -97,12 +97,12 @@ class Bounding {
   bool ended_ = false;
 };
 
-constexpr size_t kFewestSplits = 2048;  // a round: the host looks at all cells between two
-// So many cells that what they are in the way of is nearly all that there is: a few that are wide
-// often matter more than all others together.
+constexpr size_t kFewestSplits = 2048;  // for a pass: the host looks at all cells between two
+// The chosen cells have nearly all of the score: a few that are wide often matter more than all
+// others together.
 constexpr double kNearlyAll = 0.9;
 
-// Those that matter most, at most so many.
+// Keeps the cells that matter most, `most` of them at most.
 void choose_some(const CellStore& store, std::vector<Scored>& scored, size_t most) {
   std::erase_if(scored, [&](const Scored& s) { return !store.can_split(s.cell); });
   double whole = 0, chosen = 0;
@@ -119,7 +119,7 @@ void choose_some(const CellStore& store, std::vector<Scored>& scored, size_t mos
   scored.resize(count);
 }
 
-// Whether the goal was met.
+// Refines until the goal is met, or cannot be; returns whether it was met.
 bool refine(CellStore& store, Bounding& bounding, const SurveyOptions& options, const Goal& goal) {
   for (;;) {
     Scores scores = goal(store);

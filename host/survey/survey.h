@@ -1,5 +1,5 @@
-// A survey of A: cells are bounded, and those that matter most are split, until what is asked for
-// is met or the budget ends. What is known is true whenever it ends.
+// A survey of A: cells are bounded, and the ones that matter most are split, until the goals are
+// met or the budget ends. Its results are true whenever it ends.
 #pragma once
 
 #include <functional>
@@ -13,25 +13,26 @@
 namespace vkh {
 
 struct SurveyOptions {
-  bool faces = false;  ///< each face's bounds are to be narrow; else it is bounded once
-  /// How narrow, in the files' units; 0: `face_tolerance` of what the largest distance is at least.
+  bool faces = false;  ///< each face's bounds are to be narrow; otherwise it is bounded once
+  /// The width to reach, in the files' units; 0: `face_tolerance` of what the largest distance is
+  /// at least.
   double field_tolerance = 0;
   double face_tolerance = 0.01;
-  /// With one, faces are only to be proven within it or beyond.
+  /// If set, faces are only to be proven within it or beyond.
   Limit limit = {};
   bool statistics = false;
-  /// How narrow the mean and the root mean square are to be, and percentiles: of what the largest
-  /// distance is at least.
+  /// The width to reach of the mean, the root mean square and percentiles: a fraction of what the
+  /// largest distance is at least.
   double mean_tolerance = 0.01;
-  /// How much of A's area may be undecided in each of `bands`.
+  /// The share of A's area that may be undecided in each of `bands`.
   double area_tolerance = 0.001;
   std::vector<double> bands;  ///< distances, in the files' units
-  /// With one: a band is met as soon as it is known whether so much of A's area is within it.
+  /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
   /// No distance is above it, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
-  double time_limit_s = 10;  ///< of the survey alone
+  double time_limit_s = 10;  ///< for the survey alone
   size_t cell_limit = size_t{1} << 23;
   /// Asked between submissions, with how many cells have been bounded; false ends the survey.
   std::function<bool(size_t)> goes_on;
@@ -41,14 +42,15 @@ struct SurveyResult {
   Field field;
   bool faces = false;  ///< SurveyOptions::faces
   std::optional<Statistics> statistics;
-  bool is_met = false;  ///< what was asked for; else the budget ended, or the cells' bits
+  bool is_met = false;  ///< the goals are; otherwise the budget ended, or the cells' bits
   size_t cells = 0;
-  size_t bounded = 0;  ///< cells that the device bounded, those that were split later among them
+  size_t bounded = 0;  ///< cells that the device bounded, including those that were split later
   double ms = 0;
-  double device_ms = 0;  ///< of `ms`: submissions, from the first byte sent to the last one read
+  double device_ms = 0;  ///< part of `ms`: submissions, from the first byte sent to the last one
+                         ///< read
 };
 
-/// Of a run that ended before its survey began: no distance is above `upper`.
+/// The field of a run that ended before its survey began: no distance is above `upper`.
 Field field_within(size_t face_count, double upper);
 
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The

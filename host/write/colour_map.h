@@ -14,10 +14,11 @@ struct Rgb {
 
 enum class ColourMap { kViridis, kBatlow, kCividis };
 
-/// At `share` of the map, in [0, 1]; between two steps the upper one's, for bounds are upper ones.
+/// The colour at `share` of the map, in [0, 1]; between two steps the upper one's, for bounds are
+/// upper ones.
 Rgb map_colour(ColourMap map, double share);
 
-/// "viridis", "batlow" or "cividis". Throws UsageError that names `option`.
+/// Parses "viridis", "batlow" or "cividis". Throws UsageError that names `option`.
 ColourMap parse_colour_map(const char* option, const std::string& text);
 
 }  // namespace vkh

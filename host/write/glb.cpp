@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr uint32_t kFloat = 5126, kUnsignedShort = 5123;  // of glTF 2.0, section 3.6.2
+constexpr uint32_t kFloat = 5126, kUnsignedShort = 5123;  // glTF 2.0, section 3.6.2
 constexpr uint32_t kArrayBuffer = 34962;
 
 // One binary chunk with its views and accessors.
@@ -50,8 +50,8 @@ glm::dvec3 middle_of(const Mesh& mesh) {
   return 0.5 * lo + 0.5 * hi;
 }
 
-// glTF's vertex colours are linear (3.9.2): sRGB's transfer function, IEC 61966-2-1, undone. A byte
-// would make one of a dozen dark colours.
+// Inverts sRGB's transfer function, IEC 61966-2-1, since glTF's vertex colours are linear (3.9.2).
+// A byte would make one of a dozen dark colours.
 uint16_t linear(uint8_t srgb) {
   const double s = srgb / 255.0;
   const double light = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -83,7 +83,7 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
   }
 }
 
-// glTF has metres and y up; a file that says neither is shown as it is.
+// Writes coordinates as they are: glTF has metres and y up, and a mesh's file may name neither.
 Json document(const FieldFile& file, const CornerArrays& corners, const glm::dvec3& middle,
               Binary& binary) {
   const size_t count = corners.lower.size();

@@ -27,7 +27,7 @@ class Bytes {
   std::string text;
 };
 
-// One line, whatever a file is called.
+// Makes it one line, whatever a file's name holds.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');

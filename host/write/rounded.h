@@ -1,4 +1,4 @@
-// What files of field have in common: bounds as floats, and colours.
+// The common parts of field files: bounds as floats, and colours.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline float float_up(double x) {
   return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
-/// The largest upper that is finite.
+/// The largest upper bound that is finite.
 inline double largest_upper(const Field& field) {
   double largest = 0;
   for (const double upper : field.upper)

@@ -1,5 +1,5 @@
-// Where a face stands in Morton order: by the middle of its box, which does not depend on the order
-// of its corners. Order only: nothing certified rests on it.
+// The place of a face in Morton order: by the middle of its box, which does not depend on the order
+// of its corners. It is for order only: nothing certified rests on it.
 #ifndef VKH_SHADERS_BASE_FACE_CODE_GLSL
 #define VKH_SHADERS_BASE_FACE_CODE_GLSL
 
@@ -13,7 +13,7 @@ vec3 box_corner(uint key[3]) {
               uintBitsToFloat(from_ordered_bits(key[2])));
 }
 
-// The code of a point in the cube over a box; what is outside counts as if it were on its side.
+// The code of a point in the cube over a box; a point outside counts as if it were on its side.
 uint code_in_box(vec3 p, vec3 lo, vec3 hi) {
   vec3 extent = hi - lo;
   float side = max(extent.x, max(extent.y, extent.z));
@@ -21,7 +21,7 @@ uint code_in_box(vec3 p, vec3 lo, vec3 hi) {
   return morton30((p - lo) * scale);
 }
 
-// `count`: of B's faces.
+// `count`: the number of B's faces.
 uint face_code(vec3 middle, CentroidBox box, uint count) {
   uint code = code_in_box(middle, box_corner(box.lo), -box_corner(box.minus_hi));
   return count <= kFewFaces ? code & (0xffffffffu << kFewFacesFirstBit) : code;

@@ -1,5 +1,5 @@
-// Nodes and triangles in whole 16-byte loads: the buffers that walks read are declared as arrays
-// of uvec4, and this page has the layout of Node and Triangle (gpu_types.h) by heart. The kernel
+// Nodes and triangles in whole 16-byte loads: the buffers that traversals read are declared as
+// arrays of uvec4, and this file repeats the layout of Node and Triangle (gpu_types.h). The kernel
 // declares `triangles`.
 #ifndef VKH_SHADERS_BASE_FETCH_GLSL
 #define VKH_SHADERS_BASE_FETCH_GLSL

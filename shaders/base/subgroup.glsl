@@ -1,4 +1,4 @@
-// What: subgroup operations that are composed here, since a driver fails on the built-in ones.
+// Subgroup operations composed of others, since a driver fails on the built-in ones.
 // RADV of Mesa 22.3.6 compiles no subgroupBallotFindLSB where subgroups are 64 wide ("Unimplemented
 // NIR instr bit size: find_lsb"), and still returns VK_SUCCESS.
 #ifndef VKH_SHADERS_BASE_SUBGROUP_GLSL

@@ -26,7 +26,7 @@ Surface load_surface(uint i, View from) {
   return make_surface(t.a, t.b, t.c, from);
 }
 
-// Bit by bit, 0 and -0 alike: devices may flush what floats are compared as.
+// Compares bit by bit, with 0 equal to -0: devices may flush floats that they compare.
 bool is_same(vec3 p, vec3 q) {
   uvec3 u = floatBitsToUint(p);
   uvec3 v = floatBitsToUint(q);
@@ -40,14 +40,14 @@ bool is_corner(Two3 p, Exact t) {
   return either(is_same(p, t.a), either(is_same(p, t.b), is_same(p, t.c)));
 }
 
-// Whether each corner of a triangle is one of triangle i: then it lies in that, and its distance
-// from B is 0 whatever the rounding.
+// Whether each corner of a triangle is one of triangle i: then it lies in triangle i, and its
+// distance from B is 0 whatever the rounding.
 bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
   Exact t = load_exact(i);
   return is_corner(p, t) && is_corner(q, t) && is_corner(r, t);
 }
 
-// To measure one point from, as precisely as it goes.
+// A surface for measuring one point as precisely as possible.
 View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false, 0.0); }
 
 #endif

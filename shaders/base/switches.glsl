@@ -1,6 +1,7 @@
-// What a context's pipelines are specialised for: its switches, and the kind of its device. Wide:
-// one that runs many workgroups at once, so that a small wave is given more invocations and fewer
-// dispatches; a CPU is not. Kernels for those are built with kWide false (cmake/Shaders.cmake).
+// The constants that specialise a context's pipelines: its switches, and the kind of its device.
+// kWide is the GPU profile: the device runs many workgroups at once, so that a small wave is given
+// more invocations and fewer dispatches. Kernels for CPUs are built with kWide false
+// (cmake/Shaders.cmake).
 #ifndef VKH_SHADERS_BASE_SWITCHES_GLSL
 #define VKH_SHADERS_BASE_SWITCHES_GLSL
 

@@ -1,5 +1,5 @@
-// What: the box of the middles of B's faces. In: vertices, faces. Out: box, as ordered bits; it
-// must start empty (all ones). Minima only, so the result does not depend on scheduling.
+// Computes the box of the middles of B's faces. In: vertices, faces. Out: box, as ordered bits; it
+// must start empty (all ones). It takes only minima, so the result does not depend on scheduling.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -22,7 +22,8 @@ vec3 middle_of(uint face) {
   return face_middle(vertices[f.x].hi, vertices[f.y].hi, vertices[f.z].hi);
 }
 
-// One atomic a workgroup for each side: all of them go to the same few words, one after the other.
+// There is one atomic per workgroup for each side: all of them go to the same few words, one after
+// the other.
 void widen(uint side) {
   float least = sides[side][0];
   for (uint s = 1u; s < gl_NumSubgroups; ++s) least = min(least, sides[side][s]);

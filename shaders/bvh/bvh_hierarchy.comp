@@ -1,4 +1,4 @@
-// What: the topology of B's hierarchy over the sorted Morton keys, every inner node at once (Karras
+// Builds the topology of B's BVH over the sorted Morton keys, every inner node at once (Karras
 // 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees"). Ties are
 // broken by position, so that keys are distinct and a path from the root shares a prefix that grows
 // by a bit a level (kStackDepth). In: keys[count], sorted. Out: branches[max(count - 1, 1)].

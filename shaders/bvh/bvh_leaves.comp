@@ -1,5 +1,5 @@
-// What: B's triangles in Morton order, and the levels of the pyramid of boxes over them, all of
-// up to kRun^2 triangles (bvh/run_boxes.glsl). In: keys and values (sorted codes and face numbers),
+// Writes B's triangles in Morton order, and the levels of the pyramid of boxes over them, all of up
+// to kRun^2 triangles (bvh/run_boxes.glsl). In: keys and values (sorted codes and face numbers),
 // vertices, faces. Out: triangles, triangle_lows, codes, boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,6 +1,6 @@
-// What: a Morton code for each face of B. In: vertices, faces, box of their middles. Out: keys[i],
-// values[i] = i; where push.block, the counts of the sort's first pass (sort_count), which were 0;
-// groups_done = 0.
+// Computes a Morton code for each face of B. In: vertices, faces, box of their middles. Out:
+// keys[i], values[i] = i; if push.block, the counts of the sort's first pass (sort_count), which
+// were 0; groups_done = 0.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

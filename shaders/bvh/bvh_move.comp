@@ -1,5 +1,5 @@
-// What: B's triangles where their vertices are now, in the order that they were sorted in, and the
-// levels of the pyramid of boxes over them, as in bvh_leaves. In: triangles[].face, vertices,
+// Writes B's triangles at their vertices' new positions, in the order that they were sorted in, and
+// the levels of the pyramid of boxes over them, as in bvh_leaves. In: triangles[].face, vertices,
 // faces. Out: triangles, triangle_lows, boxes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,8 +1,8 @@
-// What: for a large B, which branches are nodes, and where each of them is kept: those at even
-// depth that are no leaf, half of the triangles at most (nodes_of, engine/workspace.cpp); of a
-// smaller B every branch has a place. An invocation a branch, which goes down to its branch from
-// the root; places are given as invocations come, after the root's, and nothing but memory depends
-// on their order. In: branches; next_rank = 1. Out: ranks, kNone where a branch is no node.
+// Chooses, for a large B, the branches that are nodes, and their places: those at even depth that
+// are no leaf, half of the triangles at most (nodes_of, engine/workspace.cpp); in a smaller B every
+// branch has a place. There is one invocation per branch, which goes down to its branch from the
+// root; places are given as invocations come, after the root's, and nothing but memory depends on
+// their order. In: branches; next_rank = 1. Out: ranks, kNone where a branch is no node.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -24,7 +24,7 @@ uint split_of(Branch branch) {
   return (child & (kMaxTriangles - 1u)) + ((child >> 28) & 7u);
 }
 
-// Of a branch that is no leaf: what it lies in is none, either.
+// Called for a branch that is no leaf: no branch around it is one, either.
 bool is_at_even_depth(uint i, uint last) {
   uint at = 0u;
   uint depth = 0u;

@@ -1,9 +1,9 @@
-// What: every node, one a branch, or, of a large B, one of those that bvh_rank chose: a branch's
+// Computes every node, one per branch or, in a large B, per branch that bvh_rank chose: a branch's
 // grandchildren, or children that are leaves, each with its box from the few pyramid boxes and
 // triangles that cover its range. No node waits for another: a climb from the leaves would need its
-// parents' children in order, and takes as many steps as the tree is deep. An invocation a child.
-// In: triangles, boxes (bvh_leaves, bvh_pyramid), branches, ranks. Out: nodes; those of branches at
-// odd depth are never read.
+// parents' children in order, and takes as many steps as the tree is deep. There is one invocation
+// per child. In: triangles, boxes (bvh_leaves, bvh_pyramid), branches, ranks. Out: nodes; those of
+// branches at odd depth are never read.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -25,8 +25,8 @@ struct Range {
   uint first, last;
 };
 
-// A range of up to twice so many is covered by so many from either end, and what does not fill a
-// box of four at either end is fewer.
+// A range of up to twice so many is covered by so many from either end, and fewer are left over at
+// either end of the boxes of four.
 const uint kEnd = 3u;
 
 Box box_of_triangle(uint i) {
@@ -34,7 +34,7 @@ Box box_of_triangle(uint i) {
   return triangle_box(t.a, t.b, t.c);
 }
 
-// In three 8-byte loads.
+// Reads a box in three 8-byte loads.
 Box box_at(uint i) {
   vec2 x = boxes[3u * i];
   vec2 y = boxes[3u * i + 1u];
@@ -42,7 +42,7 @@ Box box_at(uint i) {
   return Box(vec3(x, y.x), vec3(y.y, z));
 }
 
-// The ends of a range of triangles, and of boxes of the level that starts at `start`. What is
+// The ends of a range of triangles, and of boxes of the level that starts at `start`. A box that is
 // joined twice does no harm, and so no load waits for another or for a test.
 Box triangle_ends(Range r) {
   Box b = empty_box();
@@ -69,7 +69,7 @@ Box range_box(Range r) {
   Box b = triangle_ends(r);
   uint count = push.count;
   uint start = push.quads;
-  uint next = 0u;  // where the level after that starts: levels over 4, 64, .. stand apart
+  uint next = 0u;  // start of the level after that: levels over 4, 64, .. stand apart
   while (r.last - r.first >= 2u * kEnd) {
     r = fours_within(r);
     b = joined(b, box_ends(start, r));
@@ -95,7 +95,7 @@ uint child_at(Branch branch, uint place) {
   return second ? branches[child].child1 : branches[child].child0;
 }
 
-// Where the node of a branch is.
+// The place of a branch's node.
 uint place_of(uint i) { return push.ranked != 0u ? ranks[i] : i; }
 
 void main() {
@@ -103,7 +103,7 @@ void main() {
   uint place = item_index() & 3u;
   if (i >= max(push.count, 2u) - 1u) return;
   Branch branch = branches[i];
-  // What is within a leaf is never read.
+  // A branch within a leaf is never read.
   if (i > 0u && branch.last - branch.first < kLeafTriangles) return;
   uint at = place_of(i);
   if (at == kNone) return;

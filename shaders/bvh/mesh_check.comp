@@ -1,7 +1,7 @@
-// What: whether the caller's buffers hold a mesh, one corner of a face an item. In: vertex_words,
+// Checks whether the caller's buffers hold a mesh, one corner of a face per item. In: vertex_words,
 // index_words, low_words as given to mesh_load. Out: one of fault_words, the least face with an
 // index out of range, or with a coordinate that is not finite, is beyond 2^15, or has a low part of
-// more than half an ulp; else it stays. Vertices that no face uses are no part of the mesh.
+// more than half an ulp; otherwise it stays. Vertices that no face uses are no part of the mesh.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,9 +21,9 @@ uint index_at(uint i) {
   return (index_words[half_word >> 1] >> (16u * (half_word & 1u))) & 0xffffu;
 }
 
-// As bits: those of NaN and infinity are above all others, and no operation rounds or flushes. Half
-// an ulp of a float of exponent e is 2^(e - 24), as bits e - 24 in the exponent; of a number under
-// 2^-102 no more than 2^-127 is asked, which no result depends on.
+// Compares bits: those of NaN and infinity are above all others, and no operation rounds or
+// flushes. Half an ulp of a float of exponent e is 2^(e - 24), as bits e - 24 in the exponent; of a
+// number under 2^-102 no more than 2^-127 is asked, which no result depends on.
 bool is_coordinate(uint high, uint low) {
   uint magnitude = high & 0x7fffffffu;
   uint exponent = magnitude >> 23;

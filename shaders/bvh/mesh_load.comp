@@ -1,4 +1,4 @@
-// What: copies a mesh from the caller's buffers (any stride, 16- or 32-bit indices) into packed
+// Copies a mesh from the caller's buffers (any stride, 16- or 32-bit indices) into packed
 // ones. In: vertex_words, index_words, low_words as given. Out: vertices[vertex_count],
 // indices[index_count], each below vertex_count.
 #version 460

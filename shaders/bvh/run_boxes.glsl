@@ -1,6 +1,6 @@
-// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64
-// and 256 of them; and by the last workgroup to end, where a run holds all of the level over 256,
-// those over them. The workgroup has kRun invocations. The kernel declares `boxes`, coherent, and
+// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64 and
+// 256 of them; if a run holds all of the level over 256, the last workgroup to end computes those
+// over them, too. The workgroup has kRun invocations. The kernel declares `boxes`, coherent, and
 // `groups_done`.
 #ifndef VKH_SHADERS_BVH_RUN_BOXES_GLSL
 #define VKH_SHADERS_BVH_RUN_BOXES_GLSL
@@ -9,14 +9,14 @@
 #include "shaders/base/invocation.glsl"
 #include "shaders/base/last_group.glsl"
 
-// Those of 1, then those of 4, 16 and 64, each at its level's start.
+// The boxes of 1 item, then those of 4, 16 and 64, each at its level's start.
 shared Box run_boxes[kRun + kRun / 4u + kRun / 16u + kRun / 64u];
 
 uint fours(uint count) { return (count + 3u) / 4u; }
 
 // Called by every invocation of the workgroup. `own`: the box of item run * kRun + lane, empty past
-// the end; `count`: of all items; `quads`, `sixteens`: where the levels above them start
-// in boxes (PyramidPush). One item has no levels above it.
+// the end; `count`: the number of all items; `quads`, `sixteens`: the starts of the levels above
+// them in boxes (PyramidPush). One item has no levels above it.
 void write_run(uint run, Box own, uint count, uint quads, uint sixteens) {
   uint lane = gl_LocalInvocationID.x;
   uint below = 0u;
@@ -44,7 +44,7 @@ void write_run(uint run, Box own, uint count, uint quads, uint sixteens) {
   }
 }
 
-// The run of this workgroup, and what one more run has room for.
+// The run of this workgroup, with room for one more run.
 void write_levels(Box own, uint count, uint quads, uint sixteens) {
   write_run(workgroup_index(), own, count, quads, sixteens);
   if (count <= kRun || count > kRun * kRun || !is_last_group()) return;

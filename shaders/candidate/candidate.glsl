@@ -1,5 +1,5 @@
-// Candidates in a wave: where they stand in the frontier, their geometry in their root's frame,
-// and what closes them. The kernel declares `control`, `frontier`, `vertices`, `faces`.
+// Candidates in a wave: their place in the frontier, their geometry in their root's frame, and the
+// tests that close them. The kernel declares `control`, `frontier`, `vertices`, `faces`.
 #ifndef VKH_SHADERS_CANDIDATE_CANDIDATE_GLSL
 #define VKH_SHADERS_CANDIDATE_CANDIDATE_GLSL
 
@@ -28,14 +28,15 @@ float upper_of(Candidate c) { return rebased(c.upper); }
 float raised_lower() { return uintBitsToFloat(control.maximum[kMaxLower]); }
 float adopted_lower() { return control.witness.distance; }
 
-// What candidates are closed against: the best sample's distance, or a known one that is larger.
+// The distance that candidates are closed against: the best sample's, or a known one that is
+// larger.
 float reached(float lower) { return max(lower, control.known_lower - control.base); }
 
-// How far above the lower bound a candidate may be closed. Of the tolerance, 32 ulp of the
-// distances that samples are known by are kept for the certificate of the lower bound: of what they
-// are above the base and, where they are compared in plain floats, of the base too; 64 kUlp2 of it
-// otherwise. Asking for less would refine the rounding of distances; where only what is above the
-// base is too coarse, a quarter is asked for all the same: the next plan moves the base.
+// The margin above the lower bound within which a candidate is closed. A part of the tolerance, 32
+// ulp of the distances that samples are known by, is kept for the certificate of the lower bound:
+// of what they are above the base and, if they are compared in plain floats, of the base too; 64
+// kUlp2 of it otherwise. A smaller margin would refine the rounding of distances; if only the part
+// above the base is too coarse, a quarter is asked for all the same: the next plan moves the base.
 float effective_tolerance(float lower) {
   float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
   float above_noise = 32.0 * kUlp * reached(lower);
@@ -44,23 +45,24 @@ float effective_tolerance(float lower) {
 }
 
 // Candidates with u <= this are closed: they can never widen the interval beyond the tolerance, or
-// are proven to be within the limit. Not within the limit and the tolerance besides: of thousands
-// of candidates some would stop there, undecided, though h is far below. `tolerant` is the switch
-// kUseToleranceCull; without it only what is under the lower bound is closed.
+// are proven to be within the limit. The tolerance does not widen the limit: of thousands of
+// candidates some would stop there, undecided, though h is far below. `tolerant` is the switch
+// kUseToleranceCull; without it only candidates under the lower bound are closed.
 float cull_threshold(float lower, bool tolerant) {
   float threshold = tolerant ? reached(lower) + effective_tolerance(lower) : reached(lower);
   return control.limit > 0.0 ? max(threshold, limit_above_base()) : threshold;
 }
 
-// How a candidate's surfaces are measured.
+// The view from which a candidate's surfaces are measured.
 View view_of(LocalCorners placed, bool plain) {
   float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
   return View(placed.origin, placed.reach, control.base, needs_sharp(distance), plain, 0.0);
 }
 
-// Which candidates are refined where there is no room for all: the smallest u first; of equal ones
-// the smallest in area, so that a candidate's children come before its equals (kReserve); then by a
-// hash of what the candidate is. The choice does not depend on where in the frontier they stand.
+// The order in which candidates are refined if there is no room for all: the smallest u first; of
+// equal ones the smallest in area, so that a candidate's children come before its equals
+// (kReserve); then by a hash of what the candidate is. The choice does not depend on their places
+// in the frontier.
 struct Key {
   uint first, second;
 };
@@ -77,7 +79,7 @@ Key key_of(Candidate c, bool largest) {
   vec2 ac = vec2(ivec2(t.c) - ivec2(t.a));
   // A dyadic area is a power of two: its exponent, 0 to 42, and 26 bits of the hash.
   uint exponent = (floatBitsToUint(max(abs(ab.x * ac.y - ab.y * ac.x), 1.0)) >> 23) - 127u;
-  // A split takes two from it. What is in a subroot comes before all that is in none.
+  // A split takes two from it. Candidates in a subroot come before all others.
   if (has_subroots()) exponent = exponent / 2u + (is_subroot(c.root) ? 0u : 22u);
   uint hash = mixed(mixed(mixed(mixed(root_hash(c.root), c.corners.x), c.corners.y), c.corners.z),
                     c.corners.w);

@@ -1,5 +1,5 @@
 // The closest triangle of B to a candidate's centroid: a stream beside the frontier, with the same
-// slots, that is there only where centroids are queried. candidate/no_centroid.glsl does without.
+// slots, that exists only if centroids are queried. candidate/no_centroid.glsl does without.
 // The kernel declares `centroid_nearest`.
 #ifndef VKH_SHADERS_CANDIDATE_CENTROID_GLSL
 #define VKH_SHADERS_CANDIDATE_CENTROID_GLSL

@@ -1,6 +1,6 @@
-// A child in a wave: one of the four of a refined candidate, or of its sixteen where the wave
-// splits twice, or a face of A admitted whole. Children are not stored: a code names them, and
-// this page derives their corners and the triangles of B that are known to be near. The kernel
+// A child in a wave: one of the four of a refined candidate, or of its sixteen if the wave splits
+// twice, or a face of A admitted whole. Children are not stored: a code names them, and this file
+// derives their corners and the triangles of B that are known to be near. The kernel
 // declares `splits`, `points`, `vertex_nearest`, and what candidate/candidate.glsl needs.
 #ifndef VKH_SHADERS_CANDIDATE_CHILD_GLSL
 #define VKH_SHADERS_CANDIDATE_CHILD_GLSL
@@ -35,7 +35,7 @@ Child root_child(uint code) {
   return c;
 }
 
-// Of the six points of a candidate's split.
+// One of the six points of a candidate's split.
 uint nearest_of(Candidate parent, uint parent_index, uint point) {
   if (point < 3u) return parent.nearest[point];
   return points[points_each() * parent_index + point - 3u].nearest;
@@ -52,7 +52,7 @@ Child child_of_candidate(Candidate parent, uint index, uint split, uint which) {
   return c;
 }
 
-// A child's child, number `which` of four; `first_point`: of the child's own new points.
+// A child's child, number `which` of four; `first_point`: the first of the child's own new points.
 Child child_of_child(Child c, uint split, uint which, uint first_point) {
   uvec3 corner = child_points(split, which);
   Child inner = c;
@@ -76,8 +76,8 @@ Child split_child(uint code) {
   return child_of_child(c, inner, code & 3u, 15u * index + 3u + 3u * which);
 }
 
-// Whether a code names a child: its candidate was split, and so was the child where that is split
-// again; else the first of its four codes names the child itself.
+// Whether a code names a child: its candidate was split, and so was the child if that is split
+// again; otherwise the first of its four codes names the child itself.
 bool is_child(uint code) {
   if (is_root(code)) return true;
   Split split = splits[parent_of(code)];

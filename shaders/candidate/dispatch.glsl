@@ -1,4 +1,4 @@
-// The sizes of indirect dispatches: one invocation an item, or as `query` takes its points. The
+// The sizes of indirect dispatches: one invocation per item, or as `query` takes its points. The
 // kernel declares `control`.
 #ifndef VKH_SHADERS_CANDIDATE_DISPATCH_GLSL
 #define VKH_SHADERS_CANDIDATE_DISPATCH_GLSL
@@ -13,13 +13,13 @@ Dispatch groups_of(uint groups) {
 
 Dispatch groups_for(uint items) { return groups_of((items + kGroupSize - 1u) / kGroupSize); }
 
-// Whether each of so many queries has all of a workgroup.
+// Whether each of so many queries has a whole workgroup.
 bool walks_in_groups(uint queries) { return walks_by_group() && queries <= kGroupWalkQueries; }
 
-// Whether the new points of so many candidates are asked for in packets.
+// Whether the new points of so many candidates are queried in packets.
 bool asks_in_packets(uint parents) { return packs_points() && !walks_in_groups(3u * parents); }
 
-// Of query, for points that are there.
+// Workgroups of query, for points that exist.
 Dispatch groups_for_queries(uint queries) {
   if (walks_in_groups(queries)) return groups_of(queries);
   return groups_of((queries + kQueryGroup - 1u) / kQueryGroup);
@@ -31,14 +31,14 @@ bool splits_in_groups() { return control.deferred == 0u && walks_in_groups(point
 // Candidates whose new points a workgroup of a fused query has.
 uint candidates_a_group() { return kQueryGroup / points_each(); }
 
-// Of a fused query, for `held` candidates, refined or deferred.
+// Workgroups of a fused query, for `held` candidates, refined or deferred.
 Dispatch groups_for_splits(uint held) {
   if (splits_in_groups()) return groups_of(held * points_each());
   uint candidates = candidates_a_group();
   return groups_of((held + candidates - 1u) / candidates);
 }
 
-// Of wave_subdivide: invocations of a candidate. Each new point has one where a wave is a chain of
+// Invocations of wave_subdivide per candidate. Each new point has one where a wave is a chain of
 // steps.
 uint split_lanes() {
   if (!kWide) return 1u;
@@ -58,8 +58,8 @@ uint children_a_group(uint total) {
   return children;
 }
 
-// Of wave_bound, whose last workgroup plans: one is there even where no child is. Where a filter
-// has left few of them, there are enough to go over the wave's samples (wave/witness.glsl).
+// Workgroups of wave_bound, whose last one plans: there is one even if there is no child. If a
+// filter has left few children, there are enough to go over the wave's samples (wave/witness.glsl).
 Dispatch groups_for_children(uint total) {
   uint children = children_a_group(total);
   uint groups = max((total + children - 1u) / children, 1u);

@@ -1,4 +1,4 @@
-// As candidate/centroid.glsl, where a wave is fused: then no centroid is known.
+// Replaces candidate/centroid.glsl if a wave is fused: then no centroid is known.
 #ifndef VKH_SHADERS_CANDIDATE_NO_CENTROID_GLSL
 #define VKH_SHADERS_CANDIDATE_NO_CENTROID_GLSL
 

@@ -20,7 +20,7 @@ Candidate subroot_of(uint root) { return frontier[subroot_place(root - control.f
 
 uint face_of(uint root) { return is_subroot(root) ? subroot_of(root).root : root; }
 
-// Of a subroot: its corner is off by 8 kUlp2 of its face's coordinates, its edges by 4.5.
+// The root of a subroot: its corner is off by 8 kUlp2 of its face's coordinates, its edges by 4.5.
 Root root_at(uint root) {
   if (!is_subroot(root)) return load_root(root);
   Candidate c = subroot_of(root);
@@ -44,7 +44,7 @@ LocalCorners placed_corners(uint root, Bary3 t) {
   return p;
 }
 
-// Does not depend on which place a subroot has.
+// The result does not depend on the subroot's place.
 uint root_hash(uint root) {
   if (!is_subroot(root)) return mixed(0u, root);
   Candidate c = subroot_of(root);

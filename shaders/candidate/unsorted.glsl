@@ -1,4 +1,4 @@
-// The frontier is refined in the order in which it stands; paper/sorted.glsl has another.
+// The frontier is refined in its own order; paper/sorted.glsl has another.
 #ifndef VKH_SHADERS_CANDIDATE_UNSORTED_GLSL
 #define VKH_SHADERS_CANDIDATE_UNSORTED_GLSL
 

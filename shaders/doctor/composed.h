@@ -1,5 +1,5 @@
-// The expressions that bounds are composed of, once each, for the doctor: what a driver that
-// regroups sums would falsify, though every single operation of it rounds as it should.
+// The expressions that bounds are composed of, once each, for the doctor: a driver that regroups
+// sums would falsify them, though every single operation of it rounds as it should.
 #ifndef VKH_SHADERS_DOCTOR_COMPOSED_H
 #define VKH_SHADERS_DOCTOR_COMPOSED_H
 
@@ -14,7 +14,7 @@ struct ComposedQuestion {
   float norm_base, quotient_base;
 };
 
-// As SelfTestComposed has them.
+// The results in the order of SelfTestComposed.
 struct ComposedAnswer {
   Two3 difference, combination;
   Two product;

@@ -1,8 +1,9 @@
-// What: does what certificates rest on, once an item, for the host to compare with exact results: +
+// Does the operations that certificates rest on, once per item, for the host to compare with exact
+// results: +
 // - * / sqrt, the error-free transformations as the bounds use them, the expressions that bounds
 // are composed of, bits of floats, subgroup operations in whole and divergent subgroups, atomic
-// maxima of bits. Invariant: nothing here knows what the right result is, so that no compiler can
-// put it in. Source: docs/certificate.md, "The model of arithmetic".
+// maxima of bits. Invariant: nothing here knows the right result, so that no compiler can put it
+// in. Source: docs/certificate.md, "The model of arithmetic".
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -57,8 +58,8 @@ SelfTestGroup look_around(uint subgroup, uint item, float a, float b) {
   return seen;
 }
 
-// In the two branches, and in a turn of the loop, a and b change their places: what is looked at
-// differs, so that no compiler makes one piece of code of two.
+// In the two branches, and in a turn of the loop, a and b change places: the operands differ, so
+// that no compiler merges two pieces of code.
 SelfTestGroups look_around_everywhere(uint subgroup, uint item, SelfTestQuestion q) {
   SelfTestGroups seen;
   seen.whole = look_around(subgroup, item, q.a, q.b);
@@ -84,8 +85,8 @@ void main() {
   answer.sum = a + b;
   answer.difference = a - b;
   answer.product = a * b;
-  answer.quotient = a / b;     // uncertified: this is what is measured
-  answer.root = sqrt(abs(a));  // uncertified: likewise
+  answer.quotient = a / b;     // uncertified: this is the measurement
+  answer.root = sqrt(abs(a));  // uncertified: the same
   answer.sum_hi = sum.hi;
   answer.sum_lo = sum.lo;
   answer.product_hi = product.hi;
@@ -98,7 +99,7 @@ void main() {
   answer.keepers = subgroupBallotBitCount(subgroupBallot(keep));
   answer.rank = subgroupBallotExclusiveBitCount(subgroupBallot(keep));
   answers[i] = answer;
-  // Whole workgroups have one, or none.
+  // All of a workgroup has an item, or none has.
   if (i < groups.length()) groups[i] = look_around_everywhere(answer.subgroup, i, questions[i]);
   if (i < operands.length()) results[i] = ask_composed(operands[i]);
   atomicMax(totals.highest, floatBitsToUint(abs(a)));

@@ -1,5 +1,5 @@
-// What is known of d(x, B) over a sub-triangle T of A, a cell, from the triangles S of B that may
-// be closest somewhere on it: its least and its greatest value, its mean, its mean square.
+// Bounds on d(x, B) over a sub-triangle T of A, a cell, from the triangles S of B that may be
+// closest somewhere on it: its least and its greatest value, its mean, its mean square.
 //
 // Above: d(., B) <= d(., S) for every S. That is convex, so it is at most its greatest value at T's
 // corners, and its mean is at most theirs; below it, over T, lies the affine function that has the
@@ -9,11 +9,11 @@
 // function of x. The least of several, one for each S, is concave: over T it is at least its least
 // value at T's corners, and its mean is at least theirs. It is under d(., B) where every S that may
 // be closest somewhere on T has one. With r the distance of T's farthest corner from a centre c, no
-// S is that is farther from c than d(c, B) + 2 r. What is not looked at any more, at least D from
-// c, gives D - |x - c|, which is concave, too.
+// S is that is farther from c than d(c, B) + 2 r. The triangles that are not examined, at least D
+// from c, give D - |x - c|, which is concave, too.
 //
 // T is computed in plain floats around c, S too (Surface::coarse); Cell::slack and Surface::slack
-// are what that leaves out. docs/certificate.md adds it up.
+// bound the error. docs/certificate.md adds it up.
 #ifndef VKH_SHADERS_FIELD_CELL_H
 #define VKH_SHADERS_FIELD_CELL_H
 
@@ -46,7 +46,7 @@ VKH_FN CellFrame make_cell(Root root, Bary3 t) {
   return cell;
 }
 
-// Where B's triangles are measured from: coarse, whatever their slack.
+// The view from which B's triangles are measured: coarse, whatever their slack.
 VKH_FN View cell_view(CellFrame cell) {
   View v;
   v.origin = cell.origin;
@@ -58,16 +58,16 @@ VKH_FN View cell_view(CellFrame cell) {
   return v;
 }
 
-// Over the triangles of B looked at so far.
+// Bounds over the triangles of B examined so far.
 struct Gathered {
   float nearest;     // >= d(c, B)
   uint triangle;     // the one that this is the distance from
   vec3 along;        // a direction that serves the triangles around it, where B is flat
-  vec3 below;        // with that one's affine function
+  vec3 below;        // with the affine function of that one
   vec3 corners;      // >= d(x, B) at T's corners
   uvec3 of_corners;  // the triangles that these are the distances from
   float centre;      // <= d(c, S) for every S
-  vec3 at_corners;   // likewise, of one affine function for each S
+  vec3 at_corners;   // the same for one affine function per S
   vec3 upper;        // an affine function, by its values at T's corners, not under d(., B)
   float highest;     // >= d(x, B) for every x of T
   float mean;        // >= the mean of d(x, B) over T
@@ -112,7 +112,7 @@ VKH_FN float mean_square_up(vec3 d) {
 }
 
 // r shortened so that |g| <= 1 in exact arithmetic, by 8 kUlp: a quotient is off by 2.5, a product
-// by one. 0 where r is no direction.
+// by one. 0 if r is no direction.
 VKH_FN vec3 shortened(vec3 r) { return ratio(1.0f - 8.0f * kUlp, norm_up(r)) * r; }
 
 // g.(x - s) at T's centre and corners, s the corner of S where it is least: each less `off`.
@@ -140,8 +140,8 @@ VKH_FN Minorant minorant(CellFrame t, Surface s, vec3 g, float off) {
 
 VKH_FN float sum3(vec3 d) { return d.x + d.y + d.z; }
 
-// Of two for the same S, the one that is less under the nearest triangle's, so that it takes less
-// from the least of all; both hold at the centre.
+// Chooses, of two for the same S, the one that is less under the nearest triangle's, so that it
+// lowers the least of all less; both hold at the centre.
 VKH_FN Minorant better(Minorant m, Minorant n, vec3 nearest) {
   Minorant best = m;
   if (sum3(min(n.at_corners, nearest)) > sum3(min(m.at_corners, nearest))) best = n;
@@ -158,8 +158,8 @@ VKH_FN vec3 cell_distances(CellFrame t, Surface s) {
   return vec3(round_up(x, 3.0f), round_up(y, 3.0f), round_up(z, 3.0f));
 }
 
-// What one triangle says from above, or what two do: that of an affine function that is not under
-// d(., B), and a mean and a mean square that may be less than its.
+// The bounds from above of one triangle, or of two: an affine function that is not under d(., B),
+// and a mean and a mean square that may be less than those of the function.
 VKH_FN Gathered with_upper(Gathered g, vec3 upper, float mean, float square) {
   if (sum3(upper) < sum3(g.upper)) g.upper = upper;
   g.highest = min(g.highest, max3(upper));
@@ -168,7 +168,7 @@ VKH_FN Gathered with_upper(Gathered g, vec3 upper, float mean, float square) {
   return g;
 }
 
-// Whether some corner may be nearer to S than to what was looked at before, or all of T.
+// Whether some corner, or all of T, may be nearer to S than to the triangles examined before.
 VKH_FN bool may_be_nearer(Gathered g, Minorant m) {
   bool at_corner = either(m.at_corners.x < g.corners.x,
                           either(m.at_corners.y < g.corners.y, m.at_corners.z < g.corners.z));
@@ -188,8 +188,8 @@ VKH_FN float centre_distance(CellFrame t, Surface s, Closest c) {
   return round_up(length_up(c.distance2) + s.slack + t.slack, 3.0f);
 }
 
-// With S, one that is near: what it says from above, and which others are to be looked at. It says
-// nothing from below until it is looked at as they are.
+// Adds S, one that is near: its bounds from above decide which others to examine. It gives no bound
+// from below until it is examined as they are.
 VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   Gathered g = nothing_gathered();
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
@@ -202,7 +202,7 @@ VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   return with_upper(g, d, mean_up(d), mean_square_up(d));
 }
 
-// With S looked at, too. Its own direction is from its closest point to the centre.
+// Examines S, too. Its own direction is from its closest point to the centre.
 VKH_FN Gathered gathered(Gathered g, CellFrame t, Surface s, uint triangle) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float off = minorant_off(t, s);
@@ -239,8 +239,8 @@ VKH_FN vec3 plane_above(Cut cut, vec3 at, float to_p, float p, float to_q, float
                 round_up(at.z + more, 4.0f));
 }
 
-// With T cut between S and R where its distances from them, `ds` and `dr` at its corners, even out
-// if they are linear: the piece with one corner, o, belongs to the nearer there, the other to the
+// Cuts T between S and R where its distances from them, `ds` and `dr` at its corners, even out if
+// they are linear: the piece with one corner, o, belongs to the nearer there, the other to the
 // other. Cuts p and q on the edges from o to f and to h: the pieces are o p q, p f h and p h q.
 VKH_FN Gathered cut_between(Gathered g, CellFrame t, Surface s, vec3 ds, Surface r, vec3 dr) {
   vec3 side = ds - dr;
@@ -272,7 +272,7 @@ VKH_FN Gathered cut_between(Gathered g, CellFrame t, Surface s, vec3 ds, Surface
   return with_upper(g, above, round_up(mean, 8.0f), round_up(square, 8.0f));
 }
 
-// With triangles that are not looked at, none of them closer to the centre than `distance`.
+// Accounts for triangles that are not examined, none of them closer to the centre than `distance`.
 VKH_FN Gathered without(Gathered g, CellFrame t, float distance) {
   float at_corners = lowered(distance - t.radius);
   g.centre = min(g.centre, distance);
@@ -280,15 +280,15 @@ VKH_FN Gathered without(Gathered g, CellFrame t, float distance) {
   return g;
 }
 
-// In the end: an affine function that is not above d(., B), that of the values at the corners or
-// one number; and what some point of T reaches.
+// The result: an affine function that is not above d(., B), that of the values at the corners or
+// one number; and a distance that some point of T reaches.
 VKH_FN vec3 lower_of(Gathered g, CellFrame t) {
   float around = lowered(g.centre - t.radius);
   vec3 lower = g.at_corners;
   if (least3(lower) < around) lower = vec3(around, around, around);
   return lower;
 }
-// Not at the centre, which may lie outside of T by a rounding of its barycentrics.
+// This does not use the centre, which may lie outside of T by a rounding of its barycentrics.
 VKH_FN float reached_of(Gathered g) { return max(max3(g.at_corners), 0.0f); }
 
 VKH_LIB_END

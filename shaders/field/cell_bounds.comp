@@ -1,8 +1,8 @@
-// What: bounds of d(x, B) over cells of A, one item a cell: sub-triangles of its faces, or faces
-// push.first and after where none are given. In: cells; A and B's hierarchy. Out: bounds[cell].
-// One walk finds the triangle nearest to the cell's middle; another looks at all that may be
-// closest somewhere on the cell (field/cell.h), kCellTriangles of them at most; boxes stand for
-// what is left. Each result is its cell's alone. Where A or B is no mesh, and where there is no run
+// Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces, or faces
+// push.first and after if none are given. In: cells; A and B's BVH. Out: bounds[cell]. One
+// traversal finds the triangle nearest to the cell's middle; another examines all that may be
+// closest somewhere on the cell (field/cell.h), kCellTriangles of them at most; boxes stand for the
+// rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
 // (push.triangle_count is 0), bounds are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -49,13 +49,13 @@ float cell_reach(Gathered g, CellFrame t) {
   return min(round_up(far * far, 8.0), 3.0e38);
 }
 
-// What is surely between the centre and a box at this distance, squared, or farther.
+// A distance that surely lies between the centre and a box at this distance, squared, or farther.
 float box_distance_down(CellFrame t, float distance2) {
   float d = root(min(distance2, 1.0e37));
   return max(round_down(d, 8.0) - box_doubt(t, d), 0.0);
 }
 
-// With the triangles of a leaf.
+// Adds the triangles of a leaf.
 Gathered with_leaf(Gathered g, CellFrame t, uint leaf, inout uint looked_at) {
   uint first = leaf & (kMaxTriangles - 1u);
   uint last = first + ((leaf >> 28) & 7u);
@@ -66,7 +66,7 @@ Gathered with_leaf(Gathered g, CellFrame t, uint leaf, inout uint looked_at) {
   return g;
 }
 
-// With the boxes that are left.
+// Adds the boxes that are left.
 Gathered with_boxes(Gathered g, CellFrame t, float reach, inout uint to_go) {
   for (uint k = 0u; k < left_count; ++k) {
     if (left_distance2[k] < reach) g = without(g, t, box_distance_down(t, left_distance2[k]));
@@ -75,9 +75,10 @@ Gathered with_boxes(Gathered g, CellFrame t, float reach, inout uint to_go) {
   return g;
 }
 
-// Over what may be closest somewhere on the cell. Bounds from below need all that is within reach,
-// and drivers may end a loop early (docs/certificate.md, 'Loops that a driver ends'): what the
-// loops have done is counted, and not by what ends them, which compilers take as known behind them.
+// Goes over all that may be closest somewhere on the cell. Bounds from below need all that is
+// within reach, and drivers may end a loop early (docs/certificate.md, 'Loops that a driver ends'):
+// the loops' work is counted, and not by the variable that ends them, which compilers take as known
+// behind them.
 Gathered gather(CellFrame t, uint start) {
   Query middle = Query(t.origin, 0.0, false);
   if (start != kNone) start = min(start, push.triangle_count - 1u);
@@ -97,14 +98,14 @@ Gathered gather(CellFrame t, uint start) {
     g = with_leaf(g, t, walk_at, looked_at);
     walk_at = pop(reach);
   }
-  if (walk_at != kNone) ++left_count;  // what was taken from the top is left, too
+  if (walk_at != kNone) ++left_count;  // the box taken from the top is left, too
   uint to_go = left_count;
   g = with_boxes(g, t, reach, to_go);
   if (not_leaves != 0u || looked_at != found || to_go != 0u) g = without(g, t, 0.0);
   return g;
 }
 
-// With the triangles nearest to the corners, two at a time, where they are not the same.
+// Adds the triangles nearest to the corners, two at a time, if they are not the same.
 Gathered with_pairs(Gathered g, CellFrame t) {
   if (g.of_corners.x == kNone || g.of_corners.y == kNone || g.of_corners.z == kNone) return g;
   for (uint k = 0u; k < 3u; ++k) {
@@ -118,7 +119,7 @@ Gathered with_pairs(Gathered g, CellFrame t) {
   return g;
 }
 
-// Of B, as given.
+// The face of B as given.
 uint face_of(uint triangle) {
   return triangles[kTriangleWords * min(triangle, push.triangle_count - 1u)].w;
 }

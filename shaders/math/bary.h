@@ -1,5 +1,5 @@
-// Where a candidate's corners (math/dyadic.h) lie, in the frame of the meshes and around each
-// other.
+// The positions of a candidate's corners (math/dyadic.h), in the frame of the meshes and around
+// each other.
 #ifndef VKH_SHADERS_MATH_BARY_H
 #define VKH_SHADERS_MATH_BARY_H
 
@@ -41,14 +41,14 @@ struct LocalCorners {
   float reach;  // >= the largest coordinate magnitude of the root
 };
 
-// From corner to corner along the root's edges: the integers' difference is exact.
+// The step from corner to corner along the root's edges: the integers' difference is exact.
 VKH_FN Two3 step_between(uvec2 from, uvec2 to, Root r) {
   float x = float(int(to.x) - int(from.x)) * kBaryUnit;
   float y = float(int(to.y) - int(from.y)) * kBaryUnit;
   return two_combination(two(vec3(0.0f, 0.0f, 0.0f)), x, r.ab, y, r.ac);
 }
 
-// Corners around the first in plain floats, for what only steers.
+// Corners around the first in plain floats, for steering only.
 VKH_FN vec3 plain_step(uvec2 from, uvec2 to, Root r) {
   float x = float(int(to.x) - int(from.x)) * kBaryUnit;
   float y = float(int(to.y) - int(from.y)) * kBaryUnit;
@@ -63,8 +63,8 @@ VKH_FN Corners plain_corners(Root r, Bary3 t) {
   return c;
 }
 
-// In kUlp2 of the reach corners are off by 5.5, steps by 4.5, cuts by 10 more. What is left of the
-// 24 is for Surface::slack (docs/proofs.md).
+// In kUlp2 of the reach corners are off by 5.5, steps by 4.5, cuts by 10 more. The rest of the 24
+// is for Surface::slack (docs/proofs.md).
 VKH_FN LocalCorners local_corners(Root r, Bary3 t) {
   LocalCorners p;
   p.origin = position_of(r, t.a);
@@ -78,7 +78,8 @@ VKH_FN LocalCorners local_corners(Root r, Bary3 t) {
   return p;
 }
 
-// The same with the other corners' high parts alone: T is moved by the longer low part at most.
+// The same with only the high parts of the other corners: T is moved by the longer low part at
+// most.
 VKH_FN LocalCorners without_low_parts(LocalCorners p) {
   p.slack = round_up(p.slack + max(norm_up(p.b.lo), norm_up(p.c.lo)), 1.0f);
   p.b = two(p.b.hi);

@@ -43,7 +43,7 @@ VKH_FN float max3(vec3 d) { return max(d.x, max(d.y, d.z)); }
 VKH_FN float bound_single(vec3 d) { return max3(d); }
 
 // u1, the anchor bound (eq. 6): from one corner, the farther of the other two. `d` bounds the
-// corners' distances from B. Not below 0, nor is u2.
+// corners' distances from B. It is not below 0, nor is u2.
 VKH_FN float bound_u1(Patch t, vec3 d) {
   float ab = norm_up(t.at.b - t.at.a);
   float bc = norm_up(t.at.c - t.at.b);
@@ -78,8 +78,8 @@ VKH_FN vec3 corner_distances(Patch t, Surface s) {
   return d;
 }
 
-// How T is cut between two surfaces (u3), by a number for each corner that says on which side it
-// is, < 0 or not, and how far: one corner is alone on its side; the edges from it to the others are
+// The cut of T between two surfaces (u3), by a number for each corner that gives its side, < 0 or
+// not, and its distance: one corner is alone on its side; the edges from it to the others are
 // cut.
 struct Cut {
   bool none;  // all corners are on one side
@@ -99,7 +99,7 @@ VKH_FN Cut cut_by(vec3 side) {
   return cut;
 }
 
-// Where the edge to the first (k = 0) or second other corner is cut: where `side` would be 0 if it
+// The cut of the edge to the first (k = 0) or second other corner: `side` would be 0 there if it
 // were linear. Any cut is right, as both pieces use it. It is off by 10 kUlp2 of T's radius:
 // LocalCorners::slack takes it.
 VKH_FN Two3 cut_point(Patch t, Cut cut, uint k, vec3 side) {
@@ -122,7 +122,7 @@ VKH_FN float bound_cut(Patch t, Cut cut, vec3 side, Surface s, Surface r) {
   return max(at_p, at_q);
 }
 
-// What corners say where each counts with the nearer of two surfaces.
+// The bound at the corners if each counts with the nearer of two surfaces.
 VKH_FN float bound_nearer(vec3 ds, vec3 dr) {
   return max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
 }

@@ -19,9 +19,9 @@ VKH_LIB_BEGIN
 
 VKH_CONST float kUlp = 1.1920929e-7f;  // 2^-23
 
-// Absorbs every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that
-// are added in one formula stay under this. Coordinates are of order 1 (host/solve/frame.h), so it is
-// 2^-40 of an ulp.
+// Covers every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that
+// are added in one formula stay under this. Coordinates are of order 1 (host/solve/frame.h), so
+// this is 2^-40 of an ulp.
 VKH_CONST float kTiny = 8.6736174e-19f;  // 2^-60
 
 // Denominators under this are squares of lengths under 2^-48, far below an ulp of the coordinates:
@@ -33,15 +33,15 @@ VKH_CONST float kSmallSquare = 1.2621774e-29f;  // 2^-96
 // 64); the product's own rounding and the flush are included.
 VKH_FN float round_up(float x, float n) { return x * (1.0f + (n + 2.0f) * kUlp) + kTiny; }
 
-// Likewise <= x, and never below 0.
+// The same for <= x, and never below 0.
 VKH_FN float round_down(float x, float n) {
   return max(x * (1.0f - (n + 2.0f) * kUlp) - kTiny, 0.0f);
 }
 
 VKH_CONST float kLeastNormal = 1.1754944e-38f;  // 2^-126
 
-// sqrt(x) for x >= 0, but 2^-63 where x may be flushed: 1 / inversesqrt(0) is outside of the table.
-// So much more is under kTiny, which every use adds or takes off.
+// sqrt(x) for x >= 0, but 2^-63 if x may be flushed: 1 / inversesqrt(0) is outside of the table.
+// The excess is under kTiny, which every use adds or takes off.
 VKH_FN float root(float x) { return sqrt(max(x, kLeastNormal)); }
 
 // The bits of x >= 0, which order as floats do. A zero may have either sign: it is taken off.
@@ -50,7 +50,7 @@ VKH_FN uint bits_of(float x) { return floatBitsToUint(x) & 0x7fffffffu; }
 // >= sqrt(x) for x >= 0 that is itself >= the square that is meant (see norm_up).
 VKH_FN float sqrt_up(float x) { return round_up(root(x), 6.0f); }
 
-// <= sqrt(x), likewise.
+// <= sqrt(x), in the same way.
 VKH_FN float sqrt_down(float x) { return round_down(root(x), 6.0f); }
 
 // >= |v|. Three products and two sums: 3 ulp on the square, so under 2 on the root, whose own error
@@ -91,7 +91,7 @@ VKH_FN float sharp_norm_up(Two3 v) {
   return next_up(next_up(s + 0.5f * ratio(e, s)));
 }
 
-// Above x and below it by more than two roundings of x, whatever its sign.
+// Numbers above x and below it by more than two roundings of x, whatever its sign.
 VKH_FN float raised(float x) { return x + (4.0f * kUlp * abs(x) + kTiny); }
 VKH_FN float lowered(float x) { return x - (4.0f * kUlp * abs(x) + kTiny); }
 

@@ -1,5 +1,5 @@
 // Products of vectors, written out: the built-in ones are sums whose order a driver may choose,
-// which no decoration forbids (docs/certificate.md). Use these alone: the build refuses the others.
+// which no decoration forbids (docs/certificate.md). Use only these: the build refuses the others.
 #ifndef VKH_SHADERS_MATH_DOT_H
 #define VKH_SHADERS_MATH_DOT_H
 

@@ -62,7 +62,7 @@ VKH_FN uvec3 bisected(uvec3 t, uint opposite, uint m, uint side) {
 
 VKH_FN uint bisection_code(uint x, uint y, uint z) { return 1u + x + 3u * y + 9u * z; }
 
-// Which of the six points are the corners of child 0..3.
+// The corners of child 0..3 among the six points.
 VKH_FN uvec3 child_points(uint split, uint child) {
   if (split == kSplitMidpoint) {
     if (child == 3u) return uvec3(3u, 4u, 5u);

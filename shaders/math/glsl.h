@@ -1,5 +1,5 @@
-// What lets the headers of shaders/math compile as C++ too: GLSL's vector types and functions by
-// GLM, and its parameter qualifiers.
+// Lets the headers of shaders/math compile as C++ too: GLSL's vector types and functions by GLM,
+// and its parameter qualifiers.
 #ifndef VKH_SHADERS_MATH_GLSL_H
 #define VKH_SHADERS_MATH_GLSL_H
 

@@ -21,7 +21,7 @@ VKH_FN float coarse_distance_down(Surface s, vec3 r) {
   return lowered(quotient_down(reach, length) - s.base);
 }
 
-// What must be taken from r so that it is orthogonal to u, and to v too where `to_both`.
+// The correction to subtract from r so that it is orthogonal to u, and to v too if `to_both`.
 VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool to_both) {
   float uu = dot3(u.hi, u.hi);
   float x = rounded(two_dot(r, u));
@@ -39,7 +39,7 @@ VKH_FN vec3 orthogonal_correction(Two3 r, Two3 u, Two3 v, bool to_both) {
 // that its own rounding does not matter.
 VKH_FN Two3 orthogonal(vec3 offset, Two3 u, Two3 v, bool to_both) {
   Two3 r = two(offset);
-  for (uint k = 0u; k < 2u; ++k) {  // a loop for the same reason as fine_distance_down's
+  for (uint k = 0u; k < 2u; ++k) {  // a loop for the same reason as in fine_distance_down
     vec3 correction = orthogonal_correction(r, u, v, to_both);
     if (k == 0u) {
       r.hi = r.hi - correction;
@@ -86,8 +86,8 @@ VKH_FN float fine_distance_down(Surface s, Closest c) {
   Two3 ab = two_difference(s.b, s.a);
   Two3 ac = two_difference(s.c, s.a);
   Two3 bc = two_difference(s.c, s.b);
-  // A loop, not five calls: drivers inline each call, and this is most of their work on the kernels
-  // that ask for lower bounds.
+  // This is a loop, not five calls: drivers inline each call, and this is most of their work on the
+  // kernels that compute lower bounds.
   float best = lowered(-s.base);
   for (uint k = 0u; k < 5u; ++k) {
     Two3 direction = two(offset);
@@ -102,8 +102,8 @@ VKH_FN float fine_distance_down(Surface s, Closest c) {
   return best;
 }
 
-// <= d(origin, S) - base, `c` the closest point found. Precise only where it has to be: a triangle
-// that is farther than base + `enough` by plain floats stays at that.
+// <= d(origin, S) - base, `c` the closest point found. It is precise only if it has to be: a
+// triangle that is farther than base + `enough` by plain floats stays at that.
 VKH_FN float distance_down(Surface s, Closest c, float enough) {
   float coarse = coarse_distance_down(s, c.offset);
   if (coarse >= enough) return coarse;

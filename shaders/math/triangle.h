@@ -27,7 +27,7 @@ VKH_CONST uint kEdgeAc = 1u;
 VKH_CONST uint kEdgeBc = 2u;
 VKH_CONST uint kInside = 3u;
 
-// Where plain floats tell distances apart, the smaller one; else the smaller rank.
+// Takes the smaller distance if plain floats tell them apart, otherwise the smaller rank.
 VKH_FN Closest closer(Closest x, Closest y) {
   bool surely = y.distance2 < (1.0f - 8.0f * kUlp) * x.distance2;
   bool perhaps = y.distance2 <= (1.0f + 8.0f * kUlp) * x.distance2;
@@ -91,11 +91,11 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
   return best;
 }
 
-// A point of T is so far from p: squared, in plain floats. Nearly what closest_point finds, at half
-// its cost. With L the longest edge, D the distance of the point that it is the distance of, and
-// both in exact arithmetic for p and T as given, its root is off by kUlp (3 D + 4 L) before its own
-// rounding: inside, where 0 <= v, w and v + w <= 1 hold exactly as in closest_point, ap, which is
-// under D + L, is off by one kUlp of itself, v ab and w ac by two, the differences by one; on an
+// The squared distance from p to some point of T, in plain floats: nearly that of closest_point, at
+// half its cost. With L the longest edge, D the distance of the point that it is the distance of,
+// and both in exact arithmetic for p and T as given, its root is off by kUlp (3 D + 4 L) before its
+// own rounding: inside, where 0 <= v, w and v + w <= 1 hold exactly as in closest_point, ap, which
+// is under D + L, is off by one kUlp of itself, v ab and w ac by two, the differences by one; on an
 // edge it is less.
 VKH_FN float plain_distance2(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
@@ -125,14 +125,14 @@ VKH_FN float radius_up(Corners t) {
   return length_up(max(dot3(t.a, t.a), max(dot3(t.b, t.b), dot3(t.c, t.c))));
 }
 
-// Where a surface is measured from, and how precisely.
+// The point from which a surface is measured, and the precision.
 struct View {
   Two3 origin;   // near the points; they are given relative to it
   float reach;   // >= |origin|, and >= |p| for every p whose distance will be asked
   float base;    // >= 0; distances are given as what they are above it, which may be negative
   bool sharp;    // a distance's own rounding matters: it is taken to 48 bits instead of 20
   bool plain;    // nothing is certified: plain floats, to measure what the certificate costs
-  float enough;  // a surface may be coarse where its slack is no more than this; 0: none may
+  float enough;  // a surface may be coarse if its slack is no more than this; 0: none may
 };
 
 // A triangle of B around a local origin: its corners to 48 bits, and rounded to find the closest
@@ -152,7 +152,7 @@ VKH_FN vec3 coarse_difference(Two3 a, Two3 origin) {
   return (a.hi - origin.hi) + (a.lo - origin.lo);
 }
 
-// What a coarse surface's distances leave out, R its radius: its corners are off by 2 kUlp R; p, no
+// The error of a coarse surface's distances, R its radius: its corners are off by 2 kUlp R; p, no
 // farther away than D + R, is rounded by kUlp; plain_distance2 leaves 3 D + 4 L, and L <= 2 R. So
 // 11 kUlp R, and 4 kUlp D that surface_distance_up takes.
 VKH_FN float coarse_slack(Corners at, float reach) {
@@ -207,7 +207,7 @@ VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
 
 // >= d(p, S) - base, for p taken as it is and the point of S that `c` names.
 VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
-  if (s.plain) return root(c.distance2) - s.base;  // uncertified: as View::plain says
+  if (s.plain) return root(c.distance2) - s.base;  // uncertified: View::plain is set
   Two3 offset = offset_from(p, s, c);
   if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
   return raised(round_up(norm_up(rounded(offset)) + s.slack, 1.0f) - s.base);
@@ -233,7 +233,7 @@ VKH_FN float quality(Corners t) {
   return root(ratio(dot3(n, n), longest2 * longest2));  // uncertified: steers subdivision only
 }
 
-// Of a triangle's corners, the one opposite its longest edge; the first on a tie.
+// The corner opposite a triangle's longest edge; the first on a tie.
 VKH_FN uint opposite_longest(Corners t) {
   vec3 ea = t.c - t.b;
   vec3 eb = t.a - t.c;

@@ -1,10 +1,10 @@
-// Two-float arithmetic, outward-rounded where it says so; it may divide and take a root as
+// Two-float arithmetic, outward-rounded where stated; it may divide and take a root as
 // certified.h may. An unevaluated sum hi + lo of two floats holds about 48 bits (Dekker 1971;
 // Knuth's TwoSum).
 //
 // No step relies on fma: lavapipe's is not fused, and a contracted product is only more accurate.
 // two_product is exact in any direction of rounding. two_sum is where + and - round to nearest, and
-// else off by at most kUlp2 / 8 of its operands (docs/proofs.md).
+// otherwise off by at most kUlp2 / 8 of its operands (docs/proofs.md).
 #ifndef VKH_SHADERS_MATH_TWO_FLOAT_H
 #define VKH_SHADERS_MATH_TWO_FLOAT_H
 

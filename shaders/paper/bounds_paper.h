@@ -1,4 +1,4 @@
-// u3 as the paper has it (Appendix A, after Kang et al. 2018): T cut along the bisector of two
+// The paper's u3 (Appendix A, after Kang et al. 2018): T cut along the bisector of two
 // triangles' supporting planes, or into three quadrilaterals by midpoints and centroid. As in
 // bounds.h any cut is right, since the pieces share its points: the plane and the centroid only
 // steer, and distances at the corners of the pieces bound them.
@@ -40,7 +40,7 @@ VKH_FN vec3 bisector_normal(Corners s, Corners r, vec3 at) {
   return dot3(normal, to_s) > dot3(normal, to_r) ? -normal : normal;
 }
 
-// Case 1 (eq. 9): the corners with side < 0 and what is next to them against S, the others against
+// Case 1 (eq. 9): the corners with side < 0 and the part next to them against S, the others against
 // R, the cuts against both. `ds` and `dr` are corner_distances.
 VKH_FN float bound_split(Patch t, Surface s, vec3 ds, Surface r, vec3 dr, vec3 side) {
   Cut cut = cut_by(side);
@@ -60,10 +60,10 @@ VKH_FN Two3 middle_between(Two3 p, Two3 q) {
   return two_combination(two(vec3(0.0f, 0.0f, 0.0f)), 0.5f, p, 0.5f, q);
 }
 
-// One of three in case 2 (eq. 10): the quadrilateral of corner i, the middles of its edges and the
-// centroid, against S; the other two have the same points. `d` is corner i's distance from S. The
-// points are off by 4 kUlp2 of T's radius, less than cuts are (cut_point). Twice the weight is
-// under 1, so the centroid at hand lies in T.
+// One of three pieces in case 2 (eq. 10): the quadrilateral of corner i, the middles of its edges
+// and the centroid, against S; the other two have the same points. `d` is corner i's distance from
+// S. The points are off by 4 kUlp2 of T's radius, less than cuts are (cut_point). Twice the weight
+// is under 1, so the centroid at hand lies in T.
 VKH_FN float bound_third(Patch t, uint i, Surface s, float d) {
   uint j = i == 2u ? 0u : i + 1u;
   uint k = i == 0u ? 2u : i - 1u;

@@ -1,18 +1,18 @@
-// The packet walk (docs/method.md, section 6): one walk through B's hierarchy for the three new
-// points of a candidate, each a bit of a mask. It finds for each what nearest_triangle finds. The
-// kernel declares what walk/walk.glsl needs.
+// The packet traversal (docs/method.md, section 6): one traversal of B's BVH for the three new
+// points of a candidate, each a bit of a mask. It finds the same for each as nearest_triangle does.
+// The kernel declares what walk/walk.glsl needs.
 #ifndef VKH_SHADERS_PAPER_PACKET_GLSL
 #define VKH_SHADERS_PAPER_PACKET_GLSL
 
 #include "shaders/walk/walk.glsl"
 
 const uint kPacket = 3u;
-const float kUnasked = 3.3e38;  // a tight walk's first reach is 3.00001e38
+const float kUnasked = 3.3e38;  // a tight traversal's first reach is 3.00001e38
 
 struct Packet {
   Query query[kPacket];
   Nearest best[kPacket];
-  vec3 reach;  // squared; what is as far does not matter
+  vec3 reach;  // squared; equal distances do not matter
 };
 
 vec3 box_distances2(Packet p, vec3 lo, vec3 hi) {
@@ -20,7 +20,7 @@ vec3 box_distances2(Packet p, vec3 lo, vec3 hi) {
               box_distance2(p.query[2].p.hi, lo, hi));
 }
 
-// Which points a box at these distances may still improve.
+// The points that a box at these distances may still improve.
 uint mask_of(vec3 distance2, vec3 reach) {
   bvec3 nearer = lessThan(distance2, reach);
   return uint(nearer.x) | (uint(nearer.y) << 1) | (uint(nearer.z) << 2);
@@ -54,12 +54,12 @@ void try_leaf(uint leaf, uint mask, inout Packet p) {
   }
 }
 
-// Of the invocation's own, as in walk/walk.glsl: what is left for later.
+// The invocation's own stack, as in walk/walk.glsl.
 uint left_packet_child[kWalkStack];
 vec3 left_packet_distance2[kWalkStack];
 uint left_packets;
 
-// The next child that some point may be improved in, and which; kNone if there is none.
+// The next child that may improve some point, and the mask of these points; kNone if there is none.
 uint pop_packet(vec3 reach, out uint mask) {
   while (left_packets > 0u) {
     --left_packets;
@@ -70,9 +70,9 @@ uint pop_packet(vec3 reach, out uint mask) {
   return kNone;
 }
 
-// From a node to the child that is nearest to a point that it may improve; the others are left,
-// with their distances, from which the mask is taken anew when they are popped: meanwhile points
-// may have come nearer. `unasked`: farther than any reach for points that are not asked for.
+// Goes from a node to the child that is nearest to a point that it may improve; the others are
+// left, with their distances, from which the mask is taken anew when they are popped: meanwhile
+// points may have come nearer. `unasked`: farther than any reach for points that are not queried.
 uint step_packet(uint at, vec3 unasked, Packet p, inout uint mask) {
   uint next = kNone;
   uint next_mask = 0u;
@@ -103,7 +103,7 @@ uint step_packet(uint at, vec3 unasked, Packet p, inout uint mask) {
   return next;
 }
 
-// `mask`: the points that are asked for. A node leaves three children at most: kWalkStack.
+// `mask`: the points to query. A node leaves three children at most: kWalkStack.
 void walk_packet(uint mask, inout Packet p) {
   left_packets = 0u;
   uint at = 0u;

@@ -1,5 +1,6 @@
-// What: wave_bound, and two bounds of the paper besides: its u3, which wave_bisect has found, and
-// u4. In its place where a switch asks for one; the wave is then never fused.
+// Does the work of wave_bound, and computes two bounds of the paper besides: its u3, which
+// wave_bisect has found, and u4. It replaces wave_bound if a switch selects one; the wave is then
+// never fused.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

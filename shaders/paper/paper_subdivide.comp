@@ -1,5 +1,5 @@
-// What: wave_subdivide, of a frontier that may be sorted: in the order of its keys. In its place
-// where the switch asks for it.
+// Does the work of wave_subdivide for a frontier that may be sorted, in the order of its keys. It
+// replaces wave_subdivide if the switch selects it.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

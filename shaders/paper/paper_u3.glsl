@@ -26,8 +26,9 @@ float thirds_bound(Patch t, uvec3 nearest, View view) {
   return worst;
 }
 
-// Above the base, the position's slack not yet in it. h(T, S) for each S alone, which eq. 10 takes
-// into the minimum, is ha's; where one triangle is closest to all corners, nothing is left to do.
+// Returns u3 above the base, without the position's slack. h(T, S) for each S alone, which eq. 10
+// takes into the minimum, is ha's; if one triangle is closest to all corners, nothing is left to
+// do.
 float paper_u3(Patch t, uvec3 nearest, View view) {
   bool ab = nearest.x == nearest.y;
   bool bc = nearest.y == nearest.z;

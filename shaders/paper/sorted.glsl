@@ -1,4 +1,4 @@
-// The frontier in the order of the sort, `order`, where the plan has found it worth sorting. Then
+// The frontier in the order of the sort, `order`, if the plan has found it worth sorting. Then
 // the wave's parents come first, and one kernel serves both ways to split: at most one subgroup
 // has candidates of both. A second dispatch for the thin ones would cost 3.5 us a wave on an H200,
 // and a count of them. The kernel declares `control`, `order`.

@@ -1,4 +1,4 @@
-// What: the paper's u3 of each of the wave's survivors, for paper_bound. In: survivors. Out:
+// Computes the paper's u3 of each of the wave's survivors, for paper_bound. In: survivors. Out:
 // u3_bounds[i], above the base, rounding included.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

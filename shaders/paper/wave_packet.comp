@@ -1,8 +1,8 @@
-// What: the closest triangles of B to the three new points of each refined candidate, an invocation
-// a candidate (docs/method.md, section 6): the points are close to each other, so that they share
-// most nodes and triangles of the walk. In: points, each with a triangle to start from; a negative
-// distance means skip. Out: nearest, distance; control.maximum[kMaxLower]. As query, and in its
-// place.
+// Finds the closest triangles of B to the three new points of each refined candidate, one
+// invocation per candidate (docs/method.md, section 6): the points are close to each other, so that
+// they share most nodes and triangles of the traversal. In: points, each with a triangle to start
+// from; a negative distance means skip. Out: nearest, distance; control.maximum[kMaxLower]. It
+// replaces query.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,7 +1,8 @@
-// What: the sort keys of the frontier, defer | mode | morton30 of the centroid (docs/method.md, eq.
-// 4), and the places of its candidates. In: the frontier's reading half, the plan's selection. Out:
-// keys[i], values[i] = i. Once sorted, the wave's parents come first, those that midpoints split
-// before the thin ones, neighbours next to each other; what waits for a later wave comes last.
+// Computes the sort keys of the frontier, defer | mode | morton30 of the centroid (docs/method.md,
+// eq. 4), and the places of its candidates. In: the frontier's reading half, the plan's selection.
+// Out: keys[i], values[i] = i. Once sorted, the wave's parents come first, those that midpoints
+// split before the thin ones, neighbours next to each other; those that wait for a later wave come
+// last.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,7 +21,7 @@ layout(scalar, binding = 6) writeonly buffer Values { uint values[]; };
 #include "shaders/candidate/candidate.glsl"
 #include "shaders/base/face_code.glsl"
 
-// In the box of B, since walks end there.
+// The code is within the box of B, since traversals end there.
 uint morton_of(vec3 p) {
   vec3 lo = vec3(3.0e38);
   vec3 hi = vec3(-3.0e38);

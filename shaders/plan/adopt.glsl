@@ -4,8 +4,8 @@
 
 #include "shaders/plan/plan_words.glsl"
 
-// Called by every invocation; control is changed by the first one alone. Offers come in by atomics,
-// as they were written: maybe by other workgroups of this dispatch.
+// Called by every invocation; only the first one changes control. Offers are read by atomics, as
+// they were written, perhaps by other workgroups of this dispatch.
 void adopt_witness() {
   uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) plan_words[kWordAdopted + 3u] = kNone;
@@ -25,7 +25,7 @@ void adopt_witness() {
   if (lane > 0u || count == 0u) return;
   control.offer_count = 0u;
   control.offer_key = kNone;
-  // Where the list had no place for it, the old witness stays, and is one.
+  // If the list had no place for it, the old witness stays, and is one.
   if (plan_words[kWordAdopted + 3u] == kNone) return;
   vec3 position = uintBitsToFloat(uvec3(plan_words[kWordAdopted], plan_words[kWordAdopted + 1u],
                                         plan_words[kWordAdopted + 2u]));

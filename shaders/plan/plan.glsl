@@ -1,11 +1,11 @@
-// Everything that a wave decides as a whole: adopts the last wave's witness, flips the frontier's
-// halves, moves the base of distances, tests for the end, shares the room out between refined,
-// deferred and newly admitted candidates, selects which ones are refined, writes the sizes of the
-// wave's dispatches. One workgroup does it, the last one of wave_bound or that of wave_plan, and
-// of it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
-// dispatches only. A run that pauses where it has not room for all writes sizes of which only its
-// next plan runs, so that it goes on by itself once it has been moved. Invariant: deferred + 4
-// parents + roots <= capacity, or 16 parents where they are split twice, and their new points fit
+// The plan, all that a wave decides as a whole: adopts the last wave's witness, flips the
+// frontier's halves, moves the base of distances, tests for the end, shares the room out between
+// refined, deferred and newly admitted candidates, selects which ones are refined, writes the sizes
+// of the wave's dispatches. One workgroup does it, the last one of wave_bound or that of wave_plan,
+// and of it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
+// dispatches only. A run that pauses for lack of room writes sizes with which only its next plan
+// runs, so that it goes on by itself once it has been moved. Invariant: deferred + 4
+// parents + roots <= capacity, or 16 parents if they are split twice, and their new points fit
 // the stream of points; so no stream of the wave can overflow. The kernel declares `plan_words`
 // (plan/plan_words.glsl), `sizes`, and what candidate/candidate.glsl needs.
 #ifndef VKH_SHADERS_PLAN_PLAN_GLSL
@@ -19,11 +19,12 @@
 #include "shaders/plan/select.glsl"
 #include "shaders/plan/sizes.glsl"
 
-// What the wave has raised comes in by atomics: the workgroups that did may be of this dispatch.
+// The values that the wave has raised are read by atomics: the workgroups that raised them may be
+// of this dispatch.
 struct WaveEnd {
   uint open;            // children that are still open
-  uint largest_open;    // u of those, and of what was deferred, as bits
-  uint largest_closed;  // u of whatever was closed so far
+  uint largest_open;    // u of those, and of deferred candidates, as bits
+  uint largest_closed;  // u of all that was closed so far
 };
 
 WaveEnd take_wave_end() {
@@ -35,7 +36,7 @@ WaveEnd take_wave_end() {
   return end;
 }
 
-// Adds what the wave did to the totals.
+// Adds the wave's work to the totals.
 void close_wave(WaveEnd end) {
   if (control.wave == 0u) return;  // it was left to this plan
   uint w = (control.wave - 1u) % kMaxWaveRecords;
@@ -63,10 +64,9 @@ void rebase_maximum(uint which) {
   control.maximum[which] = bits_of(rebased(uintBitsToFloat(control.maximum[which])));
 }
 
-// The lower bound has risen so far above the base that an ulp of what it is above it matters: moves
-// the base up to it, and everything kept above the old one with it. A wave then measures the
-// witness again, and nothing else (query.comp). The frontier is moved as the wave after it reads
-// it.
+// The lower bound has risen so far above the base that an ulp of the difference matters: moves the
+// base up to it, and everything kept above the old one with it. One wave then measures only the
+// witness again (query.comp). The next wave moves the frontier as it reads it.
 void move_base() {
   control.rebase_hi = 0.0;
   control.rebase_lo = 0.0;
@@ -86,8 +86,8 @@ void move_base() {
   control.witness.distance = kUnmeasured;
 }
 
-// Split once, a candidate leaves at most four where it was one. While more than the reserve is
-// free, as many are refined as surely fit; else one alone, whose descendants fit the reserve
+// A candidate that is split once leaves at most four in its place. While more than the reserve is
+// free, as many are refined as surely fit; otherwise one alone, whose descendants fit the reserve
 // (kReserve), so that the run always goes on.
 void share_room() {
   uint held = control.count[kCountFrontier];
@@ -107,7 +107,7 @@ void share_room() {
   control.root_cursor += roots;
 }
 
-// All that is left is within the tolerance: what culling would find out with one more wave.
+// All that is left is within the tolerance: culling would find this with one more wave.
 bool within_tolerance() {
   return control.root_cursor == control.face_count && control.count[kCountFrontier] > 0u &&
          uintBitsToFloat(control.maximum[kMaxFrontier]) <= cull_threshold(raised_lower(), true);
@@ -128,7 +128,7 @@ void end_if_done() {
   }
 }
 
-// A sample above the limit is all that was asked for.
+// A sample above the limit answers the question.
 bool ends_beyond() {
   if (control.measuring != 0u) return false;
   if (!is_beyond_limit(uintBitsToFloat(control.maximum[kMaxLower]))) return false;
@@ -144,7 +144,7 @@ void refine_nothing() {
   control.roots = 0u;
 }
 
-// Whether the wave is left until the workspace has room for all of it.
+// Whether the wave waits until the workspace has room for all of it.
 void pause_if_short() {
   uint wanted = room_for_all(control.count[kCountFrontier]);
   bool is_short = control.pauses != 0u && wanted > control.capacity && !within_tolerance();
@@ -164,7 +164,7 @@ void write_sizes() {
   if (control.wanted == 0u) control.wave += 1u;
 }
 
-// Of a wave that ran.
+// Records a wave that ran.
 void end_wave() {
   WaveEnd end = take_wave_end();
   close_wave(end);

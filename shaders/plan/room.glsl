@@ -1,5 +1,5 @@
-// How many faces of A a wave admits, whether it splits its candidates twice, how much room would be
-// enough for all, and how a run ends. The kernel declares `control`.
+// Decides how many faces of A a wave admits, whether it splits its candidates twice, how much room
+// would be enough for all, and how a run ends. The kernel declares `control`.
 #ifndef VKH_SHADERS_PLAN_ROOM_GLSL
 #define VKH_SHADERS_PLAN_ROOM_GLSL
 
@@ -23,7 +23,7 @@ bool may_split_twice(uint held, uint room) {
 }
 
 // Places of each half of the frontier with which the wave refines all of its `held` candidates,
-// twice where they are few, and admits every face of A that waits. Proof that nothing overflows:
+// twice if they are few, and admits every face of A that waits. Proof that nothing overflows:
 // both counts are at most kMaxTriangles, 2^28, and largest_capacity, 2^28, and the sum is less than
 // 2^30.
 uint room_for_all(uint held) {
@@ -33,7 +33,7 @@ uint room_for_all(uint held) {
   return few ? max(once, 20u * held + reserve()) : once;
 }
 
-// What a run ends with that decided all it held.
+// The status of a run that decided all it held.
 uint status_decided() {
   if (control.spilled > 0u) return kStatusMemory;
   return control.culled[kCullPrecision] > 0u ? kStatusPrecision : kStatusDecided;

@@ -1,5 +1,5 @@
-// What a wave does under the paper's switches: sorting, which u comes first, and what becomes of a
-// frontier that does not fit where nothing may wait. The kernel declares `control`.
+// The plan under the paper's switches: sorting, the order of u, and the handling of a frontier that
+// does not fit if nothing may wait. The kernel declares `control`.
 #ifndef VKH_SHADERS_PLAN_SCHEDULE_GLSL
 #define VKH_SHADERS_PLAN_SCHEDULE_GLSL
 
@@ -9,15 +9,15 @@ bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
 
 // Decides the wave's order, and returns how many of the `held` candidates stay in the frontier.
 //
-// Largest u first goes through a frontier breadth first: children have smaller u than their parent,
+// Largest u first traverses a frontier breadth first: children have smaller u than their parent,
 // so one that the reserve is spent on need not be followed by its own children, which alone are
 // sure to fit it. So while only the reserve is free, the smallest come first all the same. Whenever
-// that begins the whole reserve is free, a candidate is gone through with all its descendants, and
-// its place is won; every wave refines at least one, and there are finitely many.
+// that begins the whole reserve is free, a candidate is traversed with all its descendants, and its
+// place is won; every wave refines at least one, and there are finitely many.
 //
-// Where nothing may wait, a frontier that does not fit is spilled as a whole: wave/split.glsl keeps
-// the u of each, and so it goes with what A's other faces leave, so that at the end every face has
-// a bound.
+// If nothing may wait, a frontier that does not fit is spilled as a whole: wave/split.glsl keeps
+// the u of each, and the same happens to the children of A's other faces, so that at the end every
+// face has a bound.
 uint schedule(uint held, uint room) {
   bool largest = (kSwitches & kUseLargestFirst) != 0u && room > reserve() + 3u;
   control.select_largest = largest ? 1u : 0u;

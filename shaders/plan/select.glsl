@@ -1,4 +1,4 @@
-// The selection of the candidates that a wave refines where there is no room for all: those with
+// The selection of the candidates that a wave refines if there is no room for all: those with
 // the smallest keys (candidate/candidate.glsl), by digits of 8 bits from the top. A boundary that
 // leaves at least half of the room used will do. The workgroup has kGroupSize invocations. The
 // kernel declares `plan_words`, and what candidate/candidate.glsl needs.
@@ -32,8 +32,8 @@ void with_digit(inout Key k, uint d, uint value) {
   }
 }
 
-// By the first word of a key, u: it alone is loaded, of some candidates at once, for one workgroup
-// goes over all there are.
+// Counts by the first word of a key, u: it alone is loaded, for several candidates at once, since
+// one workgroup goes over all of them.
 void count_first_digits(uint decided) {
   uint shift = 24u - 8u * decided;
   uint held = plan_words[kWordHeld];
@@ -51,7 +51,7 @@ void count_first_digits(uint decided) {
   }
 }
 
-// Those whose u is the same: few.
+// The candidates whose u is the same: few.
 void count_last_digits(uint decided) {
   bool largest = plan_words[kWordLargest] != 0u;
   for (uint i = gl_LocalInvocationID.x; i < plan_words[kWordHeld]; i += kGroupSize) {
@@ -97,7 +97,8 @@ void narrow() {
   plan_words[kWordBefore] = before;
   plan_words[kWordDecided] = decided;
   if (goes_on) return;
-  // Keys under the prefix were counted: the largest of them, or the prefix itself if it was, too.
+  // The largest of the keys under the prefix, which were counted, or the prefix itself if it was,
+  // too.
   for (uint d = decided; d < 8u; ++d) with_digit(last, d, all_fit ? 255u : 0u);
   control.select_key = last.first;
   control.select_tie = last.second;

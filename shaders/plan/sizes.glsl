@@ -9,19 +9,20 @@
 #define VKH_WRITE_SIZE(kernel, given, size, needed, column, groups) \
   if (needed()) sizes.size = groups;
 
-// Of the sort's scan: none where blocks are few.
+// Workgroups of the sort's scan: none if blocks are few.
 Dispatch groups_for_digits(uint keys) {
   return groups_of(sort_blocks(keys) > kSortFewBlocks ? kSortDigits : 0u);
 }
 
-// Of query, for the new points of a wave; where the wave is fused, for the candidates that it
-// holds.
+// Workgroups of query, for the new points of a wave; if the wave is fused, for the candidates that
+// it holds.
 Dispatch groups_for_new_points(uint held, uint queries) {
   bool splits = is_fused() && control.measuring == 0u;
   return splits ? groups_for_splits(held) : groups_for_queries(queries);
 }
 
-// `parents` candidates are refined, `held` with those that wait, `keys` sorted where any are.
+// `parents` candidates are refined, `held` counts those that wait, too, `keys` are sorted if any
+// are.
 void write_refine_sizes(uint parents, uint held, uint keys) {
   keys = control.sorted != 0u ? keys : 0u;
   uint packets = asks_in_packets(parents) ? parents : 0u;
@@ -31,18 +32,19 @@ void write_refine_sizes(uint parents, uint held, uint keys) {
   VKH_REFINE_STAGES(VKH_WRITE_SIZE)
 }
 
-// Nothing after the end; else one workgroup even where no child is: the last one plans.
+// There are none after the end; otherwise one workgroup even if there is no child: the last one
+// plans.
 Dispatch groups_to_bound(uint children, bool running) {
   return running ? groups_for_children(children) : groups_of(0u);
 }
 
-// Of what bounds so many children, behind the filter where there is one.
+// Workgroups of the kernel that bounds so many children, behind the filter if there is one.
 void write_bound_sizes(uint children, bool running) {
   VKH_BOUND_STAGES(VKH_WRITE_SIZE, VKH_NO_SIZE)
 }
 
-// Of all that a wave's children go through. What a filter leaves of them is counted later
-// (wave_survivors).
+// Workgroups of all kernels that a wave's children go through. The survivors of a filter are
+// counted later (wave_survivors).
 void write_child_sizes(uint children, bool running) {
   VKH_FILTER_STAGES(VKH_WRITE_SIZE, VKH_NO_SIZE)
   if (!is_filtered()) write_bound_sizes(children, running);

@@ -1,5 +1,5 @@
-// What: the next wave's plan (plan/plan.glsl) where wave_bound does not end with it: on narrow
-// devices, where a dispatch costs next to nothing, and where a switch of kUseApart is on. One
+// Makes the next wave's plan (plan/plan.glsl) if wave_bound does not end with it: in the CPU
+// profile, where a dispatch costs next to nothing, and if a switch of kUseApart is on. It is one
 // workgroup. In: control, the frontier. Out: control; sizes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,12 +1,11 @@
-// What: the report, with the certified lower bound: the smallest distance of the witness from any
-// face of B, each rounded down. Every triangle is visited, so nothing rests on the hierarchy or on
-// the walks that found the witness. The last workgroup to end writes, one invocation all but the
+// Writes the report, with the certified lower bound: the smallest distance of the witness from any
+// face of B, each rounded down. Every triangle is visited, so nothing rests on the BVH or on the
+// traversals that found the witness. The last workgroup to end writes, one invocation all but the
 // waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
 // 48-bit position can lie from the point of A that it stands for. upper: the largest u of
 // everything that was closed, spilled or is still open; without bound while faces of A wait. Both
-// as float32, and to more bits above the base. Where
-// an input is no mesh the status says so, and no bound is. lower_bits, ordered bits
-// (math/morton.h), and groups_done are kNone and 0 again.
+// as float32, and to more bits above the base. If an input is no mesh the status shows it, and no
+// bound is valid. lower_bits, ordered bits (math/morton.h), and groups_done are kNone and 0 again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -35,7 +34,7 @@ layout(scalar, push_constant) uniform PushBlock { ReportPush push; };
 #include "shaders/candidate/base.glsl"
 #include "shaders/candidate/subroot.glsl"
 
-// A corner of B by the parts that the run works with.
+// A corner of B, made of the parts that the run uses.
 Two3 b_corner(uint v) {
   Two3 p = two(b_vertices[v].hi);
   if (control.two_float != 0u) p.lo = b_vertices[v].lo;
@@ -49,8 +48,8 @@ uint root_of(Witness w) {
   return min(w.root, control.face_count - 1u);
 }
 
-// Of this invocation's triangle. Those past the end repeat the last one: every one takes part in
-// the subgroup's minimum.
+// The distance of this invocation's triangle. Invocations past the end repeat the last one: each
+// takes part in the subgroup's minimum.
 float certified_distance() {
   uint i = min(item_index(), push.count - 1u);
   Witness w = control.witness;
@@ -99,7 +98,7 @@ void write_witness(Witness w) {
   report.witness_face = triangles[min(w.nearest, push.count - 1u)].face;
 }
 
-// What a limit asks for, if it is proven; `lower` and `upper` are what they are above the base.
+// The status for a limit, if it is proven; `lower` and `upper` are above the base.
 uint proven_status(float lower, float upper) {
   if (control.limit > 0.0 && control.certified != 0u) {
     if (lower > raised(control.limit_up - control.base)) return kStatusBeyond;
@@ -127,7 +126,7 @@ float upper_bound() {
   return uintBitsToFloat(bits);
 }
 
-// What the certified lower bound is above the base, at least -base.
+// The certified lower bound above the base, at least -base.
 float lower_bound(Witness w) {
   float above = uintBitsToFloat(from_ordered_bits(atomicExchange(lower_bits, kNone)));
   return max(lowered(above - 2.0 * witness_slack(w)), -control.base);
@@ -155,7 +154,7 @@ void write_report() {
   for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = control.culled[i];
 }
 
-// No bound is known: what was measured are no meshes. The faces at fault stand as the witness's.
+// No bound is known: the inputs were no meshes. The faces at fault stand as the witness's.
 void write_fault(uint a_fault, uint fault_of_b) {
   report.base = 0.0;
   report.lower = 0.0;
@@ -169,7 +168,7 @@ void write_fault(uint a_fault, uint fault_of_b) {
   report.witness_face = fault_of_b;
 }
 
-// Nothing but the report is valid: no run, and no triangles. push.count says which mesh is none: 1
+// Nothing but the report is valid: no run, and no triangles. push.count names the invalid mesh: 1
 // is A, 2 is B, 3 is both.
 void write_unbuilt() {
   report.wave = 0u;

@@ -1,8 +1,8 @@
 // The points that the seed queries: A's vertices and, in a warm run, the last run's witness behind
-// them, wherever it is now. What the last run left may be anything: starts are checked, and the
+// them, wherever it is now. The last run's data may be anything: starts are checked, and the
 // witness is moved into A, so that it costs time at worst. First, vertex_distance holds the states
-// from seed_faces; then the distance, and vertex_nearest the triangle, kNone where no face uses
-// the vertex. Again also for the witness alone, after a plan that has moved the base. The kernel
+// from seed_faces; then the distance, and vertex_nearest the triangle, kNone if no face uses the
+// vertex. The seed also queries the witness alone, after a plan that has moved the base. The kernel
 // declares `vertices`, `faces`, `vertex_nearest`, `vertex_distance`, `push` (QueryPush), and what
 // walk/query.glsl needs.
 #ifndef VKH_SHADERS_SEED_SEED_GLSL
@@ -12,7 +12,7 @@
 #include "shaders/candidate/subroot.glsl"
 #include "shaders/walk/query.glsl"
 
-// The last run's, or this one's where it is measured again.
+// The last run's witness, or this one's if it is measured again.
 bool is_witness(uint i) { return i == push.vertex_count && push.warm != 0u; }
 
 uint seed_count() { return push.vertex_count + (push.warm != 0u ? 1u : 0u); }
@@ -22,15 +22,15 @@ Two3 seed_point(uint i) {
   return position_of(root_at(control.witness.root), uvec2(control.witness.j, control.witness.k));
 }
 
-// The triangle to start from: what the last run left there, if it is one of B.
+// The triangle to start from: the last run's, if it is one of B.
 uint start_of(uint i) {
   if (push.warm == 0u) return kNone;
   uint start = i < push.vertex_count ? vertex_nearest[i] : control.witness.nearest;
   return start < push.triangle_count ? start : kNone;
 }
 
-// Makes the witness a sample of A, if it was none; of one in a subroot of the last run, which still
-// lies where it was, a corner.
+// Makes the witness a sample of A, if it was none; one in a subroot of the last run, which still
+// lies where it was, becomes a corner.
 void clamp_witness() {
   if (is_subroot(control.witness.root)) {
     uint i = min(control.witness.root - control.face_count, most_subroots() - 1u);
@@ -45,7 +45,7 @@ void clamp_witness() {
   control.witness.k = min(control.witness.k, kBaryOne - control.witness.j);
 }
 
-// A vertex that needs no query: on B, or of no face.
+// Whether a vertex needs no query: it is on B, or of no face.
 void settle(uint i, uint state) {
   vertex_nearest[i] = state >= kVertexOnB ? state - kVertexOnB : kNone;
   vertex_distance[i] = 0u;
@@ -53,8 +53,8 @@ void settle(uint i, uint state) {
 
 Item no_item() { return Item(false, false, kNone, 0.0, Query(two(vec3(0.0)), 0.0, false)); }
 
-// `mine`: of one of the invocations that have the item alone: others may read the state later than
-// it is written.
+// `mine`: one of the invocations that have the item alone: others may read the state after it is
+// written.
 Item first_item(uint i, bool mine) {
   Item item = no_item();
   if (!mine) return item;
@@ -72,7 +72,7 @@ Item first_item(uint i, bool mine) {
   return item;
 }
 
-// As known in plain floats; a tight run looks again where that is over 0.
+// The distance in plain floats; a tight run measures again if that is over 0.
 Item known_item(uint i, bool mine) {
   Item item = no_item();
   float base = max(base_of_run(), control.base);  // 0 before the first plan

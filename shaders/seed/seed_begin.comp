@@ -1,6 +1,6 @@
-// What: the control block's first state. One workgroup, of which an invocation writes all but the
-// waves. In: push. Out: control, lower_bits, groups_done; of a warm run the last run's witness
-// stays, for the query of A's vertices.
+// Writes the control block's first state. It is one workgroup, of which an invocation writes all
+// but the waves. In: push. Out: control, lower_bits, groups_done; in a warm run the last run's
+// witness stays, for the query of A's vertices.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

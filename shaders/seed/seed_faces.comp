@@ -1,7 +1,7 @@
-// What: what the faces of A say before any query. Which vertices they use: others are no part of a
-// mesh and must not raise the lower bound. And which faces are faces of B too, whatever the order
-// of their corners: their h is 0, their corners lie on B, and no query need be asked to find that
-// out (docs/method.md, section 7). In: A; B's triangles by their codes; vertex_state all 0. Out:
+// Finds what the faces of A show before any query. First, the vertices that they use: others are no
+// part of a mesh and must not raise the lower bound. Second, the faces that are faces of B too,
+// whatever the order of their corners: their h is 0, their corners lie on B, and this needs no
+// query (docs/method.md, section 7). In: A; B's triangles by their codes; vertex_state all 0. Out:
 // face_shared; vertex_state: kVertexUsed, or kVertexOnB + a triangle that has it for a corner.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -25,8 +25,8 @@ layout(scalar, push_constant) uniform PushBlock { FacesPush push; };
 #include "shaders/base/root.glsl"
 #include "shaders/base/surface.glsl"
 
-// Triangles of one code that are looked at: more share a cell only where B is all but piled up, and
-// a face that is not found is bounded as any other.
+// Triangles of one code that are examined: more share a cell only if B is all but piled up, and a
+// face that is not found is bounded like any other.
 const uint kMostOfOneCode = 256u;
 
 // Whether the first n of the sorted codes are under `code`.
@@ -34,7 +34,7 @@ bool are_under(uint n, uint code) {
   return codes[min(n, push.triangle_count) - 1u] < code && n <= push.triangle_count;
 }
 
-// How many codes are under `code`: three places are probed at a time, whose loads do not wait for
+// The number of codes under `code`: three places are probed at a time, whose loads do not wait for
 // each other, as in bvh_hierarchy.
 uint first_with(uint code) {
   uint first = 0u;
@@ -48,7 +48,7 @@ uint first_with(uint code) {
   return first;
 }
 
-// The triangle of B that has the corners of face f; kNone.
+// The triangle of B that has the corners of face f, or kNone.
 uint same_triangle(uvec3 f) {
   Two3 p = vertex_at(f.x);
   Two3 q = vertex_at(f.y);
@@ -69,7 +69,7 @@ void main() {
   uint triangle = (kSwitches & kUseSharedFaces) != 0u ? same_triangle(f) : kNone;
   face_shared[i] = triangle != kNone ? 1u : 0u;
   uint state = triangle != kNone ? kVertexOnB + triangle : kVertexUsed;
-  // Of several triangles the largest, whatever the order; few faces change what others have
+  // Keeps the largest of several triangles, whatever the order; few faces change what others have
   // written.
   for (uint k = 0u; k < 3u; ++k) {
     if (vertex_state[f[k]] < state) atomicMax(vertex_state[f[k]], state);

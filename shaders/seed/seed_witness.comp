@@ -1,5 +1,5 @@
-// What: which corner of A is the witness of the first lower bound: the smallest face and corner
-// whose distance is the maximum, so that the choice does not depend on scheduling. The last
+// Chooses the corner of A that is the witness of the first lower bound: the smallest face and
+// corner whose distance is the maximum, so that the choice does not depend on scheduling. The last
 // workgroup to end adopts it, sets the run's base and plans the first wave, which admits faces of A
 // and refines nothing. Out: control; the sizes of the first wave's dispatches. groups_done is
 // 0 again.
@@ -34,7 +34,7 @@ void offer_face(uint i) {
   if (corner != kNone) atomicMin(control.seed_witness, 3u * i + corner);
 }
 
-// The corner that was chosen; none where a warm run's old witness is farther than every vertex and
+// The corner that was chosen; none if a warm run's old witness is farther than every vertex and
 // stays.
 void adopt_corner() {
   uint chosen = atomicMin(control.seed_witness, kNone);
@@ -51,8 +51,8 @@ void plan_first_wave() {
   float base = base_of_run();
   control.base = base;
   control.tight = is_tight(base) ? 1u : 0u;
-  // Where the tolerance is so small that the base is to be moved before anything is closed, or the
-  // run is to pause, the first wave has no children, and its end plans: a base, and then the faces.
+  // If the tolerance is so small that the base must move before anything is closed, or the run must
+  // pause, the first wave has no children, and its end plans: a base, and then the faces.
   bool base_is_right = !needs_sharp(uintBitsToFloat(control.maximum[kMaxLower]));
   bool has_room = control.pauses == 0u || room_for_all(0u) <= control.capacity;
   bool begins = base_is_right && has_room;
@@ -64,7 +64,7 @@ void plan_first_wave() {
   control.root_cursor = roots;
   control.wave = begins ? 1u : 0u;
   write_child_sizes(roots, !ends);
-  if (ends) write_refine_sizes(0u, 0u, 0u);  // no plan follows that would: its waves are empty
+  if (ends) write_refine_sizes(0u, 0u, 0u);  // no plan follows to do it: its waves are empty
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// How many keys there are: as the host says, or where the device alone knows, in a buffer. The
+// The number of keys: the host's, or, if only the device knows it, a buffer's. The
 // kernel declares `push` (SortPush), `key_count`.
 #ifndef VKH_SHADERS_SORT_KEY_TOTAL_GLSL
 #define VKH_SHADERS_SORT_KEY_TOTAL_GLSL

@@ -1,4 +1,4 @@
-// What the radix sort's three kernels share.
+// The shared parts of the radix sort's three kernels.
 #ifndef VKH_SHADERS_SORT_SORT_GLSL
 #define VKH_SHADERS_SORT_SORT_GLSL
 

@@ -1,7 +1,8 @@
-// What: how often each digit occurs in each block of keys. In: keys; how many, from a buffer where
-// only the device knows, as with the frontier. Out: counts[block * kSortDigits + digit]. Radix
-// sort, first of three kernels a pass: count, scan, scatter. Where passes count for each other, it
-// runs in the first at most: not where whoever wrote the keys has counted (bvh_morton).
+// Counts how often each digit occurs in each block of keys. In: keys; their number, from a buffer
+// if only the device knows it, as with the frontier. Out: counts[block * kSortDigits + digit].
+// It is the first of the radix sort's three kernels per pass: count, scan, scatter. If passes count
+// for each other, it runs in the first at most: not if the kernel that wrote the keys has counted
+// (bvh_morton).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -26,7 +27,7 @@ void main() {
   uint blocks = sort_blocks(total, push.rounds);
   if (block >= blocks) return;
   uint first = block * push.rounds * kSortGroup + lane;
-  // All keys before any is counted: no load waits for a counter.
+  // Loads all keys before any is counted: no load waits for a counter.
   uint key[kSortRounds];
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds) continue;

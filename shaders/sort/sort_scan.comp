@@ -1,6 +1,6 @@
-// What: where each block's keys of a digit start among all keys of that digit, and how many keys
+// Computes where each block's keys of a digit start among all keys of that digit, and how many keys
 // have it. In: counts[block * kSortDigits + digit]. Out: counts, summed exclusively along each
-// digit; totals[digit]. One workgroup a digit; where blocks are few, sort_scatter does it.
+// digit; totals[digit]. There is one workgroup per digit; if blocks are few, sort_scatter does it.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

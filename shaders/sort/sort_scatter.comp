@@ -1,10 +1,10 @@
-// What: moves each key and value to its place for one digit, keeping the order of equal digits.
-// In: keys_in, values_in; counts and totals from sort_scan, or, of few blocks, counts from
-// sort_count, from who wrote the keys or from the pass before. Out: keys_out, values_out, and the
-// next pass's counts where this one counts for it. Each subgroup owns a contiguous run of the
+// Moves each key and value to its place for one digit, keeping the order of equal digits. In:
+// keys_in, values_in; counts and totals from sort_scan, or, if blocks are few, counts from
+// sort_count, from the writer of the keys or from the pass before. Out: keys_out, values_out, and
+// the next pass's counts if this one counts for it. Each subgroup owns a contiguous run of the
 // block, so that its counters, taken round by round, keep the order; lanes of equal digit find each
-// other by ballots. 16-bit counters, two a word: a block has 2048 keys at most. More subgroups than
-// there are counters for share them, neighbours one after the other.
+// other by ballots. 16-bit counters, two a word: a block has 2048 keys at most. If there are more
+// subgroups than counters, neighbours share them, one after the other.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -34,7 +34,7 @@ const uint kRows = 16u;  // of counters, 8 KiB: one each for subgroups that are 
 const uint kRow = kSortDigits / 2u;
 const uint kBatch = 8u;  // loads of counts that do not wait for each other
 shared uint counters[kRows * kRow];
-shared uint digit_base[kSortDigits];  // where the block's keys of a digit go
+shared uint digit_base[kSortDigits];  // places of the block's keys of a digit
 shared uint subgroup_sum[kMaxSubgroups];
 
 uint total;   // keys
@@ -78,8 +78,8 @@ DigitCount count_of(uint digit, uint block) {
   return sum;
 }
 
-// Exclusive sum of the totals over digits: where each digit starts in the output, and there this
-// block's keys.
+// Exclusive sum of the totals over digits: the start of each digit in the output, and of this
+// block's keys there.
 void scan_totals(uint digit, uint block) {
   DigitCount own = count_of(digit, block);
   uint inclusive = subgroupInclusiveAdd(own.total);
@@ -90,7 +90,7 @@ void scan_totals(uint digit, uint block) {
   digit_base[digit] = before + own.earlier;
 }
 
-// How many neighbours share a row of counters.
+// The number of neighbours that share a row of counters.
 uint sharers() { return (gl_NumSubgroups + kRows - 1u) / kRows; }
 
 uint row_of_subgroup() { return gl_SubgroupID / sharers(); }
@@ -107,7 +107,7 @@ void scan_rows(uint word) {
   }
 }
 
-// The keys and values of this invocation, all at once: no load waits for what is done with another.
+// The keys and values of this invocation, all at once: no load waits for the use of another.
 void load_run(uint run) {
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds) continue;
@@ -117,7 +117,7 @@ void load_run(uint run) {
   }
 }
 
-// Of each key, how many of its digit stand before it in the runs of those that share its row.
+// For each key, the number of keys of its digit before it in the runs of those that share its row.
 void rank_run(uint run) {
   uint row = row_of_subgroup() * kRow;
   for (uint round = 0u; round < kSortRounds; ++round) {

@@ -1,6 +1,6 @@
-// The walk of a whole workgroup for one query, where a wave has too few queries to fill the
+// The traversal by a whole workgroup for one query, if a wave has too few queries to fill the
 // device: level by level down the pyramid of boxes, all children of a level's boxes at once, then
-// all triangles of the runs that are left. It finds what nearest_triangle finds. The workgroup has
+// all triangles of the runs that are left. It finds the same as nearest_triangle. The workgroup has
 // kQueryGroup invocations. The kernel declares `boxes`, `push` (QueryPush), and what
 // walk/walk.glsl needs.
 #ifndef VKH_SHADERS_WALK_GROUP_WALK_GLSL
@@ -43,9 +43,9 @@ float farthest_distance2(vec3 p, vec3 lo, vec3 hi) {
   return dot3(d, d);
 }
 
-// How far a box may be and still matter: (d + 1e-6)^2, for coordinates of order 1. Whatever the
-// other invocations have found by now, every triangle that plain floats may take for as near as the
-// nearest is tried, so that the result does not depend on their order.
+// The largest distance, squared, at which a box still matters: (d + 1e-6)^2, for coordinates of
+// order 1. Whatever the other invocations have found by now, every triangle that plain floats may
+// take for as near as the nearest is tried, so that the result does not depend on their order.
 float group_reach() {
   float d = 1.000001 * root(uintBitsToFloat(nearest_bits)) + 1.0e-6;  // uncertified: steers
   return d * d;
@@ -57,7 +57,8 @@ uint entry_of(uint side, uint k) {
   return parent * kPyramidFan + k % kPyramidFan;
 }
 
-// From the boxes of one level, on `side`, to those of the level below that matter, on the other.
+// Goes from the boxes of one level, on `side`, to those of the level below that matter, on the
+// other side.
 void descend(Query q, Level below, uint side) {
   uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) level_count[1u - side] = 0u;
@@ -85,7 +86,7 @@ Nearest try_runs(Query q, uint side) {
       uint i = entry_of(side, k);
       if (i < push.triangle_count) try_query(q, i, best);
     }
-    // What others have found spares ties; which ones it spares does not change the result.
+    // The others' results spare ties; which ones they spare does not change the result.
     if (q.tight) {
       atomicMin(nearest_bits, bits_of(best.distance2));
       best.distance2 = uintBitsToFloat(nearest_bits);
@@ -95,7 +96,7 @@ Nearest try_runs(Query q, uint side) {
   return best;
 }
 
-// Halves of the lanes at a time; the result is in lane 0.
+// Joins halves of the lanes at a time; the result is in lane 0.
 void join_lanes(Query q) {
   uint lane = gl_LocalInvocationID.x;
   for (uint reach = kQueryGroup / 2u; reach > 0u; reach /= 2u) {
@@ -106,16 +107,16 @@ void join_lanes(Query q) {
   }
 }
 
-// Called by every invocation of the workgroup with the same query, after the first has set where to
-// begin: level_count[0], level_boxes[0][0], and nearest_bits. What is found is nearest_of_lane[0],
-// for the first invocation. False where too many boxes matter.
+// Called by every invocation of the workgroup with the same query, after the first has set the
+// start: level_count[0], level_boxes[0][0], and nearest_bits. The result is nearest_of_lane[0], for
+// the first invocation. Returns false if too many boxes matter.
 bool walk_by_group(Query q) {
   uint lane = gl_LocalInvocationID.x;
   uint side = 0u;
   for (uint level = level_total() - 1u; level > 0u; --level) {
     descend(q, level_at(level - 1u), side);
-    // How many boxes passed depends on how fast others brought them nearer: where they are too
-    // many, they are gone over again, now that no box comes nearer.
+    // The number of boxes that passed depends on how fast others brought them nearer: if they are
+    // too many, they are traversed again, now that no box comes nearer.
     if (level_count[1u - side] > kGroupWalkBoxes) {
       barrier();  // all have read it
       descend(q, level_at(level - 1u), side);
@@ -131,8 +132,8 @@ bool walk_by_group(Query q) {
 shared Query query_of_group;
 shared bool group_asked;
 
-// What nearest_triangle finds. Called by every invocation of the workgroup, each with a query of
-// its own if it has one (`asked`); or, where `by_group`, at most the first with one for all.
+// Finds the same as nearest_triangle. Called by every invocation of the workgroup, each with a
+// query of its own if it has one (`asked`); or, if `by_group`, at most the first with one for all.
 Nearest find_nearest(Query q, uint start, bool asked, bool by_group) {
   Nearest best = nothing_near();
   walk_at = kNone;

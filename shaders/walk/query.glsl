@@ -4,11 +4,11 @@
 
 #include "shaders/walk/walk.glsl"
 
-// What an invocation knows of its item, and whether a walk is to find more.
+// An invocation's knowledge of its item, and whether a traversal must find more.
 struct Item {
   bool exists;  // it is to be answered
   bool asked;
-  uint nearest;    // where a walk starts; then what it found
+  uint nearest;    // start of a traversal; then its result
   float distance;  // above the base
   Query query;
 };

@@ -1,4 +1,4 @@
-// The walk through B's hierarchy. It steers: whichever triangle it returns gives a true upper bound
+// The traversal of B's BVH. It steers: whichever triangle it returns gives a true upper bound
 // (docs/method.md, section 6), and no lower bound rests on it (report_write.comp visits every
 // triangle), so it needs no rounding analysis. The kernel declares `nodes`, `triangles`,
 // `triangle_lows`, `control`.
@@ -29,7 +29,7 @@ float box_distance2(vec3 p, vec3 lo, vec3 hi) {
 struct Nearest {
   uint triangle;
   float distance2;  // in plain floats
-  float above;      // what the distance is above the base: to 48 bits in a tight walk
+  float above;      // the distance above the base: to 48 bits in a tight traversal
 };
 
 Nearest nothing_near() { return Nearest(kNone, 3.0e38, 3.0e38); }
@@ -38,7 +38,7 @@ float triangle_distance2(vec3 p, uint i) {
   return plain_distance2(vec3(0.0), local_triangle(i, p));
 }
 
-// Of equally far triangles the first, in whichever order they are tried.
+// Takes the first of equally far triangles, in whichever order they are tried.
 void keep_nearer(uint i, float d2, inout Nearest best) {
   if (d2 < best.distance2 || (d2 == best.distance2 && i < best.triangle))
     best = Nearest(i, d2, 0.0);
@@ -49,7 +49,7 @@ void try_triangle(vec3 p, uint i, inout Nearest best) {
 }
 
 // Plain floats cannot tell triangles apart whose distances differ by an ulp, and the farthest point
-// of A is equally far from several: a tight walk compares those next to the best to 48 bits.
+// of A is equally far from several: a tight traversal compares those next to the best to 48 bits.
 float reach_of(Nearest best) {
   float d = 1.000001 * root(best.distance2) + 5.0e-7;  // uncertified: steers
   return d * d;
@@ -62,7 +62,7 @@ void try_tight(Two3 p, uint i, float base, inout Nearest best) {
   if (closer) best = Nearest(i, best.distance2, above);
 }
 
-// How far a distance in plain floats can be off, in a frame of order 1: 1.04e-6 seen.
+// The largest error of a distance in plain floats, in a frame of order 1: 1.04e-6 seen.
 const float kPlainDoubt = 4.0e-6;
 
 struct Query {
@@ -71,9 +71,10 @@ struct Query {
   bool tight;
 };
 
-// What a tight walk cannot tell from the nearest so far waits here, to be measured when there is
-// much of it and at the end, where others of the subgroup do so too: in between, they would wait.
-const uint kTied = 16u;  // a leaf more than is let stand
+// Triangles that a tight traversal cannot tell from the nearest so far wait here, to be measured
+// when there are many and at the end, when others of the subgroup do so too: in between, they would
+// wait.
+const uint kTied = 16u;  // a leaf more than may wait
 uint tied[kTied];
 float tied_distance2[kTied];
 uint tied_count;
@@ -94,7 +95,7 @@ void try_query(Query q, uint i, inout Nearest best) {
   keep_query(q, i, triangle_distance2(q.p.hi, i), best);
 }
 
-// The last first: that is within reach, should a driver end the loops of a long walk.
+// Takes the last first: that is within reach, should a driver end the loops of a long traversal.
 void measure_tied(Query q, inout Nearest best) {
   while (tied_count > 0u) {
     --tied_count;
@@ -105,20 +106,20 @@ void measure_tied(Query q, inout Nearest best) {
 
 float reach_of(Query q, Nearest best) { return q.tight ? reach_of(best) : best.distance2; }
 
-// Of two results of parts of a walk; of equally near triangles the first.
+// The better of two results of parts of a traversal; of equally near triangles the first.
 bool is_nearer(Query q, Nearest x, Nearest than) {
   if (x.triangle == kNone) return false;
   float d = q.tight ? x.above - than.above : x.distance2 - than.distance2;
   return than.triangle == kNone || d < 0.0 || (d == 0.0 && x.triangle < than.triangle);
 }
 
-// A walk's result as a sample: its distance to 48 bits, where a plain walk left that out. Next to B
-// what counts is that it is not too large: a foot that 24-bit weights place is 2^-24 of its
-// triangle off, so there the distance is bounded from below. Not above `than`, it is no matter.
+// A traversal's result as a sample: its distance to 48 bits, if a plain traversal left that out.
+// Next to B it must not be too large: a foot that 24-bit weights place is 2^-24 of its triangle
+// off, so there the distance is bounded from below. If it is not above `than`, it does not matter.
 Nearest measured(Query q, Nearest best, float than) {
   if (best.triangle == kNone) return best;
   if (!q.tight) {
-    // As plain floats have it, where that is surely under it: most samples are.
+    // The distance in plain floats, if that is surely under `than`: most samples are.
     best.above = root(best.distance2) - q.base;  // uncertified: steers
     if (best.above < than - kPlainDoubt) return best;
   }
@@ -132,12 +133,12 @@ Nearest measured(Query q, Nearest best, float than) {
   return best;
 }
 
-// Where a walk stands: what is still to be visited, deeper boxes above others. A node leaves
+// The state of a traversal: the boxes still to be visited, deeper ones above others. A node leaves
 // at most three behind, and the tree of nodes is half as deep as that of branches.
 const uint kWalkStack = 3u * kStackDepth / 2u;
 
-// Of the invocation's own; not a struct that functions pass on, which drivers copy (lavapipe: 8
-// times slower).
+// The stack is the invocation's own; not a struct that functions pass on, which drivers copy
+// (lavapipe: 8 times slower).
 uint left_child[kWalkStack];
 float left_distance2[kWalkStack];
 uint left_count;
@@ -151,7 +152,7 @@ uint pop(float reach) {
   return kNone;
 }
 
-// A child of a node, and how far it is, squared.
+// A child of a node, and its distance, squared.
 struct Near {
   uint child;
   float distance2;
@@ -163,7 +164,7 @@ Near child_at(uint at, uint k, vec3 p) {
   return Near(lo.w, box_distance2(p, uintBitsToFloat(lo.xyz), uintBitsToFloat(hi.xyz)));
 }
 
-// The nearer of the two becomes `nearest`, the other is left for later where it is within reach.
+// The nearer of the two becomes `nearest`, the other is left for later if it is within reach.
 void leave_farther(Near other, inout Near nearest, float reach) {
   bool nearer = other.distance2 < nearest.distance2;
   uint left = choose(nearer, nearest.child, other.child);
@@ -176,8 +177,8 @@ void leave_farther(Near other, inout Near nearest, float reach) {
   ++left_count;
 }
 
-// From a node to its nearest child within reach. To sort the others costs what it saves. Not a
-// loop, whose vectors' components would be named by a variable: slow on CPU devices.
+// Goes from a node to its nearest child within reach. To sort the others costs what it saves. This
+// is not a loop, which would index vector components by a variable: slow on CPU devices.
 uint step_down(uint at, vec3 p, float reach) {
   Near a = child_at(at, 0u, p);
   Near b = child_at(at, 1u, p);
@@ -190,10 +191,10 @@ uint step_down(uint at, vec3 p, float reach) {
   return pop(reach);
 }
 
-// The node or leaf that the walk is at; kNone: it is done.
+// The node or leaf that the traversal is at; kNone: it is done.
 uint walk_at;
 
-// A walk from the root. `start`: a triangle to begin with, or kNone.
+// Starts a traversal at the root. `start`: a triangle to begin with, or kNone.
 Nearest begin_walk(Query q, uint start) {
   Nearest best = nothing_near();
   tied_count = 0u;
@@ -203,8 +204,8 @@ Nearest begin_walk(Query q, uint start) {
   return best;
 }
 
-// Walks to the end. Depth first, near children first. Invocations go down until each is at a leaf,
-// then all try triangles ([AL09] of docs/method.md).
+// Traverses to the end. Depth first, near children first. Invocations go down until each is at a
+// leaf, then all try triangles ([AL09] of docs/method.md).
 void walk_on(Query q, inout Nearest best) {
   float reach = reach_of(q, best);
   while (walk_at != kNone) {
@@ -228,7 +229,7 @@ void walk_on(Query q, inout Nearest best) {
   }
 }
 
-// The triangle closest to q.p, to 48 bits in a tight walk.
+// The triangle closest to q.p, to 48 bits in a tight traversal.
 Nearest nearest_triangle(Query q, uint start) {
   Nearest best = begin_walk(q, start);
   walk_on(q, best);

@@ -1,9 +1,10 @@
-// The cascade over every child of the wave, or, where there is a filter, its hard half over those
-// past it: exact case, u1, u2, ha, u3 over every pair of known triangles; of wave_bound, and of
-// paper_bound, which has more bounds. What is still open enters the next frontier. A workgroup
-// bounds some children together (wave/bound_group.glsl): an invocation loads one of them and has
-// its last word; all share out the distances and then the cuts of pairs. So a wave of few children
-// is as long as its longest step, not as their sum. The kernel declares the buffers of wave_bound.
+// The cascade over every child of the wave, or, if there is a filter, its hard half over those past
+// it: exact case, u1, u2, ha, u3 over every pair of known triangles; shared by wave_bound and
+// paper_bound, which has more bounds. Children that are still open enter the next frontier. A
+// workgroup bounds some children together (wave/bound_group.glsl): an invocation loads one of them
+// and has its last word; all share out the distances and then the cuts of pairs. So a wave of few
+// children is as long as its longest step, not as their sum. The kernel declares the buffers of
+// wave_bound.
 #ifndef VKH_SHADERS_WAVE_BOUND_GLSL
 #define VKH_SHADERS_WAVE_BOUND_GLSL
 
@@ -21,14 +22,15 @@
 // More bounds of the kernel: none in wave_bound; the paper's u3, and u4, in paper_bound.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold);
 
-// Plain floats are used where their slack is at most this part of the tolerance: they are quicker,
-// and close a candidate unless it is as close to the threshold as that. Not on narrow devices,
-// which go through both kinds wherever a few invocations of a subgroup have one of them each.
+// Plain floats are used if their slack is at most this part of the tolerance: they are quicker,
+// and close a candidate unless it is as close to the threshold as that. The CPU profile does not
+// use them: a CPU goes through both kinds wherever a few invocations of a subgroup have one of them
+// each.
 const float kEnough = 0.25;
 
 uint child_total() { return is_filtered() ? control.count[kCountSurvivors] : child_count(); }
 
-// The child's code; kNone where its parent was not split.
+// The child's code; kNone if its parent was not split.
 uint code_of(uint i) {
   if (is_filtered()) return survivors[i];
   return is_child(i) ? i : kNone;
@@ -45,7 +47,7 @@ bool has_bits_to_split(Bary3 t) {
   return ((any.x | any.y) & 3u) == 0u;
 }
 
-// The same candidate, as a root of its own where its bits run out, and there is room.
+// The same candidate, as a root of its own if its bits run out and there is room.
 Candidate with_bits(Candidate c, Bary3 t) {
   if (!has_subroots() || is_subroot(c.root) || has_bits_to_split(t)) return c;
   uint i = atomicAdd(control.subroots, 1u);

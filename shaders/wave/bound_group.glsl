@@ -1,4 +1,4 @@
-// The cascade for some children at once, by a whole workgroup: who holds what, and how the
+// The cascade for some children at once, by a whole workgroup: the owner of each value, and how the
 // distances are shared out. The workgroup has kGroupSize invocations. The kernel declares what
 // base/surface.glsl, candidate/child.glsl and candidate/centroid.glsl need.
 #ifndef VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
@@ -17,7 +17,7 @@ const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;
 // A child as all invocations need it, each word beside the same one of other children: invocations
 // of a subgroup read those at once, and as structs they would be in few of the banks of shared
 // memory. How much of it a workgroup takes decides how many run at once: an H200 runs four of
-// 10 KiB on each of its processors; of 8 KiB, as it is where only the corners' triangles are known,
+// 10 KiB on each of its processors; with 8 KiB, as it is if only the corners' triangles are known,
 // bounds come a tenth sooner.
 const uint kHeldB = 0u;  // corners around the first
 const uint kHeldC = 3u;
@@ -30,8 +30,8 @@ const uint kHeldWords = 14u;
 shared float held[kHeldWords][kMostChildren];
 shared uint upper_bits[kMostChildren];                     // u so far
 shared uint corner_bits[kMostChildren * kMostKnown * 3u];  // of distances
-// First what is to be measured, kMostKnown * child + k for triangle k of a child; then pairs,
-// (child * kMaxKnown + i) * kMaxKnown + j and, where they are measured in parts, the bits of each
+// First the measurements, kMostKnown * child + k for triangle k of a child; then pairs, (child *
+// kMaxKnown + i) * kMaxKnown + j and, if they are measured in parts, the bits of each
 // one's u3: then the children are half as many at most.
 const uint kMostListed = kMostChildren * kMostPairs;  // kMostPairs >= kMostKnown
 const uint kPairBits = kMostListed / 2u;
@@ -75,7 +75,7 @@ Patch patch_of_child(uint child) {
                     two(held_vector(kHeldC, child)));
 }
 
-// In plain floats where these leave out no more than `enough`.
+// Measures in plain floats if their error is no more than `enough`.
 Surface surface_of(uint child, uint k, float enough) {
   View view = view_of_child(child);
   view.enough = enough;
@@ -87,7 +87,7 @@ vec3 distances_of(uint child, uint k) {
   return uintBitsToFloat(uvec3(corner_bits[at], corner_bits[at + 1u], corner_bits[at + 2u]));
 }
 
-// Of a child whose known triangles are there already.
+// Stores a child whose known triangles are stored already.
 void hold(uint child, Child c) {
   LocalCorners placed = without_low_parts(placed_corners(c.root, c.at));
   hold_vector(kHeldB, child, placed.b.hi);
@@ -101,7 +101,8 @@ void hold(uint child, Child c) {
   for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;
 }
 
-// Every child's corners against the triangles known to it; where `fine`, an invocation a corner.
+// Measures every child's corners against the triangles known to it; if `fine`, one invocation per
+// corner.
 void measure_corners(bool fine, float enough) {
   uint step = fine ? 3u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
@@ -117,7 +118,7 @@ void measure_corners(bool fine, float enough) {
   }
 }
 
-// What single triangles give: u1, u2 and ha, and the exact case, ha of the only one.
+// The bounds from single triangles: u1, u2 and ha, and the exact case, ha of the only one.
 Verdict bound_singly(uint child, float threshold) {
   Patch t = patch_of_child(child);
   float shift = held[kHeldSlack][child];
@@ -141,8 +142,8 @@ Verdict bound_singly(uint child, float threshold) {
 }
 
 // Pairs of triangles that may bound a child better than `upper`, for measure_cuts: a pair cannot
-// beat the better of its two distances at the worst corner. Which are tried does not depend on what
-// others found, or the bound would depend on their order.
+// beat the better of its two distances at the worst corner. The choice does not depend on the
+// others' results, or the bound would depend on their order.
 void list_pairs(uint child, float upper, bool fine) {
   float shift = held[kHeldSlack][child];
   uint known = known_count[child];
@@ -161,7 +162,7 @@ void list_pairs(uint child, float upper, bool fine) {
 
 uint child_of_pair(uint pair) { return pair / (kMaxKnown * kMaxKnown); }
 
-// u3 of the listed pairs: two cuts, each against two surfaces; where `fine`, an invocation each.
+// u3 of the listed pairs: two cuts, each against two surfaces; if `fine`, one invocation each.
 void measure_cuts(bool fine, float enough) {
   uint step = fine ? 4u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < pair_count * step; n += kGroupSize) {
@@ -191,7 +192,7 @@ void measure_cuts(bool fine, float enough) {
   }
 }
 
-// What the invocations of a pair have found together.
+// The joint result of the invocations of a pair.
 void join_cuts() {
   for (uint n = gl_LocalInvocationID.x; n < pair_count; n += kGroupSize)
     atomicMin(upper_bits[child_of_pair(listed[n])], listed[kPairBits + n]);

@@ -1,7 +1,7 @@
-// What a workgroup of wave_bound has for the control block. On GPUs it is summed up first: its
-// words are in a cache line or two, where the atomics of all workgroups wait for each other. On
-// CPU devices a barrier costs more than an atomic. The kernel declares what wave/bound_group.glsl
-// needs.
+// The contribution of a workgroup of wave_bound to the control block. On GPUs it is summed up
+// first: its words are in a cache line or two, where the atomics of all workgroups wait for each
+// other. On CPU devices a barrier costs more than an atomic. The kernel declares what
+// wave/bound_group.glsl needs.
 #ifndef VKH_SHADERS_WAVE_BOUND_TALLY_GLSL
 #define VKH_SHADERS_WAVE_BOUND_TALLY_GLSL
 
@@ -12,10 +12,11 @@
 const uint kTallyClosed = kCullLowerRaised + 1u;  // largest u of those, as bits
 const uint kTallyNext = kTallyClosed + 1u;        // and of those that stay open
 const uint kTallyOpen =
-    kTallyNext + 1u;  // how many these are; then where their slots in the stream begin
+    kTallyNext + 1u;  // the number of these; then the start of their slots in the stream
 const uint kTallies = kTallyOpen + 1u;
 
-// In the words of known triangles, which nobody reads after the cuts: shared memory is scarce.
+// The tally reuses the words of known triangles, which are not read after the cuts: shared memory
+// is scarce.
 uint tally_word(uint i) { return known_triangle[i]; }
 
 // Called by every invocation, as are those below; a barrier stands before give.
@@ -31,13 +32,13 @@ uint tally_count(uint word, bool counts) {
   return subgroupBroadcastFirst(before) + subgroupBallotExclusiveBitCount(counted);
 }
 
-// For value >= 0.
+// Requires value >= 0.
 void tally_raise(uint word, float value) {
   float highest = subgroupMax(value);
   if (subgroupElect()) atomicMax(known_triangle[word], bits_of(highest));
 }
 
-// An invocation a word.
+// One invocation per word.
 void give_tally() {
   uint i = gl_LocalInvocationID.x;
   if (i >= kTallies || tally_word(i) == 0u) return;

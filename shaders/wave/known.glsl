@@ -1,5 +1,5 @@
-// Triangles of B that are known to be near a child: of the children that a workgroup looks at. The
-// kernel declares kKnowers, how many children these are, candidate/centroid.glsl, and what
+// Triangles of B that are known to be near a child, for the children that a workgroup bounds. The
+// kernel declares kKnowers, the number of these children, candidate/centroid.glsl, and what
 // candidate/child.glsl needs.
 #ifndef VKH_SHADERS_WAVE_KNOWN_GLSL
 #define VKH_SHADERS_WAVE_KNOWN_GLSL
@@ -7,8 +7,8 @@
 #include "shaders/candidate/child.glsl"
 #include "shaders/candidate/dispatch.glsl"
 
-// At most: three own, three more of the parent's six points, the parent's centroid, the child's own
-// centroid.
+// The most triangles: three own, three more of the parent's six points, the parent's centroid, the
+// child's own centroid.
 const uint kMaxKnown = 8u;
 // Without the centroid's triangle and the parent's, only the three corners' are known.
 const uint kMostKnown = kKnowsMore ? kMaxKnown : 3u;

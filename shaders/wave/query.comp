@@ -1,16 +1,16 @@
-// What: the closest triangle of B to each of some points: all that a run asks for but the paper's
-// packets (wave_packet). One kernel, for a walk is most of the code that a driver compiles.
-// push.asked says which points:
+// Finds the closest triangle of B to each of some points: all queries of a run except the paper's
+// packets (wave_packet). It is one kernel, since a traversal is most of the code that a driver
+// compiles. push.asked selects the points:
 //   the new points of a wave, or centroids. In: `points`, each with a triangle to start from; a
-// negative distance means skip; or, where is_fused(), the frontier, whose candidates are split here
-// (wave/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; and
-// of a split all that wave_subdivide writes but the points' positions.
-//   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them
-// where push.warm (seed/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
+// negative distance means skip; or, if is_fused(), the frontier, whose candidates are split here
+// (wave/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; and for a split
+// all that wave_subdivide writes but the points' positions.
+//   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them if
+// push.warm (seed/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
 // control.maximum[kMaxVertex].
-//   the same once more, or the witness alone where the base has moved, to 48 bits above the base,
+//   the same once more, or the witness alone if the base has moved, to 48 bits above the base,
 // which follows from the maximum of the first. Out: the same; control.maximum[kMaxLower].
-// An invocation walks for a point of its own, or, where there are few, all of a workgroup for one
+// An invocation traverses for a point of its own, or, if there are few, a whole workgroup for one
 // (walk/group_walk.glsl).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -45,7 +45,7 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 #include "shaders/seed/seed.glsl"
 #include "shaders/wave/split.glsl"
 
-// A wave whose plan has moved the base asks for its witness alone.
+// A wave whose plan has moved the base queries only its witness.
 uint what_is_asked() {
   bool again = push.asked == kAskPoints && control.measuring != 0u;
   return again ? kAskVerticesAgain : push.asked;
@@ -59,12 +59,12 @@ uint asked_count(uint asks) {
   return seed_count();
 }
 
-// All of a workgroup for one point, or an invocation for each. The second pass over the vertices
-// has few walks, and does not know which.
+// Uses a whole workgroup for one point, or one invocation for each. The second pass over the
+// vertices has few traversals, and does not know which.
 bool are_few(uint asks, uint count) {
   if (is_fused() && asks == kAskPoints) return splits_in_groups();
   bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupWalkVertices;
-  // Once more: optimisers then leave the group's walk out.
+  // The test stands here once more: optimisers then leave out the group's traversal.
   return walks_by_group() && (are_points(asks) ? walks_in_groups(count) : few_vertices);
 }
 
@@ -73,9 +73,10 @@ Item item_at(uint asks, uint i, bool mine) {
   return asks == kAskVertices ? first_item(i, mine) : known_item(i, mine);
 }
 
-// Of a fused query: splits a candidate, and takes a new point of it. A workgroup has all those of
-// some candidates, or one, which all its invocations walk for: then every workgroup of a candidate
-// works out its split, and the one of the first point keeps it. `i`: which point of the wave it is.
+// For a fused query: splits a candidate, and takes a new point of it. A workgroup has all those of
+// some candidates, or one, which all its invocations traverse for: then every workgroup of a
+// candidate works out its split, and the one of the first point keeps it. `i`: the number of the
+// point in the wave.
 Item new_item(bool by_group, out uint i) {
   uint each = points_each();
   uint lane = gl_LocalInvocationID.x;
@@ -88,7 +89,7 @@ Item new_item(bool by_group, out uint i) {
     item = workgroup_index() / each;
     k = workgroup_index() % each;
     first = k == 0u && lane == 0u;
-    // For the splits of all its children.
+    // Reserves the splits of all its children.
     if (k == 0u && lane < each) k = lane;
   }
   Refined r = refine(item, by_group ? lane == 0u : first, group);
@@ -117,12 +118,13 @@ void main() {
   Nearest found = find_nearest(item.query, item.nearest, item.asked, by_group);
   bool plain = asks == kAskVertices;
   if (item.asked) {
-    // A wave looks for samples farther than the witness. Not kMaxLower: others raise it meanwhile.
+    // A wave looks for samples farther than the witness. This is not kMaxLower: others raise it
+    // meanwhile.
     float than = are_points(asks) ? control.witness.distance : -1.0;
     if (!plain) found = measured(item.query, found, than);
     item.nearest = found.triangle;
     item.distance = max(found.above, 0.0);
-    // In plain floats it steers; the second pass measures what matters.
+    // The distance in plain floats only steers; the second pass measures the ones that matter.
     if (plain) item.distance = root(found.distance2);  // uncertified: steers
   }
   if (are_points(asks)) {

@@ -1,8 +1,8 @@
-// A wave's first step, over what the frontier holds: which candidates are refined, how each is
-// split, and where its new points are: three, or, where the wave splits twice, three of its own
-// and three of each child (candidate/split_counts.glsl). Midpoints, or double longest-edge
-// bisection where the candidate is thin (docs/method.md, section 4); always 1 -> 4. Candidates that
-// there is no room to refine (plan/select.glsl) are copied to the next frontier. A candidate that
+// A wave's first step, over the frontier: it decides which candidates are refined, how each is
+// split, and its new points: three, or, if the wave splits twice, three of its own and three of
+// each child (candidate/split_counts.glsl). A split is by midpoints, or by double longest-edge
+// bisection if the candidate is thin (docs/method.md, section 4); always 1 -> 4. Candidates without
+// room to be refined (plan/select.glsl) are copied to the next frontier. A candidate that
 // the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
 // A workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
 // declares `frontier`, `splits`, `areas`, what walk/walk.glsl and candidate/candidate.glsl need,
@@ -19,10 +19,10 @@
 shared uint slot_in_group[kGroupSize];
 shared uint child_splits_in_group[kGroupSize];
 
-// What an invocation knows of its candidate.
+// An invocation's knowledge of its candidate.
 struct Refined {
   uint from;   // its slot in the half of the frontier being read
-  uint slot;   // among the wave's parents; kNone: it is none of them
+  uint slot;   // place among the wave's parents; kNone: it is none of them
   uint split;  // math/bary.h; kSplitNone where it ends here
   bool closed;
   float upper;
@@ -32,7 +32,7 @@ struct Refined {
   Root root;
 };
 
-// The code of the candidate's split; kSplitNone where the barycentric bits have run out.
+// The code of the candidate's split; kSplitNone if the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
   Corners t = plain_corners(root, at);
   if ((kSwitches & kUseThin) != 0u && quality(t) < kThinQuality) {
@@ -57,15 +57,15 @@ uint best_start(Refined r, vec3 p) {
   return best.triangle;
 }
 
-// A new point as a query: where it is, the triangle to start from, and whether it is one.
+// A new point as a query: its position, the triangle to start from, and whether it is one.
 struct NewPoint {
   Two3 p;
   uint start;
   bool asked;
 };
 
-// New point k: of the candidate's own split, or of the split of one of its children, which goes to
-// the `group` of the workgroup that the candidate is.
+// New point k, of the candidate's own split or of the split of one of its children, which goes to
+// the `group` of the workgroup that belongs to the candidate.
 NewPoint new_point(uint k, Refined r, uint group) {
   uint split = r.split;
   bool of_child = kMaySplitTwice && k >= 3u && split != kSplitNone;
@@ -94,8 +94,8 @@ void defer(uint slot, Refined r) {
   keep_nearest_to_centroid(writing(slot), r.centre);
 }
 
-// Where the candidate of an item stands among the wave's parents; kNone if there is no room for it
-// in this wave: then it is copied to the next frontier. Where none is deferred, items are parents.
+// The place of an item's candidate among the wave's parents; kNone if there is no room for it in
+// this wave: then it is copied to the next frontier. If none is deferred, items are parents.
 uint slot_of(uint item, bool held, Refined r) {
   if (control.deferred == 0u) return held ? item : kNone;
   if ((kSwitches & kUseDefer) == 0u) {
@@ -122,7 +122,7 @@ uint slot_of(uint item, bool held, Refined r) {
   return refined ? parent : kNone;
 }
 
-// The same for all invocations of a candidate: the first of them asks.
+// The result is the same for all invocations of a candidate: the first of them reserves it.
 uint shared_slot_of(uint item, bool held, bool first, Refined r, uint group) {
   uint i = slot_of(item, held && first, r);
   if (!kWide && !kMaySplitTwice) return i;
@@ -134,8 +134,8 @@ uint shared_slot_of(uint item, bool held, bool first, Refined r, uint group) {
   return slot_in_group[group];
 }
 
-// Whether it is rounding that holds u up, so that no split helps: the candidate is tiny; or it lies
-// on B, where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
+// Whether rounding holds u up, so that no split helps: the candidate is tiny; or it lies on B,
+// where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
 // A's.
 bool is_noise(Bary3 corners, uint number, Root root, float upper) {
   Corners t = plain_corners(root, corners);
@@ -169,8 +169,8 @@ Refined refine(uint item, bool first, uint group) {
   return r;
 }
 
-// Keeps what became of the candidate, once its new points are there. Called by every invocation;
-// `first`: of the candidate.
+// Stores the candidate's outcome, once its new points are written. Called by every invocation;
+// `first`: the candidate's first one.
 void keep_split(Refined r, bool first, uint group) {
   if (kMaySplitTwice) barrier();
   bool mine = first && r.slot != kNone;

@@ -1,4 +1,4 @@
-// What wave_subdivide does, and paper_subdivide in the order of the sort. The kernel declares
+// The work of wave_subdivide, and of paper_subdivide in the order of the sort. The kernel declares
 // `points`, and what wave/split.glsl needs.
 #ifndef VKH_SHADERS_WAVE_SUBDIVIDE_GLSL
 #define VKH_SHADERS_WAVE_SUBDIVIDE_GLSL

@@ -1,5 +1,5 @@
-// What: where centroids are queried, or the paper's u3 is on, the cheap half of the cascade, over
-// every child: exact case, u1, u2, ha with the triangles already known. In: the refined candidates,
+// Runs the cheap half of the cascade over every child, if centroids are queried or the paper's u3
+// is on: exact case, u1, u2, ha with the triangles already known. In: the refined candidates,
 // their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
 // its centroid as a query that starts from the best single triangle. Every closed child's u is kept
 // (kMaxClosed).

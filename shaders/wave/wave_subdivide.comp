@@ -1,7 +1,7 @@
-// What: the wave's first step (wave/split.glsl) where `query` does not do it: on narrow devices,
-// and where a switch of kUseApart is on, but for `sort` (paper_subdivide). In: the frontier's
+// Does the wave's first step (wave/split.glsl) if `query` does not: in the CPU profile, and if a
+// switch of kUseApart is on, except for `sort` (paper_subdivide). In: the frontier's
 // reading half. Out: splits; points[points_each() i + k], started from the best triangle known to
-// the candidate, a negative distance where it is not to be queried; deferred candidates and
+// the candidate, a negative distance if it is not to be queried; deferred candidates and
 // kMaxNext.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// What: the sizes of the wave's second half, once the filter has counted its survivors. One
+// Writes the sizes of the wave's second half, once the filter has counted its survivors. It is one
 // invocation.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

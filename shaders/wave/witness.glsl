@@ -1,9 +1,9 @@
-// Which of a wave's samples becomes the witness. Several may be at the new lower bound, in an
+// Chooses the witness among a wave's samples. Several may be at the new lower bound, in an
 // order that depends on scheduling: the one with the smallest key is taken, and the key is a hash
-// of all that the report says of a witness, so that two samples with one key are one to the
-// report, but for one chance in 2^32 a pair of them. wave_bound, by when all are measured, offers
-// them; the plan adopts one (plan/adopt.glsl). The kernel declares `survivors`, `centroids`, and
-// what candidate/child.glsl needs.
+// of all that the report contains about a witness, so that two samples with one key are one to the
+// report, but for one chance in 2^32 a pair of them. wave_bound offers them, after all are
+// measured; the plan adopts one (plan/adopt.glsl). The kernel declares `survivors`, `centroids`,
+// and what candidate/child.glsl needs.
 #ifndef VKH_SHADERS_WAVE_WITNESS_GLSL
 #define VKH_SHADERS_WAVE_WITNESS_GLSL
 
@@ -54,8 +54,8 @@ uint key_of_witness(Witness w) {
   return min(key, kNone - 1u);
 }
 
-// Kept where its key is the smallest so far: some 20 are kept of a million in whatever order, and
-// the smallest of all is among them.
+// Keeps a sample if its key is the smallest so far: some 20 are kept of a million in whatever
+// order, and the smallest of all is among them.
 void offer(Witness w) {
   uint key = key_of_witness(w);
   if (key >= atomicMin(control.offer_key, key)) return;

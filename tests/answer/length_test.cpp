@@ -1,4 +1,4 @@
-// Lengths as typed, and what encloses them in the files' unit.
+// Lengths as typed, and their enclosing intervals in the files' unit.
 #include "host/base/length.h"
 
 #include <doctest/doctest.h>
@@ -54,7 +54,7 @@ TEST_CASE("what is no length is refused, and a limit is no number alone") {
                        "--unit 'miles': expected um, mm, cm, m, in or ft", UsageError);
 }
 
-/// Returns what an error proposes to write; empty where it proposes nothing.
+/// Returns the text that an error proposes; empty if it proposes nothing.
 std::string proposed(const std::string& text, PlainNumber plain = PlainNumber::kRefused) {
   try {
     parse_length("--max", text, plain);
@@ -123,7 +123,7 @@ TEST_CASE("a length is enclosed in the files' unit") {
   check_near(in("1um", "m"), 1e-6);
   check_near(in("3cm", "mm"), 30);
   check_near(in("1m", "ft"), 1 / 0.3048);
-  // A tenth is no double: neither end is above, nor under, what it stands for.
+  // A tenth is no double: neither end is above, nor under, its exact value.
   const Limit tenth = in("0.1mm", "mm");
   CHECK(tenth.within < 0.1);
   CHECK(tenth.beyond > 0.1);

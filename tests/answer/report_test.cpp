@@ -1,4 +1,5 @@
-// What needs no program to run: quantities as typed, the interval of two directions, odd reports.
+// Tests without a running program: quantities as typed, the interval of two directions, odd
+// reports.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -85,7 +86,7 @@ TEST_CASE("closed is a matter of exact arithmetic") {
   CHECK(both(r, r).gap > 1);
   r.tolerance = std::nextafter(r.tolerance, 1);
   CHECK(both(r, r).status == Status::kClosed);
-  // Pruned by the way there within one rounding of the tolerance: not closed either.
+  // The forward direction prunes it within one rounding of the tolerance: it is not closed either.
   vkh::Report back = r;
   back.status = Status::kPruned;
   back.tolerance = r.tolerance = 0x1.0ce79468fc012p-1;

@@ -64,7 +64,7 @@ class Folder(unittest.TestCase):
         return [json.loads(line) for line in (self.folder / name).read_text().splitlines()]
 
     def merged(self, *files):
-        """What two runs have in common, as bytes."""
+        """The part of the results that two runs share, as bytes."""
         done = self.run_words("merge", *(files or ["out.jsonl"]), "--out", "merged.jsonl", "--reproducible")
         self.assertIn(done.returncode, (0, 1, 3, 4), done.stderr)
         return (self.folder / "merged.jsonl").read_bytes()
@@ -147,7 +147,7 @@ class Answers(Folder):
                          {"bad": 4, "good": 0, "missing": 4, "unit": 2, "length": 2})
         self.assertEqual(results["bad"]["error"]["file"], "bad.obj")
         self.assertIn("line 1", results["bad"]["error"]["place"])
-        # A file that was not there, or was mended, is tried again; the rest is not.
+        # A file that was missing, or was fixed, is tried again; the rest is not.
         write_mesh(self.folder / "none.obj", 0)
         write_mesh(self.folder / "bad.obj", 0)
         done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")
@@ -194,7 +194,7 @@ class Interrupted(Folder):
             self.assertEqual(len(self.results()), 6)
 
     def test_killed_at_random_moments(self):
-        """Nothing that a line said is lost or done again."""
+        """No pair with a line is lost or done again."""
         self.make_pairs(40, size=4)
         self.assertEqual(self.run_words("batch", "list.jsonl", "--out", "truth.jsonl").returncode, 0)
         truth = self.merged("truth.jsonl")
@@ -439,7 +439,7 @@ class Beneath(Folder):
         self.assertIn("another file beneath B", done.stderr)
 
     def test_a_line_of_an_older_program_is_done_again(self):
-        """Its key was of the document alone, so that nobody knows of which shape it is."""
+        """The key was only the document's, so that the shape is unknown."""
         self.batch()
         line = self.results()[0]
         digests = [side["sha256"] for side in line["inputs"]]
@@ -496,7 +496,8 @@ class Merged(Folder):
 class Memory(Folder):
     @unittest.skipIf(os.environ.get("VKH_SANITIZED"), "a sanitizer keeps what is freed")
     def test_it_is_bounded(self):
-        """A thousand pairs take no more than a hundred, and --read-ahead holds what is read."""
+        """A thousand pairs take no more memory than a hundred, and --read-ahead limits the meshes
+        that are read."""
         most = []
         for count in (100, 1000):
             self.make_pairs(count, size=2)

@@ -23,7 +23,7 @@ VOID = {"meta", "img", "link", "br"}
 
 
 class Index(html.parser.HTMLParser):
-    """The rows of its table, each of cells; whatever else it has that must be right."""
+    """The rows of its table, each of cells; checks its other parts."""
 
     def __init__(self, text):
         super().__init__()

@@ -111,7 +111,7 @@ TEST_CASE("shards: each id in one, about as many in each, whatever else there is
     const int even = 6400 / static_cast<int>(count);
     for (const auto& [index, size] : sizes) CHECK(std::abs(size - even) < even / 2 + 30);
   }
-  // Of every machine and version: a results file outlives them.
+  // The hash is the same on every machine and in every version: a results file outlives them.
   CHECK(Shard{3, 64}.has("pair_41") == Shard{3, 64}.has("pair_41"));
   const Shard shard = parse_shard("3/64");
   CHECK((shard.index == 3 && shard.count == 64));

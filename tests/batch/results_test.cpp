@@ -1,4 +1,4 @@
-// Results of several files as one: which lines go together.
+// Results of several files as one: the rules for merging lines.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -39,7 +39,7 @@ std::string without_files(const std::string& line) {
   return json.dump();
 }
 
-/// A line each, in a file each; what is refused, else the upper end that counts.
+/// Merges one line each, in one file each; returns the refusal, or the upper end that counts.
 std::string merged(const std::vector<std::string>& lines) {
   Results results;
   try {
@@ -73,7 +73,7 @@ TEST_CASE("intervals of one key that do not meet are refused, in several files a
   check_refused({near, far}, "[7, 7] does not meet the [0.25, 0.5]");
   check_refused({near + "\n" + far}, "does not meet");
   check_refused({far, near}, "does not meet");
-  // The larger of both ways is the same, and one way is not.
+  // The larger of both directions is the same, and one direction is not.
   check_refused({line_of({0.25, 0.5, 7, 7}), line_of({0.75, 1, 7, 7})}, "does not meet");
   check_refused({line_of({7, 7, 0.25, 0.5}), line_of({7, 7, 0.75, 1})}, "does not meet");
 }

@@ -22,7 +22,7 @@ using MeshPointer = std::shared_ptr<const Mesh>;
 
 MeshPointer kept(Mesh mesh) { return std::make_shared<const Mesh>(std::move(mesh)); }
 
-/// Of unlike sizes and questions.
+/// Pairs of different sizes and questions.
 std::vector<StreamPair> pairs() {
   std::vector<StreamPair> all;
   const MeshPointer field = kept(height_field(24, 1));
@@ -41,7 +41,7 @@ std::vector<StreamPair> pairs() {
   return all;
 }
 
-/// What a stream delivers, by number.
+/// A stream's deliveries, by number.
 struct Sink {
   std::mutex mutex;
   std::map<size_t, StreamResult> results;
@@ -145,7 +145,7 @@ TEST_CASE("a stream that is cancelled delivers what ran, truly, and no more") {
     CHECK_NOTHROW(stream.finish());
   }
   CHECK(delivered < pairs().size());
-  // One that nobody finishes goes away with what runs.
+  // A stream that is never finished ends with its running pairs.
   PairStream left({}, [](StreamResult&&) {});
   left.push(std::move(pairs()[0]));
 }

@@ -24,7 +24,7 @@ OPTIONS = argparse.Namespace(pairs=70, seed=1, seconds=0.0, mutants=60)
 
 
 class Attack:
-    """One pair, its certificate and what is so of it."""
+    """One pair, its certificate and the truth about it."""
 
     def __init__(self, rng, checkers):
         self.rng, self.checkers = rng, checkers
@@ -52,7 +52,7 @@ class Attack:
         return self.truth[x]
 
     def ask(self, data, expected, what):
-        """Whatever is accepted has to be so."""
+        """Every accepted claim has to be true."""
         answer = self.checkers.ask(data, expected, f"{what} of {self.what}")
         if answer is None or answer[0] != 0:
             return None
@@ -92,7 +92,7 @@ class Attack:
             try:
                 data = make_certificate.encode(model)
             except make_certificate.struct.error:
-                continue  # not a number that the format has
+                continue  # not a number of the format
             certificate = self.ask(data, expected, how.__name__)
             if certificate is not None and expected == spoil.ANY:
                 self.squeeze(model, certificate, how.__name__)

@@ -1,4 +1,4 @@
-"""Both checkers at once: VKH_CHECK, where it is set, and check/vkh_check.py, in this process."""
+"""Both checkers at once: VKH_CHECK, if it is set, and check/vkh_check.py, in this process."""
 
 import decimal
 import os
@@ -19,7 +19,7 @@ EXACT = re.compile(r"exactly, squared, in units of 4\^(-?\d+): (\d+)/(\d+) <= (\
 
 
 def numbers(text):
-    """What a checker says that it proved."""
+    """A checker's output about its proof."""
     return [(decimal.Decimal(lower), way, decimal.Decimal(upper)) for lower, way, upper in CLAIM.findall(text)]
 
 
@@ -37,7 +37,7 @@ class Checkers:
         self.meshes_read = {}
 
     def read(self, path, given):
-        """As vkh_check.read_mesh, once for what is asked often."""
+        """vkh_check.read_mesh with a cache."""
         key = path, repr(given)
         if key not in self.meshes_read:
             try:
@@ -72,12 +72,12 @@ class Checkers:
         return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
     def ask(self, data, expected, what):
-        """What both say to these bytes; None where they do not agree. Claims that are accepted come as (lower, name, upper)."""
+        """The verdict of both on these bytes; None if they disagree. Accepted claims come as (lower, name, upper)."""
         self.count += 1
         self.certificate.write_bytes(data)
         try:
             code, text, certificate = self.python(data)
-        except Exception as error:  # whatever it is, it is a fault of the checker
+        except Exception as error:  # any exception is a fault of the checker
             return self.fault(f"{what}: vkh_check.py raises {error!r}")
         self.codes[code] = self.codes.get(code, 0) + 1
         if code not in expected:
@@ -98,7 +98,7 @@ class Checkers:
 
     @staticmethod
     def is_same(exact, certificate):
-        """The exact squares of both, of the last direction."""
+        """The exact squares of both checkers, for the last direction."""
         unit, witness_claim, one, witness, two, leaves, three, *_ = map(int, exact)
         unit = Fraction(4) ** unit / 1
         scale = certificate.scale ** 2

@@ -13,7 +13,8 @@ import truth
 
 
 class Read:
-    """How a mesh was read: from version 2 on. A polygon is [face, corners, axis, triangles]."""
+    """The way that a mesh was read: from version 2 on. A polygon is [face, corners, axis,
+    triangles]."""
 
     def __init__(self, polygons=()):
         self.points = self.bodies = self.face = self.matrix = 0
@@ -29,7 +30,7 @@ class Read:
 
 
 class Model:
-    """All that a file says. A tree is [op, first, second], [3, S] or [4 + corner, S, R, s, t]."""
+    """All contents of a file. A tree is [op, first, second], [3, S] or [4 + corner, S, R, s, t]."""
 
     def __init__(self, a, b, deltas=(0.0, 0.0), files=(None, None), version=2):
         self.magic, self.zero, self.deltas, self.directions = b"VHCERT0%d" % version, 0, list(deltas), []
@@ -67,7 +68,7 @@ def counted(code, padding=0):
 
 
 def encode_block(trees, padding=0, cut_bits=16):
-    """Its bytes; padding makes the first number longer than it needs to be."""
+    """The bytes; padding makes the first number longer than it needs to be."""
     out, before = bytearray(), 0
     waiting = list(reversed(trees))
     while waiting:
@@ -154,7 +155,7 @@ class Prover:
             self.add(half, f, [m if n == replaced else v[n] for n in range(3)])
 
     def cut(self, tree, v, enough):
-        """Makes the part a leaf that is cut, where two triangles are good enough."""
+        """Makes the part a leaf that is cut, if two triangles are good enough."""
         for o in self.rng.sample(range(3), 3):
             a, b, c = (v[(o + n) % 3][0] for n in range(3))
             whole = self.whole
@@ -182,7 +183,7 @@ class Prover:
 
 
 def make(a, b, rng, both=False, slack=0.05, parts=60, deltas=(0.0, 0.0), files=(None, None), version=2):
-    """A certificate's Model, as tight as its trees are; None where no double is an upper bound."""
+    """A certificate's Model, as tight as its trees are; None if no double is an upper bound."""
     model = Model(a, b, deltas, files, version)
     for x, y in ((a, b), (b, a))[:1 + both]:
         model.directions.append(Prover(x, y, rng, slack, parts, model.cut_bits).direction(sum(map(Fraction, deltas))))

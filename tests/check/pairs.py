@@ -39,7 +39,7 @@ def flat(rng):
 
 
 def quad(rng):
-    """A convex one, in two triangles."""
+    """A convex mesh of two triangles."""
     w, h, z = rng.uniform(0.2, 2), rng.uniform(0.2, 2), rng.uniform(-1, 1)
     a, b, c, d = (0.0, 0.0, z), (w, 0.0, z), (w, h, z), (0.0, h, z)
     return [(a, b, c), (a, c, d)] if rng.random() < 0.5 else [(b, c, d), (b, d, a)]
@@ -66,7 +66,7 @@ def apart(mesh, shift, scale):
 
 
 def pair(rng):
-    """A, B, whether A and whether B is convex, and what was drawn."""
+    """A, B, whether A and whether B is convex, and the chosen kinds."""
     kinds = rng.choice(KINDS), rng.choice(KINDS)
     a, b = (kind(rng) for kind in kinds)
     if rng.random() < 0.1:

@@ -25,7 +25,7 @@ OTHER = [((0.0, 0.0, 40.0), (1.0, 0.0, 40.0), (0.0, 1.0, 40.0))]
 # ---- Outlines of integers.
 
 def star(rng):
-    """Simple, since angles rise; corners on a coarse grid may meet."""
+    """A simple outline, since angles rise; corners on a coarse grid may meet."""
     count, around = rng.randrange(4, 12), [(4, 0), (4, 2), (3, 3), (2, 4), (0, 4), (-2, 4), (-3, 3), (-4, 2), (-4, 0), (-4, -2), (-3, -3),
                                            (-2, -4), (0, -4), (2, -4), (3, -3), (4, -2)]
     return [tuple(x * rng.choice((1, 1, 2, 4)) for x in around[i]) for i in sorted(rng.sample(range(16), count))]
@@ -36,14 +36,14 @@ def anything(rng):
 
 
 def plate(rng):
-    """With a hole, to which an edge leads and back."""
+    """An outline with a hole, to which an edge leads and back."""
     x, y = rng.randrange(2, 5), rng.randrange(2, 5)
     hole = [(x, y), (x, y + 2), (x + 2, y + 2), (x + 2, y)]
     return [(0, 0), (9, 0), (9, 9), (0, 9), (0, 0), *hole, hole[0]]
 
 
 def spiral(rng):
-    """Over itself where the last turn is wide."""
+    """An outline that overlaps itself if the last turn is wide."""
     wide = rng.choice((2, 5))
     return [(0, 0), (6, 0), (6, 6), (-2, 6), (-2, -2), (4, -2), (4, wide), (1, wide)][:rng.randrange(5, 9)]
 
@@ -95,7 +95,7 @@ def clipped(ring, rng):
 
 
 def by_chance(ring, rng):
-    """Its edges add up, whatever it covers."""
+    """A triangulation whose edges add up, whatever it covers."""
     left, out = list(range(len(ring))), []
     while len(left) > 3:
         n = rng.randrange(len(left))
@@ -119,10 +119,10 @@ def spoiled(triangles, count, rng):
     return [tuple(t) for t in triangles]
 
 
-# ---- What is so.
+# ---- The truth.
 
 def common_area(a, b):
-    """Of two triangles that turn to the left: b, clipped by the edges of a."""
+    """The common area of two triangles that turn to the left: b, clipped by the edges of a."""
     ring = list(b)
     for p, q in zip(a, a[1:] + a[:1]):
         out = []
@@ -139,7 +139,7 @@ def common_area(a, b):
 
 
 def winding(ring, p):
-    """Of a point on no edge."""
+    """The winding number of a point on no edge."""
     count = 0
     for a, b in zip(ring, ring[1:] + ring[:1]):
         if (a[1] <= p[1]) != (b[1] <= p[1]):
@@ -149,7 +149,7 @@ def winding(ring, p):
 
 
 def tiles(ring, triangles, rng):
-    """Exactly, but for that points are tried at random in place of all."""
+    """Whether it tiles, exactly, except that random points are tried in place of all."""
     side = (area(ring) > 0) - (area(ring) < 0)
     if side == 0:
         return False
@@ -165,7 +165,8 @@ def tiles(ring, triangles, rng):
 
 
 def do_edges_meet(count, triangles):
-    """Each edge of the outline once, and all others as often there as back."""
+    """Whether each edge of the outline occurs once, and all others in both directions equally
+    often."""
     edges = [(t[n - 1], t[n]) for t in triangles for n in range(3) if t[n - 1] != t[n]] + [((n + 1) % count, n) for n in range(count)]
     return all(edges.count(edge) == edges.count(edge[::-1]) for edge in edges)
 

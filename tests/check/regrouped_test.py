@@ -20,7 +20,7 @@ BUILD = pathlib.Path(sys.argv[1]).resolve()
 COUNT = int(sys.argv[2]) if len(sys.argv) > 2 else 25
 LAYERS = {"VK_LAYER_PATH": f"{BUILD}/layer:/usr/share/vulkan/explicit_layer.d", "VK_INSTANCE_LAYERS": "VK_LAYER_VKH_test"}
 REGROUPED = LAYERS | {"VKH_LAYER_REGROUP": "1"}
-LEAST_FALSE = 0.5  # of the pairs: else the test shows nothing
+LEAST_FALSE = 0.5  # of the pairs: otherwise the test shows nothing
 
 
 def sheet(path, rng, n, height):
@@ -38,7 +38,7 @@ def run(*words, **environment):
 
 
 def distance(a, b, tolerance, *words, **environment):
-    """The interval, what the certificate proves, and the notes."""
+    """The interval, the certificate's claim, and the notes."""
     done = run(BUILD / "vkhausdorff", "distance", a, b, "--json", "--tol", tolerance, *words, **environment)
     if done.returncode not in (0, 3):
         sys.exit(f"regrouped_test: {done.args}: exit code {done.returncode}\n{done.stderr}")

@@ -1,4 +1,4 @@
-"""Ways to spoil a certificate. Each is told what a Model is to be changed in, and says what a checker may answer."""
+"""Ways to spoil a certificate. Each changes a Model, and returns the answers that a checker may give."""
 
 import math
 import struct
@@ -33,7 +33,7 @@ def others(model, node):
     return 1
 
 
-# ---- Of trees. Each returns what may be answered, or None where there is nothing to spoil.
+# ---- Trees. Each returns the possible answers, or None if there is nothing to spoil.
 
 def drop_leaf(rng, model):
     node = some_node(rng, model, lambda n: n[0] <= 2 and (leaf(n[1]) or leaf(n[2])))
@@ -43,7 +43,7 @@ def drop_leaf(rng, model):
 
 
 def drop_half(rng, model):
-    """The tree ends where a half does for the whole."""
+    """The tree ends if a half suffices for the whole."""
     node = some_node(rng, model, lambda n: n[0] <= 2)
     if node:
         node[:] = node[rng.randrange(1, 3)]
@@ -88,7 +88,7 @@ def no_triangle(rng, model):
 
 
 def long_number(rng, model):
-    """It takes six bytes or more."""
+    """The number takes six bytes or more."""
     node = some_node(rng, model, leaf)
     node[1] = rng.choice([2 ** 40, -2 ** 35, 2 ** 63, 2 ** 64, 2 ** 70 + node[1]])
     return BROKEN
@@ -128,7 +128,7 @@ def uncut(rng, model):
 
 
 def cut_whole(rng, model):
-    """Where one triangle does, it does for both pieces of any cut."""
+    """If one triangle suffices, it does for both pieces of any cut."""
     node = some_node(rng, model, lambda n: n[0] == 3)
     if node:
         node[:] = [4 + rng.randrange(3), node[1], node[1], some_cut(rng, model), some_cut(rng, model)]
@@ -156,7 +156,7 @@ def deep(rng, model):
 
 
 def chain(rng, model):
-    """Halvings that no leaf follows."""
+    """Adds halvings that no leaf follows."""
     direction = rng.choice(model.directions)
     direction.blocks[-1][-1] = [3, 0]
     tree = direction.blocks[-1][-1]
@@ -167,7 +167,7 @@ def chain(rng, model):
     return BROKEN
 
 
-# ---- Of bounds and witnesses.
+# ---- Bounds and witnesses.
 
 def nudge(value, toward, steps=1):
     for _ in range(steps):
@@ -192,7 +192,7 @@ def raise_upper(rng, model):
 
 
 def raise_lower(rng, model):
-    """It was the largest double that its witness proves."""
+    """Raises lower, which was the largest double that its witness proves."""
     d = rng.choice(model.directions)
     d.lower = rng.choice([nudge(d.lower, math.inf), nudge(d.lower, math.inf, 3), d.lower * 1.001 + 5e-324, d.upper,
                           2 * d.upper + 5e-324])
@@ -243,7 +243,7 @@ def no_witness(rng, model):
     return BROKEN
 
 
-# ---- Of headers and blocks.
+# ---- Headers and blocks.
 
 def flip_hash(rng, model):
     which = rng.randrange(4)
@@ -273,7 +273,7 @@ def header(rng, model):
 
 
 def description(rng, model):
-    """What is not known is broken, and a polygon that is not there is of another mesh."""
+    """An unknown value is broken, and a polygon that is not there is of another mesh."""
     if not model.read:
         return None
     one = rng.choice(model.read)
@@ -356,10 +356,10 @@ MODELS = [drop_leaf, drop_half, swap_halves, turn_halving, other_op, other_trian
           polygon_of_bytes, face_counts, delta, swap_directions, regroup, lose_face]
 
 
-# ---- Of bytes.
+# ---- Bytes.
 
 def block_places(model):
-    """Where blocks start."""
+    """The starts of blocks."""
     at = 176 + sum(len(read.encode()) for read in model.read)
     for d in model.directions:
         at += 40
@@ -404,7 +404,7 @@ def flip(rng, model):
 
 
 def flip_late(rng, model):
-    """Beyond the header, where it is not the hashes that tell."""
+    """Spoils bytes beyond the header, where the hashes do not show it."""
     data = bytearray(encode(model))
     for _ in range(rng.choice((1, 1, 1, 2, 5))):
         at = rng.randrange(176, len(data))

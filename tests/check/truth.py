@@ -1,4 +1,4 @@
-"""What is so of small meshes: exact squares of distances, and what h is between. Of another formulation than the checkers'."""
+"""The truth about small meshes: exact squares of distances, and bounds of h, by another formulation than the checkers'."""
 
 import heapq
 import itertools
@@ -9,7 +9,7 @@ SPARE = 120  # bits: so many halvings, cuts and parts of witnesses stay integers
 
 
 def scaled(*meshes):
-    """The meshes with integers for doubles, and what was multiplied by."""
+    """The meshes with integers for doubles, and the factor."""
     numbers = [Fraction(x) for mesh in meshes for face in mesh for p in face for x in p]
     unit = max(x.denominator for x in numbers) << SPARE
     return [[tuple(tuple(int(Fraction(x) * unit) for x in p) for p in face) for face in mesh] for mesh in meshes], unit
@@ -20,7 +20,8 @@ def dot(a, b):
 
 
 def square(p, triangle):
-    """Of the distance: the least of the projections to corners, edges and plane that are on the triangle."""
+    """The square of the distance: the least of the projections to corners, edges and plane that are on the
+    triangle."""
     from_corner = [tuple(x - y for x, y in zip(p, v)) for v in triangle]
     edges = [tuple(x - y for x, y in zip(triangle[(i + 1) % 3], triangle[i])) for i in range(3)]
     found = [Fraction(dot(f, f)) for f in from_corner]
@@ -38,7 +39,7 @@ def square(p, triangle):
 
 
 def double_beyond(number, is_enough, up):
-    """The nearest double on this side of a number that is enough; None where there is none. Enough are all beyond it."""
+    """The nearest double on this side of a number that is enough; None if there is none. All beyond it are enough."""
     try:
         value = float(number)
     except OverflowError:
@@ -65,14 +66,14 @@ def upper_double(number, delta=Fraction(0)):
 
 
 def lower_double(number, delta=Fraction(0)):
-    """The largest double l with (l + delta)^2 not more than a number; 0 where there is none."""
+    """The largest double l with (l + delta)^2 not more than a number; 0 if there is none."""
     if delta * delta > number:
         return 0.0
     return double_beyond(max(near_root(number) - delta, 0), lambda l: (Fraction(l) + delta) ** 2 <= number, False) or 0.0
 
 
 class Pair:
-    """What h(X,Y) is between, as squares. A convex Y has its farthest point of a triangle at a corner."""
+    """The bounds of h(X,Y), as squares. A convex Y has its farthest point of a triangle at a corner."""
 
     def __init__(self, x, y, is_convex, budget=400):
         (x, self.y), unit = scaled(x, y)

@@ -56,7 +56,7 @@ def leaf(difference=0):
 
 
 def cut(corner, s, r, p, q):
-    """p and q in 256ths."""
+    """Takes p and q in 256ths."""
     return bytes([4 + corner]) + number(s) + number(r) + struct.pack("<HH", 256 * p, 256 * q)
 
 
@@ -103,7 +103,7 @@ class Check(unittest.TestCase):
         return path
 
     def certificate(self, a, b, directions, delta=(0, 0), files=None):
-        """The bytes, for meshes that are written down, too."""
+        """The bytes, for written meshes, too."""
         names = [self.file("a.off", a), self.file("b.off", b)]
         files = files or [hashlib.sha256(name.read_bytes()).digest() for name in names]
         return (struct.pack("<8sIIQQdd", b"VHCERT02", len(directions), 0, len(a), len(b), *delta) + b"".join(files) +
@@ -149,7 +149,8 @@ class Check(unittest.TestCase):
                 self.expect(code, self.certificate(a, b, [direction(lower, upper, [block(leaf())], witness)]))
 
     def test_where_the_nearest_point_is(self):
-        """Of a corner, an edge and the inside; of triangles that are segments and points."""
+        """Distances from a corner, an edge and the inside; from triangles that are segments and
+        points."""
         for triangle, point, square in [
                 (FLAT[0], (-3, -4, 0), 25), (FLAT[0], (.5, -2, 0), 4), (FLAT[0], (1, 1, 0), Fraction(1, 2)),
                 (FLAT[0], (.25, .25, 7), 49), (FLAT[0], (5, -1, 2), 21),
@@ -263,7 +264,7 @@ class Check(unittest.TestCase):
         self.expect(REFUSED, of(.0625, below(.4375), (.125, .0625)), "farther than upper")
         self.expect(REFUSED, of(above(.0625), .4375, (.125, .0625)), "nearer than lower")
         self.expect(REFUSED, of(0.1, .125, (.125, .0625)), "upper is less than both deltas")
-        # What a scene's transforms round has to be said.
+        # The rounding of a scene's transforms has to be reported.
         third = struct.pack("<9f", 0, 0, .1, 1, 0, .1, 0, 1, .1)
         uri = "data:application/octet-stream;base64," + base64.b64encode(third).decode()
         (self.folder / "a.gltf").write_text(

@@ -1,4 +1,4 @@
-// Where the program's outputs go: never over an input, whole or not at all, and never at the price
+// The targets of the program's outputs: never an input, whole or not at all, and never at the price
 // of the answer. Runs the real program, $VKH_PROGRAM.
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -31,7 +31,7 @@ std::string triangle(const std::string& name, const char* z) {
 std::string mesh_a() { return triangle("out_a.obj", "0"); }
 std::string mesh_b() { return triangle("out_b.obj", "0.25"); }
 
-/// run(), but what hangs is killed after five minutes.
+/// run(), but a hanging program is killed after five minutes.
 Outcome run_soon(const Words& words) {
   const Running running = start(words);
   std::thread watchdog;
@@ -59,14 +59,14 @@ void check_line(const Outcome& outcome, int exit_code, const std::string& mentio
   CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
 }
 
-/// Before the run: no answer is lost.
+/// The refusal comes before the run: no answer is lost.
 void check_refused(const Words& words, const std::string& mentions) {
   const Outcome outcome = run_soon(words);
   check_line(outcome, 2, mentions);
   CHECK(outcome.out.empty());
 }
 
-/// The same, with the object that was asked for.
+/// The same, with the requested object.
 void check_refused_as_json(const Words& words, const std::string& mentions) {
   const Outcome outcome = run_soon(words);
   check_line(outcome, 2, mentions);
@@ -74,7 +74,7 @@ void check_refused_as_json(const Words& words, const std::string& mentions) {
   CHECK(json::parse(outcome.out)["error"]["code"] == 2);
 }
 
-/// The table is there, and stderr says what is not.
+/// The table is there, and stderr names the missing output.
 void check_not_written(const Outcome& outcome, const std::string& mentions) {
   check_line(outcome, 6, mentions);
   CHECK(outcome.out.find("interval") != std::string::npos);
@@ -152,7 +152,7 @@ TEST_CASE("a run that is refused says so in the file, too: no older answer stand
     CHECK(json::parse(read_file(file))["error"]["code"] == 4);
   }
   CHECK(fs::is_symlink(dangling));
-  // Also of a command line that makes no sense.
+  // The same for a command line that makes no sense.
   check_line(run_soon({"distance", mesh_a(), mesh_b(), "--tol", "x", "--json=" + kept}), 2,
              "--tol");
   CHECK(json::parse(read_file(kept))["error"]["code"] == 2);

@@ -33,7 +33,8 @@ std::string rectangle(double width, double z) {
 /// Unit squares a quarter apart: both directions are 1/4.
 std::string square_a() { return write_file("a.obj", rectangle(1, 0)); }
 std::string square_b() { return write_file("b.obj", rectangle(1, 0.25)); }
-/// In the unit square's plane and twice as long: 0 from the square to it, 1 from it to the square.
+/// A square in the unit square's plane and twice as long: 0 from the square to it, 1 from it to the
+/// square.
 std::string long_rectangle() { return write_file("long.obj", rectangle(2, 0)); }
 
 json parse_only_line(const std::string& text) {
@@ -59,7 +60,7 @@ double hex(const json& object, const char* key) {
   return std::strtod(object.at(key).get<std::string>().c_str(), nullptr);
 }
 
-/// Of an answer, or of one direction of it; `tolerance`: where it must be closed to that.
+/// Checks an answer, or one direction of it; `tolerance`: if it must be closed to that.
 void check_interval(const json& answer, double truth, double tolerance = INFINITY) {
   const json& object = answer.at("interval");
   const double lower = hex(object, "lower_hex"), upper = hex(object, "upper_hex");
@@ -121,7 +122,7 @@ TEST_CASE("bad input: exit code 4, one line that names the file") {
   for (const std::string& bad :
        {folder() / "missing.obj", empty, out_of_range, not_a_number, points}) {
     check_refused({"distance", bad, a}, 4, bad);
-    // The object says it, too.
+    // The object has it, too.
     const Outcome outcome = run({"distance", a, bad, "--json"});
     CHECK(outcome.exit_code == 4);
     const json failure = parse_only_line(outcome.out);
@@ -184,7 +185,7 @@ const Words kDirectionKeys =
     sorted({"from", "to", "status", "stop_reason", "interval", "known_lower", "witness", "times",
             "counts", "stages", "culled", "wave_stats"});
 
-// On a CPU device.
+// Runs on a CPU device.
 const Words kOffUnlessAsked = {"u4",       "group_walk",  "sort", "packet", "largest_first",
                                "u3_paper", "split_twice", "wide"};
 

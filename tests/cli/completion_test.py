@@ -22,7 +22,7 @@ def helped(command):
 
 
 def completed(command):
-    """What bash offers behind `vkhausdorff COMMAND --`."""
+    """Bash's completions behind `vkhausdorff COMMAND --`."""
     script = f"""source '{SOURCE}/tools/completion/vkhausdorff.bash'
         COMP_WORDS=(vkhausdorff {command} --) COMP_CWORD=2
         _vkhausdorff; printf '%s\\n' "${{COMPREPLY[@]}}" """

@@ -1,4 +1,4 @@
-// The example programs as people run them: what they print.
+// The example programs as people run them: their output.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,11 +23,11 @@ Outcome run_example(const char* name, Words words) {
   if (!environment("VKH_VALIDATION").empty()) words.push_back("--validation");
   const Outcome outcome = run(words);
   INFO(outcome.err);
-  CHECK(outcome.exit_code == 0);  // not 0 if the validation layer said anything
+  CHECK(outcome.exit_code == 0);  // not 0 if the validation layer reported anything
   return outcome;
 }
 
-/// What stands between two lines that hold `mark`, or after it in the next block of code.
+/// The text between two lines that hold `mark`, or after it in the next block of code.
 std::string between_marks(const std::string& text, const std::string& from, const std::string& to) {
   const size_t start = text.find(from);
   REQUIRE(start != std::string::npos);

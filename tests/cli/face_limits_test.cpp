@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using namespace vkh::test;
 
-/// Of two triangles, at a height.
+/// A square of two triangles, at a height.
 std::string square(const std::string& name, double z) {
   std::ostringstream obj;
   obj << "v 0 0 " << z << "\nv 1 0 " << z << "\nv 1 1 " << z << "\nv 0 1 " << z
@@ -30,7 +30,7 @@ Outcome gate(const std::string& max, const Words& more) {
 }
 
 /// Faces 0, 3 and 4 of the file are a quad 0.25 from square_b(), a triangle 1.5 from it, and one at
-/// 0.25. Those between have two corners: triangles 0 and 1, 2 and 3 are left.
+/// 0.25. The faces between have two corners: triangles 0 and 1, 2 and 3 are left.
 std::string mixed() {
   return write_file("mixed.obj",
                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1.75\nv 1 0 1.75\nv 1 1 1.75\n"
@@ -87,7 +87,7 @@ TEST_CASE("--face-max: each face its own limit") {
   CHECK(r["directions"][0]["witness"]["from"]["face"] == 1);
   CHECK(r["words"].get<std::string>().find("face's limit is 0.2") != std::string::npos);
   CHECK(ask("0,8mm\n1,7mm\n", "1mm", {"--unit", "in"}).exit_code == 0);
-  // With the mark of spreadsheets.
+  // The file starts with the mark of spreadsheets.
   CHECK(ask("\xef\xbb\xbf"
             "face,max\r\n0,0.3\r\n1,0.26\r\n",
             "0.1abs")
@@ -160,7 +160,7 @@ TEST_CASE("a limit of a polygon holds for all of it") {
 }
 
 TEST_CASE("each triangle of a polygon has its limit") {
-  // B is beneath the quad's first triangle alone.
+  // B is beneath only the quad's first triangle.
   const std::string half = write_file("half.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   const std::string rows = write_file("quad.csv", "0,0.5\n");
   const Words pair = {"gate", mixed(), half, "--max", "10abs", "--face-max", rows};

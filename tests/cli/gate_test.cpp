@@ -1,4 +1,4 @@
-// The gate: verdicts, exit codes and words; units; what build servers read; and the end of its
+// The gate: verdicts, exit codes and words; units; the files for build servers; and the end of its
 // time. Runs the real program, $VKH_PROGRAM.
 #include <doctest/doctest.h>
 
@@ -27,7 +27,7 @@ std::string square(const std::string& name, double width, double z) {
 /// A quarter apart.
 std::string square_a() { return square("gate_a.obj", 1, 0); }
 std::string square_b() { return square("gate_b.obj", 1, 0.25); }
-/// In the plane of A and twice as long: 0 from A to it, 1 back.
+/// A square in the plane of A and twice as long: 0 from A to it, 1 back.
 std::string long_one() { return square("gate_long.obj", 2, 0); }
 
 Outcome gate(const std::string& max, Words more = {}) {
@@ -190,7 +190,7 @@ TEST_CASE("--github: an annotation, and the run's summary after what is there") 
   const std::string text = read_file(summary);
   CHECK(starts_with(text, "before\n### :x: vkhausdorff gate\n"));
   CHECK(text.find(":white_check_mark:") != std::string::npos);
-  // What cannot be written costs neither the answer nor its words.
+  // An output that cannot be written costs neither the answer nor its words.
   setenv("GITHUB_STEP_SUMMARY", (folder() / "no/such/file").c_str(), 1);
   const Outcome lost = gate("0.3abs", {"--github"});
   CHECK(lost.exit_code == 6);
@@ -295,7 +295,7 @@ TEST_CASE("--junit: one test case, its failure, or why there is no verdict") {
         std::string::npos);
 }
 
-/// How much processor time a run takes after `signal`, in seconds; its object is checked.
+/// The processor time of a run after `signal`, in seconds; its object is checked.
 double latency(const Words& words, int signal, int after_ms) {
   const double before = processor_seconds_of_ended();
   const Running running = start(words);
@@ -318,8 +318,8 @@ double latency(const Words& words, int signal, int after_ms) {
 }
 
 TEST_CASE("Ctrl-C and SIGTERM are heard at any time, and leave a true interval") {
-  // In little memory it takes many seconds, on any machine. How soon it ends is told by processor
-  // time, which other programs do not lengthen.
+  // In little memory it takes many seconds, on any machine. The processor time shows how soon it
+  // ends: other programs do not lengthen it.
   const Words words = {"demo", "--tol", "1e-13", "--memory", "1", "--json", "--no-cache"};
   for (const int signal : {SIGINT, SIGTERM}) {
     for (const int after : {0, 500, 2000}) {

@@ -71,7 +71,8 @@ class ManyPairs(unittest.TestCase):
         self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
 
     def test_a_value_that_is_empty_is_refused(self):
-        """As a script gives it whose variable is not set: less would be asked or written than it says."""
+        """The option of a script whose variable is not set: the program would do less than the script
+        asks."""
         self.write_list()
         self.run_program("batch", "list.csv", "--out", "done.jsonl")
         before = {path: path.read_bytes() for path in self.folder.iterdir()}
@@ -86,7 +87,7 @@ class ManyPairs(unittest.TestCase):
         self.assertEqual({path: path.read_bytes() for path in self.folder.iterdir()}, before)
 
     def test_pipes(self):
-        """A list may come from a pipe, whose folder says nothing of the files; results may not, for they are read twice."""
+        """A list may come from a pipe, whose folder is not the files' one; results may not, since they are read twice."""
         (self.folder / "sub").mkdir()
         pipe = self.folder / "sub/pipe"
         os.mkfifo(pipe)

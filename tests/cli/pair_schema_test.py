@@ -1,4 +1,5 @@
-"""What batch and merge write: lines of docs/schema/pair.schema.json, CSV and JUnit's XML, by readers that are not ours.
+"""The outputs of batch and merge: lines of docs/schema/pair.schema.json, CSV and JUnit's XML, by
+readers that are not ours.
 
 usage: pair_schema_test.py PROGRAM SOURCE. Exit code 77: neither jsonschema nor junitparser is here.
 """
@@ -23,7 +24,7 @@ except ImportError:
 PROGRAM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 SQUARE = "v 0 0 {z}\nv {x} 0 {z}\nv {x} 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
 ODD = "it's <a>, \"b\" \u00e9\u6f22\x07\nand a line"
-# What a batch can be asked, and the code of its line.
+# A batch's possible questions, and the code of each line.
 PAIRS = [({"id": "closed", "a": "a.obj", "b": "low.obj"}, 0),
          ({"id": "same", "a": "a.obj", "b": "a.obj"}, 0),
          ({"id": "both ways", "a": "a.obj", "b": "wide.obj", "symmetric": True}, 0),

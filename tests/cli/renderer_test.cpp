@@ -1,5 +1,5 @@
 // The renderer in frames: its intervals against the CPU reference, its choice of level, its
-// pictures, its caption as it can be read off them.
+// pictures, its caption as read from them.
 #include "examples/renderer/renderer.h"
 
 #include <doctest/doctest.h>
@@ -87,7 +87,7 @@ std::string read_row(Renderer& r, const RenderedFrame& f, uint32_t row) {
   return text;
 }
 
-/// What the picture says of level k: "... H IN lower..upper ..." holds the report's interval.
+/// The picture's text for level k: "... H IN lower..upper ..." holds the report's interval.
 void check_row(const std::string& text, const VkhReport& report) {
   CAPTURE(text);
   const size_t at = text.find("H IN ");
@@ -179,7 +179,7 @@ TEST_CASE("the program writes its frames as pictures, and a line of CSV each") {
   if (validation()) words.push_back("--validation");
   const Outcome outcome = run(words);
   INFO(outcome.err);
-  CHECK(outcome.exit_code == 0);  // not 0 if the validation layer said anything
+  CHECK(outcome.exit_code == 0);  // not 0 if the validation layer reported anything
   CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 3);
   for (const char* name : {"/frame_000.png", "/frame_001.png"}) {
     const Picture picture = load(out + name);

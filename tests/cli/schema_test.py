@@ -1,4 +1,5 @@
-"""What --json prints is of docs/schema/answer.schema.json, and what --junit writes is JUnit's, by readers that are not ours.
+"""The output of --json fits docs/schema/answer.schema.json, and that of --junit is JUnit's, by
+readers that are not ours.
 
 usage: schema_test.py PROGRAM SOURCE. Exit code 77: neither jsonschema nor junitparser is here.
 """

@@ -164,7 +164,8 @@ class See(unittest.TestCase):
     def test_statistics_hold_closed_forms(self):
         answer = json.loads(self.run_program("distance", "roof.obj", "plane.obj", "--stats", "--bands", "0.25abs,0.375abs,1abs", "--json").stdout)
         statistics = answer["directions"][0]["statistics"]
-        # Over the second face, from 0.25 at two corners up to 0.5 at one, areas as it is.
+        # The distance over the second face goes from 0.25 at two corners up to 0.5 at one, areas as
+        # it is.
         area0, area1 = 0.5, 0.5 * (1 + 2 * 0.25**2) ** 0.5
         mean = (area0 * 0.25 + area1 * (0.25 + 0.25 / 3)) / (area0 + area1)
         self.assertLessEqual(statistics["mean"]["lower"], mean)
@@ -206,7 +207,8 @@ class See(unittest.TestCase):
                 self.assertIn("two outputs", self.run_program("distance", "roof.obj", "plane.obj", *words, code=2).stderr)
 
     def test_a_verdict_that_is_known_outlives_the_survey(self):
-        # B lacks a part of A, so that the ways differ: what is known of one is not said of the other.
+        # B lacks a part of A, so that the directions differ: facts about one are not reported for the
+        # other.
         for words, code in ((["gate", "wide.obj", "plane.obj", "--max", "0.5abs"], 1), (["gate", "plane.obj", "wide.obj", "--max", "0.5abs"], 0)):
             done = self.run_program(*words, "--stats", "--field-tol", "1e-9", "--time", "8s", "--json", code=code)
             answer = json.loads(done.stdout)

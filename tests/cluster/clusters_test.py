@@ -51,7 +51,7 @@ class Clusters(unittest.TestCase):
 
     @classmethod
     def merged(cls, folder: pathlib.Path, script: str = "true") -> bytes:
-        """What two runs have in common of a script's results."""
+        """The part of a script's results that two runs share."""
         ran = cls.shell(folder, script)
         done = cls.shell(folder, "vkhausdorff merge results-*.jsonl --list list.jsonl --out reproducible.jsonl --reproducible")
         assert done.returncode == FAIL, (ran, done)

@@ -34,7 +34,7 @@ def by_index(results):
 
 
 def claimed(devices):
-    """In a worker."""
+    """Runs in a worker."""
     import vkhausdorff.dask
 
     return vkhausdorff.dask._device_of(devices)

@@ -14,7 +14,7 @@ import subprocess
 import time
 
 NODES = ("one", "two")
-GPUS = 2  # of a node, pretended: a file each, of which slurmd asks no more than that it be there
+GPUS = 2  # pretended GPUs of a node: a file each; slurmd only needs it to exist
 SECONDS = 30  # for a daemon to answer
 CONFIGURATION = """
 ClusterName=vkhausdorff
@@ -62,7 +62,7 @@ PATH = os.environ.get("PATH", "/usr/bin:/bin") + ":/usr/sbin:/sbin"
 
 
 def missing() -> str:
-    """What this machine lacks, in words; nothing if it lacks nothing."""
+    """The missing parts of this machine, in words; nothing if none is missing."""
     for program in ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "scancel", "squeue"):
         if not shutil.which(program, path=PATH):
             return f"no {program} here (Debian: slurm-wlm, munge)"
@@ -70,13 +70,14 @@ def missing() -> str:
 
 
 def end_with_parent() -> None:
-    """In a child: SIGTERM to it when this process ends, also where it is killed, as ctest does after a time."""
+    """Runs in a child: it gets SIGTERM when this process ends, even if that is killed, as ctest does after a
+    time."""
     pr_set_pdeathsig = 1
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
 
 
 def free_ports(count: int) -> list[int]:
-    """Ports above 16000 that nobody listens at; held together, so that no two are the same."""
+    """Free ports above 16000; held together, so that no two are the same."""
     with contextlib.ExitStack() as held:
         ports = []
         for port in range(16100 + os.getpid() % 900 * 10, 32000):
@@ -125,7 +126,7 @@ class LocalSlurm:
         for i in range(GPUS):
             (self.folder / f"gpu{i}").touch()
         munge = {"key-file": key, **{f"{kind}-file": self.folder / "munge" / kind for kind in ("log", "pid", "seed")}}
-        # By force: it wants a socket that everybody reaches, and a temporary folder is its owner's alone.
+        # --force: it wants a socket that all users reach, and a temporary folder is only its owner's.
         self.daemon("munged", "--foreground", "--force", f"--socket={self.folder}/munge/socket",
                     *(f"--{option}={path}" for option, path in munge.items()))
         self.until(lambda: (self.folder / "munge" / "socket").exists(), "munged's socket")
@@ -143,7 +144,7 @@ class LocalSlurm:
                                                   stderr=said, start_new_session=True, preexec_fn=end_with_parent)
 
     def until(self, true, what: str, seconds: float = SECONDS) -> None:
-        """Waits until `true()`; a daemon that has ended is said at once."""
+        """Waits until `true()`; a daemon that has ended is reported at once."""
         end = time.monotonic() + seconds
         while not true():
             for name, daemon in self.daemons.items():
@@ -154,7 +155,7 @@ class LocalSlurm:
             time.sleep(0.1)
 
     def said(self, name: str) -> str:
-        """The last of what a daemon wrote."""
+        """The end of a daemon's log."""
         files = [self.folder / f"{name}.said", self.folder / f"{name}.log", self.folder / "munge" / "log"]
         lines = [line for path in files if path.exists() for line in path.read_text(errors="replace").splitlines()]
         return f"{name}: " + "\n".join(lines[-12:])
@@ -166,7 +167,8 @@ class LocalSlurm:
         return done
 
     def stop(self) -> None:
-        """Jobs first, then who would start them again, then munged, on which all rely. Each has five seconds."""
+        """Ends jobs first, then the daemons that would start them again, then munged, on which all rely. Each
+        has five seconds."""
         if "slurmctld" in self.daemons:
             with contextlib.suppress(Exception):
                 self.run("scancel", "--user=root", "--full", "--signal=KILL", seconds=10)
@@ -183,7 +185,8 @@ class LocalSlurm:
             daemon.wait(5)
 
     def stray(self) -> list[int]:
-        """Whoever has our slurm.conf in his environment: slurmstepd, and what a task started."""
+        """The processes with our slurm.conf in their environment: slurmstepd, and the children of a
+        task."""
         mark = f"SLURM_CONF={self.environment['SLURM_CONF']}\0".encode()
         out = []
         for entry in pathlib.Path("/proc").iterdir():

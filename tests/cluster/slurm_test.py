@@ -40,7 +40,7 @@ class Slurm(unittest.TestCase):
 
     @classmethod
     def without_slurm(cls) -> bytes:
-        """What a batch and a merge write without Slurm, each exiting with FAIL."""
+        """The outputs of a batch and a merge without Slurm, each exiting with FAIL."""
         for words in (["batch", cls.list, "--out", cls.root / "plain.jsonl", *OPTIONS],
                       ["merge", cls.root / "plain.jsonl", "--out", cls.root / "reference.jsonl", "--reproducible"]):
             done = cls.slurm.run(PROGRAM, *words, check=False, seconds=120)
@@ -62,7 +62,7 @@ class Slurm(unittest.TestCase):
         return said
 
     def until(self, true, what: str, seconds: float = 60):
-        """What `true()` is, once it is."""
+        """The value of `true()`, once it is true."""
         found = []
         self.slurm.until(lambda: found.append(true()) or found[-1], what, seconds)
         return found[-1]

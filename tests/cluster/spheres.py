@@ -1,4 +1,4 @@
-"""A list of pairs that are spheres in spheres, and who is writing a batch's results."""
+"""A list of pairs that are spheres in spheres, and the process that writes a batch's results."""
 
 import json
 import pathlib
@@ -13,7 +13,7 @@ FAIL = 1  # a batch of them all
 
 
 def write_pairs(folder: pathlib.Path) -> pathlib.Path:
-    """LIST, and its files. Of two pairs with a limit one is beyond it."""
+    """LIST, and its files. One of two pairs with a limit is beyond it."""
     with open(folder / "list.jsonl", "w") as rows:
         for i in range(PAIRS):
             for side, n, radius in (("a", 60 + i, 1.0), ("b", 61 + i, 1.1)):
@@ -28,7 +28,7 @@ def lines(path: pathlib.Path) -> list[bytes]:
 
 
 def begun(results: pathlib.Path) -> int:
-    """The program that writes them, as soon as there is a whole line; else 0."""
+    """The program that writes them, as soon as there is a whole line; otherwise 0."""
     if not results.exists() or b"\n" not in results.read_bytes():
         return 0
     for process in pathlib.Path("/proc").iterdir():

@@ -1,4 +1,4 @@
-// What is written on a picture, and in which colours.
+// The text on a picture, and its colours.
 #include "host/show/legend.h"
 
 #include <doctest/doctest.h>

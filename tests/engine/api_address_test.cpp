@@ -1,4 +1,4 @@
-// VkhContextCreateInfo::byAddress and hierarchies of several ranges: every bit of a report is that
+// VkhContextCreateInfo::byAddress and BVHs of several ranges: every bit of a report is that
 // of a run that binds everything.
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-constexpr VkDeviceSize kAllocation = 64 << 10;  // several for the hierarchy of 5,120 faces
+constexpr VkDeviceSize kAllocation = 64 << 10;  // several for the BVH of 5,120 faces
 
 struct Ways {
   uint32_t switches;
@@ -41,7 +41,7 @@ bool device_has_addresses() {
   return false;
 }
 
-/// Of one pair: built and begun, advanced, moved and refitted, begun warm.
+/// The reports of one pair: built and begun, advanced, moved and refitted, begun warm.
 std::vector<VkhReport> reports_of(VkhContext context) {
   ApiMesh a(icosphere(1.0, 3)), b(translated(icosphere(1.1, 4), {0.1, 0.2, 0.05}));
   ApiPair pair(a, b, 1e-5f, context);

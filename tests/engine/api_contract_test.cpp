@@ -1,4 +1,4 @@
-// What the header promises about itself, sizes and refusals.
+// The header's promises about itself, sizes and refusals.
 #include <doctest/doctest.h>
 
 #include <cctype>

@@ -1,5 +1,5 @@
-// Meshes that move: refitted hierarchies and warm starts. Each frame's interval is true, whatever
-// the frame before left behind.
+// Meshes that move: refitted BVHs and warm starts. Each frame's interval is true, whatever data the
+// frame before left.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -97,7 +97,7 @@ void check_refit(const Mesh& before, const Mesh& after) {
   }
   const auto branches = bench.get(h.branches);
   for (size_t i = 0; i < nodes.size(); ++i) {
-    // Within a leaf nodes are not written.
+    // Nodes within a leaf are not written.
     if (i > 0 && branches[i].last - branches[i].first < gpu::kLeafTriangles) continue;
     for (const gpu::Child4& child : nodes[i].child) wrong += !fits(child, branches, triangles);
   }
@@ -158,7 +158,7 @@ TEST_CASE("A and B move: refit and warm start, certified in each frame") {
     check_closed(warm);
     const VkhReport reference = cold_after_build(cold);
     CHECK(interval(warm).meets(interval(reference)));
-    // What it is for: the old witness culls from the start on.
+    // The benefit of a warm start: the old witness culls from the start on.
     CHECK(warm.candidateTotal <= reference.candidateTotal);
   }
 }
@@ -211,8 +211,8 @@ TEST_CASE("a warm start from garbage costs time, not truth") {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    // Small numbers are triangles and faces that exist, and are the wrong ones; in turn with large
-    // ones they name places outside a face.
+    // Small numbers are triangles and faces that exist, and are the wrong ones; alternating with
+    // large ones they name places outside a face.
     warm_from([&](size_t i) {
       const bool small = seed % 3 == 0 || i % 2 == seed % 3 - 1;
       return small ? random.below(30) : static_cast<uint32_t>(random.bits());

@@ -1,5 +1,5 @@
-// VKH_STATUS_INPUT: what is no mesh is reported as that. In any build what the host sees; with
-// VkhContextCreateInfo::checkInput what the buffers hold.
+// VKH_STATUS_INPUT: an input that is no mesh is reported. Any build reports the faults that the
+// host sees; with VkhContextCreateInfo::checkInput those in the buffers, too.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ void check_refused(const VkhReport& r, uint32_t face_a, uint32_t face_b) {
   CHECK(r.witnessFaceB == face_b);
 }
 
-// Not where a build checks calls: it ends there, before a task is recorded.
+// A build that checks calls ends there, before a task is recorded.
 [[maybe_unused]] VkhReport run_task(ApiPair& pair, const VkhTask& task) {
   pair.spoil_report();
   return pair.run([&](VkCommandBuffer commands) {
@@ -67,7 +67,7 @@ void check_refused(const VkhReport& r, uint32_t face_a, uint32_t face_b) {
   });
 }
 
-// Bounds A's first `count` faces, a cell each.
+// Bounds A's first `count` faces, one cell per face.
 std::vector<VkhCellBounds> cells_of(ApiPair& pair, uint32_t count, bool builds = true) {
   const size_t bytes = std::max(count, 1u) * sizeof(VkhCellBounds);
   Buffer buffer(test_device(), bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kReadback);

@@ -1,5 +1,5 @@
-// VkhProblem::limit: within and beyond are proven, beyond ends the run, and undecided is what is
-// within the tolerance of the limit, or out of budget.
+// VkhProblem::limit: within and beyond are proven, beyond ends the run, and a run is undecided if
+// it is within the tolerance of the limit, or out of budget.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a build with asserts says of a caller that breaks a rule of the header: the rule's name.
+// A build with asserts reports a caller that breaks a rule of the header, with the rule's name.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,7 +24,7 @@ struct Ended {
   std::string said;
 };
 
-/// In a process of its own: asserts stand before the first call of Vulkan.
+/// Runs in a process of its own: asserts stand before the first call of Vulkan.
 Ended ended(const std::function<void()>& call) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);

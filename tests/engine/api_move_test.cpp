@@ -32,8 +32,8 @@ struct Pairs : ApiPairs {
   }
 };
 
-/// A pair's problem, in workspaces of the test's own; garbage, so that a move that leaves out
-/// something that the run needs is seen.
+/// A pair's problem, in workspaces of the test's own; filled with garbage, so that a move that
+/// leaves out something that the run needs is noticed.
 class Mover {
  public:
   Mover(ApiPair& pair, VkDeviceSize bytes) : pair_(pair), given_(pair.problem().workspace) {
@@ -70,7 +70,7 @@ class Mover {
       pair_.report(c);
     });
   }
-  /// And a wave in the same command buffer: the engine's own barriers stand between them.
+  /// Also records a wave in the same command buffer: the engine's own barriers stand between them.
   VkhReport move(const VkhMemory& to) {
     return pair_.run([&](VkCommandBuffer c) {
       vkhCmdMoveRun(pair_.context(), c, &problem(), &to, nullptr);
@@ -202,7 +202,7 @@ TEST_CASE("a moved run keeps its subroots") {
   ApiMesh a(face), b(points);
   for (const auto kind : {VKH_DEVICE_KIND_NARROW, VKH_DEVICE_KIND_WIDE}) {
     const bool wide = kind == VKH_DEVICE_KIND_WIDE;
-    // What is split twice depends on the room that there is.
+    // The choice of candidates that are split twice depends on the room.
     const uint32_t switches =
         wide ? VKH_SWITCH_DEFAULT_WIDE & ~VKH_SWITCH_SPLIT_TWICE : VKH_SWITCH_DEFAULT_NARROW;
     const VkhContextCreateInfo info{test_device().engine_info(),

@@ -28,7 +28,7 @@ struct Pairs : ApiPairs {
   }
 };
 
-/// So that nothing is right that the tasks have not written.
+/// Garbage, so that only data that the tasks have written is right.
 void spoil(ApiPair& pair, bool with_hierarchy) {
   pair.spoil_report();
   if (with_hierarchy) pair.spoil_hierarchy();

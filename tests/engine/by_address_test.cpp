@@ -1,4 +1,4 @@
-// Kernels by address reckon where an element lies: in 64 bits, with every carry.
+// Kernels by address compute the address of an element in 64 bits, with every carry.
 #include "engine/by_address.h"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace vkh;
 
-// Of SPIR-V.
+// Opcodes of SPIR-V.
 constexpr uint32_t kTypePointer = 32, kVariable = 59, kMemberDecorate = 72, kConstant = 43,
                    kLoad = 61, kDecorate = 71, kConstruct = 80, kExtract = 81, kBitcast = 124,
                    kIAdd = 128, kIAddCarry = 149, kUMulExtended = 151;
@@ -27,7 +27,7 @@ constexpr uint32_t kBinding = 33, kPhysical = 5349, kArrayStride = 6, kHeaderWor
 
 using Pair = std::array<uint32_t, 2>;
 
-/// A rewritten module: what was added to it, and what it says of strides.
+/// A rewritten module: its added instructions, and its strides.
 struct Module {
   struct Instruction {
     uint32_t op;
@@ -35,7 +35,7 @@ struct Module {
   };
   std::map<uint32_t, Instruction> added;  // by their results
   std::map<uint32_t, uint32_t> constants;
-  std::vector<uint32_t> addresses;  // what is taken for a pointer
+  std::vector<uint32_t> addresses;  // used as a pointer
   std::set<uint64_t> strides;
 
   Module(const std::vector<uint32_t>& words, uint32_t bound_before) {
@@ -52,7 +52,7 @@ struct Module {
       }
     }
   }
-  // Whether what is added to get the address is a constant 0 times the stride.
+  // Whether the summand of the address is a constant 0 times the stride.
   bool asks_for_first(uint32_t id) const {
     const Instruction& i = added.at(id);
     if (i.op == kLoad) return false;
@@ -65,7 +65,8 @@ struct Module {
   }
 };
 
-/// Does what was added, with `start` where it loads an address and `index` for what the shader has.
+/// Runs the added instructions, with `start` as the loaded address and `index` as the shader's
+/// index.
 struct Reckoner {
   const Module& module;
   uint64_t start;
@@ -93,7 +94,8 @@ struct Reckoner {
   uint64_t address(uint32_t id) const { return uint64_t{pair(id)[1]} << 32 | pair(id)[0]; }
 };
 
-/// Of each block that is reached as `wanted` says: what is said of its member besides its place.
+/// The decorations, besides the offset, of the member of each block that is reached as `wanted`
+/// selects.
 template <class Wanted>
 std::multiset<std::set<uint32_t>> said_of_blocks(std::span<const uint32_t> words, Wanted&& wanted) {
   std::map<uint32_t, std::set<uint32_t>> said;
@@ -111,7 +113,7 @@ std::multiset<std::set<uint32_t>> said_of_blocks(std::span<const uint32_t> words
   return found;
 }
 
-/// Of the blocks that were added and are pointed to.
+/// The decorations of the added blocks that pointers lead to.
 std::multiset<std::set<uint32_t>> said_of_added(std::span<const uint32_t> words, uint32_t bound) {
   std::map<uint32_t, std::set<uint32_t>> said;
   std::multiset<std::set<uint32_t>> found;
@@ -124,13 +126,13 @@ std::multiset<std::set<uint32_t>> said_of_added(std::span<const uint32_t> words,
   return found;
 }
 
-/// How many places are reckoned.
+/// The number of computed addresses.
 size_t check_kernel(std::span<const uint32_t> words, std::span<const Binding> bindings) {
   const uint32_t given = bindings_by_address(bindings);
   if (given == 0) return 0;
   const std::vector<uint32_t> rewritten = by_address(words, given);
   const Module module(rewritten, words[kBoundAt]);
-  // Coherent, NonWritable and the like stay with what is given.
+  // Coherent, NonWritable and the like stay with the buffers by address.
   CHECK(said_of_added(rewritten, words[kBoundAt]) ==
         said_of_blocks(words, [&](uint32_t binding) { return (given >> binding & 1) != 0; }));
   size_t wrong = 0;

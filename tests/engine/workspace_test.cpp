@@ -130,7 +130,7 @@ TEST_CASE("for one triangle, kilobytes") {
 
 namespace {
 
-// With every stream, with those of a GPU, and of a CPU device.
+// The switches for every stream, for those of a GPU, and for those of a CPU device.
 constexpr uint32_t kSwitchSets[] = {gpu::kUseAll | VKH_SWITCH_SORT | VKH_SWITCH_U3_PAPER,
                                     VKH_SWITCH_DEFAULT_WIDE, VKH_SWITCH_DEFAULT_NARROW};
 
@@ -312,7 +312,7 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
         options.enabled.push_back("sort");
         options.sort_from = ~0u;
         const Report four = check_true(pair, options);
-        // Where its begin did not end it.
+        // This holds only if the begin did not end the run.
         CHECK((four.waves <= 1 || has_stage(four, "subdivide")));
         CHECK((four.waves <= 1 || has_stage(four, "plan")));
         check_same(two, four);
@@ -321,7 +321,7 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
   }
 }
 
-/// Where nothing may wait, a frontier that does not fit is spilled as a whole.
+/// If nothing may wait, a frontier that does not fit is spilled as a whole.
 TEST_CASE("with a GPU's switches, what is spilled for want of memory keeps its bound") {
   for (const ReferencePair& pair : pairs()) {
     SolveOptions options = with_memory(1);
@@ -336,7 +336,7 @@ TEST_CASE("progress tells of intervals that are true and shrink") {
   for (const ReferencePair& pair : pairs()) {
     Interval last{0, INFINITY};
     uint32_t waves = 0;
-    bool is_first = true;  // when only the hierarchy may be there
+    bool is_first = true;  // when only the BVH may be there
     SolveOptions options = with_memory(64 << 10);
     options.progress = [&](const Progress& p) {
       CHECK((p.wave > waves || is_first));

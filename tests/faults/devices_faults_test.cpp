@@ -1,5 +1,5 @@
 // A device that is lost, or has no memory, while several work on one pair: the others do its part,
-// or the error is said. Never is an interval false.
+// or the error is reported. An interval is never false.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -53,7 +53,7 @@ const Interval& exact() {
   return one;
 }
 
-/// One of the two is lost, or neither, where the call comes too late.
+/// One of the two is lost, or neither, if the call comes too late.
 void check_one_lost(const std::string& fault) {
   CAPTURE(fault);
   Two two(options());

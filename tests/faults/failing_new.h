@@ -1,6 +1,6 @@
-// operator new that fails on purpose, for allocations of our own code alone: the caller, or whoever
-// called the C++ library, lies in the program itself. Drivers in the same process are not hit. To
-// be included once, by the test, or by the library that is loaded before the program.
+// operator new that fails on purpose, for allocations of our own code alone: the caller, or the
+// caller of the C++ library, lies in the program itself. Drivers in the same process are not hit.
+// To be included once, by the test, or by the library that is loaded before the program.
 #pragma once
 
 #include <execinfo.h>
@@ -87,14 +87,14 @@ inline FailingNew& failing_new() {
 
 }  // namespace vkh::test
 
-// Not inline, and seen by every library of the process.
+// The operators are not inline, and every library of the process sees them.
 __attribute__((visibility("default"))) void* operator new(size_t size) {
   if (vkh::test::failing_new().is_due(__builtin_return_address(0))) throw std::bad_alloc();
   void* memory = std::malloc(size == 0 ? 1 : size);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
-// The sanitizers' own would not come by here.
+// The sanitizers' own allocations would not pass through here.
 __attribute__((visibility("default"))) void* operator new(size_t size,
                                                           const std::nothrow_t&) noexcept {
   if (vkh::test::failing_new().is_due(__builtin_return_address(0))) return nullptr;

@@ -1,5 +1,6 @@
 // Allocations of the host's and the engine's own, failed on purpose: each ends in std::bad_alloc, a
-// DeviceError, or the answer that there is without it; nothing is left, and what was kept works on.
+// DeviceError, or the answer that is possible without it; nothing is left, and kept objects still
+// work.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -38,7 +39,7 @@ std::string ended_by_memory(const std::function<std::string()>& work) {
   }
 }
 
-/// Evenly spread, the first and the last among them.
+/// Chooses trials evenly spread, with the first and the last among them.
 std::vector<uint64_t> spread(uint64_t count, uint64_t most) {
   const char* wanted = std::getenv("VKH_FAULTS");
   if (wanted != nullptr && std::string(wanted) == "all") most = count;
@@ -49,7 +50,7 @@ std::vector<uint64_t> spread(uint64_t count, uint64_t most) {
   return places;
 }
 
-/// `work` fills its answer; what it makes it destroys.
+/// `work` fills its answer, and destroys all that it makes.
 void try_all(const std::string& what, uint64_t most, const std::function<std::string()>& work) {
   const Watchdog outer;
   const std::string answer = work();
@@ -146,7 +147,7 @@ TEST_CASE("a start") {
   });
 }
 
-// Neither an exception nor anything else may come out of a C interface but its code.
+// Only a return code may come out of a C interface, no exception.
 TEST_CASE("the C API") {
   layer();
   Device device;

@@ -13,7 +13,7 @@ namespace {
 using Main = int (*)(int, char**, char**);
 Main g_main = nullptr;
 
-// What static objects allocate before main is nobody's to catch.
+// No code can catch a failed allocation of static objects before main.
 int armed_main(int argc, char** argv, char** environment) {
   const char* text = std::getenv("VKH_FAIL_NEW");
   char* end = nullptr;
@@ -24,7 +24,7 @@ int armed_main(int argc, char** argv, char** environment) {
 
 }  // namespace
 
-// What the C library starts every program by; seven parameters are its own.
+// The function by which the C library starts every program; seven parameters are its own.
 // NOLINTNEXTLINE(readability-function-size)
 extern "C" __attribute__((visibility("default"))) int __libc_start_main(Main main, int argc,
                                                                         char** argv, void (*init)(),
@@ -37,7 +37,7 @@ extern "C" __attribute__((visibility("default"))) int __libc_start_main(Main mai
   return next(armed_main, argc, argv, init, fini, loader_fini, stack_end);
 }
 
-// The program ends by it, and runs no exit handlers.
+// The program ends with this call, which runs no exit handlers.
 extern "C" __attribute__((visibility("default"), noreturn)) void _Exit(int code) {
   const uint64_t count = vkh::test::failing_new().disarm();
   const char* path = std::getenv("VKH_COUNT_NEW");

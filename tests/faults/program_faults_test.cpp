@@ -1,5 +1,5 @@
 // The program under faults: of Vulkan calls, by the test layer, and of its own allocations. Each
-// run ends with exit code 5 and one line on stderr, or with the answer that there is without it.
+// run ends with exit code 5 and one line on stderr, or with the answer that is possible without it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ Outcome run_with(const Words& words,
   return outcome;
 }
 
-/// Exit code 5, one line on stderr; or as it is without the fault.
+/// Requires exit code 5, one line on stderr; or the result without the fault.
 void check_ended(const Outcome& outcome, const std::string& answer) {
   CAPTURE(outcome.err);
   CAPTURE(outcome.out);
@@ -118,7 +118,7 @@ TEST_CASE("doctor, demo and both ways: the device is lost, or has no memory") {
   try_fault(pair() + Words{"--symmetric"}, "vkQueueSubmit:2:VK_ERROR_DEVICE_LOST", "");
 }
 
-// What the layer is asked for is there: else the tests above would prove nothing.
+// The requested layer features are there: otherwise the tests above would prove nothing.
 TEST_CASE("the layer lowers, hides, and holds the program to it") {
   layer();
   unsetenv("VKH_LAYER_KEEP_GOING");

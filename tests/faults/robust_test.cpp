@@ -22,8 +22,9 @@ bool has_robust_access() {
   return features.features.robustBufferAccess == VK_TRUE;
 }
 
-/// A mesh that no reader would let through: every third face has one corner at `index`, every fifth
-/// vertex one coordinate `x`. In buffers of its own, of no byte more than the contract asks for.
+/// A mesh that every reader would refuse: every third face has one corner at `index`, every fifth
+/// vertex one coordinate `x`. It lies in buffers of its own, with no byte more than the contract
+/// requires.
 class BadMesh {
  public:
   BadMesh(const Mesh& mesh, VkIndexType type, uint32_t index, float x) {
@@ -63,8 +64,8 @@ class BadMesh {
   VkhMesh view_{};
 };
 
-/// Build or refit, begin, waves, report; each mesh is the pair's own where none is given. Whatever
-/// the report says: it is there, and soon.
+/// Build or refit, begin, waves, report; each mesh is the pair's own if none is given. The report
+/// may be anything, but must come soon.
 void run_to_an_end(ApiPair& pair, const BadMesh* a, const BadMesh* b) {
   const Watchdog watchdog;
   const VkhMesh good = pair.problem().a;

@@ -1,4 +1,4 @@
-// The test layer (docs/test_layer.md) in this process: arms faults, and tells what became of them.
+// The test layer (docs/test_layer.md) in this process: arms faults, and reports their outcomes.
 #pragma once
 
 #include <dlfcn.h>
@@ -16,7 +16,7 @@ namespace vkh::test {
 class TestLayer {
  public:
   /// Has the loader put the layer into every instance made from now on; violations do not abort.
-  /// Keeps the library, so that what it counts stays when the loader lets go of it.
+  /// Keeps the library loaded, so that its counts stay when the loader releases it.
   TestLayer() {
     setenv("VK_LAYER_PATH", VKH_LAYER_FOLDER ":/usr/share/vulkan/explicit_layer.d", 1);
     setenv("VK_INSTANCE_LAYERS", "VK_LAYER_VKH_test", 1);
@@ -33,7 +33,8 @@ class TestLayer {
     find("vkhLayerErrorsOf", errors_of_);
   }
 
-  /// As VKH_LAYER_FAIL; forgets what was counted, logged, violated and lost. Between two runs.
+  /// Takes text like VKH_LAYER_FAIL; resets counts, logs, violations and losses. Call it between
+  /// two runs.
   void arm(const std::string& faults) const {
     if (!arm_(faults.c_str())) throw std::runtime_error("the test layer cannot '" + faults + "'");
   }
@@ -47,7 +48,8 @@ class TestLayer {
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     return lines;
   }
-  /// How often a function was called since then; robust_devices: how many were made.
+  /// The number of calls of a function since then; robust_devices: the number of robust devices
+  /// made.
   uint64_t count(const std::string& function) const { return count_(function.c_str()); }
   uint32_t injected() const { return injected_(); }
   uint32_t violations() const { return violations_(); }

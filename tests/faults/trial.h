@@ -1,4 +1,4 @@
-// One fault at a time in something that is done, and what became of it.
+// Tries one fault at a time in an action, and reports the outcome.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ inline const TestLayer& layer() {
   return one;
 }
 
-/// What is left where nothing was given back wakes up nobody: a hang ends the test.
+/// Work that is not given back wakes no waiting thread: a hang ends the test.
 class Watchdog {
  public:
   Watchdog() { alarm(60); }
@@ -32,9 +32,9 @@ class Watchdog {
   Watchdog& operator=(const Watchdog&) = delete;
 };
 
-/// The calls that a fault is tried at: all of them with VKH_FAULTS=all; else the first, the second,
-/// the one in the middle and the last; where a trial takes long, the first and the last, or the
-/// first.
+/// The calls that a fault is tried at: all of them with VKH_FAULTS=all; otherwise the first, the
+/// second, the one in the middle and the last; if a trial takes long, the first and the last, or
+/// the first.
 enum class Places { kFour, kEnds, kFirst };
 inline std::set<size_t> places_of(size_t count, Places places) {
   const char* wanted = std::getenv("VKH_FAULTS");
@@ -48,7 +48,8 @@ inline std::set<size_t> places_of(size_t count, Places places) {
   return all;
 }
 
-/// Every fault as VKH_LAYER_FAIL has it: of what was called, at its places, each of its errors.
+/// Every fault as text for VKH_LAYER_FAIL: each called function, at its places, with each of its
+/// errors.
 inline std::vector<std::string> faults_of(const std::vector<std::string>& calls,
                                           Places places = Places::kFour) {
   std::map<std::string, size_t> counts;
@@ -63,7 +64,7 @@ inline std::vector<std::string> faults_of(const std::vector<std::string>& calls,
   return faults;
 }
 
-/// Lines of out/faults.txt: what was done, fault, how it ended.
+/// Lines of out/faults.txt: action, fault, outcome.
 class FaultTable {
  public:
   explicit FaultTable(const std::string& name)
@@ -82,7 +83,7 @@ class FaultTable {
   size_t count_ = 0;
 };
 
-/// Does `work`, whose text says how it ended. Only a DeviceError of one line may leave it.
+/// Does `work`, which returns its outcome as text. Only a DeviceError of one line may leave it.
 inline std::string ended(const std::function<std::string()>& work) {
   try {
     return work();

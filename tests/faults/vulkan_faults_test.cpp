@@ -1,5 +1,5 @@
 // Every Vulkan call that may fail, failed on purpose by the test layer with every error that it may
-// return: each ends in a DeviceError or in the answer that there is without it; nothing is left,
+// return: each ends in a DeviceError or in the answer that is possible without it; nothing is left,
 // and nothing that failed to be made is used.
 #include <doctest/doctest.h>
 
@@ -42,7 +42,7 @@ FaultTable& table() {
 }
 
 /// A wait is as many calls as it takes slices, and a run as many submissions as the clock asks for:
-/// what was to fail a later call may come too late. Then there is the answer.
+/// a fault for a later call may come too late. Then there is the answer.
 void check_end(const std::string& what, const std::string& fault, const std::string& end,
                const std::string& answer) {
   const bool is_first = fault.find(":1:") != std::string::npos;
@@ -53,7 +53,7 @@ void check_end(const std::string& what, const std::string& fault, const std::str
   table().add(what, fault, is_late ? "too late" : end == answer ? "answer" : end);
 }
 
-/// `work` as it is, then with each fault. What it makes it destroys.
+/// Runs `work` as it is, then with each fault. It destroys all that it makes.
 void try_all(const std::string& what, const std::function<std::string()>& work,
              Places places = Places::kFour) {
   const uint32_t alive = layer().live();
@@ -139,7 +139,7 @@ struct Kept {
   }
 };
 
-/// As try_all, with a solver that has to work again afterwards.
+/// The same as try_all, with a solver that has to work again afterwards.
 void try_kept(const std::string& what, const std::function<std::string(Kept&)>& work,
               Places places = Places::kFour) {
   {

@@ -1,5 +1,5 @@
-// vkhCmdBoundCells through the C API alone: true on every way to run, the same bits by address, and
-// nothing of the run is changed.
+// vkhCmdBoundCells through the C API alone: true in every way to run, the same bits by address, and
+// the run does not change.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ ContextHandle make_context(VkhDeviceKind kind, VkBool32 by_address = VK_FALSE) {
   return {context, vkhDestroyContext};
 }
 
-/// Room for bounds, and for the cells that are asked about.
+/// Room for bounds, and for the cells.
 struct CellBuffers {
   explicit CellBuffers(uint32_t count)
       : cells(test_device(), count * sizeof(VkhCell), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -68,7 +68,7 @@ bool same(const std::vector<VkhCellBounds>& x, const std::vector<VkhCellBounds>&
 Mesh shape_a() { return icosphere(1.0, 2); }
 Mesh shape_b() { return translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}); }
 
-/// Of every face: its corners' distances, and h of the face alone.
+/// Computes for every face its corners' distances, and h of the face alone.
 void check_true_of_faces(const std::vector<VkhCellBounds>& bounds, const Mesh& a, const Mesh& b) {
   REQUIRE(bounds.size() == a.faces.size());
   for (size_t f = 0; f < bounds.size(); ++f) {

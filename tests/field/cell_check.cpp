@@ -57,7 +57,7 @@ struct CellCheck::Placed {
 
 namespace {
 
-// By a power of two, so that squares of lengths neither overflow nor vanish.
+// Scales by a power of two, so that squares of lengths neither overflow nor vanish.
 std::vector<glm::dvec3> scaled_by(const SurveyedPair& pair, std::vector<glm::dvec3> vertices) {
   for (glm::dvec3& v : vertices) {
     for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], pair.frame.exponent);
@@ -114,7 +114,7 @@ void CellCheck::check_one(const Placed& cell, uint64_t seed, CellTally& tally) c
   tally.reached += wide(b.reached) - more > farthest + margin_;
 }
 
-// By the middles of kParts^2 equal parts: the distance differs by no more than their size.
+// Measures at the middles of kParts^2 equal parts: the distance differs by no more than their size.
 void CellCheck::check_means(const Placed& cell, CellTally& tally) const {
   constexpr int kParts = 24;
   double sum = 0, squares = 0, most = 0;

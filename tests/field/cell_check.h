@@ -1,4 +1,4 @@
-// What a device says of cells, held against closest points in double precision.
+// Compares a device's bounds of cells with closest points in double precision.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class CellCheck {
  public:
   CellCheck(const SurveyedPair& pair, const Mesh& b);
   void check(const BoundCells& bound, uint64_t seed, size_t count, CellTally& tally) const;
-  /// And these.
+  /// Checks these cells, too.
   void check(const std::vector<gpu::Cell>& cells, const std::vector<gpu::CellBounds>& bounds,
              uint64_t seed, CellTally& tally) const;
 

@@ -13,7 +13,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// Runs a pair, and `look` while it lies on the device.
+/// Runs a pair, and calls `look` while it lies on the device.
 void survey(const Mesh& a, const Mesh& b, const Survey& look) {
   SolveOptions options;
   options.survey = look;

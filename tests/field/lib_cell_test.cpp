@@ -1,5 +1,5 @@
-// shaders/field/cell.h against exact arithmetic: over a cell, what is gathered from a few hard
-// triangles encloses the distance, in any arithmetic that Vulkan allows.
+// shaders/field/cell.h against exact arithmetic: over a cell, the bounds from a few hard triangles
+// enclose the distance, in any arithmetic that Vulkan allows.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -107,7 +107,7 @@ exact::Vector scaled_point(const CellCase& c, const std::array<int, 3>& weights)
   return sum;
 }
 
-/// Squared, of the point from the nearest triangle.
+/// The squared distance of the point from the nearest triangle.
 Rational squared_distance(const CellCase& c, const exact::Vector& scaled) {
   Rational least = -1;
   for (const StoredTriangle& s : c.b) {
@@ -147,7 +147,7 @@ void check_points(const CellCase& c, const CellAnswer& got, Tally& tally, const 
                 "some point is as far as reached", describe);
 }
 
-/// Of the average over 256 equal parts' middles: it is off by less than their size.
+/// The error of the average over 256 equal parts' middles is less than their size.
 void check_means(const CellCase& c, const CellAnswer& got, Tally& tally, const auto& describe) {
   constexpr int kParts = 16;
   const auto place = [&](const glm::uvec2& p) {

@@ -1,6 +1,6 @@
-// Walks that visit most of B: from its middle all of its surface is about as near. lavapipe ends
-// the loops of an invocation that has turned 65,535 times, in whichever it is (docs/certificate.md,
-// "Loops that a driver ends"): bounds stay true there, if wider.
+// Traversals that visit most of B: from its middle all of its surface is about as near. lavapipe
+// ends the loops of an invocation that has turned 65,535 times, in whichever it is
+// (docs/certificate.md, "Loops that a driver ends"): bounds stay true there, if wider.
 #include <doctest/doctest.h>
 
 #include "host/solve/solver.h"
@@ -14,7 +14,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// Around the origin; 81,920 faces.
+/// A sphere around the origin; 81,920 faces.
 Mesh around() { return icosphere(1.0, 6); }
 Mesh in_the_middle() { return icosphere(1e-3, 1); }
 

@@ -1,5 +1,5 @@
-// Surveys: closed forms lie in what is certified, faces meet the tests' own solver, random points
-// agree, and a survey that ends early is true.
+// Surveys: closed forms lie in the certified intervals, faces meet the tests' own solver, random
+// points agree, and a survey that ends early is true.
 #include "host/survey/survey.h"
 
 #include <doctest/doctest.h>
@@ -92,7 +92,7 @@ double mean_from_sphere(const Mesh& facets) {
   return sum / area;
 }
 
-// B is so fine a sphere that what it is off is far under the tolerance.
+// B is so fine a sphere that its error is far under the tolerance.
 TEST_CASE("a sphere's facets under the sphere") {
   const Mesh a = icosphere(1.0, 1), b = icosphere(1.0, 6);
   SurveyOptions options = all_of_it();
@@ -106,7 +106,7 @@ TEST_CASE("a sphere's facets under the sphere") {
   CHECK(r.statistics->mean.upper - r.statistics->mean.lower <= 0.01 * 0.2);
 }
 
-/// Of random points of A, uniform in area.
+/// Statistics of random points of A, uniform in area.
 struct Sampled {
   double mean = 0, rms = 0, within = 0;
 };

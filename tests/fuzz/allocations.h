@@ -1,4 +1,4 @@
-// The peak of what a scope allocates, by the hooks of the address sanitizer; without it nothing is
+// The peak of a scope's allocations, by the hooks of the address sanitizer; without it nothing is
 // counted.
 #pragma once
 
@@ -14,7 +14,7 @@
 #endif
 #endif
 #ifdef VKH_COUNTS_ALLOCATIONS
-// As in sanitizer/allocator_interface.h, which Debian's g++ 12 does not have.
+// The declaration of sanitizer/allocator_interface.h, which Debian's g++ 12 does not have.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*,
                                                                            size_t),
                                                          void (*on_free)(const volatile void*));
@@ -23,7 +23,7 @@ extern "C" size_t __sanitizer_get_allocated_size(const volatile void* block);
 
 namespace vkh::test {
 
-/// One at a time; allocations of this thread.
+/// Use one at a time; it counts allocations of this thread.
 class AllocationCount {
  public:
   AllocationCount() {

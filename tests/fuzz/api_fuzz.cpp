@@ -1,6 +1,6 @@
 // Fuzzes the C API with small pairs of meshes: whatever they are, a run ends, its reports nest, and
 // the interval meets that of the tests' own solver. tools/fuzz runs it, on lavapipe unless
-// VKH_TEST_DEVICE says otherwise.
+// VKH_TEST_DEVICE names another device.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ using namespace vkh;
 using namespace vkh::test;
 
 constexpr uint32_t kMostPairs = 4;
-constexpr const char* kSpoil = "VKH_FUZZ_SPOIL";  // raises lower bounds, which is to be noticed
+constexpr const char* kSpoil = "VKH_FUZZ_SPOIL";  // raises lower bounds, which must be noticed
 constexpr uint32_t kWavesOfTurn = 8, kMostTurns = 400;
 
 struct State {
@@ -41,7 +41,7 @@ State* g_state = nullptr;  // never destroyed: when a program ends, drivers go b
 void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "api_fuzz: not so: %s\n", what);
-  if (std::getenv(kSpoil) != nullptr) std::_Exit(1);  // as it should be: no crash
+  if (std::getenv(kSpoil) != nullptr) std::_Exit(1);  // expected: no crash
   std::abort();
 }
 
@@ -91,7 +91,7 @@ Interval reference(const FuzzMesh& a, const FuzzMesh& b, const FuzzPair& pair) {
                              std::max(1e-3 * pair.diagonal, 1e-300), kMostCandidates);
 }
 
-/// One input: pairs side by side or in turn, on one context.
+/// One input: pairs side by side or one after the other, on one context.
 class Run {
  public:
   Run(State& state, FuzzBytes& bytes) : state_(state) {
@@ -137,7 +137,7 @@ class Run {
             .reportOffset = bench(i).report_offset(slot)};
   }
 
-  /// What vkhCmdRunTasks would do, by the functions.
+  /// The work of vkhCmdRunTasks, by the single functions.
   void record(VkCommandBuffer commands, const VkhTask& t) {
     if (t.mesh != nullptr && t.scratch != nullptr) {
       vkhCmdBuildHierarchy(context(), commands, t.mesh, &t.problem->b, t.scratch, nullptr);
@@ -238,7 +238,7 @@ class Run {
 
 }  // namespace
 
-// --contexts=N: of the N first alone, whose pipelines take seconds each.
+// --contexts=N: only the first N, whose pipelines take seconds each.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   constexpr std::string_view kOption = "--contexts=";
   size_t contexts = FuzzDevice::kMostContexts;

@@ -1,5 +1,6 @@
 // Stands in for libFuzzer where the compiler has none: reads inputs again, and changes them at
-// random for a while. Understands what tools/fuzz and the tests pass, in libFuzzer's words:
+// random for a while. It takes the options that tools/fuzz and the tests pass, by libFuzzer's
+// names:
 //   driver [-runs=N] [-max_total_time=SECONDS] [-seed=N] [-max_len=BYTES] [-dict=FILE]
 //          [-artifact_prefix=PATH] FILE_OR_FOLDER...
 #include <algorithm>
@@ -36,7 +37,7 @@ std::string g_artifact;
 
 size_t pick(size_t count) { return static_cast<size_t>(g_random() % count); }
 
-// What ended the program, as libFuzzer leaves it.
+// Writes the input that ended the program, as libFuzzer does.
 void keep_current() {
   std::ofstream(g_artifact, std::ios::binary)
       .write(reinterpret_cast<const char*>(g_current.data()),

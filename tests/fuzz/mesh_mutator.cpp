@@ -32,7 +32,7 @@ std::string changed(std::string_view part, size_t room) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// With their ends; views of the text.
+/// The lines with their ends, as views of the text.
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
   lines.reserve(64);
@@ -101,7 +101,7 @@ std::string mutated_lines(std::string_view text, size_t room, Random& random) {
   return joined(lines);
 }
 
-/// The first line that begins so gets this number as its last word, or as the one after `before`.
+/// Gives the first line that begins so this number as its last word, or as the one after `before`.
 void set_count(std::string& header, std::string_view before, size_t count) {
   const size_t at = header.find(before);
   if (at == std::string::npos) return;
@@ -238,7 +238,7 @@ using MutateText = std::string (*)(std::string_view, size_t, Random&);
 size_t mutate(MutateText with, uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   Random random(seed % 0x7ffffffe + 1);
   std::string text(reinterpret_cast<const char*>(data), size);
-  // Some at once: one change of a header alone is mostly refused.
+  // Makes some changes at once: one change of a header alone is mostly refused.
   for (size_t left = 1 + pick(random, 3); left > 0; --left)
     text = with(text, max_size > text.size() ? max_size - text.size() : 0, random);
   return give_back(text, data, max_size);

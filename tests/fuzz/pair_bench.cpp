@@ -30,8 +30,8 @@ VkDeviceSize aligned(VkDeviceSize at) { return (at + 255) / 256 * 256; }
 
 }  // namespace
 
-// Every family of kernels: what a narrow device runs, a wide one, the paper's way, and all at once
-// with coverage.
+// Every family of kernels: those of the CPU profile, of the GPU profile, of the paper, and all at
+// once with coverage.
 FuzzDevice::FuzzDevice(size_t context_count)
     : device_({.selector = environment("VKH_TEST_DEVICE"),
                .validation = *environment("VKH_VALIDATION") != '\0'}),

@@ -1,5 +1,5 @@
-// Where a fuzzed pair lies on the device: buffers that are kept from one input to the next, with
-// what the last one left in them.
+// A fuzzed pair's buffers on the device: they are kept from one input to the next, with the last
+// one's data in them.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class FuzzDevice {
   size_t context_count() const { return contexts_.size(); }
   VkhContext context(size_t i) const { return contexts_[i]; }
   bool covers(size_t i) const { return i == kMostContexts - 1; }
-  /// Records, submits and waits; what compute shaders wrote is the host's to see.
+  /// Records, submits and waits; the host then sees the writes of compute shaders.
   void run(const std::function<void(VkCommandBuffer)>& record);
 
  private:
@@ -34,23 +34,23 @@ class FuzzDevice {
   Submitter submitter_;
 };
 
-/// One pair's buffers. No byte more than the contract asks for is theirs; what stands around it is
+/// One pair's buffers. They have no byte more than the contract requires; the bytes around them are
 /// watched.
 class PairBench {
  public:
   explicit PairBench(const FuzzDevice& device);
 
-  /// Throws std::runtime_error where the engine refuses the sizes.
+  /// Throws std::runtime_error if the engine refuses the sizes.
   void take(const FuzzPair& pair, VkhContext context, bool covers);
   /// The pair's second frame.
   void move();
   VkhReport report(uint32_t slot) const;
-  /// Of each face, what was closed and what is open, after take() with `covers`.
+  /// The closed and the open part of each face, after take() with `covers`.
   std::vector<uint64_t> coverage() const;
   /// Whether nothing was written around the buffers.
   bool is_untouched_around() const;
 
-  /// As VkhTask and the functions of the API take them.
+  /// The arguments of VkhTask and of the functions of the API.
   VkhProblem problem{};
   VkhMesh b{};
   VkhMemory scratch{};

@@ -10,9 +10,9 @@
 namespace vkh::test {
 namespace {
 
-constexpr float kLargest = 0x1p15f;  // as vkhausdorff.h promises
+constexpr float kLargest = 0x1p15f;  // the limit of vkhausdorff.h
 
-/// How the coordinates of a mesh come about.
+/// The kinds of a mesh's coordinates.
 enum class Kind : uint8_t { kGrid, kUnit, kClusters, kFlat, kBits, kHuge, kCount };
 
 /// Any finite float within `largest`.
@@ -41,7 +41,7 @@ float coordinate(FuzzBytes& bytes, Kind kind, uint32_t axis) {
   }
 }
 
-/// At most half an ulp of its high part.
+/// A low part of at most half an ulp of its high part.
 float low_part(FuzzBytes& bytes, float high) {
   if (high == 0) return 0;
   const float ulp = std::nextafter(std::abs(high), 2 * kLargest) - std::abs(high);
@@ -74,7 +74,7 @@ FuzzMesh make_mesh_of(FuzzBytes& bytes, Kind kind) {
   return mesh;
 }
 
-/// As a remesher or an animation does it: most stays, some of it moves a little.
+/// Changes a mesh like a remesher or an animation: most stays, some of it moves a little.
 FuzzMesh moved(FuzzBytes& bytes, const FuzzMesh& mesh) {
   FuzzMesh out = mesh;
   const int shift = -static_cast<int>(bytes.below(24));

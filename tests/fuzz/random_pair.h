@@ -1,4 +1,4 @@
-// Small pairs of meshes, and what to do with them, out of a fuzzer's bytes.
+// Small pairs of meshes, and the actions on them, from a fuzzer's bytes.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace vkh::test {
 
-/// Zeros after the end, so that every input means something.
+/// The reader returns zeros after the end, so that every input means something.
 class FuzzBytes {
  public:
   FuzzBytes(const uint8_t* data, size_t size) : at_(data), end_(data + size) {}
@@ -24,7 +24,7 @@ class FuzzBytes {
   const uint8_t* end_;
 };
 
-/// Coordinates as the C API is given them: the exact sum of two floats.
+/// Coordinates as the C API takes them: the exact sum of two floats.
 struct FuzzMesh {
   std::vector<float> high, low;  ///< three a vertex
   std::vector<uint32_t> corners;
@@ -34,7 +34,7 @@ struct FuzzMesh {
 
   uint32_t vertex_count() const { return static_cast<uint32_t>(high.size() / 3); }
   uint32_t face_count() const { return static_cast<uint32_t>(corners.size() / 3); }
-  /// What is measured: with the low parts or without.
+  /// The measured mesh: with the low parts or without.
   Mesh measured(bool with_low) const;
 };
 
@@ -46,7 +46,7 @@ struct FuzzPair {
   double diagonal = 0;  ///< of both
   double largest = 0;   ///< of all coordinates, as a magnitude
   float tolerance = 0, known_lower = 0;
-  uint32_t workspace_percent = 100;  ///< 0: the minimum; 100: what is recommended
+  uint32_t workspace_percent = 100;  ///< 0: the minimum; 100: the recommended size
   uint32_t first_waves = 0, more_waves = 0;
   uint32_t sort_from = 0;
   bool is_promised = true;  ///< coordinates for which the interval is certified

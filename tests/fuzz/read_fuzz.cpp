@@ -1,6 +1,6 @@
-// Fuzzes a reader: whatever the bytes, it gives a valid mesh or one line that says what is wrong,
-// in six times the memory of the larger of file and mesh. --reader=NAME says which; tools/fuzz runs
-// it.
+// Fuzzes a reader: whatever the bytes, it gives a valid mesh or one line that names the error, in
+// six times the memory of the larger of file and mesh. --reader=NAME selects the reader; tools/fuzz
+// runs it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-// A 3MF file's model part and, behind a zero byte, what a slicer keeps beside it; what a zip
-// archive is made of is libzip's, and `any` has it.
+// A 3MF file's model part and, behind a zero byte, a slicer's file beside it; the parts of a zip
+// archive are libzip's work, and `any` tests them.
 Mesh parse_3mf_model(const MeshSource& model) {
   const std::string_view bytes = model.bytes;
   const size_t end = std::min(bytes.find('\0'), bytes.size());
@@ -44,12 +44,12 @@ Mesh parse_3mf_model(const MeshSource& model) {
 
 struct Reader {
   std::string_view name;
-  const char* file;  ///< its extension decides where content cannot
+  const char* file;  ///< its extension decides if the content cannot
   Mesh (*parse)(const MeshSource&);
   MutateFile mutate;
 };
 
-// `any` is told by the content, as read_mesh does it.
+// The content decides for `any`, as in read_mesh.
 constexpr Reader kReaders[] = {{"any", "fuzz", parse_mesh, mutate_any},
                                {"gltf", "fuzz.gltf", parse_gltf, mutate_gltf},
                                {"glb", "fuzz.glb", parse_gltf, mutate_glb},
@@ -101,14 +101,14 @@ uint64_t bytes_of(const Mesh& mesh) {
   return mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces);
 }
 
-// What does not grow with the input. As in read_cost_test; libzip and expat take 130 kB for the
-// least package. In a package, a tag of up to 256 kB may be packed into next to nothing.
+// Bytes that do not grow with the input, the same as in read_cost_test; libzip and expat take 130
+// kB for the least package. In a package, a tag of up to 256 kB may be packed into next to nothing.
 size_t constant_of(const MeshSource& source) {
   if (g_reader->parse == parse_3mf_model) return 256 << 10;
   return source.bytes.starts_with("PK") ? 2 << 20 : 64 << 10;
 }
 
-// Of a refused file the mesh could have had 12 bytes for each of its own.
+// The mesh of a refused file could have had 12 bytes for each byte of the file.
 void read_counted(const MeshSource& source, Mesh& mesh, bool& accepted) {
   uint64_t larger = 12 * source.bytes.size();
   const AllocationCount count;
@@ -169,7 +169,7 @@ void check_blocks(const MeshSource& source) {
   require(same(whole, joined), "blocks give the same mesh");
 }
 
-// All of a scene is no less than what is solid of it; and null: that was refused.
+// Requires that all of a scene has no less than its solid part; null: that was refused.
 void check_bodies(const MeshSource& source, const Mesh* solid) {
   MeshSource whole = source;
   whole.limits.bodies = Bodies::kAll;

@@ -18,7 +18,7 @@ import ply  # noqa: E402
 import stl  # noqa: E402
 import threemf  # noqa: E402
 
-MOST_BYTES = 1536  # of larger ones a fuzzer changes what does not matter
+MOST_BYTES = 1536  # in larger files a fuzzer changes unimportant bytes
 
 
 def reader_of(case):
@@ -43,7 +43,7 @@ def main(folder):
     (folder / '3mf').mkdir()  # its model part alone
     for name, model in threemf.models():
         (folder / '3mf' / name).write_bytes(model.encode())
-    numbers = random.Random(1)  # of the C API any bytes are an input, and short ones are mostly zeros
+    numbers = random.Random(1)  # any bytes are an input of the C API, and short ones are mostly zeros
     (folder / 'api').mkdir()
     for i in range(64):
         (folder / 'api' / f'random_{i}').write_bytes(numbers.randbytes(256))

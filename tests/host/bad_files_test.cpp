@@ -1,5 +1,6 @@
-// Every file of the corpus that tests/malformed writes does what its case says, read in process
-// and, a few, by the program. Likewise the files of the shared collection, where that is there.
+// Every file of the corpus that tests/malformed writes has the outcome of its case, read in process
+// and, a few, by the program. The same holds for the files of the shared collection, if that is
+// there.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -78,11 +79,11 @@ std::vector<std::string> csv_cells(const std::string& line) {
   return cells;
 }
 
-// What we do where the manifest leaves a choice, or begins with the word for the other half of it.
+// Our outcome if the manifest leaves a choice, or begins with the word for the other half of it.
 const std::map<std::string, bool> kAcceptedByChoice = {
     {"obj_1e-200_coords.obj", true},            // the solver's frame rescales
-    {"obj_1e200_coords.obj", true},             // likewise
-    {"obj_nan_unreferenced.obj", false},        // text that says nan is refused wherever it stands
+    {"obj_1e200_coords.obj", true},             // the same
+    {"obj_nan_unreferenced.obj", false},        // the text nan is refused anywhere
     {"real_assimp_concave_polygon.obj", true},  // cut along its outline
     {"real_assimp_longline.obj", false},        // its first face crosses itself
     {"real_assimp_face_texcoord_oob.ply", false},
@@ -120,7 +121,8 @@ TEST_CASE("every malformed file is refused or read whole, as its case says") {
   for (const Case& file : cases) check_case(file);
 }
 
-// A refusal by the program: exit code 4, and one line that names the file. One file in twelve.
+// A refusal by the program: exit code 4, and one line that names the file. This runs one file in
+// twelve.
 TEST_CASE("the program refuses malformed files in one line") {
   const std::vector<Case> cases = corpus();
   size_t refused = 0;

@@ -80,7 +80,7 @@ void check_outward(double value, int digits) {
   CHECK(truth <= up.value);
   CHECK(truth - down.value < unit);
   CHECK(up.value - truth < unit);
-  // Of two different answers both must be off, else one of them was widened for nothing.
+  // Two different answers must both be inexact, otherwise one of them was widened for nothing.
   if (down.value != up.value) {
     CHECK(down.value < truth);
     CHECK(truth < up.value);

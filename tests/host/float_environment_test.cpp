@@ -1,5 +1,5 @@
-// Whatever a calling thread has made of its floating-point environment, the answers are the same to
-// the last bit, and the caller finds that environment again, also within the callback.
+// For any floating-point environment of the calling thread, the answers are the same to the last
+// bit, and the caller finds that environment again, also within the callback.
 #include "host/base/float_environment.h"
 
 #include <cfenv>
@@ -52,7 +52,7 @@ struct State {
 };
 State state() { return {std::fegetround(), std::fetestexcept(FE_ALL_EXCEPT), control()}; }
 
-/// Calls work in that environment, and says whether it was left as it was found.
+/// Calls `work` in that environment, and returns whether it was left unchanged.
 bool leaves_alone(const Odd& odd, const std::function<void()>& work) {
   std::fenv_t before;
   std::fegetenv(&before);

@@ -1,5 +1,5 @@
-// host/solve/frame.cpp against exact rationals: no vertex is displaced by more than the frame says,
-// and lengths come back rounded outward, subnormal and huge coordinates included.
+// host/solve/frame.cpp against exact rationals: no vertex is displaced by more than the frame
+// states, and lengths come back rounded outward, subnormal and huge coordinates included.
 #include "host/solve/frame.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ MeshPair hard_pair_of_points(Random& random) {
   Mesh a = mesh();
   Mesh b = mesh();
   if (random.below(8) != 0) return {std::move(a), std::move(b)};
-  // So much larger than A that A's coordinates underflow in the frame; and floats, so that the
+  // A B so much larger than A that A's coordinates underflow in the frame; and floats, so that the
   // frame's centre is 0 and displaces nothing by itself.
   for (glm::dvec3& p : b.vertices) p = round_to_float(random.in_cube(1.0));
   return {scaled(a, -60), scaled(b, 1000)};
@@ -64,7 +64,7 @@ Rational squared_displacement(const Frame& frame, const glm::dvec3& given, const
   return sum;
 }
 
-/// As they are uploaded.
+/// The coordinates as they are uploaded.
 struct Written {
   std::vector<float> high, low;
   Written(const StoredMesh& stored, const Mesh& mesh)
@@ -95,7 +95,7 @@ void check_stored(const Frame& frame, const Mesh& mesh, const StoredMesh& stored
     if (displacement > 0x1p-200)
       tally.measure("displaced / displacement", sqrt_near(squared) / displacement, describe);
   }
-  // What would underflow in the frame may be exact, and is not told apart.
+  // A coordinate that would underflow in the frame may be exact, and is not distinguished.
   const bool claimed = !exact || displacement == 0.0 || displacement <= 0x1p-990;
   tally.require(claimed, "exactly stored is not displaced", [&] { return hex(displacement); });
   tally.count("exact with a centre", displacement == 0.0 && frame.centre != glm::dvec3(0));

@@ -19,7 +19,8 @@ namespace {
 
 using namespace vkh;
 
-// German, compiled by glibc's localedef where it is not installed. False if there is none.
+// Sets a German locale, compiled by glibc's localedef if it is not installed. Returns false if
+// there is none.
 bool set_german() {
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8"}) {
     if (std::setlocale(LC_ALL, name) != nullptr) return true;

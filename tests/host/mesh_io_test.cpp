@@ -132,8 +132,8 @@ std::string ascii_stl(const Vertices& vertices, const Faces& faces) {
   return text + "endsolid a b\n";
 }
 
-// Every vertex used, positions distinct, each first used in the order of the vertices: what STL's
-// merging must give back.
+// Every vertex used, positions distinct, each first used in the order of the vertices: STL's
+// merging must return this mesh.
 struct Sample {
   Vertices vertices;
   Faces faces;
@@ -377,7 +377,7 @@ TEST_CASE("STL: attribute bytes that follow a triangle are skipped") {
   const Mesh mesh = parse(bytes, "a.stl");
   check_same(mesh, sample);
   CHECK(has_note(mesh, std::to_string(all) + " attribute bytes behind triangles ignored"));
-  // Where the counts do not make the file's size they are something else: a colour.
+  // If the counts do not make the file's size they are something else: a colour.
   std::string coloured = plain;
   coloured.replace(84 + 48, 2, "\x10\x42");
   check_same(parse(coloured, "a.stl"), sample);
@@ -441,7 +441,7 @@ TEST_CASE("formats that are not read are named, with what to do") {
     CHECK(line.find(std::string(": ") + file.says) != std::string::npos);
     CHECK(line.find("points", line.find("; expected")) == std::string::npos);
   }
-  // What reads as a mesh is one, whatever it is called.
+  // Content that reads as a mesh is one, whatever the file's name.
   const Sample sample = random_strip(6, 9, true);
   check_same(parse(obj(sample.vertices, sample.faces), "a.asc"), sample);
   check_same(parse(binary_ply<float>(sample.vertices, sample.faces, false), "a.step"), sample);

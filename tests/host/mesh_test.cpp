@@ -1,4 +1,4 @@
-// make_mesh: what it drops and refuses, and its counts against exact arithmetic.
+// make_mesh: the faces that it drops and refuses, and its counts against exact arithmetic.
 #include "host/mesh/mesh.h"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ uint64_t degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
   return vkh::make_mesh("m", {a, b, c}, {{0, 1, 2}}).counts.degenerate;
 }
 
-/// Of each triangle of faces of so many triangles the face's number, one by one.
+/// The face's number for each triangle, one by one, if faces have so many triangles.
 std::vector<uint32_t> numbered(const std::vector<uint32_t>& triangles_of_faces) {
   std::vector<uint32_t> numbers;
   for (uint32_t face = 0; face < triangles_of_faces.size(); ++face)
@@ -31,7 +31,7 @@ std::vector<uint32_t> numbered(const std::vector<uint32_t>& triangles_of_faces) 
   return numbers;
 }
 
-/// As a reader names them: only those that are not one triangle.
+/// A reader's form: only the faces that are not one triangle.
 FileFaces file_faces(const std::vector<uint32_t>& triangles_of_faces) {
   FileFaces faces;
   size_t first = 0;
@@ -42,7 +42,7 @@ FileFaces file_faces(const std::vector<uint32_t>& triangles_of_faces) {
   return faces;
 }
 
-/// Runs of like faces, for there are long ones in files.
+/// Runs of similar faces, since files have long ones.
 std::vector<uint32_t> random_faces(std::mt19937& random) {
   std::vector<uint32_t> counts;
   for (size_t runs = random() % 8; runs > 0; --runs)

@@ -1,5 +1,5 @@
-// The file that pipelines are kept in: what was written comes back, and anything else is as good as
-// no file.
+// The file that pipelines are kept in: written data comes back, and anything else counts as no
+// file.
 #include "host/gpu/pipeline_cache.h"
 
 #include <doctest/doctest.h>

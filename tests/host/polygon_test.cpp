@@ -1,4 +1,4 @@
-// Polygons as triangles: exact area, no overlap, the fan where it is right, and files of before.
+// Polygons as triangles: exact area, no overlap, the fan if it is right, and old files.
 #include "host/mesh/polygon.h"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,7 @@ namespace vkh {
 namespace {
 
 #ifdef VKH_SANITIZED
-constexpr int kTimes = 20;  // exact arithmetic is slow there, and is what the release tree looks at
+constexpr int kTimes = 20;  // exact arithmetic is slow there, and the release tree tests it
 #else
 constexpr int kTimes = 1;
 #endif
@@ -57,7 +57,7 @@ mpq_class area_of(const Points& points) {
   return sum;
 }
 
-// How often the triangles cover the point, which lies on no edge: by exact signs.
+// The number of triangles that cover the point, which lies on no edge: by exact signs.
 int cover(const Points& points, const Faces& faces, const glm::dvec3& at) {
   int count = 0;
   for (const glm::uvec3& f : faces) {

@@ -1,5 +1,5 @@
-// What reading a file costs: memory within a fixed multiple of the larger of file and mesh, time in
-// proportion, whatever the file. Every allocation of this program is counted.
+// The cost of reading a file: memory within a fixed multiple of the larger of file and mesh, time
+// in proportion, whatever the file. Every allocation of this program is counted.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -98,7 +98,7 @@ std::string with_header_lines(const std::string& lines, size_t size) {
          repeated(lines, size / lines.size()) + end + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 }
 
-// About `size` bytes each, all of one kind, so that nothing else pays for what it costs.
+// About `size` bytes each, all of one kind, so that nothing else hides its cost.
 std::vector<File> ply_files(size_t size) {
   const auto count = static_cast<uint32_t>(size);
   std::string mixed;
@@ -233,8 +233,8 @@ Cost least_cost_of(const File& file) {
   return least;
 }
 
-// What does not grow with the file: a stream and its locale, an error's text, what a container
-// begins with.
+// Bytes that do not grow with the file: a stream and its locale, an error's text, a container's
+// first allocation.
 constexpr size_t kConstant = 64 << 10;
 
 void check_memory(const Cost& cost) {
@@ -301,7 +301,7 @@ TEST_CASE("memory stays within six times the larger of file and mesh, time in pr
     for (size_t i = 0; i < small.size(); ++i) {
       CAPTURE(small[i].name);
       CAPTURE(size);
-      // In proportion is 4 times; what grows by the square takes 16. On a busy machine one of the
+      // Proportional growth is 4 times; quadratic growth is 16. On a busy machine one of the
       // two may have waited.
       bool in_proportion = false;
       for (int attempt = 0; attempt < 5 && !in_proportion; ++attempt) {
@@ -340,8 +340,8 @@ TEST_CASE("positions that were chosen to collide cost no more than any others") 
   CHECK(of_chosen.seconds <= 4 * of_others.seconds + 0.01);
 }
 
-// Python's hash of the bytes 0 to 23, and of eight zeros, with PYTHONHASHSEED=0: SipHash-1-3. Of 15
-// and more bytes by the authors' SipHash-2-4, in their key, 0 to 15.
+// Python's hash of the bytes 0 to 23, and of eight zeros, with PYTHONHASHSEED=0: SipHash-1-3. For
+// 15 and more bytes the authors' SipHash-2-4, with their key, 0 to 15.
 TEST_CASE("the hash is SipHash") {
   const auto bytes_from_0 = [](size_t word) {
     return 0x0706050403020100u + word * 0x0808080808080808u;

@@ -1,5 +1,5 @@
 // Limits on what a file may cost: refused one byte above, in one line that names size, limit and
-// remedy, and called off where somebody asks.
+// remedy, and cancelled on request.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 

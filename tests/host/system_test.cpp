@@ -17,7 +17,7 @@ using namespace vkh::test;
 
 namespace {
 
-/// Null takes the variable away.
+/// Null removes the variable.
 void set_variable(const char* name, const char* value) {
 #ifdef _WIN32
   _putenv_s(name, value == nullptr ? "" : value);

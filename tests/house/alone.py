@@ -1,4 +1,5 @@
-"""The commands that compile each file by itself, where the build compiles rooms (cmake/Unity.cmake).
+"""The commands that compile each file by itself, although the build compiles rooms
+(cmake/Unity.cmake).
 
 A second tree is configured without unity beside the build, and never built: its commands name the
 headers that the build has generated.

@@ -1,7 +1,7 @@
 """clang-tidy 14 (.clang-tidy) finds nothing in the product and its examples, as the build folder compiles them.
 
-Rooms are read as the units that the build makes of them (cmake/Unity.cmake): what each costs is the
-standard library's headers. clang_test.py reads each file by itself.
+Rooms are read as the units that the build makes of them (cmake/Unity.cmake): most of the cost is
+the standard library's headers. clang_test.py reads each file by itself.
 
 usage: clang_tidy_test.py BUILD SOURCE [FILE...]. Exit code 77: no clang-tidy 14 here; others know
 other checks. FILE: these alone, each by itself.
@@ -20,7 +20,7 @@ import tempfile
 import alone
 
 FOLDERS = ("engine", "host", "check", "examples")  # not the tests and tools: they would take as long again
-# What the checks must find, so that a configuration that finds nothing is noticed.
+# Errors that the checks must find, so that a configuration that finds nothing is noticed.
 BAIT = """\
 #include <string>
 #include <vector>
@@ -63,7 +63,7 @@ def sources_in(file: str) -> list[str]:
 
 
 def missed(source: pathlib.Path) -> list[str]:
-    """The checks that find nothing in what is wrong on purpose."""
+    """The checks that miss the deliberate errors."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "bait.cpp"
         file.write_text(BAIT)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The test layer's table of functions against the specification's: what each may return.
+"""The test layer's table of functions against the specification's: the possible results of each.
 
 usage: layer_functions_test.py FUNCTIONS_H SOURCE_FOLDER...
 Every Vulkan function that may fail and is named in the sources has to be in the table, so that faults reach it.
@@ -12,16 +12,16 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 REGISTRIES = ["/usr/share/vulkan/registry/vk.xml", "/usr/local/share/vulkan/registry/vk.xml"]
-# Before there is an instance no layer of this kind is asked.
+# No layer of this kind is called before there is an instance.
 BEFORE_LAYERS = {"EnumerateInstanceLayerProperties", "EnumerateInstanceExtensionProperties", "EnumerateInstanceVersion"}
-# Of extensions that nobody here enables.
+# Errors of extensions that this project does not enable.
 EXTENSIONS = {"VK_ERROR_INVALID_EXTERNAL_HANDLE", "VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS", "VK_ERROR_INVALID_SHADER_NV",
               "VK_ERROR_COMPRESSION_EXHAUSTED_EXT", "VK_ERROR_UNKNOWN", "VK_ERROR_VALIDATION_FAILED",
               "VK_ERROR_VALIDATION_FAILED_EXT"}
 
 
 def specified(registry):
-    """Name without vk -> its errors; None for what returns no VkResult."""
+    """Name without vk -> its errors; None for a function that returns no VkResult."""
     commands = {}
     aliases = {}
     for command in ElementTree.parse(registry).getroot().find("commands"):
@@ -60,7 +60,7 @@ def table(text):
 
 
 def named_in(folders, functions):
-    """Functions that may fail and stand in a list of functions or are asked for by name."""
+    """Functions that may fail and stand in a list of functions or are loaded by name."""
     names = set()
     for folder in folders:
         for path in Path(folder).rglob("*"):

@@ -14,7 +14,7 @@ import tempfile
 
 
 def undefined(compiler: str, objects: list[str], libraries: list[str]) -> list[str]:
-    """Names what no object defines; empty where they link."""
+    """Names what no object defines; empty if they link."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([compiler, "-shared", "-Wl,-z,defs", "-Wl,--demangle", "-o", f"{folder}/rooms.so", *objects, *libraries],
                               capture_output=True, text=True)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""What README and guide quote is a file that a test compiles or runs, letter by letter; their links lead somewhere; a README
-has at most 120 lines. usage: readme_test.py README GUIDE --whole FILE... --parts-of FILE... --pages FOLDER
-Every FILE of --whole stands in the GUIDE as it is; other quotations are parts of some FILE."""
+"""The quotations in README and guide are files that a test compiles or runs, letter by letter;
+their links lead somewhere; a README has at most 120 lines. usage: readme_test.py README GUIDE
+--whole FILE... --parts-of FILE... --pages FOLDER Every FILE of --whole stands in the GUIDE as it
+is; other quotations are parts of some FILE."""
 import pathlib
 import re
 import sys
@@ -21,7 +22,7 @@ def quoted(page):
 
 
 def anchors(page):
-    """As GitHub makes them of headings."""
+    """The anchors that GitHub makes of headings."""
     for title in re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE):
         yield re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rooms of shaders/, host/ and tests/: every file is in one, and includes only what stands before it.
+"""The rooms of shaders/, host/ and tests/: every file is in one, and includes only files before it.
 
   rooms_test.py [ROOT]    exits 1 and names each arrow upwards, cycle, file without one
   rooms_test.py --table   files, and levels within, of each room
@@ -22,7 +22,7 @@ ROOMS = {
               "cli", "faults", "platforms", "cluster", "python", "house", "malformed", "fuzz", "sanitize", "proofs"],
 }
 FLOORS = list(ROOMS)
-OUTSIDE = {"gpu_types.h", "stages.h"}  # what both languages see: before every room
+OUTSIDE = {"gpu_types.h", "stages.h"}  # seen by both languages: before every room
 BESIDE = {"host/python", "tests/package", "tests/layer"}  # with builds of their own: after all of the floor's rooms
 INCLUDING = {".h", ".c", ".cpp", ".glsl", ".comp"}
 SOURCES = {*INCLUDING, ".py", ".sh"}
@@ -41,7 +41,7 @@ def files_of(root):
 
 
 def level_of(path):
-    """Where a file's room stands on its floor; None for a file that is in none."""
+    """The place of a file's room on its floor; None for a file that is in none."""
     floor, *rest = path.split("/")
     if len(rest) == 1:
         return -1 if rest[0] in OUTSIDE else None
@@ -119,7 +119,7 @@ class Rooms(unittest.TestCase):
         self.assertEqual(breaches(ROOT), [])
 
     def breach(self, changes):
-        """What is said of a small house with these files in it."""
+        """The complaints about a small house with these files in it."""
         house = {"shaders/gpu_types.h": "", "shaders/math/a.h": '#include "shaders/gpu_types.h"\n',
                  "shaders/walk/b.glsl": '#include "shaders/math/a.h"\n',
                  "host/base/c.h": "", "host/gpu/d.cpp": '#include "host/base/c.h"\n', **changes}

@@ -10,7 +10,7 @@ import unittest
 TABLES = pathlib.Path(__file__).resolve().parents[2] / "tools" / "tables.py"
 HEADER = "pair,family,preset,status,verdict,load_ms,setup_ms,upload_ms,hierarchy_ms,solve_ms,gpu_ms"
 
-# solve_ms of a, b, c; what is not closed has a status in its place.
+# solve_ms of a, b, c; a run that is not closed has a status in its place.
 TIMES = {
     "default": [1, 2, 4],
     "paper": [2, 2, 8],
@@ -56,7 +56,8 @@ class Tables(unittest.TestCase):
 
     def test_peer(self):
         self.assertEqual(self.run_tables(bench_rows()).returncode, 0)
-        # Of a and b, which all three presets close: 1100 over 3, sqrt(100 * 500), 100 and 500 between.
+        # The ratios for a and b, which all three presets close: 1100 over 3, sqrt(100 * 500), 100 and
+        # 500 between.
         self.assertEqual(self.table("peer-tetwild"),
                          [["default", "2", "550.00", "1.50", "366.67x", "223.61x", "460.00x", "496.00x"],
                           ["paper", "2", "550.00", "2.00", "275.00x", "158.11x", "455.00x", "495.50x"],

@@ -33,7 +33,7 @@ layout(scalar, set = 0, binding = 1) buffer VBlock { vec3 v[]; };
 """
 MAIN = "void main() { %s }"
 
-# What is wrong: (declarations, main's body, what the message must say).
+# The broken shaders: (declarations, main's body, the message's text).
 BROKEN = {
     "two members": (
         "layout(scalar, set = 0, binding = 0) buffer TwoBlock { uint n; uint keys[]; };", "",
@@ -102,7 +102,7 @@ def words_in(array):
 
 
 def loop_controls(words):
-    """What the module says of each of its loops."""
+    """The loop control of each of the module's loops."""
     return [words[at + 3] for at, op in spirv_module.instructions(words)
             if op == spirv_module.OP_LOOP_MERGE]
 
@@ -193,7 +193,7 @@ class EmbedShaders(unittest.TestCase):
         self.assertIn("using Push = gpu::Item;", self.header(KEYS + push))
 
     def test_cpu_devices_leave_loops_as_they_are(self):
-        """Their words say so of each loop, but for those that the shader wants unrolled."""
+        """The module marks each loop so, except those that the shader wants unrolled."""
         head = HEAD + "#extension GL_EXT_control_flow_attributes : require\n"
         loop = "for (uint i = 0; i < 4; ++i) keys[i] = i;"
         spv = self.dir / "try_it.spv"
@@ -208,7 +208,7 @@ class EmbedShaders(unittest.TestCase):
                                  [controls] if controls else [])
 
     def test_a_float_operation_that_may_be_rearranged_stops_the_build(self):
-        """What glslang leaves undecorated; once decorated, it passes."""
+        """An operation that glslang leaves undecorated; once decorated, it passes."""
         for body, name in [("x[0] = x[1] + x[2];", "OpFAdd"), ("x[0] = x[1] - x[2];", "OpFSub"),
                            ("x[0] = x[1] * x[2];", "OpFMul"), ("x[0] = x[1] / x[2];", "OpFDiv"),
                            ("x[0] = -x[1];", "OpFNegate"),
@@ -221,7 +221,7 @@ class EmbedShaders(unittest.TestCase):
                 self.header(FLOATS, body, order=True)
 
     def test_a_float_operation_of_no_fixed_order_stops_the_build(self):
-        """Whatever is a sum of products inside, or a sum over a subgroup."""
+        """Every operation that is a sum of products inside, or a sum over a subgroup."""
         for body in ["x[0] = dot(v[0], v[1]);", "v[0] = cross(v[1], v[2]);", "x[0] = length(v[0]);",
                      "x[0] = distance(v[0], v[1]);", "v[0] = normalize(v[1]);",
                      "x[0] = fma(x[1], x[2], x[3]);", "x[0] = mix(x[1], x[2], x[3]);",

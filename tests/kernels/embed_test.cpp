@@ -1,4 +1,4 @@
-// What a program that embeds vkh::Solver relies on: B kept for many A's, a device of its own, both
+// The promises to a program that embeds vkh::Solver: B kept for many A's, a device of its own, both
 // directions in one call.
 #include <doctest/doctest.h>
 
@@ -63,7 +63,7 @@ TEST_CASE("many A's against one prepared B: each interval holds the distance") {
       const double size = diagonal(joined(a, b));
       CHECK(interval(r).meets(reference_hausdorff(a, b, 1e-10 * size)));
       CHECK(interval(r).meets(interval(plain)));
-      // Under what 48 bits resolve in a frame, the frame decides whether a run closes.
+      // Below the resolution of 48 bits in a frame, the frame decides whether a run closes.
       if (plain.tolerance > 1e-9 * size) CHECK(r.status == plain.status);
       if (prepared.serves(a)) {
         CHECK(r.times.hierarchy_ms == 0);  // it was built before
@@ -159,7 +159,7 @@ void check_refused(const AdoptedDevice& adopted, const std::string& reason) {
 }  // namespace
 
 TEST_CASE("somebody else's device gives the same answers and is left as it was") {
-  // The validation layer, where it is on, complains of what is left behind when this one goes.
+  // The validation layer, where it is on, reports objects that are left when this one is destroyed.
   auto theirs = std::make_unique<Device>(
       DeviceRequest{.selector = "", .validation = std::getenv("VKH_VALIDATION") != nullptr});
   const Mesh a = icosphere(1.0, 2);
@@ -249,7 +249,8 @@ TEST_CASE("symmetric: the larger direction, the other pruned by it, all of it tr
 }
 
 TEST_CASE("what the other direction exceeds is never refined") {
-  // One far cube decides h(A,B); the way back, two height fields apart, takes waves by itself.
+  // One far cube decides h(A,B); the reverse direction, two height fields apart, takes waves by
+  // itself.
   const Mesh b = height_field(40, 2);
   const Mesh a = joined(height_field(40, 1), translated(cube(0.1), {0, 0, 0.4}));
   const SymmetricReport both = solver().symmetric(a, b);
@@ -278,7 +279,7 @@ TEST_CASE("symmetric runs keep to their budgets and say which direction is under
   int calls = 0;
   options.progress = [&](const Progress&) { return ++calls < 1; };
   const SymmetricReport cancelled = solver().symmetric(a, b, options);
-  CHECK(calls == 1);  // the way back does not ask again
+  CHECK(calls == 1);  // the reverse direction does not call it again
   CHECK(cancelled.a_to_b.status == Status::kCancelled);
   const Interval exact_there = reference_hausdorff(a, b, 1e-9);
   const Interval exact_back = reference_hausdorff(b, a, 1e-9);

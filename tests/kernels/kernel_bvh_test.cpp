@@ -1,4 +1,4 @@
-// B's hierarchy, kernel by kernel: codes, topology, boxes.
+// B's BVH, kernel by kernel: codes, topology, boxes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ gpu::vec3 vertex(const Mesh& mesh, uint32_t v) {
 
 // --- Codes ---
 
-/// As base/face_code.glsl has it: a sum and a product, correctly rounded everywhere.
+/// The same formula as in base/face_code.glsl: a sum and a product, correctly rounded everywhere.
 float centre(const Mesh& mesh, const glm::uvec3& f, int axis) {
   const auto at = [&](uint32_t v) { return component(vertex(mesh, v), axis); };
   const auto [lo, hi] = std::minmax({at(f.x), at(f.y), at(f.z)});
@@ -91,10 +91,10 @@ uint32_t cell(uint32_t code, int axis) {
   return out;
 }
 
-/// Of few faces, codes have 8 bits an axis in place of 10.
+/// If faces are few, codes have 8 bits per axis instead of 10.
 double coarseness(const Mesh& mesh) { return mesh.faces.size() <= gpu::kFewFaces ? 4 : 1; }
 
-/// Where a centre lies in the cube of 1024 cells a side, in double precision.
+/// The position of a centre in the cube of 1024 cells per side, in double precision.
 double place_in_cube(const Mesh& mesh, const CentreBox& box, const glm::uvec3& f, int axis) {
   float side = 0;
   for (int i = 0; i < 3; ++i) side = std::max(side, box.hi[i] - box.lo[i]);
@@ -154,8 +154,8 @@ std::pair<uint32_t, uint32_t> leaf_range(uint32_t leaf) {
   return {first, first + ((leaf >> 28) & 7)};
 }
 
-/// Walks from branch 0 and counts how often each triangle is reached; `enter` is called with each
-/// branch, its number, and the last triangle of its first child.
+/// Traverses from branch 0 and counts how often each triangle is reached; `enter` is called with
+/// each branch, its number, and the last triangle of its first child.
 template <class Enter>
 uint32_t walk(const std::vector<gpu::Branch>& branches, uint32_t count, Words& reached,
               Enter&& enter) {
@@ -167,7 +167,7 @@ uint32_t walk(const std::vector<gpu::Branch>& branches, uint32_t count, Words& r
     const Ref ref = open.back();
     open.pop_back();
     depth = std::max(depth, ref.depth);
-    REQUIRE(++visited <= 2 * static_cast<size_t>(count));  // else it is a cycle
+    REQUIRE(++visited <= 2 * static_cast<size_t>(count));  // otherwise it is a cycle
     if (is_leaf(ref.at)) {
       const auto [first, last] = leaf_range(ref.at);
       REQUIRE(first == ref.first);
@@ -290,7 +290,7 @@ std::pair<uint32_t, uint32_t> range_of(uint32_t child, const std::vector<gpu::Br
   return {branches[child].first, branches[child].last};
 }
 
-/// What a node must refer to: its branch's grandchildren, or children that are leaves.
+/// The references that a node must have: its branch's grandchildren, or children that are leaves.
 Words grandchildren(const gpu::Branch& branch, const std::vector<gpu::Branch>& branches) {
   Words all;
   for (const uint32_t child : {branch.child0, branch.child1}) {
@@ -374,7 +374,7 @@ TEST_CASE("the topology of many keys") {
 }
 
 TEST_CASE("the deepest topology stays within the stack") {
-  CHECK(check_topology(deep_keys(1 << 17)) > 40);  // else it is not the case that is meant
+  CHECK(check_topology(deep_keys(1 << 17)) > 40);  // otherwise it is not the intended case
 }
 
 TEST_CASE("built hierarchies: triangles, topology and exact boxes") {

@@ -176,7 +176,8 @@ TEST_CASE("mesh_load beyond one row of workgroups") {
 }
 
 TEST_CASE("mesh_load of nothing but vertices, or nothing but indices") {
-  // Not reached through record_load, whose meshes have a face; the kernel's own edge.
+  // This is not reached through record_load, whose meshes have a face; it is the kernel's own edge
+  // case.
   KernelBench bench;
   const auto words = bench.put(std::vector<uint32_t>{1, 2, 3, 4});
   const auto loaded = bench.garbage<gpu::Vertex>(1);

@@ -1,5 +1,5 @@
 // The order in which a sorted frontier is refined: the keys of wave_sort against a CPU twin, and
-// the places that come out of the sort.
+// the places after the sort.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"
 
-// After the others, and before what it readies for C++.
+// This comes after the others, and before the headers that it prepares for C++.
 #include "tests/model/lib_device.h"
 // The headers themselves.
 #include "shaders/math/hash.h"
@@ -60,7 +60,7 @@ SelectionKey selection_key(const gpu::Candidate& c) {
   return {std::bit_cast<uint32_t>(c.upper), (exponent << 26) | (hash >> 6)};
 }
 
-/// A frontier in the half that the wave reads, and what the plan decided about it.
+/// A frontier in the half that the wave reads, and the plan's decision about it.
 struct Wave {
   std::vector<gpu::Candidate> frontier;
   uint32_t waiting = 0;  ///< how many of them, those with the largest keys

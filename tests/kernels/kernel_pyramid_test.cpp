@@ -12,7 +12,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-// Around the sizes at which a level, a workgroup or a dispatch more is needed.
+// Counts around the sizes at which a level, a workgroup or a dispatch more is needed.
 constexpr uint32_t kSizes[] = {1,    2,    3,    4,    5,      15,     16,     17,     63,   64,
                                65,   255,  256,  257,  271,    272,    273,    1023,   1024, 1025,
                                4095, 4096, 4097, 4113, 65'535, 65'536, 65'537, 100'003};
@@ -73,7 +73,7 @@ TEST_CASE("every box of the pyramid is that of its triangles, after a build and 
     const auto before = bench.get(h.triangles);
     bench.run([&](Recorder& rec) { record_refit(rec, moved, h); });
     CHECK(
-        !same(bench.get(h.triangles)[0].a, before[0].a));  // else the second look sees nothing new
+        !same(bench.get(h.triangles)[0].a, before[0].a));  // else the second check sees nothing new
     check_pyramid(bench, h);
   }
 }

@@ -1,4 +1,4 @@
-// The walks through B's hierarchy against brute force in double precision.
+// The traversals of B's BVH against brute force in double precision.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// What the device holds: float32, or the sum of two of them.
+/// The device's form of a coordinate: float32, or the sum of two of them.
 double stored(double x, bool two_float) {
   const double high = round_to_float(x);
   return two_float ? high + round_to_float(x - high) : high;
@@ -80,11 +80,11 @@ std::vector<glm::dvec3> queries(const Mesh& mesh, uint32_t count, bool two_float
   return points;
 }
 
-/// The walk looks at float32 positions: it may be off by its own arithmetic and may prefer a
+/// The traversal uses float32 positions: it may be off by its own arithmetic and may prefer a
 /// triangle that is a little farther. Coordinates are of order 1, so 1e-6 is 8 ulp of one.
 double allowed(double distance) { return 1e-5 * distance + 1e-6; }
 
-/// `above`: what the distance is said to be above `base`, at least 0.
+/// `above`: the reported distance above `base`, at least 0.
 void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu::Triangle>& sorted,
                    uint32_t nearest, double above, double base, bool two_float) {
   REQUIRE(nearest < sorted.size());
@@ -117,7 +117,7 @@ struct Query {
   gpu::Control control;
 };
 
-/// Garbage but for what the kernel reads.
+/// The buffers hold garbage except for the kernel's inputs.
 gpu::Control blank_control() {
   gpu::Control control;
   std::memset(static_cast<void*>(&control), 0xa5, sizeof(control));

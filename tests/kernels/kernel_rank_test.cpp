@@ -64,7 +64,7 @@ Words caterpillar(uint32_t zeros) {
   return keys;
 }
 
-/// How many places the branches over these keys are given.
+/// The number of places that the branches over these keys get.
 uint32_t places_of(const Words& keys) {
   KernelBench bench;
   const auto count = static_cast<uint32_t>(keys.size());
@@ -99,6 +99,6 @@ TEST_CASE("half of the triangles are places enough, whatever the keys") {
     const Words keys = caterpillar(zeros);
     CHECK(places_of(keys) <= keys.size() / 2);
   }
-  CHECK(places_of(caterpillar(1)) >= 13);  // nearly: else it is not the case that is meant
+  CHECK(places_of(caterpillar(1)) >= 13);  // nearly: otherwise it is not the intended case
   CHECK(places_of(Words(5000, 7)) <= 2500);
 }

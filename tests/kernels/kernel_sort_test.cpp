@@ -22,8 +22,8 @@ struct Keys {
   std::function<uint32_t(uint32_t i, uint32_t count, Random&)> at;
 };
 
-// Each digit alone, all digits, few distinct ones, and the orders that a stable sort must not touch
-// or must turn round.
+// Keys with each digit alone, all digits, few distinct ones, and the orders that a stable sort must
+// not touch or must turn round.
 const Keys kAllKeys[] = {
     {"random", [](uint32_t, uint32_t, Random& r) { return static_cast<uint32_t>(r.bits()); }},
     {"Morton", [](uint32_t, uint32_t, Random& r) { return r.below(1u << 30); }},
@@ -107,13 +107,13 @@ TEST_CASE("the sort is std::stable_sort on many keys") {
     CAPTURE(kind.name);
     check_sort(bench, make_keys(kind, 100'003));
   }
-  // More blocks than a workgroup has lanes, so that sort_scan's lanes hold several.
+  // Uses more blocks than a workgroup has lanes, so that sort_scan's lanes hold several.
   KernelBench bench;
   check_sort(bench, make_keys(kAllKeys[0], gpu::kSortGroup * gpu::kSortBlock + 12'345));
 }
 
 TEST_CASE("the sort is std::stable_sort where blocks grow, and as a CPU device has it") {
-  const uint32_t few = gpu::kSortFewBlocks * gpu::kSortGroup;  // keys of few blocks, one a round
+  const uint32_t few = gpu::kSortFewBlocks * gpu::kSortGroup;  // keys of few blocks, one per round
   for (const bool wide : {true, false}) {
     KernelBench bench(VKH_SWITCH_DEFAULT_NARROW, wide);
     for (const uint32_t rounds : {2u, 4u, 8u}) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Every .glsl page includes what it needs, but for the buffers that its kernel declares; and kernels declare a
-buffer in one way: one name, one block, one type, as structs or in the whole words that walks read.
+"""Every .glsl file includes all that it needs, except for the buffers that its kernel declares; and
+kernels declare a buffer in one way: one name, one block, one type, as structs or in the whole words
+that traversals read.
 """
 
 import re
@@ -16,9 +17,9 @@ BUFFER = re.compile(r"^layout\(scalar, binding = (\d+)\)([a-z ]*) buffer (\w+) \
 BESIDE = re.compile(r"^layout\([^)]*\b(binding|push_constant)\b.*$", re.M)
 WORDS = {"uvec4", "vec2"}  # whole loads of a struct
 DECLARES = re.compile(r"The kernel declares (.*)$", re.S)
-# The pages of which a kernel includes one or the other.
+# The files of which a kernel includes one or the other.
 HOOKS = ["candidate/centroid.glsl", "candidate/unsorted.glsl"]
-# Of the doctor, which is no part of a run.
+# Kernels of the doctor, which is no part of a run.
 APART = {"self_test.comp"}
 
 
@@ -36,7 +37,7 @@ def head_of(page):
 
 
 def buffers_of(root):
-    """name -> (block, {types}, is an array), and what is declared in another way."""
+    """name -> (block, {types}, is an array), and the declarations of another form."""
     found, others = {}, []
     for kernel in kernels(root):
         text = kernel.read_text()
@@ -56,7 +57,7 @@ def buffers_of(root):
 
 
 def needs(root, page, seen=()):
-    """The text behind 'The kernel declares', with that of the pages that it names."""
+    """The text behind 'The kernel declares', with that of the files that it names."""
     match = DECLARES.search(head_of(page))
     text = match.group(1) if match else ""
     for name in re.findall(r"(\w+/\w+\.glsl)", text):
@@ -86,7 +87,7 @@ def kernel_around(root, page, found):
 
 
 def complaint(root, page, found):
-    """What the compiler says of a kernel that includes this page alone; '' where nothing."""
+    """The compiler's message on a kernel that includes only this file; '' if there is none."""
     with tempfile.TemporaryDirectory() as folder:
         kernel = Path(folder) / "around.comp"
         kernel.write_text(kernel_around(root, page, found))

@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/changed/shaders"
 failures=0
 
-# $work/changed comes first, so that a header there stands for the repository's.
+# $work/changed comes first, so that a header there replaces the repository's.
 compile() {
   "${CXX:-g++}" -std=c++20 -fsyntax-only -I"$work/changed" -I"$generated" -I"$root" "$1" \
     2>"$work/messages"

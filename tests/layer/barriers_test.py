@@ -2,8 +2,9 @@
 
 usage: barriers_test.py BUILD
 
-The test layer stands above the validation layer and leaves out one of the engine's barriers, another in each run. Not
-every one is seen: the layer does not follow what a shader reads by an index, or how large an indirect dispatch is.
+The test layer stands above the validation layer and leaves out one of the engine's barriers,
+another in each run. Not every one is noticed: the layer follows neither reads by an index in a
+shader, nor the size of an indirect dispatch.
 """
 
 import os
@@ -15,7 +16,7 @@ import sys
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 LAYERS = pathlib.Path("/usr/share/vulkan/explicit_layer.d")
 TEST = [BUILD / "tests" / "kernels_tests", "--source-file=*/kernel_bvh_test.cpp", "-tc=built hierarchies*"]
-TRIED = range(1, 13)  # of the first hierarchy
+TRIED = range(1, 13)  # of the first BVH
 LEAST = 4             # 8 of 12 with layer 1.3.239
 
 if not (LAYERS / "VkLayer_khronos_validation.json").exists():

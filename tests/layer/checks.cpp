@@ -26,7 +26,7 @@ Known& known() {
   return *one;
 }
 
-// Whether it is kept; a limit that was not given is the driver's business.
+// Whether the limit is kept; the driver checks a limit that was not given.
 bool at_most(uint64_t value, const char* name, const char* where) {
   const auto limit = settings().limit(name);
   if (!limit || value <= *limit) return true;
@@ -156,8 +156,8 @@ void made(fn::GetBufferMemoryRequirements, Table& table, VkDevice, VkBuffer,
   if (is_split(memory_of(table))) requirements->memoryTypeBits |= requirements->memoryTypeBits << 1;
 }
 
-// More than a heap has is no violation: a driver says that it has not the memory. What is split for
-// the program is one type to the driver.
+// An allocation larger than a heap is no violation: a driver reports that it lacks the memory. The
+// two types that the program sees are one to the driver.
 std::optional<VkResult> refusal(fn::AllocateMemory tag, Table& table, VkDevice device,
                                 const VkMemoryAllocateInfo* info, Allocator allocator,
                                 VkDeviceMemory* out) {

@@ -1,4 +1,5 @@
-"""The program on a device that has less: every fallback runs, with the same bits; and what is too little is refused.
+"""The program on a device that has less: every fallback runs, with the same bits; and a device with
+too little is refused.
 
 usage: fallbacks_test.py BUILD
 
@@ -17,7 +18,7 @@ SAME = ("lower_hex", "upper_hex", "status", "candidates", "queries", "waves", "p
 
 
 def answer_of(done):
-    """What is compared, of one direction; empty where there is no answer."""
+    """The compared part of one direction; empty if there is no answer."""
     if done.returncode != 0:
         return {}
     answer = json.loads(done.stdout)
@@ -31,7 +32,7 @@ NO_PUSH = {"VKH_LAYER_HIDE": "VK_KHR_push_descriptor"}
 def demo(*words, **environment):
     variables = os.environ | {"VK_LAYER_PATH": LAYERS, "VK_INSTANCE_LAYERS": "VK_LAYER_VKH_test"} | environment
     done = subprocess.run([BUILD / "vkhausdorff", "demo", "--tol=1e-6", "--json", *words], env=variables, capture_output=True, text=True, timeout=200)
-    # Of a run of more than ten seconds it says how far it is.
+    # The program reports progress in a run of more than ten seconds.
     done.stderr = "".join(line for line in done.stderr.splitlines(True) if not line.startswith(("h(A,B)  wave ", "h(B,A)  wave ")))
     return done
 
@@ -53,7 +54,7 @@ SERVED = {
     "all at once": NO_PUSH | limits(maxComputeSharedMemorySize=16384, maxComputeWorkGroupInvocations=256, maxComputeWorkGroupSize0=256,
                                     minStorageBufferOffsetAlignment=256),
 }
-# On these it says what is missing, in one line, exit code 5.
+# On these it names the missing part in one line, exit code 5.
 REFUSED = {
     "no synchronization2": ({"VKH_LAYER_HIDE": "VK_KHR_synchronization2"} | limits(apiVersion="1.2"), "synchronization2 is missing"),
     "no scalar layout": ({"VKH_LAYER_HIDE": "scalarBlockLayout"}, "scalarBlockLayout is missing"),
@@ -110,8 +111,8 @@ for what, environment in {
     different = [key for key in SAME if answer.get(key) != expected[key]]
     if different or done.stderr:
         fail(f"{what}: {different}", done)
-# A device with memory of its own, which the host does not see: meshes are copied there. Where it holds not all of B, B lies in
-# the host's memory.
+# A device with memory of its own, which the host does not see: meshes are copied there. If it does
+# not hold all of B, B lies in the host's memory.
 for what, environment, in_host in (
     ("memory apart", limits(localMemory=64 << 20), False),
     ("2 MiB of its own", limits(localMemory=2 << 20), True),
@@ -125,7 +126,7 @@ for what, environment, in_host in (
     noted = any("from the host's, slowly" in note for note in answer.get("notes", ()))
     if different or done.stderr or noted != in_host:
         fail(f"{what}: {different}, noted: {noted}", done)
-# Where the search's memory is not given, it is cut, and grows into what is left.
+# If the search's memory is not given, it is cut, and grows into the rest.
 for what, environment in {
     "2 MiB of its own": limits(localMemory=2 << 20),
     "7 MiB of its own": limits(localMemory=7 << 20),
@@ -138,7 +139,7 @@ for what, environment in {
     noted = any("from the host's, slowly" in note for note in answer.get("notes", ()))
     if done.stderr or good != [True, True] or not noted:
         fail(f"{what}, cut: {good}, noted: {noted}", done)
-# Without addresses the refusal says what it would hold.
+# Without addresses the refusal states the size that it would hold.
 done = demo(VKH_LAYER_HIDE="bufferDeviceAddress", **limits(maxStorageBufferRange=1 << 19))
 words = ("mesh B is too large for this device: 15134 faces", "take about ", "simplify the mesh")
 if done.returncode != 5 or not all(word in done.stderr for word in words) or done.stderr.count("\n") != 1:

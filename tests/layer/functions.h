@@ -1,5 +1,5 @@
-// The Vulkan functions that the test layer stands before, each named once. What a function may
-// return is the specification's (vk.xml; tests/house/layer_functions_test.py compares).
+// The Vulkan functions that the test layer stands before, each named once. The possible results of
+// a function are the specification's (vk.xml; tests/house/layer_functions_test.py compares).
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -44,7 +44,7 @@ constexpr unsigned kCreateInstanceErrors =
 constexpr unsigned kCreateDeviceErrors =
     kMemoryOrLost | kInitialization | kExtensionMissing | kFeatureMissing | kTooManyObjects;
 
-// Those that return a VkResult: of an instance, and of a device. vkCreateInstance and
+// The functions that return a VkResult: of an instance, and of a device. vkCreateInstance and
 // vkCreateDevice are layer.cpp's.
 #define VKH_LAYER_INSTANCE_FALLIBLE(X)                           \
   X(EnumeratePhysicalDevices, kMemory | kInitialization)         \
@@ -122,7 +122,7 @@ constexpr unsigned kCreateDeviceErrors =
   X(DescriptorUpdateTemplate) \
   X(CommandPool)
 
-// Those that return nothing and are looked at.
+// The functions that return nothing and are checked.
 #define VKH_LAYER_INSTANCE_VOID(X)          \
   X(DestroyDebugUtilsMessengerEXT)          \
   X(GetPhysicalDeviceProperties)            \
@@ -168,7 +168,7 @@ constexpr unsigned kCreateDeviceErrors =
   X(CmdPipelineBarrier2)             \
   X(CmdPipelineBarrier2KHR)
 
-// Return a VkResult and no error.
+// The functions that return a VkResult and no error.
 #define VKH_LAYER_DEVICE_SAFE(X) \
   X(ResetDescriptorPool)         \
   X(FreeDescriptorSets)

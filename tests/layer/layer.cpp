@@ -1,5 +1,5 @@
 // A Vulkan layer for tests: lowers limits, hides features, leaves barriers out, fails calls, and
-// counts what was not destroyed (docs/test_layer.md).
+// counts objects that were not destroyed (docs/test_layer.md).
 #include <vulkan/vk_layer.h>
 
 #include <algorithm>
@@ -174,7 +174,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, c
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance,
                                                                 const char* name);
 
-// Those that are not of one kind with the others.
+// The functions that differ from the others.
 const Functions& own_functions() {
 #define VKH_OWN(name, function) \
   { name, reinterpret_cast<PFN_vkVoidFunction>(&(function)) }

@@ -10,7 +10,7 @@
 namespace vkh::layer {
 namespace {
 
-// Members of VkPhysicalDeviceLimits: those where less is lower, and those where more is.
+// Members of VkPhysicalDeviceLimits: first those where less is lower, then those where more is.
 #define VKH_MOST(X)                      \
   X(maxStorageBufferRange)               \
   X(maxUniformBufferRange)               \
@@ -31,7 +31,8 @@ namespace {
   X(nonCoherentAtomSize)              \
   X(bufferImageGranularity)
 
-// Members of what hangs on VkPhysicalDeviceProperties2: limit, sType, structure, member.
+// Members of the structures in the chain of VkPhysicalDeviceProperties2: limit, sType, structure,
+// member.
 #define VKH_MOST_CHAINED(X)                                                                      \
   X(maxPushDescriptors, PUSH_DESCRIPTOR_PROPERTIES_KHR, PushDescriptorPropertiesKHR,             \
     maxPushDescriptors)                                                                          \
@@ -107,7 +108,7 @@ const std::map<std::string, std::vector<std::string>>& functions_of_extensions()
   return known;
 }
 
-// Of 1.3, as far as this project could want them.
+// Features of 1.3, as far as this project could want them.
 const std::set<std::string>& functions_of_1_3() {
   static const std::set<std::string> known{
       "vkCmdPipelineBarrier2", "vkCmdWriteTimestamp2", "vkQueueSubmit2",  "vkCmdSetEvent2",

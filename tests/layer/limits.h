@@ -10,7 +10,7 @@ namespace vkh::layer {
 bool is_limit(const std::string& name);
 bool is_feature(const std::string& name);
 
-/// A structure and all that hang on it: as if the device had no more.
+/// Lowers a structure and its chain, as if the device had no more.
 void lower(VkPhysicalDeviceProperties& properties);
 void lower(VkPhysicalDeviceMemoryProperties& memory);
 void lower_chain(void* next);
@@ -19,7 +19,7 @@ void lower_chain(void* next);
 bool is_split(const VkPhysicalDeviceMemoryProperties& of_driver);
 void hide(VkPhysicalDeviceFeatures& features);
 void hide_chain(void* next);
-/// The feature that is asked for though it is hidden; empty if none.
+/// The feature that is enabled though it is hidden; empty if none.
 std::string hidden_feature_of(const VkDeviceCreateInfo& info);
 /// Whether `function` belongs to a hidden extension, or to a version above a lowered apiVersion.
 bool is_hidden_function(const std::string& function);

@@ -1,4 +1,4 @@
-// Objects that are made by the many, or belong to a pool.
+// Objects that are made several at a time, or belong to a pool.
 #include "tests/layer/rules.h"
 
 // Parameters are as many as Vulkan has.

@@ -1,4 +1,4 @@
-// What a device says of itself, lowered.
+// The reported properties of a device, lowered.
 #include <algorithm>
 #include <vector>
 
@@ -75,7 +75,7 @@ void made(fn::GetPhysicalDeviceQueueFamilyProperties2, Table&, VkPhysicalDevice,
     lower_family(families[i].queueFamilyProperties);
 }
 
-// Not passed on: the list is the one below without what is hidden.
+// This is not passed on: the list is the one below without the hidden entries.
 std::optional<VkResult> refusal(fn::EnumerateDeviceExtensionProperties, Table& table,
                                 VkPhysicalDevice physical, const char* layer, uint32_t* count,
                                 VkExtensionProperties* extensions) {

@@ -29,8 +29,8 @@ class Regrouping {
  private:
   using Pair = std::array<uint32_t, 2>;
 
-  // What stands before a sum is of its function, or a constant, and so are its operands: they are
-  // there.
+  // The instructions before a sum belong to its function or are constants, and so do its operands:
+  // they are there.
   bool regroup(std::span<const uint32_t> sum) {
     const auto outer = differences_.find(sum[3]);
     if (outer == differences_.end()) return false;

@@ -1,4 +1,4 @@
-// What a driver that regroups sums would make of a shader, whatever is decorated.
+// Changes a shader like a driver that regroups sums, whatever is decorated.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What the layer does at each function, beside counting: keeps objects, holds limits, spoils what a
-// failed call would have written. Each is an overload for the function's tag; the default does
+// The layer's actions at each function, beside counting: it keeps objects, holds limits, spoils the
+// outputs of a failed call. Each action is an overload for the function's tag; the default does
 // nothing.
 #pragma once
 
@@ -32,23 +32,24 @@ VKH_LAYER_DEVICE_SAFE(VKH_PLAIN_TAG)
 
 using Allocator = const VkAllocationCallbacks*;
 
-/// What the call returns instead of being made.
+/// The result that the call returns instead of being made.
 template <class Tag, class... Args>
 std::optional<VkResult> refusal(Tag, Table&, Args...) {
   return std::nullopt;
 }
-/// Whether a call that returns nothing is made.
+/// Whether to make a call that returns nothing.
 template <class Tag, class... Args>
 bool allowed(Tag, Table&, Args...) {
   return true;
 }
-/// After the call, where it succeeded.
+/// Called after the call, if it succeeded.
 template <class Tag, class... Args>
 void made(Tag, Table&, Args...) {}
-/// Output parameters of a failed call: undefined, but where the specification says null.
+/// Sets the output parameters of a failed call: undefined, except where the specification demands
+/// null.
 template <class Tag, class... Args>
 void spoil(Tag, Args...) {}
-/// After an object was made: what checks need to know of it.
+/// Called after an object was made, to record data for the checks.
 template <class Info, class Object>
 void learn(const Info&, Object) {}
 
@@ -77,7 +78,7 @@ void poison(Object* out) {
 VKH_LAYER_OBJECTS(VKH_OBJECT)
 #undef VKH_OBJECT
 
-// objects.cpp: what is made otherwise.
+// objects.cpp: the objects that are made otherwise.
 void made(fn::CreateDebugUtilsMessengerEXT, Table& table, VkInstance,
           const VkDebugUtilsMessengerCreateInfoEXT*, Allocator, VkDebugUtilsMessengerEXT* out);
 bool allowed(fn::DestroyDebugUtilsMessengerEXT, Table& table, VkInstance,
@@ -145,11 +146,11 @@ bool allowed(fn::CmdPipelineBarrier, Table&, VkCommandBuffer, VkPipelineStageFla
              const VkBufferMemoryBarrier*, uint32_t, const VkImageMemoryBarrier*);
 bool allowed(fn::CmdPipelineBarrier2, Table&, VkCommandBuffer, const VkDependencyInfo*);
 bool allowed(fn::CmdPipelineBarrier2KHR, Table&, VkCommandBuffer, const VkDependencyInfo*);
-/// What is outstanding of the allocations; for the budget of `heapSize`.
+/// The bytes in use by allocations; for the budget of `heapSize`.
 void forget_allocation(uint64_t memory);
 void keep_allocation(VkDevice device, const VkMemoryAllocateInfo& info, uint64_t memory);
 
-// properties.cpp: what is reported.
+// properties.cpp: the reported properties.
 void made(fn::GetPhysicalDeviceProperties, Table&, VkPhysicalDevice, VkPhysicalDeviceProperties* p);
 void made(fn::GetPhysicalDeviceProperties2, Table&, VkPhysicalDevice,
           VkPhysicalDeviceProperties2* p);

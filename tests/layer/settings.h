@@ -1,4 +1,4 @@
-// What the environment asks of the test layer.
+// The test layer's settings from the environment.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -13,7 +13,7 @@
 namespace vkh::layer {
 
 /// Fails the `n`-th call of `function` ("*": of those that may return `result`), and all after it
-/// where `onwards`.
+/// if `onwards`.
 struct Fault {
   std::string function;
   uint64_t n = 1;
@@ -37,19 +37,19 @@ struct Settings {
   }
 };
 
-/// Read once, at the first call. What makes no sense ends the program: a misspelt limit must not
-/// pass for one that is kept.
+/// The settings, read once, at the first call. Text that makes no sense ends the program: a
+/// misspelt limit must not pass for one that is kept.
 Settings& settings();
 
-/// False if the text makes no sense.
+/// Returns false if the text makes no sense.
 bool parse_faults(const std::string& text, std::vector<Fault>& faults);
 
-/// By its name; VK_SUCCESS if there is none.
+/// The result by its name; VK_SUCCESS if there is none.
 VkResult result_named(const std::string& name);
 const char* name_of(VkResult result);
 /// Error's bits of a function by name; 0: none, or not a function of ours.
 unsigned errors_of(const std::string& function);
-/// The bit of Error; 0 for what is none.
+/// The bit of Error; 0 for a result that is none.
 unsigned bit_of(VkResult result);
 
 }  // namespace vkh::layer

@@ -95,7 +95,7 @@ class Module {
     std::vector<uint64_t> v;
     for (const uint32_t operand : operands) {
       const auto known = values_.find(operand);
-      if (known == values_.end()) return;  // of vectors: whoever needs it will miss it
+      if (known == values_.end()) return;  // of vectors: code that needs it will not find it
       v.push_back(known->second);
     }
     if (const auto value = evaluate(op, v)) values_[id] = *value;

@@ -1,4 +1,4 @@
-// What a compute shader takes of a device, read from its SPIR-V with its specialisation.
+// A compute shader's needs, read from its SPIR-V with its specialisation.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -15,7 +15,7 @@ struct ShaderNeeds {
   uint64_t shared_bytes = 0;
 };
 
-/// Nothing where the module holds an operation on constants that this page does not know.
+/// Returns nothing if the module holds an operation on constants that this file does not know.
 std::optional<ShaderNeeds> needs_of(std::span<const uint32_t> words,
                                     const VkSpecializationInfo* specialisation);
 

@@ -15,7 +15,7 @@ namespace {
 
 struct Objects {
   std::mutex mutex;
-  // A driver may give one handle out twice.
+  // A driver may return one handle twice.
   std::multimap<std::pair<std::string, uint64_t>, uint64_t> owners;
 };
 struct Calls {
@@ -38,7 +38,7 @@ T& only() {
 
 std::atomic<uint32_t> g_violations = 0, g_injected = 0;
 
-// Whole lines at once, so that no end of the program loses one.
+// Writes whole lines at once, so that no end of the program loses one.
 void append(const std::string& path, const std::string& line, int flags) {
   if (path.empty()) return;
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0600);

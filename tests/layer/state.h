@@ -1,4 +1,4 @@
-// What the layer knows while it runs: the next functions of every instance and device, objects
+// The layer's state while it runs: the next functions of every instance and device, objects
 // that live, calls that were counted.
 #pragma once
 
@@ -46,14 +46,14 @@ uint64_t number_of(Handle handle) {
   return (uint64_t)handle;  // a pointer, or an integer on 32 bits
 }
 
-/// Handed out in place of an object where its creation was failed: nobody may use it.
+/// Handed out in place of an object if its creation was failed: no code may use it.
 constexpr uint64_t kPoison = 0x5ead5ead5ead5ea0u;
 
 /// A limit or rule that was broken: a line on stderr, counted; aborts unless it is to keep going.
 void violation(const std::string& what);
 uint32_t violations();
 
-/// Counts a call and says what it is to return instead of being made.
+/// Counts a call and returns its result if it is not to be made.
 std::optional<VkResult> fault_of(const char* function, unsigned errors, Table& table);
 /// Counts a call that cannot fail. Returns how many there were.
 uint64_t count_call(const std::string& function);
@@ -66,10 +66,10 @@ std::string log_text();
 
 /// Objects by type, handle and owner (its device's, pool's or instance's number).
 void add_object(const char* type, uint64_t handle, uint64_t owner);
-/// False, and a violation, where there is none; null is fine.
+/// Returns false, and reports a violation, if there is none; null is fine.
 bool remove_object(const char* type, uint64_t handle);
 void remove_objects_of(uint64_t owner);
-/// How many live of `owner`'s, as "2 VkBuffer, 1 VkFence"; empty if none.
+/// The living objects of `owner`, as "2 VkBuffer, 1 VkFence"; empty if none.
 std::string objects_of(uint64_t owner);
 uint32_t live_objects();
 

@@ -1,4 +1,4 @@
-"""What the corpus is made of: files, and what a reader has to do with each."""
+"""The parts of the corpus: files, and a reader's expected action for each."""
 
 import dataclasses
 
@@ -8,7 +8,7 @@ class Case:
     name: str
     content: bytes
     expected: str  # 'R': refused in one line that names the file; 'A4': accepted with 4 faces
-    says: str  # what the refusal or a note has to say; '' where any will do
+    says: str  # words of the refusal or a note; '' if any will do
 
 
 class Cases(list):
@@ -38,7 +38,7 @@ def utf16(text):
 # A tetrahedron, which most cases spoil in one place.
 POSITIONS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-# As rows of OFF and of ASCII PLY.
+# The same as rows of OFF and of ASCII PLY.
 VERTEX_ROWS = ''.join('%d %d %d\n' % p for p in POSITIONS)
 FACE_ROWS = ''.join('3 %d %d %d\n' % f for f in FACES)
 

@@ -47,7 +47,7 @@ def changed(path, value):
 
 
 def glb(document, binary=BINARY, version=2, extra=0):
-    """With a binary chunk."""
+    """A GLB with a binary chunk."""
     body = document.encode()
     body += b' ' * (-len(body) % 4)
     chunks = struct.pack('<I4s', len(body), b'JSON') + body
@@ -93,7 +93,7 @@ def members(cases):
     }
     for name, (path, value) in refused.items():
         cases.refuse(name, changed(path, value))
-    # An infinite place: what is not finite is named by its vertex.
+    # An infinite position: a vertex that is not finite is named.
     cases.refuse('scale_overflows', changed('nodes.0.scale', [1e308, 1e308, 1e308]).replace(
         '"scale"', '"translation":[1e308,1e308,1e308],"scale"'), 'is not finite')
 
@@ -177,7 +177,7 @@ def binary_cases():
     cases.accept('chunk_longer', 4, glb(GLB_BASE, BINARY + b'\0\0\0'))
     for cut in (4, 11, 12, 19, 20, 60, len(whole) - 73, len(whole) - 72, len(whole) - 1):
         cases.refuse(f'cut_{cut}', whole[:cut])
-        if cut >= 12:  # and a header that says so
+        if cut >= 12:  # and a header of that size
             cases.refuse(f'told_cut_{cut}', whole[:8] + struct.pack('<I', cut) + whole[12:cut])
     cases.refuse('version_1', glb(GLB_BASE, version=1), 'GLB version 1')
     cases.refuse('longer', glb(GLB_BASE, extra=1))

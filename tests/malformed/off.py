@@ -1,4 +1,4 @@
-"""OFF: three counts, and as many rows as they say."""
+"""OFF: three counts, and as many rows as they state."""
 
 from cases import FACE_ROWS, VERTEX_ROWS, Cases, with_suffix
 

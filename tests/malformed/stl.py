@@ -129,7 +129,7 @@ def text(cases):
 
 
 def text_without_line_ends(cases):
-    """What stands on the line of a solid's name would be lost in it."""
+    """Text on the line of a solid's name would be lost in it."""
     hidden = "'endfacet'; expected a facet to begin on a line of its own"
     one_line = TEXT.replace('\n', ' ')
     cases.refuse('text_one_line', one_line, hidden)

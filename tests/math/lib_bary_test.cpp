@@ -105,8 +105,8 @@ void check_split(const math::Bary3& t, uint32_t split, Tally& tally) {
     oriented = oriented && area(child[i]) > 0;
     inside = inside && holds(t, child[i].a) && holds(t, child[i].b) && holds(t, child[i].c);
   }
-  // Inside the parent, none of them turned over and as large together: a tiling or an overlap that
-  // leaves a gap. That there is no gap, a point of each child's inside shows.
+  // The children lie inside the parent, none of them turned over and as large together: a tiling or
+  // an overlap that leaves a gap. A point inside each child shows that there is no gap.
   tally.require(sum == area(t), "children's areas sum to the parent's", describe);
   tally.require(oriented, "children keep the orientation", describe);
   tally.require(inside, "children lie in the parent", describe);
@@ -149,7 +149,7 @@ TEST_CASE("bary.h: packing, splits and centroids are exact") {
     check_split(t, static_cast<uint32_t>(i % kSplitCodes), tally);
     check_centroid(t, tally);
   }
-  // Down to the last bit, midpoints only: exactly kBaryBits of them.
+  // Splits down to the last bit, midpoints only: exactly kBaryBits of them.
   for (int i = 0; i < 100; ++i) {
     math::Bary3 t = root;
     uint32_t depth = 0;
@@ -173,7 +173,7 @@ TEST_CASE("bary.h: every packed bit comes back") {
 
 namespace {
 
-/// Small or large, anywhere; needles and collapsed ones too, for edges that cancel.
+/// Triangles small or large, anywhere; needles and collapsed ones too, for edges that cancel.
 StoredTriangle any_root(Random& random) { return hard_triangle(random); }
 
 /// origin + (x ab + y ac) / 2^20 in units of 2^-(kFixedBits + 20), from the exact corners.

@@ -1,6 +1,6 @@
 // shaders/math/bounds.h against samples: no point of a patch T is farther from the surfaces than
-// the cascade's bounds say, in any arithmetic Vulkan allows. A sample decides in doubles where it
-// can, and else in exact arithmetic.
+// the cascade's bounds, in any arithmetic Vulkan allows. A sample decides in doubles if it can,
+// otherwise in exact arithmetic.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,14 +20,14 @@ namespace {
 constexpr uint32_t kWeightBits = 20;
 constexpr uint32_t kWeightOne = 1u << kWeightBits;
 
-/// T as kernels hold it: around its first corner.
+/// T in the kernels' form: around its first corner.
 struct PatchCase {
   Stored origin, b, c;
   std::array<StoredTriangle, 2> surface;
   float reach;
   float base;
   bool sharp;
-  double inflation;  ///< how much larger than computed the corners' distances are said to be
+  double inflation;  ///< increase of the corners' distances over the computed ones
   glm::dvec3 local(uint32_t i) const {
     return i == 0 ? glm::dvec3(0.0) : i == 1 ? b.value() : c.value();
   }
@@ -110,7 +110,7 @@ auto bisector_of(const math::Patch& t, const math::Surface& s, const math::vec3&
   return math::bound_bisector(t, s, ds, r, dr, at);
 }
 
-/// Its case 2, corner 1 nearest to R.
+/// u3's case 2, corner 1 nearest to R.
 auto thirds_of(const math::Patch& t, const math::Surface& s, const math::Surface& r) {
   const auto third = [&](uint32_t i, const math::Surface& x) {
     return math::bound_third(t, i, x, math::surface_distance_up(math::corner_at(t, i), x));
@@ -199,7 +199,7 @@ class Sampler {
   std::array<ExactTriangle, 2> exact_;
 };
 
-/// Where along the edge the two surfaces are equally far: the tightest places of a pair.
+/// The points along the edge where the two surfaces are equally far: the tightest places of a pair.
 Weights crossing(const Sampler& sampler, Weights from, Weights to) {
   const auto between = [&](double s) -> Weights {
     const auto mix = [&](uint32_t p, uint32_t q) {
@@ -306,7 +306,7 @@ TEST_CASE("bounds.h: no sample is beyond bound_single, bound_u1, bound_u2, bound
   CHECK(tally.counted("thirds below both singles") > count / 100);
 }
 
-// With two surfaces the centroid's distance never decides: the middles' say as much.
+// With two surfaces the centroid's distance never decides: the middles' are as large.
 TEST_CASE("bounds_paper.h: three triangles, a third of T against each") {
   const uint64_t count = case_count() / 10;
   Random random(7);
@@ -318,7 +318,7 @@ TEST_CASE("bounds_paper.h: three triangles, a third of T against each") {
     std::vector<PreparedTriangle> near;
     double bound = 0.0;
     for (uint32_t k = 0; k < 3; ++k) {
-      // Around its corner of T, so that the centre is what is far from all three.
+      // The surface lies around its corner of T, so that the centre is far from all three.
       const auto corner = [&] { return t[k] + random.range(0.0, 0.3) * random.direction(); };
       const StoredTriangle s{{stored(corner()), stored(corner()), stored(corner())}};
       near.emplace_back(s.at(0), s.at(1), s.at(2));

@@ -1,5 +1,5 @@
-// shaders/math/certified.h against exact arithmetic: what is rounded up is never below, what is
-// rounded down never above, in any arithmetic that Vulkan allows.
+// shaders/math/certified.h against exact arithmetic: upward-rounded values are never below,
+// downward-rounded ones never above, in any arithmetic that Vulkan allows.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ void check_outward(const Device& device, Random& random, Tally& tally) {
   const double up = device.run([&] { return math::wide(math::round_up(x, n)); });
   const double down = device.run([&] { return math::wide(math::round_down(x, n)); });
   const Rational relative(static_cast<double>(n) * kUlpExact);
-  // Under 2^-126, x may be what was left of a normal number: nothing.
+  // Under 2^-126, x may be a flushed normal number: nothing is left of it.
   const Rational given =
       static_cast<double>(x) < 0x1p-126 ? Rational(0) : Rational(static_cast<double>(x));
   const auto describe = [&] {

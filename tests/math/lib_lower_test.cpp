@@ -18,7 +18,7 @@ struct LowerCase {
   Stored from;
   float enough;
   float base;
-  bool whole;  ///< the triangle has an area worth the name: tightness is asked
+  bool whole;  ///< the triangle has a real area: tightness is tested
 };
 
 LowerCase hard_lower_case(Random& random) {
@@ -45,9 +45,8 @@ LowerAnswer distance_down(const LowerCase& c, const Device& device) {
   });
 }
 
-/// 8 ulp of what the distance is above the base, 48 bits of distance, base and the triangle's size,
-/// what the surface leaves out,
-/// and 2^-34 for triangles of a few ulps, whose directions are rounding.
+/// 8 ulp of the distance above the base, 48 bits of distance, base and the triangle's size, the
+/// surface's slack, and 2^-34 for triangles of a few ulps, whose directions are rounding.
 void check_tight(const LowerCase& c, const LowerAnswer& got, double near, Tally& tally,
                  const auto& describe) {
   const double base = static_cast<double>(c.base);
@@ -83,6 +82,6 @@ TEST_CASE("lower.h: triangle_distance_down never exceeds the distance, and is ti
   }
   tally.conclude(count);
   const double loose = static_cast<double>(tally.counted("whole triangles, loose"));
-  // A few more, where there are few cases.
+  // This adds a few, if there are few cases.
   CHECK(loose <= 8.0 + Device::kRare * static_cast<double>(tally.counted("whole triangles")));
 }

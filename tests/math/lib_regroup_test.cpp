@@ -1,6 +1,6 @@
-// Why every operation is decorated: the bounds again, on a device that rearranges what is not
-// (Vulkan specification, "Evaluation of Expressions"). With the build's decorations no bound gives;
-// with those of `precise` alone, as the kernels once had them, many do.
+// Shows why every operation is decorated: the bounds again, on a device that rearranges undecorated
+// ones (Vulkan specification, "Evaluation of Expressions"). With the build's decorations no bound
+// gives; with those of `precise` alone, as the kernels once had them, many do.
 #define VKH_TEST_VULKAN_MODEL
 #define VKH_MODEL_REGROUPS
 
@@ -34,7 +34,7 @@ std::map<std::string, int> beaten(model::Decorations decorations) {
   return out;
 }
 
-/// What the doctor says of a device that rounds as `seed` has it and honours these decorations.
+/// The doctor's verdict on a device that rounds by `seed` and honours these decorations.
 std::string diagnosis(model::Decorations decorations, uint64_t seed) {
   const std::vector<gpu::SelfTestOperands> questions = composed_questions(seed, 4096);
   std::vector<gpu::SelfTestComposed> answers;
@@ -77,6 +77,6 @@ TEST_CASE("the model rearranges what is not decorated, and bounds that rest on o
   std::printf("  beaten in %d climbs\n", all);
   for (const char* name : {"sharp_norm_above_up", "quotient_above_down"})
     CHECK_MESSAGE(count[name] > 0, name);
-  // What is `precise`, and a product alone, holds all the same.
+  // Expressions that are `precise`, and a product alone, hold all the same.
   for (const char* name : {"two_sum", "two_product"}) CHECK_MESSAGE(count[name] == 0, name);
 }

@@ -27,7 +27,7 @@ struct UpperCase {
   bool sharp, coarse;
 };
 
-/// Local origins as the kernels have them, close to p, and anywhere.
+/// Local origins like the kernels', close to p, and anywhere.
 UpperCase hard_upper_case(Random& random) {
   const StoredTriangle t = hard_triangle(random);
   const glm::dvec3 p = hard_point(random, t);
@@ -105,10 +105,10 @@ void check_weights(const UpperAnswer& got, Tally& tally, const auto& describe) {
                 "w is 0 on an edge", describe);
 }
 
-/// What is above d (1 + 24 ulp) + 2 slack comes from the foot, which is found in float32, and from
-/// which feature is taken to be closest: a few ulp of the local coordinates. An edge that is taken
-/// for a point (kSmallSquare) adds itself. A sharp distance is good to 48 bits of itself and 16 ulp
-/// of what it is above the base.
+/// The excess over d (1 + 24 ulp) + 2 slack comes from the foot, which is found in float32, and
+/// from the choice of the closest feature: a few ulp of the local coordinates. An edge that is
+/// taken for a point (kSmallSquare) adds itself. A sharp distance is good to 48 bits of itself and
+/// 16 ulp of its part above the base.
 void check_loose(const UpperCase& c, const UpperAnswer& got, double near, Tally& tally,
                  const auto& describe) {
   const double size = got.radius + glm::length(c.p.value());
@@ -129,8 +129,8 @@ void check_loose(const UpperCase& c, const UpperAnswer& got, double near, Tally&
                 describe);
 }
 
-/// A coarse surface's slack, with 4 ulp of the distance and 3 of the square's own, holds what plain
-/// floats make of it.
+/// A coarse surface's slack, with 4 ulp of the distance and 3 of the square's own, covers the error
+/// of plain floats.
 void check_coarse(const UpperAnswer& got, double near, Tally& tally, const auto& describe) {
   const double short_of = near - std::sqrt(got.plain) * (1.0 + 7.0 * kTriangleUlp);
   tally.require(short_of <= got.slack + 0x1p-60, "plain_distance2 is off by at most the slack",
@@ -208,7 +208,7 @@ TEST_CASE("triangle.h: radii, the longest edge, quality") {
   Tally tally("enclosing_radius_up, radius_up, opposite_longest, quality");
   for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
     StoredTriangle t = hard_triangle(random);
-    // Half of them with a corner at the local origin, as candidates have it.
+    // Half of them have a corner at the local origin, like candidates.
     const glm::dvec3 at = t.at(0) * static_cast<double>(random.below(2));
     for (Stored& s : t.corner) s = stored_single(s.value() - at);
     const Device device(i);

@@ -14,7 +14,7 @@ using namespace vkh::test;
 
 namespace {
 
-/// What a flush to zero may add to an error: three components of a few results under 2^-126. It is
+/// The error that a flush to zero may add: three components of a few results under 2^-126. It is
 /// 2^-44 of the square of kTiny, which the callers' bounds add.
 constexpr double kFlush = 0x1p-122;
 
@@ -26,7 +26,7 @@ std::string scalars(const Device& device, float a, float b) {
   return std::string(device.name()) + ": " + hex(wide(a)) + ", " + hex(wide(b));
 }
 
-/// Close to -a in half of the cases: there a sum cancels.
+/// A number close to -a in half of the cases: there a sum cancels.
 float addend(Random& random, float a) {
   if (random.below(2) == 0) return hard_float(random, -40, 4);
   const float near = -a * (1.0f + static_cast<float>(random.range(-1, 1) * 0x1p-20));
@@ -107,7 +107,7 @@ TEST_CASE("two_float.h: a product that is flushed is off by less than kTiny's sq
     const Device device(i);
     const float a = hard_float(random, -100, -10), b = hard_float(random, -100, -10);
     const Pair product = device.run([&] { return pair(math::two_product(a, b)); });
-    // In doubles: the exact product may lie below 2^-150.
+    // Compares in doubles: the exact product may lie below 2^-150.
     const double off = std::abs(wide(a) * wide(b) - wide(product.hi) - wide(product.lo));
     const double bound = math::wide(math::kUlp2) * wide(a) * wide(b) / 2.0;
     tally.require(off <= std::abs(bound) + 0x1p-120, "two_product, flushed",

@@ -31,8 +31,8 @@ inline constexpr std::array<Arithmetic, 8> kArithmetics = {{
     {"toward zero, flushed", _MM_ROUND_TOWARD_ZERO, true},
 }};
 
-/// Its own function, with its inputs in memory: no operation of f moves across the change of mode
-/// (GCC lets them, -frounding-math or not: bug 34678).
+/// A function of its own, with its inputs in memory: no operation of f moves across the change of
+/// mode (GCC lets them, -frounding-math or not: bug 34678).
 template <class F>
 [[gnu::noinline]] auto behind_a_barrier(const F& f) {
   asm volatile("" ::: "memory");

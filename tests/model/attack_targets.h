@@ -1,5 +1,5 @@
-// What hill climbs attack: every certified bound of the shared headers, each as how far its result
-// lies beyond it. Include after VKH_TEST_VULKAN_MODEL is defined, first.
+// The targets of hill climbs: every certified bound of the shared headers, each as the excess of
+// its result over the bound. Include after VKH_TEST_VULKAN_MODEL is defined, first.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ class Inputs {
   size_t at_ = 0;
 };
 
-/// How far beyond its bound a result is, in units of the bound's own error term: > 0 is a
+/// The excess of a result over its bound, in units of the bound's own error term: > 0 is a
 /// violation.
 using Excess = Wide (*)(Inputs&);
 struct Target {
@@ -274,7 +274,7 @@ inline Wide attack_u2(Inputs& in) {
                longest / 2 + std::max({exact(d.x), exact(d.y), exact(d.z)}));
 }
 
-/// The largest that min over the corners of (p - s).r / |r| is: what both separations claim.
+/// The largest value of min over the corners of (p - s).r / |r|: both separations claim it.
 inline Wide separation(const std::array<WideVector, 3>& s, const WideVector& r) {
   return std::min({-dot(s[0], r), -dot(s[1], r), -dot(s[2], r)}) / size(r);
 }

@@ -1,5 +1,5 @@
 // Hill climbing against a target: inputs and the direction of every single rounding are bent, bit
-// by bit, to where its bound has least to spare.
+// by bit, to the point where its bound has the least margin.
 #pragma once
 
 #include <bit>

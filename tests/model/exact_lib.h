@@ -1,4 +1,4 @@
-// Exact arithmetic on what the shared headers compute: every float is an integer over 2^150, so
+// Exact arithmetic on the shared headers' results: every float is an integer over 2^150, so
 // that points add without a common denominator to look for.
 #pragma once
 

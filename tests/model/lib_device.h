@@ -67,7 +67,7 @@ struct Device {
 }  // namespace vkh::test
 #endif
 
-// From and to plain floats.
+// Conversions from and to plain floats.
 VKH_LIB_BEGIN
 
 inline vec3 given(const glm::vec3& v) { return vec3(v.x, v.y, v.z); }

@@ -16,7 +16,7 @@ inline gpu::vec3 min(const gpu::vec3& p, const gpu::vec3& q) {
 inline gpu::vec3 max(const gpu::vec3& p, const gpu::vec3& q) {
   return {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)};
 }
-/// As values, so that 0 and -0 are equal.
+/// Compares values, so that 0 and -0 are equal.
 inline bool same(const gpu::vec3& p, const gpu::vec3& q) {
   return p.x == q.x && p.y == q.y && p.z == q.z;
 }

@@ -1,7 +1,7 @@
 // The precision table of the Vulkan specification as a number type, for the shared headers to be
 // compiled with in place of float: + - * round in a direction drawn anew for every operation, a
 // quotient is any float within 2.5 ulp, an inverse square root within 2 and a root its quotient,
-// and what is below 2^-126 may be 0. No device is as bad; a bound that holds here holds on all.
+// and a result below 2^-126 may be 0. No device is as bad; a bound that holds here holds on all.
 // Stands in for shaders/math/glsl.h, whose include guard it takes.
 #pragma once
 
@@ -27,7 +27,7 @@
 #define VKH_OUT(type) type&
 #define VKH_MODEL_JOIN_(a, b) a##b
 #define VKH_MODEL_JOIN(a, b) VKH_MODEL_JOIN_(a, b)
-// From its line to the end of the block, as `precise` reaches all that its variable is made of.
+// Acts from its line to the end of the block, as `precise` reaches all parts of its variable.
 #ifdef VKH_MODEL_REGROUPS
 #define VKH_PRECISE const vkh::model::PreciseBlock VKH_MODEL_JOIN(precise_block_, __LINE__);
 #else
@@ -44,12 +44,12 @@ using namespace vkh::gpu;
 
 enum class Direction { kNearest, kUp, kDown, kToZero, kFromZero, kAny, kScript };
 
-/// How the operations that follow go wrong.
+/// The errors of the operations that follow.
 struct Whim {
   Direction direction = Direction::kNearest;
   bool flush = false;
   uint64_t state = 1;
-  std::array<uint64_t, 8> script{};  ///< kScript: bit i says that operation i rounds up
+  std::array<uint64_t, 8> script{};  ///< kScript: bit i makes operation i round up
   uint32_t operation = 0;
 
   uint64_t draw() {  // xorshift64*
@@ -80,7 +80,7 @@ struct Whim {
 };
 inline Whim whim;
 
-/// Which operations are decorated: all, as the build has it, or what is `precise` in the headers.
+/// The decorated operations: all, as in the build, or those that are `precise` in the headers.
 enum class Decorations { kAll, kPrecise };
 inline Decorations decorations = Decorations::kAll;
 inline int precise_blocks = 0;
@@ -93,7 +93,7 @@ inline bool may_rearrange() { return decorations == Decorations::kPrecise && pre
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What is small may be flushed; a zero may lose its sign.
+/// A small value may be flushed; a zero may lose its sign.
 inline float flushed(float x) {
   if (std::abs(x) >= std::numeric_limits<float>::min()) return x;
   const bool any = whim.direction == Direction::kAny;
@@ -143,12 +143,12 @@ inline float product_of(float a, float b) {
   return to_one_side(static_cast<double>(a) * static_cast<double>(b), 0.0);
 }
 
-/// What a sum may be rearranged from; nothing unless operations may be.
+/// The terms from which a sum may be rearranged; none unless operations may be.
 #ifdef VKH_MODEL_REGROUPS
 class Terms {
  public:
   Terms() = default;
-  /// The terms of both, their values where they have none; none at all if they are too many.
+  /// The terms of both, or their values if they have none; none at all if they are too many.
   Terms(const Terms& a, float value_a, const Terms& b, float value_b) {
     if (!may_rearrange()) return;
     add(a, value_a);
@@ -163,7 +163,7 @@ class Terms {
       out.term_[out.count_++] = factor == -1.0f ? -term_[i] : product_of(factor, term_[i]);
     return out;
   }
-  /// In an order of the whim's choice, opposite terms first or not.
+  /// Sums in a random order, opposite terms first or not.
   float sum() const {
     Terms left = *this;
     if (whim.upward(0.0)) left.cancel();

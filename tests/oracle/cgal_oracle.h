@@ -9,8 +9,8 @@
 
 namespace vkh::test {
 
-/// Encloses h(A, B) within error of CGAL's estimate; nothing where CGAL cannot hold a mesh: CGAL
-/// wants oriented manifold surfaces, without degenerate faces.
+/// Encloses h(A, B) within error of CGAL's estimate; nothing if CGAL cannot hold a mesh: CGAL needs
+/// oriented manifold surfaces, without degenerate faces.
 std::optional<Interval> cgal_hausdorff(const Mesh& a, const Mesh& b, double error);
 
 }  // namespace vkh::test

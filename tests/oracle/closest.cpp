@@ -26,7 +26,7 @@ void keep_shorter(dvec3& best, const dvec3& offset) {
   if (length_squared(offset) < length_squared(best)) best = offset;
 }
 
-/// From the closest point of the segment s..s+edge to s+r.
+/// The offset from the closest point of the segment s..s+edge to s+r.
 dvec3 from_segment(const dvec3& r, const dvec3& edge, double inverse) {
   return r - std::clamp(glm::dot(r, edge) * inverse, 0.0, 1.0) * edge;
 }
@@ -62,7 +62,7 @@ PreparedTriangle::PreparedTriangle(const dvec3& p0, const dvec3& p1, const dvec3
 
 // Every offset that is compared starts at a point of the triangle, so a wrong turn costs tightness
 // only. In a cap the barycentrics lose digits to the flat angle: the foot's own offset is projected
-// again until that adds no more than noise. What is left moves the foot of a point at height d
+// again until that adds no more than noise. The rest moves the foot of a point at height d
 // along the triangle by noise * length * d, and its distance by half the square of that over d;
 // where this could show, the triangle is so flat that its edges are as close, and they are tried
 // too.

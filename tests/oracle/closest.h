@@ -1,5 +1,5 @@
 // Closest points in double precision: on a triangle, on a mesh by brute force, and on a mesh by a
-// tree of boxes. What the kernel tests and the reference solver measure against.
+// tree of boxes. The kernel tests and the reference solver measure against them.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace vkh::test {
 
 /// The closest point of triangle abc, which may be a segment or a point. Stable on needles, slivers
-/// and caps: the distance from p to what is returned is within a few 2^-53 * (|p - a| + the longest
+/// and caps: the distance from p to the result is within a few 2^-53 * (|p - a| + the longest
 /// edge) of the true distance.
 glm::dvec3 closest_point_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                      const glm::dvec3& c);

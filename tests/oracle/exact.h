@@ -1,4 +1,4 @@
-// Distances without rounding, for floats and doubles alike: what a certified bound is held against.
+// Distances without rounding, for floats and doubles alike: the reference for certified bounds.
 // Coordinates become integers over one power of two, so that the arithmetic is GMP's on integers
 // and one fraction is reduced at the end: 3.5 us a triangle, where mpq_class throughout takes 10.5
 // and Boost's cpp_rational 44.

@@ -18,8 +18,9 @@ constexpr double kUnit = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr uint32_t kNone = 0xffffffffu;
 // A candidate this deep is closed at its upper bound. With D the joint diagonal, u = 2^-53 and
-// coordinates centred (norms <= D/2), what is computed is off by at most: uD/2 a mesh for centring,
-// uD/2 a level for midpoints (24 uD in all), about 16 uD for a distance and its prunings: < 64 uD.
+// coordinates centred (norms <= D/2), the computed result is off by at most: uD/2 a mesh for
+// centring, uD/2 a level for midpoints (24 uD in all), about 16 uD for a distance and its prunings:
+// < 64 uD.
 constexpr uint32_t kMaxDepth = 48;
 constexpr double kMarginUnits = 64.0;
 
@@ -81,7 +82,8 @@ double lipschitz_bound(const Candidate& c) {
 }
 
 /// The candidate is cut in two where its distances to faces i and k even out; each part is held
-/// against its own face. Both distances are convex, so the parts' corners decide. True for any cut.
+/// against its own face. Both distances are convex, so the parts' corners decide. This holds for
+/// any cut.
 double split_bound(const Candidate& c, const Column& i, const Column& k, double cutoff) {
   double bound = 0.0;
   for (size_t j = 0; j < 3; ++j) bound = std::max(bound, std::min(i.distance[j], k.distance[j]));
@@ -172,7 +174,7 @@ class Search {
     return sample(0.5 * (p.point + q.point), std::array{p.face, q.face});
   }
 
-  /// In four at the middles of the edges, or in two across a thin candidate's longest edge.
+  /// Splits in four at the middles of the edges, or in two across a thin candidate's longest edge.
   void subdivide(const Candidate& c) {
     const auto& s = c.corner;
     FaceSet family;
@@ -199,7 +201,8 @@ class Search {
     child(m[0], m[1], m[2]);
   }
 
-  /// Drops what cannot raise the answer by more than the tolerance, and remembers how high it was.
+  /// Drops candidates that cannot raise the answer by more than the tolerance, and remembers their
+  /// largest bound.
   void keep_or_drop(Candidate c, const FaceSet& family) {
     ++stats_.candidates;
     c.upper = std::min(c.upper, lipschitz_bound(c));

@@ -17,7 +17,7 @@ struct Interval {
   bool meets(const Interval& other) const { return lower <= other.upper && other.lower <= upper; }
 };
 
-/// What it took, for comparing work.
+/// The solver's work, for comparison.
 struct ReferenceStats {
   uint64_t candidates = 0;  ///< sub-triangles of A whose upper bound was computed, A's faces too
   uint64_t queries = 0;     ///< closest-point queries against B

@@ -24,14 +24,15 @@ inline Wide dot(const WideVector& a, const WideVector& b) {
 }
 inline Wide size(const WideVector& a) { return std::sqrt(dot(a, a)); }
 
-/// Of p from the segment ab.
+/// The distance of p from the segment ab.
 inline Wide from_edge(const WideVector& p, const WideVector& a, const WideVector& b) {
   const WideVector ab = b - a;
   const Wide length2 = dot(ab, ab);
   const Wide t = length2 > 0 ? std::clamp<Wide>(dot(p - a, ab) / length2, 0, 1) : Wide{0};
   return size(p - a - t * ab);
 }
-/// Of p from a triangle: where its foot in the plane is inside, the plane's; else an edge's.
+/// The distance of p from a triangle: if its foot in the plane is inside, the plane's; otherwise an
+/// edge's.
 inline Wide distance(const WideVector& p, const std::array<WideVector, 3>& t) {
   const Wide edges =
       std::min({from_edge(p, t[0], t[1]), from_edge(p, t[1], t[2]), from_edge(p, t[2], t[0])});

@@ -23,7 +23,7 @@ def files_of(folder: pathlib.Path) -> dict:
 
 
 def check_exported(module, conan, source: pathlib.Path) -> None:
-    """What the recipe exports is enough to build from: all of these folders' sources, and no more than is tracked."""
+    """The recipe's exports are enough to build from: all of these folders' sources, and only tracked files."""
     exported = files_of(pathlib.Path(conan.export_sources_folder))
     for folder in ("cmake", "engine", "shaders"):
         for path in (source / folder).rglob("*"):

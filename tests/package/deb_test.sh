@@ -29,7 +29,7 @@ else
   echo "deb_test: not checked by lintian, which is not here"
 fi
 
-# This machine's list of what is installed, so that dependencies are looked at; no file of it is touched.
+# This machine's list of installed packages, so that dependencies are checked; no file of it is touched.
 root=$folder/root
 mkdir -p "$root"/var/lib/dpkg/{info,updates,triggers}
 cp /var/lib/dpkg/status "$root/var/lib/dpkg/status"

@@ -14,7 +14,7 @@ export VKH_JOBS
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 version=$(sed -nE 's/^#define VKH_VERSION_(MAJOR|MINOR|PATCH) //p' "$source/engine/vkhausdorff.h" | paste -sd.)
 
-# Whoever looks for these, REQUIRED, fails; whoever looks for them quietly leaves an entry in the cache.
+# A find_package of these fails if REQUIRED; a quiet one leaves an entry in the cache.
 hidden=()
 for name in glm CLI11 nlohmann_json pybind11 Python doctest CGAL; do
   hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$name=ON")
@@ -49,7 +49,7 @@ use_package() {
   step cmake --build "$folder/use"
   check_program "$folder/use/engine"
   rm -r "$folder/use"
-  step cmake -S "$here/alone" -B "$folder/use" -DCMAKE_PREFIX_PATH="$1"  # without COMPONENTS: what there is
+  step cmake -S "$here/alone" -B "$folder/use" -DCMAKE_PREFIX_PATH="$1"  # without COMPONENTS: all
   if cmake -S "$here/alone" -B "$folder/host" -DCMAKE_PREFIX_PATH="$1" -DWANTED=host >"$folder/log" 2>&1; then
     fail "find_package found a host that is not in $1"
   fi
@@ -78,7 +78,7 @@ library=$folder/conan/lib/libvkhausdorff.so.$version
 [ -e "$library" ] || fail "no $library"
 readelf -d "$library" | grep -q "SONAME.*\[libvkhausdorff.so.${version%.*}\]" || fail "another SONAME than ${version%.*}"
 if readelf -d "$library" | grep "NEEDED.*vulkan"; then fail "the engine links to the Vulkan loader"; fi
-# As in package_test.sh: vkh* alone, and what libstdc++ forces to be visible.
+# The same as in package_test.sh: vkh* alone, and the symbols that libstdc++ forces to be visible.
 nm -D --defined-only "$library" | awk '!($2 ~ /[WVu]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
 grep -ohE '\bvkh[A-Z]\w*\(' "$folder/conan/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
 diff "$folder/declared" "$folder/exported" || fail "the shared engine exports (>) other symbols than it declares (<)"

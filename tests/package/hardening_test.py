@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is shipped is hardened: reads ELF files with readelf.
+"""The shipped files are hardened: reads ELF files with readelf.
 
 usage: hardening_test.py COMPILER MEASURES FILE...
 MEASURES: those that the build found possible (cmake/Hardening.cmake), separated by commas.
@@ -18,7 +18,7 @@ def readelf(option, path):
 
 
 def measures_of(path):
-    """Those that a file has."""
+    """The measures that a file has."""
     headers, dynamic, symbols = readelf("-l", path), readelf("-d", path), readelf("--dyn-syms", path)
     found = set()
     if "GNU_RELRO" in headers and "NOW" in dynamic:

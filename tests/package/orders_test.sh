@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# README's commands in one checkout, in more than one order: whoever configured first, the others go on. A scratch copy of
-# the sources; ccache, where there is one, makes most of it quick. usage: orders_test.sh SOURCE
+# README's commands in one checkout, in more than one order: any of them may configure first. A
+# scratch copy of the sources; ccache, where there is one, makes most of it quick. usage:
+# orders_test.sh SOURCE
 set -euo pipefail
 source=$1
 folder=$(mktemp -d)
@@ -17,7 +18,7 @@ copy() {
   cp -R "$source"/{CMakeLists.txt,CMakePresets.json,LICENSE,README.md,check,cmake,docs,engine,examples,host,shaders,tests,tools} "$1"
   cd "$1"
 }
-# install_says YES|NO: it succeeds, and has the Python module or says that it is not there.
+# install_says YES|NO: it succeeds, and has the Python module or reports that it is not there.
 install_says() {
   rm -rf "$folder/prefix"
   step cmake --install out --prefix "$folder/prefix"
@@ -32,7 +33,7 @@ built_by_hand() { step cmake -S . -B out; step cmake --build out -j "$(nproc)"; 
 has_python=YES
 python3 -c 'import numpy, pybind11' 2>/dev/null || [ -d /usr/share/cmake/pybind11 ] || [ -d /usr/lib/cmake/pybind11 ] || has_python=NO
 
-# By hand first, with the default generator; then quickstart, install, by hand again.
+# The commands by hand first, with the default generator; then quickstart, install, by hand again.
 copy "$folder/by_hand"
 step cmake -S . -B out -G 'Unix Makefiles'
 step tools/quickstart

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the build, moves what was installed, and uses it as strangers would: find_package, pkg-config, the program,
-# the Python module. usage: package_test.sh BUILD SOURCE PYTHON|none
+# Installs the build, moves the installation, and uses it as strangers would: find_package,
+# pkg-config, the program, the Python module. usage: package_test.sh BUILD SOURCE PYTHON|none
 set -euo pipefail
 
 build=$1 source=$2 python=$3
@@ -14,9 +14,10 @@ package=$folder/moved
 mv "$folder/first" "$package"
 if grep -rIlE "$folder|$build|$source" "$package"; then fail "absolute paths of the build in the files above"; fi
 
-# A shared library made of all of the archive exports the API and nothing else of ours. What libstdc++ forces to be
-# visible, inline functions of std (weak, unique), is in every library of C++ and is let pass. A relinked object with all but
-# vkh* made local (ld -r, objcopy) would do no more: nothing of ours is visible outside a library, and namespace vkh is ours.
+# A shared library made of all of the archive exports the API and nothing else of ours. The symbols
+# that libstdc++ forces to be visible, inline functions of std (weak, unique), are in every library
+# of C++ and are accepted. A relinked object with all but vkh* made local (ld -r, objcopy) would do
+# no more: nothing of ours is visible outside a library, and namespace vkh is ours.
 ${CXX:-c++} -shared -o "$folder/engine.so" -Wl,--whole-archive "$package/lib/libvkhausdorff.a" -Wl,--no-whole-archive
 nm -D --defined-only "$folder/engine.so" | awk '!($2 ~ /[WVu]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
 grep -ohE '\bvkh[A-Z]\w*\(' "$package/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"

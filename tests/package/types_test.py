@@ -60,7 +60,7 @@ r.middle  # wrong
 
 
 def signature_text(arguments: ast.arguments) -> str:
-    """As inspect.signature writes it, without the types."""
+    """The signature as inspect.signature writes it, without the types."""
     bare = ast.parse(ast.unparse(arguments).join(("def f(", "): ..."))).body[0].args
     for argument in (*bare.args, *bare.kwonlyargs, bare.vararg, bare.kwarg):
         if argument is not None:
@@ -78,7 +78,7 @@ def is_property(node: ast.AST) -> bool:
     return any(isinstance(d, ast.Name) and d.id == "property" for d in node.decorator_list)
 
 
-# What every class of pybind11 has.
+# The names that every class of pybind11 has.
 COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__", "__contains__", "__len__"}
 
 

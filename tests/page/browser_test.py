@@ -1,6 +1,7 @@
-"""The report's page in Debian's chromium, without a network: what it says, shows, counts and prints.
+"""The report's page in Debian's chromium, without a network: its text, pictures, counts and prints.
 
-usage: browser_test.py WRITE_PAGES SOURCE SCRATCH. Exit code 77: no node, no chromium, or npm's packages are not to be had.
+usage: browser_test.py WRITE_PAGES SOURCE SCRATCH. Exit code 77: no node, no chromium, or npm's
+packages are not available.
 """
 
 import json

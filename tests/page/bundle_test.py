@@ -1,6 +1,6 @@
-"""The committed viewer is what its sources make: tools/page/build once more, and the same bytes.
+"""The committed viewer is built from its sources: tools/page/build once more, and the same bytes.
 
-usage: bundle_test.py SOURCE SCRATCH. Exit code 77: no node, or npm's packages are not to be had.
+usage: bundle_test.py SOURCE SCRATCH. Exit code 77: no node, or npm's packages are not available.
 """
 
 import pathlib

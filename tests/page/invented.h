@@ -133,13 +133,13 @@ struct Invented {
     return r;
   }
 
-  /// Of a limit, as a share of upper; 0: none.
+  /// The limit, as a share of upper; 0: none.
   void ask(double share) {
     answer.max.reset();
     if (share == 0) return;
     const double typed = interval_of(answer).upper * share;
     std::array<char, 32> text{};
-    // Of a limit within the interval every digit matters.
+    // Every digit of a limit within the interval matters.
     std::snprintf(text.data(), text.size(), share == middle() ? "%.8g" : "%.3g", typed);
     const double limit = std::strtod(text.data(), nullptr);
     answer.max = Asked{{std::string(text.data()) + "mm", limit, Length::Of::kUnit, "mm"},
@@ -149,7 +149,7 @@ struct Invented {
   /// A share that lies between lower and upper.
   static double middle() { return 1 - 0.5e-5; }
 
-  /// Every character that somebody might end a page's text with.
+  /// Every character that might end a page's text.
   void name_oddly() {
     const std::string odd =
         "</script><script>document.title='taken'</script>\" onload='x' \u2028\u202eexe.lp &amp; "
@@ -157,7 +157,7 @@ struct Invented {
     answer.inputs[0].path = answer.inputs[0].notes.emplace_back(odd);
     answer.words[1] = odd;
     answer.notes = {odd, "<!-- <script>"};
-    // And more than a sheet of paper holds.
+    // The text is also longer than a sheet of paper holds.
     answer.inputs[1].path = std::string(400, 'x') + ".stl";
     for (int i = 0; i < 20; ++i) answer.notes.emplace_back(600, 'n');
     for (int i = 0; i < 40; ++i) statistics_a.bands.push_back({0.01 * i, {0.1, 0.9}});

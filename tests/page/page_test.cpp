@@ -1,4 +1,4 @@
-// A page as text: what it says is the answer's, nothing in it can be ended from outside, it fits.
+// A page as text: its contents are the answer's, no input can end an element in it, it fits.
 #include "host/show/page.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 """A field's PLY and GLB, as readers see them that are not ours: positions, colours and values are those of every face.
 
 VTK, assimp and three.js read both. meshio reads faces' values of text alone, so the PLY's rows are given to it as text.
-What should be there is taken from the PLY's bytes, by struct.
+The expected values are taken from the PLY's bytes, by struct.
 
 usage: readers_test.py PROGRAM SOURCE SCRATCH. A reader that is not here is left out, aloud.
 """
@@ -49,7 +49,7 @@ class Rows:
         return self.head.replace("binary_little_endian", "ascii") + "\n".join(lines) + "\n"
 
     def corners(self):
-        """Of each face's corners: position, lower, upper, the face's colour."""
+        """Yields for each face's corners: position, lower, upper, the face's colour."""
         return [(self.vertices[v][:3], face[4], face[5], face[7:10]) for face in self.faces for v in face[1:4]]
 
 

@@ -17,7 +17,8 @@ namespace {
 
 using vkh::Mesh;
 
-// Tiny triangles that share nothing: each vanishes in its cell, and something has to stand for it.
+// Tiny triangles that share nothing: each vanishes in its cell, and another face has to stand for
+// it.
 Mesh scattered(size_t count) {
   vkh::test::Random random(7);
   std::vector<glm::dvec3> vertices;

@@ -1,4 +1,5 @@
-"""What VTK reads of out.ply and out.glb, as JSON. Run by the interpreter that has VTK; see readers_test.py.
+"""Prints VTK's contents of out.ply and out.glb, as JSON. Run by the interpreter that has VTK; see
+readers_test.py.
 
 usage: vtk_reads.py FOLDER
 """

@@ -1,5 +1,5 @@
 // Writes pages for people and browsers to look at: write_pages FOLDER [MESH MESH_B], of a torus and
-// a sphere where no mesh is named. Their fields are invented, and answers say what fits them.
+// a sphere if no mesh is named. Their fields are invented, and the answers fit them.
 #include <chrono>
 #include <cstdio>
 #include <fstream>

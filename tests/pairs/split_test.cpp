@@ -45,7 +45,7 @@ Triangle turned(Triangle t) {
 
 using Triangles = std::multiset<Triangle, Before>;
 
-/// As the definition has it: split into four, and each of the four again.
+/// Splits by the definition: into four, and each of the four again.
 void split_recursively(const Triangle& t, uint32_t levels, Triangles& out) {
   if (levels == 0) {
     out.insert(turned(t));

@@ -1,4 +1,4 @@
-// Answers of parts as one: which are taken, and what comes of them, to the last bit.
+// Answers of parts as one: the accepted ones, and their result, to the last bit.
 #include "host/answer/merge_parts.h"
 
 #include <doctest/doctest.h>
@@ -111,7 +111,7 @@ TEST_CASE("closed is decided by the exact width, whatever became of the parts") 
   wide.a_to_b.status = Status::kPruned;
   wide.a_to_b.known_lower = 1 + 0x1p-20;
   parts[0] = written(wide);
-  CHECK(merged(parts)["status"] == "pruned");  // by what no part here has shown
+  CHECK(merged(parts)["status"] == "pruned");  // by a value that no part here has shown
   wide.a_to_b.upper = 1 + 0x1p-6;
   parts[0] = written(wide);
   CHECK(merged(parts)["status"] == "closed");

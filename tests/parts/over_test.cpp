@@ -1,5 +1,5 @@
-// distance_over: one pair on several devices. On two drivers where VKH_TEST_SECOND_DEVICE names
-// one; else two logical devices of one.
+// distance_over: one pair on several devices. It uses two drivers if VKH_TEST_SECOND_DEVICE names
+// one; otherwise two logical devices of one.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -75,7 +75,7 @@ TEST_CASE("two devices enclose what one does, and close it") {
   }
 }
 
-/// As many of each family of hard pairs as $VKH_TEST_SEEDS says.
+/// The number of pairs of each family of hard pairs, from $VKH_TEST_SEEDS.
 TEST_CASE("hard pairs: never a false interval, and closed where one device closes") {
   const char* text = std::getenv("VKH_TEST_SEEDS");
   const uint64_t seeds = text != nullptr ? std::strtoull(text, nullptr, 10) : 1;

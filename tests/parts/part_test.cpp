@@ -1,4 +1,5 @@
-// Parts of A: each face is in one, each is the part of A that it says, and h of all is h(A,B).
+// Parts of A: each face is in one, each is the part of A that its name states, and h of all is
+// h(A,B).
 #include "host/solve/part.h"
 
 #include <doctest/doctest.h>

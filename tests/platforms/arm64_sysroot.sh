@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # usage: arm64_sysroot.sh FOLDER
 # Unpacks ARM64's lavapipe, Vulkan loader and run-time libraries into FOLDER, for qemu-aarch64-static -L FOLDER. Nothing
-# is installed: apt works in folders of its own, as if on an ARM64 machine without any package, and needs no rights.
-# Exits 77, with the reason, where there is no apt or no such packages.
+# is installed: apt works in folders of its own, as if on an ARM64 machine without any package, and
+# needs no rights. Exits 77, with the reason, if there is no apt or no such packages.
 set -euo pipefail
 folder=$1
 packages=(libvulkan1 mesa-vulkan-drivers libstdc++6)
@@ -41,7 +41,7 @@ timeout 300 apt-get -q -y --download-only --no-install-recommends "${options[@]}
 for package in "$work"/cache/archives/*.deb; do
   dpkg-deb -x "$package" "$folder"
 done
-# Where one folder is a link to another in a whole system: the dynamic linker is asked for by /lib.
+# A whole system has one folder as a link to another: programs look for the dynamic linker in /lib.
 [ -e "$folder/lib/ld-linux-aarch64.so.1" ] || ln -sf usr/lib "$folder/lib"
 for package in "${packages[@]}"; do
   dpkg-deb -W "$work"/cache/archives/"${package//+/%2b}"_*.deb 2>/dev/null || dpkg-deb -W "$work"/cache/archives/"$package"_*.deb

@@ -1,4 +1,5 @@
-"""Platforms whose programs run on this machine: how they are built and started. And other drivers of its own."""
+"""Platforms whose programs run on this machine: how they are built and started. Other drivers of the machine are
+here, too."""
 
 import contextlib
 import os
@@ -8,7 +9,7 @@ import subprocess
 
 
 class Skip(Exception):
-    """Something of the machine's is missing, which has a name."""
+    """A named part of the machine is missing."""
 
 
 def need(*names: str) -> str:
@@ -26,7 +27,7 @@ def first_line(*words: str) -> str:
 
 
 class Platform:
-    """A cross-build of this tree, by its preset, and what its programs are run by."""
+    """A cross-build of this tree, by its preset, and the runner of its programs."""
 
     is_emulated = False  # another processor's instructions
 
@@ -35,7 +36,8 @@ class Platform:
         self.source = source
         self.native = native  # this machine's build, whose kernels are the same
         self.build = source / "out" / name
-        # Neither the tests' validation layer nor anything else that the caller's shell has set up.
+        # The environment without the tests' validation layer and all else that the caller's shell
+        # has set up.
         self.environment = {k: v for k, v in os.environ.items()
                             if k in ("PATH", "HOME", "TMPDIR", "VK_DRIVER_FILES", "VK_ICD_FILENAMES")}
         self.environment["LC_ALL"] = "C.UTF-8"  # names of files are UTF-8 for Wine and Python, too
@@ -65,7 +67,7 @@ class Platform:
 
 
 class Windows(Platform):
-    """By mingw-w64, under Wine, whose winevulkan calls this machine's Vulkan loader."""
+    """Windows, by mingw-w64, under Wine, whose winevulkan calls this machine's Vulkan loader."""
 
     suffix = ".exe"
 
@@ -81,8 +83,9 @@ class Windows(Platform):
                              "WINEDLLOVERRIDES": "mscoree,mshtml=;winemenubuilder.exe=d"}
 
     def run(self, program: str, *arguments: str, folder=None) -> subprocess.CompletedProcess:
-        """Once more where it was aborted without a word (exit code 3): seen once in some hundred runs, on a machine that had
-        four times more to do than it can, and not again in fifty runs of the same program. What always aborts still fails."""
+        """Runs once more if it was aborted without output (exit code 3): seen once in some hundred
+        runs, on a machine that had four times more to do than it can, and not again in fifty runs
+        of the same program. A program that always aborts still fails."""
         done = super().run(program, *arguments, folder=folder)
         if done.returncode == 3 and not done.stdout and not done.stderr:
             print(f"{self.name}: {program} {' '.join(arguments)} was aborted without a word; once more", flush=True)
@@ -102,8 +105,9 @@ class Windows(Platform):
             if not number:
                 raise Skip("Xvfb does not start")
             self.environment["DISPLAY"] = f":{number}"
-            # Server and services start here and stay. Those that a test's program started would hold its output, and its
-            # reader would wait for them to end, which takes them twenty seconds.
+            # Server and services start here and stay. Services that a test's program started would
+            # hold its output, and its reader would wait for them to end, which takes them twenty
+            # seconds.
             self.prefix.mkdir(parents=True, exist_ok=True)
             self.tell_server("-p")
             subprocess.run([*self.starter, "wineboot"], env=self.environment, cwd=self.build, timeout=300,
@@ -116,13 +120,14 @@ class Windows(Platform):
 
     def tell_server(self, word: str) -> None:
         server = shutil.which("wineserver") or shutil.which("wineserver-stable") or "/usr/lib/wine/wineserver"
-        if pathlib.Path(server).exists():  # it keeps what it is given as its output
+        if pathlib.Path(server).exists():  # it keeps its output open
             subprocess.run([server, word], env=self.environment, timeout=60, stdin=subprocess.DEVNULL,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 class Arm64(Platform):
-    """By a cross-compiler, under qemu-user, with ARM64's own loader and lavapipe in a folder."""
+    """ARM64, by a cross-compiler, under qemu-user, with ARM64's own loader and lavapipe in a
+    folder."""
 
     limit = 1200  # twenty times slower than the machine itself
     is_emulated = True
@@ -199,6 +204,7 @@ class Lavapipe(Driver):
 
     def __init__(self, bits: int, source: pathlib.Path, build: pathlib.Path):
         super().__init__(f"lavapipe{bits}", source, build)
-        # Mesa 22.3 caches machine code by words that leave the width out: it would run what another width left there.
+        # Mesa 22.3 caches machine code by words that leave the width out: it would run code that another width left
+        # there.
         self.environment |= {"LP_NATIVE_VECTOR_WIDTH": str(bits), "MESA_SHADER_CACHE_DIR": str(build / f"mesa{bits}")}
         self.subgroup = bits // 32

@@ -32,7 +32,7 @@ def soup(rng, n, size, far):
 
 
 def sphere(n, radius):
-    """Of 2 n n faces, by meridians and circles of latitude."""
+    """A sphere of 2 n n faces, by meridians and circles of latitude."""
     rings = [(radius * math.sin(math.pi * i / n), radius * math.cos(math.pi * i / n)) for i in range(n + 1)]
     around = [(math.cos(2 * math.pi * j / n), math.sin(2 * math.pi * j / n)) for j in range(n)]
     vertices = [(r * x, r * y, z) for r, z in rings for x, y in around]

@@ -46,8 +46,8 @@ def told(done: subprocess.CompletedProcess) -> str:
 
 
 def without_times(text: bytes) -> dict:
-    """What must be equal: all of an answer but the clock's part and the device's name. How many waves are recorded, and
-    so how often a stage is timed, is the clock's, too."""
+    """The parts that must be equal: all of an answer but the clock's part and the device's name.
+    How many waves are recorded, and so how often a stage is timed, is the clock's, too."""
     answer = json.loads(text)
     for key in ("device", "driver", "host", "started", "times"):
         answer.pop(key, None)
@@ -124,7 +124,8 @@ class Run:
         return f"{len(pairs)} pairs in OBJ, PLY, STL and OFF, all bits and counts equal"
 
     def table(self) -> str:
-        """What people read, but for the line of times; and a file beside it, whose name is no ASCII."""
+        """The text for people, except for the line of times; and a file beside it, whose name is no
+        ASCII."""
         folder = self.platform.build / "pairs"
         a, b = meshes.write(folder)[0]
         answer = folder / meshes.FOLDER / "Ergebnis 結果.json"
@@ -191,7 +192,7 @@ class Run:
             running.send_signal(signal.SIGINT)
             try:
                 out, err = running.communicate(timeout=60)
-            except subprocess.TimeoutExpired:  # a signal that comes before anybody listens is lost
+            except subprocess.TimeoutExpired:  # a signal before its handler is lost
                 running.kill()
                 out, err = running.communicate()
             if running.returncode == 3 and CANCELLED in out:
@@ -203,7 +204,7 @@ class Run:
         raise AssertionError("Ctrl-C does not end a run with its interval:" + seen)
 
     def console(self) -> str:
-        """On a terminal: the line that redraws itself, names as they are, and nothing else of the escapes."""
+        """A terminal gets the line that redraws itself, names as they are, and no other escapes."""
         folder = self.platform.build / "pairs"
         a, _ = meshes.write(folder)[0]
         master, slave = pty.openpty()
@@ -227,7 +228,7 @@ class Run:
         text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b\][^\x07]*\x07", "", shown.decode(errors="replace"))
         expect(code in (0, 3) and "interval" in text, f"exit code {code}: {shown[-600:]!r}")
         expect("wave" in text and "candidates" in text, f"no line of progress: {text[:600]!r}")
-        # What is beyond 16 bits has no cell in Wine's console.
+        # A character beyond 16 bits has no cell in Wine's console.
         expect(a.split("📐")[0] in text, f"names are not as they are: {text[-900:]!r}")
         return "a terminal: the line of progress, the table"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# One pair over two drivers at once: lavapipe, and SwiftShader where tools/second_driver has got it; else it is skipped (77).
-# With the validation layer that came with it.
+# One pair over two drivers at once: lavapipe, and SwiftShader if tools/second_driver has fetched
+# it; otherwise it is skipped (77). It uses the validation layer that came with it.
 # usage: two_drivers.sh BUILD
 set -euo pipefail
 build=$1 drivers=$(dirname "$0")/../../out/drivers

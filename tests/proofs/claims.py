@@ -1,8 +1,8 @@
-"""What linear_proofs.py shows by Gappa, for the templates to go on from."""
+"""The results that linear_proofs.py shows by Gappa, as a basis for the templates."""
 
 from fractions import Fraction
 
-# By theorem and unit: what the error is at most, in kUlp^2 (a tenth of a percent is for the terms of the third order).
+# By theorem and unit: the largest error, in kUlp^2 (a tenth of a percent is for the terms of the third order).
 CLAIMS = {
     "two_difference_a": "3.51", "two_difference_b": "3.51",
     "two_combination_base": "9.51", "two_combination_u": "13.51", "two_combination_v": "10.01",
@@ -15,5 +15,5 @@ CLAIMS = {
 
 
 def claim(name):
-    """A little more than its decimals say: bounds are dyadic."""
+    """A little more than its decimals: bounds are dyadic."""
     return Fraction(-int(-Fraction(CLAIMS.get(name, name)) * 2**20 // 1), 2**20)

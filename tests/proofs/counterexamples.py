@@ -84,7 +84,7 @@ def quotient_down_claims(k_tiny):
 
 
 def norm_above_claims(k_tiny):
-    """A vector (x, 0, 0) of 1e-15, the base what its root is, an ulp short: the low part of x^2 is flushed."""
+    """A vector (x, 0, 0) of 1e-15, the base its root, an ulp short: the low part of x^2 is flushed."""
     Headers().quote("certified.h", "VKH_FN float raised(float x) { return x + (4.0f * kUlp * abs(x) + kTiny); }")
     device = Device(flush=True)
     for i in range(10000):
@@ -130,7 +130,7 @@ def displacement_claims(more):
     return worst * worst >= Fraction(x) ** 2 + Fraction(y) ** 2
 
 
-# Each: what is claimed with the term in place, and without it.
+# Each entry: the claim with the term in place, and without it.
 NEEDED = {
     "quotient_down's kTiny": (lambda: quotient_down_claims(constants()["kTiny"]), lambda: quotient_down_claims(0)),
     "raised's kTiny": (lambda: norm_above_claims(constants()["kTiny"]), lambda: norm_above_claims(0)),

@@ -1,4 +1,4 @@
-"""What the proofs take from the headers of shaders/math: constants, quoted lines, functions.
+"""The parts of the headers of shaders/math that the proofs use: constants, quoted lines, functions.
 
 A quotation is a piece of a header as it stands, but for white space. `{name}` in it stands for a number or a constant's
 name there, and takes its value, as the float that it is.
@@ -17,7 +17,7 @@ NUMBER = r"(?P<{}>[0-9.]+(?:e[-+]?[0-9]+)?)"
 
 
 class Changed(Exception):
-    """A header no longer says what a proof is about."""
+    """A header no longer has the text that a proof is about."""
 
 
 def as_float(text):
@@ -37,7 +37,7 @@ def without_comments(text):
 
 @functools.cache
 def squeezed(text):
-    """Without white space where it separates nothing."""
+    """The text without white space that separates nothing."""
     return re.sub(r" ?([^\w ]) ?", r"\1", re.sub(r"\s+", " ", text)).strip()
 
 
@@ -58,11 +58,11 @@ class Headers:
         self.seen = {}
 
     def says(self, header, text):
-        """As quote, of what its comments say."""
+        """The same as quote, for text of its comments."""
         return self.quote(header, text, self.comments)
 
     def quote(self, header, text, texts=None):
-        """The numbers that a quotation names; Changed where the header has no such text."""
+        """The numbers that a quotation names; Changed if the header has no such text."""
         names = re.findall(r"\{(\w+)\}", text)
         pattern = re.escape(squeezed(re.sub(r"\{(\w+)\}", r"NUMBER_\1_", text)))
         for name in names:
@@ -85,7 +85,7 @@ class Headers:
 
 
 def parsed(statement):
-    """A statement of the headers as Python's grammar has it: (target, expression), the target None where it returns."""
+    """A statement of the headers in Python's grammar: (target, expression), the target None if it returns."""
     text = re.sub(r"\b([0-9.]+(?:e[-+]?[0-9]+)?)f\b", r"\1", re.sub(r"\s+", " ", statement))
     text = re.sub(r"^(VKH_PRECISE )?(const )?(float|vec3|Two3|Two|uint|bool) (?=\w+ = )", "", text)
     if re.match(r"(Two3|Two|float|vec3) \w+$", text):

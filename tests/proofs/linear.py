@@ -1,11 +1,13 @@
-"""Error analysis of functions of the headers that are linear in their inputs: the sums and products of two_float.h and
-what is made of them. Their statements are read out of the headers and written as a script for Gappa.
+"""Error analysis of functions of the headers that are linear in their inputs: the sums and products
+of two_float.h and their compositions. Their statements are read out of the headers and written as a
+script for Gappa.
 
 Take one run, on any device. Each rounded operation gives its exact result times 1 + t, abs(t) <= kUlp, and adds a flush.
 For these t and flushes the result is linear in the inputs. So its error is a sum over the inputs, each times a factor,
 and the factor of an input is the error of the same run where that input is 1 and all others are 0. The script has a copy
-of the operations for each such *unit*, and bounds the factors. What flushes add is the unit "flush": all inputs 0.
-Vectors are taken by their components: for abs(e_i) <= sum c_k abs(x_k,i) Minkowski gives abs(e) <= sum c_k abs(x_k).
+of the operations for each such *unit*, and bounds the factors. The effect of flushes is the unit
+"flush": all inputs 0. Vectors are taken by their components: for abs(e_i) <= sum c_k abs(x_k,i)
+Minkowski gives abs(e) <= sum c_k abs(x_k).
 """
 
 import ast
@@ -20,7 +22,7 @@ FLUSH = Fraction(1, 2**126)
 TWO_SUM = ULP * ULP / 2
 TWO_SUM_FLUSH = 6 * FLUSH
 TWO_PRODUCT_FLUSH = 64 * FLUSH
-# A low part is at most this much of what both parts are: it is an ulp of the high part at most.
+# A low part is at most this fraction of both parts: it is an ulp of the high part at most.
 LOW = ULP * (1 + 2 * ULP)
 
 
@@ -59,7 +61,7 @@ def poly_text(p):
 
 @dataclass
 class Value:
-    """A number as computed: its name in the script, what it stands for, and its error as a sum of atoms."""
+    """A computed number: its name in the script, its exact value, and its error as a sum of atoms."""
     text: str
     ideal: str
     error: dict = field(default_factory=dict)
@@ -150,7 +152,7 @@ class Unit:
         n = self.atom(f"{p} * {a.text} + {q} * {b.text}")
         minus = {d: {(): Fraction(-1)}, n: {(): Fraction(1)}}
         text = f"({n} - {d})"
-        if self.flush:  # hi's own flush is taken back by lo, but for what is flushed there
+        if self.flush:  # hi's own flush is taken back by lo, except for lo's own flush
             f, g = list(hi.error)[-1], self.free("f", TWO_SUM_FLUSH)
             minus = plus_errors(minus, {f: {(): Fraction(-1)}, g: {(): Fraction(1)}})
             text = f"({n} - {d} - {f} + {g})"
@@ -170,7 +172,7 @@ class Unit:
             text = f"(-{d} - {f} + {g})"
         return Pair(hi, Value(text, "0", minus))
 
-    # ---- inputs, and what is to be shown
+    # ---- inputs, and the statements to show
 
     def two(self, x):
         """A pair that is x exactly."""
@@ -183,7 +185,7 @@ class Unit:
         return constant(0) if self.flush or x == 0 else exact_input(number(x))
 
     def measure(self, out, ideal):
-        """What a result is off by from what it stands for, and the hint that Gappa checks and bounds it by."""
+        """The error of a result, and the hint that Gappa checks and bounds it by."""
         hi, lo = (out.hi, out.lo) if isinstance(out, Pair) else (out, constant(0))
         error = plus_errors(hi.error, lo.error)
         text = f"({hi.text} + {lo.text}) - ({ideal})"
@@ -239,7 +241,7 @@ class Unit:
 
 
 def script(units, results, given, goals):
-    """The units' operations, what is given of weights, what is to be shown, and how Gappa is to take errors apart."""
+    """The units' operations, the facts about weights, the statements to show, and Gappa's decomposition of errors."""
     lines = [line for unit in units for line in unit.lines]
     facts = [fact for unit in units for fact in unit.given] + list(given)
     hints = [hint for _, hint in results]

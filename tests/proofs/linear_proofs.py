@@ -1,6 +1,8 @@
-"""The theorems about two_float.h and what is made of it, each an error analysis of statements of the headers (linear.py).
+"""The theorems about two_float.h and its compositions, each an error analysis of statements of the
+headers (linear.py).
 
-A bound is in units of kUlp^2, a quarter of kUlp2. CLAIMS is what Gappa shows, for the templates to go on from.
+A bound is in units of kUlp^2, a quarter of kUlp2. CLAIMS has the results that Gappa shows, as a
+basis for the templates.
 """
 
 from fractions import Fraction
@@ -10,14 +12,15 @@ from linear import FLUSH, LOW, ULP, Pair, Unit, both_sides, constant, exact_inpu
 from proof import Proof, Weakened
 
 SQUARE = ULP * ULP
-# Results of two_difference, two_combination and two_dot of inputs up to 4, what flushes add: under the square of kTiny.
+# The effect of flushes on results of two_difference, two_combination and two_dot of inputs up to 4: under the square of
+# kTiny.
 FLUSHED = FLUSH * 2**10
 
 NOTHING = Pair(constant(0), constant(0))
 
 
 def stored(unit, x):
-    """As host/solve/frame.cpp stores a coordinate: both parts rounded to nearest."""
+    """A coordinate as host/solve/frame.cpp stores it: both parts rounded to nearest."""
     if unit.flush or x == 0:
         return NOTHING
     m = unit.free("m", LOW / 2)
@@ -25,7 +28,7 @@ def stored(unit, x):
 
 
 def shown(unit, out, ideal, bound, given=()):
-    """That a unit's error is within a bound."""
+    """The statement that a unit's error is within a bound."""
     result = unit.measure(out, ideal)
     return script([unit], [result], [*given, "nothing in [0, 0]"], [f"{result[0]} in {both_sides(bound)}"])
 
@@ -124,7 +127,7 @@ def cut(headers):
     return out
 
 
-# Of each corner, at each vertex; their sum at a vertex is offset_radius at most.
+# The factor of each corner, at each vertex; their sum at a vertex is offset_radius at most.
 RADIUS = {(0, 0): {"a": "21.01"}, (1, 0): {"a": "30.51", "b": "26.51"}, (0, 1): {"a": "34.01", "c": "23.01"}}
 OFFSETS = {"a": "v + w - 1", "b": "-v", "c": "-w"}
 assert all(sum(map(Fraction, bounds.values())) <= Fraction(CLAIMS["offset_radius"]) for bounds in RADIUS.values())
@@ -162,7 +165,7 @@ def surface(headers):
 
 
 def plain_inside(headers):
-    """p - a - v (b - a) - w (c - a), in plain floats of floats: 3 of what it is, 4 of the longest edge."""
+    """p - a - v (b - a) - w (c - a), in plain floats of floats: 3 of itself, 4 of the longest edge."""
     for text in ("vec3 ab = t.b - t.a; vec3 ac = t.c - t.a; vec3 bc = t.c - t.b; vec3 ap = p - t.a; vec3 bp = p - t.b;",
                  "vec3 normal = (ap - v * ab) - w * ac;", "vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;", "vec3 to_bc = bp - clamp(",
                  "return choose(inside, dot3(normal, normal), at_edges);"):
@@ -196,7 +199,7 @@ def plain_inside(headers):
 
 
 def coarse(headers):
-    """a - origin in plain floats: 2 kUlp of what it is, the rounding of low parts, and that of the exact high parts."""
+    """a - origin in plain floats: 2 kUlp of itself, the rounding of low parts, and that of the exact high parts."""
     headers.quote("triangle.h", "return (a.hi - origin.hi) + (a.lo - origin.lo);")
     headers.says("triangle.h", "off by 2 kUlp of itself and kUlp2 of what both are")
     out = {}

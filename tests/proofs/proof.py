@@ -1,4 +1,4 @@
-"""Proofs as they are kept: a theorem, the scripts for Gappa that show it, and how far its constants may be weakened."""
+"""A stored proof: a theorem, the scripts for Gappa that show it, and how far its constants may be weakened."""
 
 import re
 import subprocess
@@ -38,7 +38,7 @@ class Outcome:
 
 
 def gappa(script):
-    """Gappa's word on a script. A hint that is not an identity is a failure, too: Gappa only warns of it."""
+    """Gappa's verdict on a script. A hint that is no identity is a failure, too: Gappa only warns."""
     done = subprocess.run(["gappa", "-Wno-null-denominator", "-Wno-unbound-variable"], input=script,
                           capture_output=True, text=True, timeout=TIME_LIMIT)
     false_hint = "are not trivially equal" in done.stderr
@@ -46,7 +46,7 @@ def gappa(script):
 
 
 def value_of(expression, constants):
-    """A constant of a template, exactly; a pair of bounds where the expression is both(x) or a tuple."""
+    """A constant of a template, exactly; a pair of bounds if the expression is both(x) or a tuple."""
     value = evaluated(expression, {"both": both_sides, "min": min, **constants})
     return value if isinstance(value, str) else number(value)
 
@@ -116,7 +116,7 @@ def exact(text):
 
 
 def failures(proof, headers):
-    """The cases that Gappa does not follow, each with its word, one by one."""
+    """The cases that Gappa does not prove, each with its message, one by one."""
     for case, script in proof.scripts(headers).items():
         outcome = gappa(script)
         if not outcome.ok:
@@ -124,7 +124,7 @@ def failures(proof, headers):
 
 
 def failed(proof, headers):
-    """All of them; an empty list is a proof."""
+    """All failing cases; an empty list is a proof."""
     return list(failures(proof, headers))
 
 

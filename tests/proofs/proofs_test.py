@@ -4,9 +4,9 @@
   proofs_test.py            every theorem holds with the constants of the headers, and with the weakest of its own; it does
                             not with one that is weaker, nor with another formula. 77 where there is no gappa
   proofs_test.py --table    the table of docs/proofs.md
-  proofs_test.py NAME...    these proofs alone, each case that fails with Gappa's word
+  proofs_test.py NAME...    these proofs alone, each case that fails with Gappa's message
 
-docs/proofs.md says what is proven by whom.
+docs/proofs.md lists the proofs and their tools.
 """
 
 import os
@@ -27,7 +27,7 @@ PROOFS = [*linear_proofs.PROOFS, *map(template, TEMPLATES)]
 PAGE = ROOT / "docs" / "proofs.md"
 WORKERS = os.cpu_count() or 1
 
-# Changes to a formula that a proof must not survive: header, text, what is put there, the proof.
+# Changes to a formula that a proof must not survive: header, text, replacement, the proof.
 CHANGES = [
     ("two_float.h", "d.lo + (a.lo - b.lo)", "d.lo + a.lo", "difference"),
     ("two_float.h", "(p.lo + q.lo)", "p.lo", "combination"),

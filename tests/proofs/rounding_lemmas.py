@@ -1,15 +1,17 @@
 """two_sum and two_product in small floats, by exhaustion: every pair of operands, every choice that a device may make at
-each operation. What sums.g and product.g say by hand for 24 bits must hold here, for as many bits as these have.
+each operation. The statements of sums.g and product.g, by hand for 24 bits, must hold here, for as
+many bits as these have.
 
 A float here has `bits` significant bits; numbers are integers, in units far below the operands' last bits. `least` is the
-smallest normal number: what is under it may be 0, too.
+smallest normal number: a result under it may be 0, too.
 """
 
 from itertools import product
 
 
 def choices(x, bits, least=0):
-    """What a device may make of the exact result x: x where it is a float, else either neighbour; or 0."""
+    """A device's possible results for the exact result x: x if it is a float, otherwise either neighbour;
+    or 0."""
     size = abs(x)
     shift = max(size.bit_length() - bits, 0)
     low = size >> shift << shift
@@ -19,7 +21,7 @@ def choices(x, bits, least=0):
 
 
 def sums(a, b, bits, least=0):
-    """Every (s, e, exact) that two_sum may give: `exact` says that from_a and one of the last three roundings are."""
+    """Every (s, e, exact) of two_sum; `exact`: from_a and one of the last three roundings are."""
     for s in choices(a + b, bits, least):
         for from_b in choices(s - a, bits, least):
             for from_a in choices(s - from_b, bits, least):
@@ -42,7 +44,7 @@ def two_sum_fails(bits):
 
 
 def flushed_sum_fails(bits):
-    """Likewise for operands a few bits above the smallest normal number: six flushes more."""
+    """The same for operands a few bits above the smallest normal number: six flushes more."""
     unit = 1 << bits + 2
     least = unit << bits - 1
     significands = range(1 << bits - 1, 1 << bits)

@@ -1,5 +1,5 @@
 // Two small meshes far apart: in a float every face of B is as far as the nearest, so the device
-// names any. A proof must not halve A for what halving cannot help.
+// names any. A proof must not halve A if halving cannot help.
 #include <cmath>
 
 #include "host/survey/prover.h"

@@ -1,4 +1,4 @@
-// What a certificate's writer takes for a distance is not less than the exact one, and hardly more.
+// The distance that a certificate's writer uses is not less than the exact one, and hardly more.
 #include "host/survey/leaf.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ using namespace vkh::test;
 
 constexpr unsigned kScale = 400;  // of exact positions, as integers: 2^-kScale
 
-/// A point, and where it is exactly.
+/// A point, and its exact position.
 struct Tracked {
   Point2 point;
   exact::Vector exact;
@@ -39,7 +39,7 @@ Tracked between(const Tracked& x, const Tracked& y, unsigned t) {
           {mixed(x.exact.x, y.exact.x), mixed(x.exact.y, y.exact.y), mixed(x.exact.z, y.exact.z)}};
 }
 
-/// Exactly, as a squared length.
+/// The exact distance, as a squared length.
 exact::Fraction distance(const Tracked& p, const std::array<glm::dvec3, 3>& t) {
   return exact::to_triangle(p.exact, scaled(t[0]), scaled(t[1]), scaled(t[2]));
 }

@@ -1,4 +1,4 @@
-// What a driver that rounds wrongly might report: bounds that are false. The writer of certificates
+// False bounds, as a driver that rounds wrongly might report them. The writer of certificates
 // proves by arithmetic of its own, so a false upper bound is raised to a true one, and soon. Lower
 // bounds it takes as they are: vkh_check refuses those (tests/check).
 #include "host/survey/prover.h"

@@ -53,7 +53,7 @@ class Certificates(unittest.TestCase):
         self.assertEqual(done.stdout.count("proven: "), ways)
 
     def certify(self, call, a=A, b=B, ways=1):
-        """The answer, once its certificate is accepted, and proves all that it says."""
+        """The answer, once its certificate is accepted, and proves all that it claims."""
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             r = call()

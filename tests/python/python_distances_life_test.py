@@ -130,7 +130,7 @@ class Exits(Lives):
 class Forks(Lives):
     FORKED = "was used before this process was forked"
 
-    # GCC 12's does not lock its allocator over a fork: a thread may be in it then, and the child waits for ever.
+    # GCC 12's does not lock its allocator over a fork: a thread may be in it then, and the child waits forever.
     @unittest.skipIf("asan" in os.environ.get("LD_PRELOAD", ""), "AddressSanitizer does not survive it")
     def test_the_child_is_told_and_the_parent_goes_on(self):
         self.lives(f"""

@@ -224,7 +224,7 @@ class Failures(unittest.TestCase):
 
 class Ahead(unittest.TestCase):
     def taken(self, **options):
-        """How many were taken when so many were yielded, from an endless iterable."""
+        """The number of pairs taken from an endless iterable when so many answers were yielded."""
         taken = []
 
         def pairs():
@@ -287,7 +287,7 @@ def resident():
 
 class Endings(unittest.TestCase):
     def setUp(self):
-        list(vkh.distances(PAIRS[:3]))  # what libraries keep
+        list(vkh.distances(PAIRS[:3]))  # memory that libraries keep
         gc.collect()
 
     def settle(self, threads):

@@ -13,7 +13,7 @@ libm = ctypes.CDLL("libm.so.6")
 
 
 def answers(pairs, heard):
-    """What is found of each, both ways; `heard`: the rounding modes that the callback saw."""
+    """The results for each, both ways; `heard`: the rounding modes that the callback saw."""
     found = []
     for va, fa, vb, fb in pairs:
         for symmetric in (False, True):

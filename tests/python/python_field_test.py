@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fields and statistics in the Python module. usage: python_field_test.py [PROGRAM], whose JSON says the same."""
+"""Fields and statistics in the Python module. usage: python_field_test.py [PROGRAM], whose JSON is the same."""
 import copy
 import json
 import math
@@ -22,7 +22,7 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
 FLOOR = (4 * SQUARE - [1.5, 1.5, 0], FACES)
 LIFTED = (SQUARE + [0, 0, 0.25], FACES)
-# Over the floor, from 0 at x = 0 to 1 at x = 1: the distance is the height, and uniform.
+# A mesh over the floor, from 0 at x = 0 to 1 at x = 1: the distance is the height, and uniform.
 WEDGE = (SQUARE + [[0, 0, 0], [0, 0, 1], [0, 0, 1], [0, 0, 0]], FACES)
 ALL = dict(field=True, statistics=True, bands=(0.25, 0.5))
 
@@ -205,7 +205,7 @@ class Values(unittest.TestCase):
 
     @unittest.skipIf(PROGRAM is None, "no program was named")
     def test_the_program_says_the_same(self):
-        """Where no clock ends anything, to the last bit."""
+        """The results if no clock ends anything, to the last bit."""
         meshes = wavy(6, 0.1), wavy(5, 0)
         with tempfile.TemporaryDirectory() as folder:
             files = [pathlib.Path(folder) / name for name in ("a.obj", "b.obj")]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A Python program that forks, and objects and arrays that are not what they seem. Run through ctest."""
+"""A Python program that forks, and objects and arrays that pretend to be others. Run through ctest."""
 import os
 import pathlib
 import sys
@@ -46,7 +46,7 @@ class Forks(Lives):
             print("done")
         """)
 
-    # GCC 12's does not lock its allocator over a fork: a thread may be in it then, and the child waits for ever.
+    # GCC 12's does not lock its allocator over a fork: a thread may be in it then, and the child waits forever.
     @unittest.skipIf("asan" in os.environ.get("LD_PRELOAD", ""), "AddressSanitizer does not survive it")
     def test_while_a_thread_runs(self):
         self.lives(f"""

@@ -8,7 +8,7 @@ from python_lives import Lives
 
 LAYER = os.environ.get("VKH_LAYER_FOLDER", "")
 
-# lose() arms the layer for what follows, and forgets what it counted.
+# lose() arms the layer for the next calls, and resets its counts.
 HELPERS = '''
 import ctypes
 layer = ctypes.CDLL(os.environ["VKH_LAYER_FOLDER"] + "/libVkLayer_vkh_test.so")

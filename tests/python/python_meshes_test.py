@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""read() of the Python module, and whatever else is taken for a mesh. Run through ctest."""
+"""read() of the Python module, and all other forms of a mesh. Run through ctest."""
 import base64
 import gc
 import json
@@ -25,7 +25,7 @@ def quads(random, height):
 
 
 def split(random, mesh):
-    """Each quad by one of its diagonals, by chance."""
+    """Splits each quad by one of its diagonals, at random."""
     vertices, faces = mesh
     turned = np.array([np.roll(face, random.integers(2)) for face in faces])
     return vertices, np.concatenate([turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]]).astype(np.uint32)

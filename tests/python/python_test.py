@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The Python module: what it accepts, refuses, answers, and how a run is ended. Run through ctest."""
+"""The Python module: its accepted and refused inputs, its answers, and the ways to end a run. Run
+through ctest."""
 import inspect
 import os
 import pathlib
@@ -64,7 +65,7 @@ class Answers(unittest.TestCase):
         self.assertGreaterEqual(r.upper, height)
         self.assertGreater(r.lower, 0.99 * height)
         self.assertLess(r.upper, 1.01 * height)
-        # Far from the origin, coordinates keep all of float64's bits; what the frame displaces is in the interval.
+        # Far from the origin, coordinates keep all of float64's bits; the frame's displacement is in the interval.
         far = np.array([1e6, -1e6, 1e6])
         r = vkh.distance(lifted + far, SQUARE_FACES, SQUARE + [0, 0, 1] + far, SQUARE_FACES, tol="1e-9abs")
         exact = (1 + height + 1e6) - (1 + 1e6)

@@ -31,7 +31,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// All that is known of a mesh, or the error.
+/// All facts about a mesh, or the error.
 std::string outcome_of(const MeshSource& source) {
   try {
     const Mesh mesh = parse_mesh(source);
@@ -78,7 +78,7 @@ std::vector<File> corpus() {
   return files;
 }
 
-/// One change: what readers stumble over, anywhere, or bytes that go.
+/// One change: difficult text, anywhere, or removed bytes.
 std::string mutant(std::string bytes, std::mt19937& random) {
   static const std::vector<std::string> kPieces = {"\n",
                                                    "\r",

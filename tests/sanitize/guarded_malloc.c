@@ -1,6 +1,6 @@
 // Loaded before a test program (LD_PRELOAD): every allocation that is aligned, as a CPU driver's
 // buffers are, or has 4 kB ends where memory begins that nothing may touch, up to 15 bytes that are
-// looked at when it is freed. So a kernel that a CPU driver compiled is caught at the instruction
+// checked when it is freed. So a kernel that a CPU driver compiled is caught at the instruction
 // that reads or writes beyond a buffer, at full speed, with the instructions of the processor. New
 // memory has a pattern of its own, and freed memory is not given out again.
 #define _GNU_SOURCE
@@ -70,7 +70,7 @@ static struct Head* head_of(void* block) {
 
 static void check(const unsigned char* begin, const unsigned char* end) {
   for (; begin < end; ++begin) {
-    if (*begin != kPattern) abort();  // somebody wrote there
+    if (*begin != kPattern) abort();  // an overrun wrote there
   }
 }
 

@@ -1,4 +1,4 @@
-// Writes or reads beyond a block as its argument says, or only touches what it may: for
+// Writes or reads beyond a block, or only touches its own memory, as its argument selects: for
 // guarded_test.sh.
 #define _POSIX_C_SOURCE 200112L
 #include <stdint.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# guarded_malloc.c ends a program that touches what is beyond a block, and no other. usage: guarded_test.sh PROBE LIBRARY
+# guarded_malloc.c ends a program that touches memory beyond a block, and no other. usage: guarded_test.sh PROBE LIBRARY
 set -uo pipefail
 probe=$1 library=$2
 # run WAY: its exit code, as the shell has it

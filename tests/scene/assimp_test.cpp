@@ -1,6 +1,7 @@
 // Scenes as assimp reads them: the same triangles as a set, up to its rounding to float. Documents
 // of our own, and every sample below $VKH_SAMPLES (Khronos', the 3MF consortium's), which are read
-// alike or refused by name. Skipped where assimp's program is not there (Debian: assimp-utils).
+// alike or refused by name. The test is skipped if assimp's program is not there (Debian:
+// assimp-utils).
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ bool is_quantised(const std::string& path) {
   return read_file(path).find("KHR_mesh_quantization") != std::string::npos;
 }
 
-/// What assimp makes of a file, its nodes' transforms applied: a binary STL of floats.
+/// The file as assimp converts it, its nodes' transforms applied: a binary STL of floats.
 std::optional<Mesh> by_assimp(const std::string& path) {
   const std::string out = folder() / "assimp.stl";
   fs::remove(out);
@@ -69,7 +70,7 @@ double apart(const Triangle& s, const Triangle& t) {
   return best;
 }
 
-/// Which triangles of one set have a partner of their own in the other.
+/// The triangles of one set that have a partner of their own in the other.
 class Partners {
  public:
   Partners(const std::vector<Triangle>& all, double within) : all_(all), within_(within) {
@@ -106,7 +107,7 @@ class Partners {
   std::map<Cell, std::vector<size_t>> cells_;
 };
 
-/// Empty where both are one set.
+/// The difference of two sets; empty if both are the same.
 std::string difference(const Mesh& ours, const Mesh& theirs) {
   if (ours.faces.size() != theirs.faces.size()) {
     return std::to_string(ours.faces.size()) + " faces, and " +

@@ -1,4 +1,5 @@
-"""Random scenes against the triangles that they were made of: what is printed as body or shown, and all that lies there.
+"""Random scenes against the triangles that they were made of: the bodies that are printed or shown,
+and all shapes of the file.
 
 usage: bodies_test.py PROGRAM [--count N] [--seed S] [--keep FOLDER]
 
@@ -44,11 +45,11 @@ class Case:
             lambda is_all: random_gltf.Expected(made, is_all))
         self.expected = {"solid": of(False), "all": of(True)}
         for bodies, expected in self.expected.items():
-            # What is refused needs no B, but a list has one.
+            # A refused file needs no B, but a list has one.
             (self.folder / f"{bodies}.stl").write_bytes(stl(expected.triangles or [((0, 0, 0), (1, 0, 0), (0, 1, 0))]))
 
     def wrong(self, bodies, line):
-        """What is wrong with an answer; None: nothing is."""
+        """The error in an answer; None: there is none."""
         expected = self.expected[bodies]
         if expected.refusals or "error" in line:
             message = line.get("error", {}).get("message", "")

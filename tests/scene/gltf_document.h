@@ -70,7 +70,7 @@ struct Document {
                          {"count", indices.size()},
                          {"type", "SCALAR"}});
   }
-  /// In a mesh of its own.
+  /// Adds a primitive in a mesh of its own.
   Json& add_mesh(size_t positions, const Json& more = Json::object()) {
     Json primitive = {{"attributes", {{"POSITION", positions}}}};
     primitive.update(more);

@@ -1,4 +1,4 @@
-// glTF 2.0 and GLB: what is read is what the specification says, vertex by vertex.
+// glTF 2.0 and GLB: the mesh is the specification's, vertex by vertex.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ Document numbered(int mode, const std::vector<uint32_t>& indices) {
   return document;
 }
 
-/// By the numbers in the file.
+/// The faces by the numbers in the file.
 Faces faces_in_file(const Mesh& mesh) {
   Faces faces = mesh.faces;
   for (glm::uvec3& f : faces) {
@@ -261,7 +261,7 @@ TEST_CASE("the files beneath a document are those that reading opens") {
   document.json["accessors"][0].erase("sparse");
   CHECK(beneath(three, "") == Files{{"unused.bin", true}});
 
-  // What nothing shows is not read.
+  // Meshes that no node shows are not read.
   document.json["nodes"][0]["extensions"]["KHR_node_visibility"] = {{"visible", false}};
   CHECK(beneath(three, "").empty());
   CHECK(files_beneath(folder() / "beneath/file.gltf", {.bodies = Bodies::kAll}).size() == 1);
@@ -465,7 +465,7 @@ TEST_CASE("what would make a part of the whole is refused by name") {
   document.json["animations"] = {{{"name", "wave"}}};
   CHECK(has_note(parse(document), "morph targets at weight 0: the base shape"));
   CHECK(has_note(parse(document), "animations ignored"));
-  // With what it falls back on it can be read.
+  // It can be read with its fallback buffer.
   primitive(document.json)["extensions"] = {{"KHR_draco_mesh_compression", {{"bufferView", 0}}}};
   CHECK(parse(document).faces.size() == 1);
 }

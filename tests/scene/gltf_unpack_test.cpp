@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: what meshoptimizer packed comes out as it was, and no more than the
+// EXT_meshopt_compression: data that meshoptimizer packed comes out unchanged, and no more than the
 // packed bytes can hold is allocated. Without meshoptimizer: a refusal that names its package.
 #include "host/read/gltf_unpack.h"
 
@@ -21,7 +21,8 @@ using namespace vkh::test;
 
 namespace {
 
-/// Of the icosphere in float, 16 bytes a vertex, so that its views can be packed and plain.
+/// A document of the icosphere in float, 16 bytes per vertex, so that its views can be packed and
+/// plain.
 struct Sphere {
   std::vector<float> vertices;
   std::vector<uint32_t> indices;
@@ -37,7 +38,7 @@ Sphere sphere() {
   return out;
 }
 
-/// With that for its two views.
+/// The document with these bytes for its two views.
 Document document_of(const Sphere& from, const std::string& vertices, const std::string& indices) {
   Document document;
   const size_t positions = document.add_accessor({{"bufferView", document.add_view(vertices, 16)},

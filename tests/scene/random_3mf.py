@@ -1,7 +1,7 @@
 """Random 3MF packages as slicers write them, with the triangles that are to be read from each.
 
-What is expected is computed from the description that the package is written from. Its rules are those of docs/guide.md
-and of the slicers' formats; no code is shared with the program.
+The expected result is computed from the description that the package is written from. Its rules are
+those of docs/guide.md and of the slicers' formats; no code is shared with the program.
 """
 
 import dataclasses
@@ -74,7 +74,7 @@ class Item:
 
 
 class Expected:
-    """What is read of a package: triangles and a note, or one of some refusals."""
+    """The expected result for a package: triangles and a note, or one of some refusals."""
 
     def __init__(self, items, is_all):
         self.is_all, self.triangles, self.counts, self.refusals = is_all, [], {}, set()
@@ -122,7 +122,7 @@ class Expected:
 
 
 class Package:
-    """A random package: .items say what is in it, bytes() is the file."""
+    """A random package: .items describe its contents, bytes() is the file."""
 
     def __init__(self, random):
         self.random = random

@@ -1,6 +1,7 @@
 """Random glTF scenes with hidden nodes and escaped names, with the triangles that are to be read from each.
 
-What is expected is computed from the description that the document is written from; no code is shared with the program.
+The expected result is computed from the description that the document is written from; no code is
+shared with the program.
 """
 
 import base64
@@ -29,7 +30,7 @@ class Node:
 
 
 class Expected:
-    """What is read of a scene: triangles, a note, the files beneath it; or a refusal."""
+    """The expected result for a scene: triangles, a note, the files beneath it; or a refusal."""
 
     def __init__(self, scene, is_all):
         self.is_all, self.triangles, self.refusals, self.files, self.hidden = is_all, [], set(), set(), 0

@@ -1,4 +1,4 @@
-// 3MF: what the build places is what is read, each decimal correctly rounded, and nothing that has
+// 3MF: the items that the build places are read, each decimal correctly rounded, and no object with
 // another shape than its triangles passes for them.
 #include <doctest/doctest.h>
 
@@ -217,7 +217,7 @@ TEST_CASE("--bodies all measures what is no body, as it lies, and counts it by n
   CHECK(mesh.notes == std::vector<std::string>{
                           kIncluded + "1 support object (1 face), 1 unprinted item (1 face)"});
   CHECK(all_of(package_of(model_of(two, item("2")))).faces.size() == 1);
-  // Inside what is no body nothing is counted again.
+  // Objects inside one that is no body are not counted again.
   const std::string three =
       two + object_of("3", components(component("2") + component("1")), "type=\"solidsupport\"");
   CHECK(all_of(package_of(model_of(three, item("3")))).notes ==

@@ -1,5 +1,5 @@
 // Affine maps of nodes against exact rationals: no entry and no moved point is farther from its
-// exact place than is said, and what is exact is said to be.
+// exact place than stated, and exact results are marked as exact.
 #include "host/read/transform.h"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ Exact exact_of(const Affine& map) {
   return out;
 }
 
-/// By the definition: t + R(q / |q|) (s x), where R needs |q|^2 alone.
+/// The map by its definition: t + R(q / |q|) (s x), where R needs |q|^2 alone.
 Exact exact_of(const Placing& p) {
   const Rational x(p.rotation[0]), y(p.rotation[1]), z(p.rotation[2]), w(p.rotation[3]);
   const Rational n = x * x + y * y + z * z + w * w;

@@ -71,7 +71,7 @@ inline std::string instance_document(size_t size) {
   return document.text();
 }
 
-/// As many lines as there are nodes that have the mesh of them.
+/// A mesh of many primitives without triangles, and many nodes that have it.
 inline std::string line_document(size_t size) {
   Document document;
   Json& primitives =
@@ -112,7 +112,7 @@ inline SceneFiles worst_gltf(size_t size) {
       {"blank.gltf", std::string(size, ' ') + triangle_document().text()}};
 }
 
-/// Stored, so that the file is as large as what it holds.
+/// The parts are stored, so that the file is as large as its contents.
 inline SceneFiles worst_3mf(size_t size) {
   const auto package = [](const std::string& resources, const std::string& build) {
     return package_of(

@@ -244,7 +244,7 @@ float low_part(Random& random, float x) {
       return -std::nextafter(half_ulp, 0.0f);
     case 2:
       return half_ulp * hard_float(random, -20, 0);
-    // What rounding in a direction leaves: up to an ulp.
+    // A remainder like that of directed rounding: up to an ulp.
     case 3:
       return std::nextafter(2.0f * half_ulp, 0.0f) * (random.below(2) == 0 ? 1.0f : -1.0f);
     default:

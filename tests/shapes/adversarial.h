@@ -11,14 +11,14 @@
 
 namespace vkh::test {
 
-/// A point as the device holds it: two floats a coordinate, whose sum fits a double exactly.
+/// A point as the device holds it: two floats per coordinate, whose sum fits a double exactly.
 struct Stored {
   glm::vec3 hi{}, lo{};
   glm::dvec3 value() const { return glm::dvec3(hi) + glm::dvec3(lo); }
 };
-/// Rounded to 48 bits a coordinate.
+/// The point rounded to 48 bits per coordinate.
 Stored stored(const glm::dvec3& p);
-/// Rounded to float32.
+/// The point rounded to float32.
 Stored stored_single(const glm::dvec3& p);
 
 struct StoredTriangle {
@@ -40,17 +40,17 @@ enum class Shape {
   kCount
 };
 
-/// In [-1, 1]^3, of a shape drawn evenly.
+/// A triangle in [-1, 1]^3, of a shape drawn evenly.
 StoredTriangle hard_triangle(Random& random);
 StoredTriangle hard_triangle(Random& random, Shape shape);
-/// Near `about`, within about `size` of it: what stands beside another triangle.
+/// A triangle near `about`, within about `size` of it: a neighbour of another triangle.
 StoredTriangle hard_triangle_near(Random& random, const glm::dvec3& about, double size);
 
-/// Where a point stands to t: on it, on its border, above these by 2^-1..2^-45, outside a corner or
-/// an edge, at a corner, or anywhere in the cube.
+/// A point in a random position to t: on it, on its border, above these by 2^-1..2^-45, outside a
+/// corner or an edge, at a corner, or anywhere in the cube.
 glm::dvec3 hard_point(Random& random, const StoredTriangle& t);
 
-/// What distances from t may be measured above: 0, next to p's distance, or anything.
+/// A base for distances from t: 0, next to p's distance, or anything.
 float hard_base(Random& random, const StoredTriangle& t, const glm::dvec3& p);
 
 /// Barycentrics of a point of the closed triangle, often on its border.

@@ -199,7 +199,7 @@ HardPair self(Random& random) {
   if (change == 3) out.pair.b = joined(any_mesh(random), mesh);
   out.exact = 0.0;
   out.tolerance = 1e-9;
-  // Other faces may be larger than A: 1e-9 is of the joint box then, which is not asked.
+  // Other faces may be larger than A: 1e-9 refers to the joint box then, which is not tested.
   if (change < 3) out.largest_gap_at_zero = 1e-9;
   return out;
 }

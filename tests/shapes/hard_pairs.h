@@ -1,5 +1,5 @@
-// Small pairs of meshes on which certified solvers go wrong, by family, each from a seed: what
-// vkh_sweep solves by the ten thousand.
+// Small pairs of meshes on which certified solvers go wrong, by family, each from a seed: vkh_sweep
+// solves them by the ten thousand.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ struct HardPair {
   MeshPair pair;
   double tolerance = 1e-6;      ///< of A's diagonal
   std::optional<double> exact;  ///< h(A, B), where it is known without rounding
-  /// Where h is 0: the interval must be [0, u] with u at most so much of A's diagonal.
+  /// If h is 0: the interval must be [0, u] with u at most so much of A's diagonal.
   std::optional<double> largest_gap_at_zero;
 };
 
-/// In the order in which pairs go round: pair i is of family i % count.
+/// The families in the order of pairs: pair i is of family i % count.
 std::vector<std::string> family_names();
 
 /// The same on every machine whose libm rounds sin, cos and pow alike.

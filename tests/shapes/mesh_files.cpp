@@ -15,7 +15,8 @@ void store(std::string& bytes, T value, bool big) {
   bytes += stored;
 }
 
-/// Of triangles, of quads, or of both and more, with other columns before, between and behind.
+/// A file of triangles, of quads, or of both and more, with other columns before, between and
+/// behind.
 File binary_ply(size_t n, bool big, size_t least, size_t kinds) {
   std::string vertices, faces;
   for (size_t v = 0; v < n; ++v) {

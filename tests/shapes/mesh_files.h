@@ -15,8 +15,8 @@ struct File {
 /// vertices that nothing uses.
 std::vector<File> good_files(size_t n);
 
-/// Of every two parts that threads take, the second one has the first one's corners in reverse:
-/// both threads meet half of them first.
+/// The second of every two parts that threads take has the first one's corners in reverse: both
+/// threads meet half of them first.
 File mirrored_stl(size_t triangles);
 
 /// Text and binary, of both byte orders; triangles, quads and other polygons; with other columns,

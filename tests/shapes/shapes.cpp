@@ -45,7 +45,7 @@ void shuffle(std::vector<T>& items, Random& random) {
   }
 }
 
-/// (rows + 1) x (columns + 1) vertices from a function of (row, column), two triangles a cell.
+/// (rows + 1) x (columns + 1) vertices from a function of (row, column), two triangles per cell.
 template <class Function>
 Mesh grid(const char* name, uint32_t rows, uint32_t columns, Function&& vertex) {
   Builder out;

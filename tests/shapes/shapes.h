@@ -43,7 +43,7 @@ Mesh uv_sphere(double radius, uint32_t stacks, uint32_t slices);
 Mesh torus(double major_radius, double minor_radius, uint32_t major_cells, uint32_t minor_cells);
 
 /// 'V' against its hull over the footprint [-1, 1]^2. All vertices of the lid lie on the sheet, so
-/// sampling A's vertices says 0 while h(lid, sheet) = v_lid_distance(depth, valley_x).
+/// sampling A's vertices gives 0 while h(lid, sheet) = v_lid_distance(depth, valley_x).
 Mesh v_lid();
 /// The two sides that fall from the rim x = -1 and x = 1 to the valley line x = valley_x, z =
 /// -depth.
@@ -67,7 +67,8 @@ Mesh needles(uint64_t seed, uint32_t count);
 Mesh slivers(uint64_t seed, uint32_t count);
 /// A vertex close to the middle of the opposite edge (an angle near 180 degrees).
 Mesh caps(uint64_t seed, uint32_t count);
-/// Points, segments with a repeated corner and three distinct collinear corners, in turn.
+/// Points, segments with a repeated corner and three distinct collinear corners, one after the
+/// other.
 Mesh degenerate_faces(uint64_t seed, uint32_t count);
 /// The mesh with a tenth of its faces (at least one) repeated, with corners rotated or flipped.
 Mesh with_duplicates(const Mesh& mesh, uint64_t seed);

@@ -1,5 +1,5 @@
-// What `closed` promises, in exact arithmetic and at every scale: the width that is reported is at
-// most the tolerance that is reported, and that at most the fraction of the diagonal asked for.
+// The promise of `closed`, in exact arithmetic and at every scale: the reported width is at most
+// the reported tolerance, and that at most the requested fraction of the diagonal.
 #include <cmath>
 #include <limits>
 
@@ -20,7 +20,7 @@ constexpr double kLargest = std::numeric_limits<double>::max();
 
 Rational width_of(double lower, double upper) { return Rational(upper) - Rational(lower); }
 
-/// Of any scale, subnormal ones too, and often near the other.
+/// A mesh of any scale, subnormal ones too, and often near the other.
 double hard_double(Random& random, double near) {
   if (random.below(3) == 0) return near * (1 + random.range(0, 0x1p-40));
   if (random.below(8) == 0) return 0;

@@ -1,4 +1,4 @@
-// SolveOptions::limit: each verdict is proven, both ways of asking give it, and what is undecided
+// SolveOptions::limit: each verdict is proven, both ways of asking give it, and an undecided pair
 // is near the limit.
 #include <doctest/doctest.h>
 
@@ -33,7 +33,7 @@ struct MeshPairs {
   Mesh a, b;
 };
 
-// In frames of their own: far out, with low parts, tiny.
+// Pairs in frames of their own: far out, with low parts, tiny.
 std::vector<MeshPairs> pairs() {
   return {{icosphere(1, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})},
           {translated(icosphere(1, 2), {1e4, 0, 0.1}), translated(icosphere(1.01, 2), {1e4, 0, 0})},

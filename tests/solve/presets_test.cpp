@@ -1,5 +1,5 @@
-// What the paper has and its ablations: every preset and every switch, the schedules, and what is
-// lost where nothing may wait.
+// The paper's method and its ablations: every preset and every switch, the schedules, and the loss
+// if nothing may wait.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// That close at 1e-6 whatever is off.
+/// Pairs that close at 1e-6 with any switch off.
 const std::vector<ReferencePair>& pairs() {
   static const std::vector<ReferencePair> all = {
       with_reference("V", v_lid(), v_sheet()),
@@ -33,7 +33,7 @@ const std::vector<ReferencePair>& pairs() {
   return all;
 }
 
-// Sorting from the first candidate on.
+// Options that sort from the first candidate on.
 SolveOptions with(std::string preset, std::vector<std::string> enabled = {},
                   std::vector<std::string> disabled = {}) {
   SolveOptions options;
@@ -63,7 +63,7 @@ void check_closes(const SolveOptions& options) {
   }
 }
 
-/// Where room is short: the reserve and little more, and bounds that leave more open.
+/// Options with little room: the reserve and little more, and bounds that leave more open.
 SolveOptions in_least_memory(std::vector<std::string> enabled,
                              std::vector<std::string> disabled = {}) {
   disabled.insert(disabled.end(), {"centroid", "parent_samples", "u3"});
@@ -109,7 +109,7 @@ TEST_CASE("sorting and packets change no count of the work, but its order") {
     CHECK(sorted.queries == plain.queries);
     CHECK(sorted.lower == plain.lower);
     CHECK(sorted.upper == plain.upper);
-    // Of equally near triangles the walks may find different ones.
+    // The traversals may find different ones of equally near triangles.
     const Report packets = solve(pair, with("default", {"packet"}));
     CHECK(std::abs(packets.lower - plain.lower) <= 1e-6 * plain.diagonal_a);
   }
@@ -168,7 +168,7 @@ TEST_CASE("a wave a submission: the same run, and the host hears of every wave")
     };
     const Report r = solve(pair, options);
     REQUIRE(!heard.empty());
-    CHECK(heard[0] <= 1);  // 0: a CPU device builds the hierarchy in a submission of its own
+    CHECK(heard[0] <= 1);  // 0: a CPU device builds the BVH in a submission of its own
     for (size_t i = 1; i < heard.size(); ++i) CHECK(heard[i] == heard[0] + i);
     CHECK(heard.size() >= r.waves - 1);
     check_same(solve(pair, with("default")), r);

@@ -32,7 +32,7 @@ double joint_margin(const Mesh& a, const Mesh& b) {
   return 64.0 * 0x1p-53 * diagonal(joined(a, b));
 }
 
-/// The interval must hold the value, and be as narrow as was asked for.
+/// The interval must hold the value, and be as narrow as requested.
 void check_encloses(const Mesh& a, const Mesh& b, double expected,
                     double relative_tolerance = kTolerance) {
   const double tolerance = relative_tolerance * diagonal(a);
@@ -180,7 +180,7 @@ TEST_CASE("closed forms: farthest from points, where the Lipschitz bounds are at
   check_encloses(single_triangle(on_circle(radius, angles[0]), on_circle(radius, angles[1]),
                                  on_circle(radius, angles[2])),
                  ends, radius + 0.1, 1e-10);
-  // A segment between two points: farthest where their distances even out.
+  // A segment between two points: it is farthest where their distances even out.
   const Mesh two = joined(degenerate_point({-0.1, 0, 0}), degenerate_point({1.3, 0, 0}));
   check_encloses(single_triangle({0, 0, 0}, {1, 0, 0}, {0.3, 0, 0}), two, 0.7, 1e-10);
   // Without a sample of its longest edge's middle, an obtuse triangle has nothing but its bounds.

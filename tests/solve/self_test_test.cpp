@@ -28,7 +28,7 @@ struct Answers {
 
 constexpr uint32_t kSubgroup = 16;
 
-/// Answers as a device with subgroups of 16 would in this arithmetic.
+/// The answers of a device with subgroups of 16 in this arithmetic.
 Answers answered(const Cpu& device) {
   Answers out;
   out.questions = self_test_questions(7, 1024);
@@ -86,7 +86,7 @@ void check_fault(const Answers& good, const char* named,
   CHECK(fault.find(named) != std::string::npos);
 }
 
-/// What a device would answer on composed expressions in this arithmetic.
+/// A device's answers on composed expressions in this arithmetic.
 std::string composed_fault(const Cpu& device, uint32_t count) {
   const std::vector<gpu::SelfTestOperands> questions = composed_questions(7, count);
   std::vector<gpu::SelfTestComposed> answers;
@@ -97,7 +97,7 @@ std::string composed_fault(const Cpu& device, uint32_t count) {
   return result.fault;
 }
 
-/// Answers as a device with subgroups of 16 would; `keep` decides who is beside whom.
+/// The answers of a device with subgroups of 16; `keep` decides which items share a branch.
 gpu::SelfTestGroup looked(const std::vector<gpu::SelfTestQuestion>& questions, uint32_t item,
                           uint32_t turn, bool swaps, const std::function<bool(uint32_t)>& keep) {
   gpu::SelfTestGroup g{};
@@ -170,7 +170,7 @@ TEST_CASE("the judge names what a device gets wrong") {
   check_fault(good, "a / b", [&](Answers& a) { at(a).quotient = stepped(at(a).quotient, 6); });
   check_fault(good, "a / b", [&](Answers& a) { at(a).quotient = NAN; });
   check_fault(good, "sqrt(|a|)", [&](Answers& a) { at(a).root = stepped(at(a).root, 13); });
-  // As if (a - (s - (s - a))) had been simplified to 0.
+  // The result if (a - (s - (s - a))) had been simplified to 0.
   check_fault(good, "two_sum", [](Answers& a) {
     for (gpu::SelfTestAnswer& x : a.answers) x.sum_lo = 0;
   });
@@ -246,7 +246,7 @@ TEST_CASE("the judge names the subgroup operation that is wrong, and where") {
 
 namespace {
 
-// Subgroup operations of a kernel: the opcode, and how one that has kinds combines. 333 to 366 are
+// Subgroup operations of a kernel: the opcode, and the kind if it has kinds. 333 to 366 are
 // OpGroupNonUniform* of the SPIR-V specification; those of arithmetic and bit counts have the kind
 // behind the scope.
 std::set<std::pair<uint32_t, uint32_t>> subgroup_operations(std::span<const uint32_t> words) {

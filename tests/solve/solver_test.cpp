@@ -1,5 +1,5 @@
-// Whole runs against closed forms and against themselves: what must not change the answer, and what
-// must change it by a known amount.
+// Whole runs against closed forms and against themselves: changes that must not change the answer,
+// and changes that must change it by a known amount.
 #include "host/solve/solver.h"
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ SolveOptions with_tolerance(double tolerance, bool is_absolute = false) {
 }
 
 // Bounds are float32 on the device, and each distance costs a few ulp of itself: a tolerance of
-// fewer than 10 ulp of h cannot be counted on. Such a run ends with at most 32, and says so.
+// fewer than 10 ulp of h cannot be counted on. Such a run ends with at most 32, and reports it.
 constexpr double kUlp = 0x1p-23;
 constexpr double kResolvedUlp = 10, kWidestUlp = 32;
 
@@ -82,7 +82,7 @@ std::vector<NamedPair> pairs() {
           {"torus", torus(1.0, 0.3, 24, 12), noisy(torus(1.0, 0.3, 24, 12), 0.02, 5)}};
 }
 
-/// The witness is what proves `lower`: a point of its face of A, that far from B, and the point of
+/// The witness proves `lower`: a point of its face of A, that far from B, and the point of
 /// its face of B that is closest.
 void check_witness(const Report& r, const Mesh& a, const Mesh& b) {
   REQUIRE(r.witness_a.face < a.faces.size());
@@ -172,8 +172,8 @@ TEST_CASE("1e-9 closes where h is a large part of the diagonal") {
   for (const double gap : {0.3, 1.0, 7.0}) check(square_patch(4, gap), square_patch(3, 0.0), gap);
 }
 
-// From 0 at the vertices to a third of the diagonal: the base must follow the lower bound. The last
-// bit of a barycentric ends it, 2^-20 of a face of A that is as large as A.
+// The distance goes from 0 at the vertices to a third of the diagonal: the base must follow the
+// lower bound. The last bit of a barycentric ends it, 2^-20 of a face of A that is as large as A.
 TEST_CASE("3e-7 closes where the lower bound rises from 0") {
   for (const double valley : {-0.75, -0.3, 0.0, 0.5}) {
     const Report r = distance(v_lid(), v_sheet(1.0, valley), with_tolerance(3e-7));
@@ -215,7 +215,7 @@ TEST_CASE(
 }
 
 TEST_CASE("meshes that differ by less than what is stored are not one") {
-  const Mesh a = soup(5, 80);  // 53 bits a coordinate, of which 49 are stored
+  const Mesh a = soup(5, 80);  // 53 bits per coordinate, of which 49 are stored
   Mesh b = a;
   double& moved = b.vertices[17].y;
   moved = std::nextafter(moved, 0.0);
@@ -383,7 +383,7 @@ TEST_CASE("meshes copied to the device give the bits of those that are written t
                               .maps_memory = false};
   Device copying(request);
   Solver solver(copying);
-  // The second fits what the first took, the third does not.
+  // The second fits the first one's memory, the third does not.
   for (const std::uint32_t level : {2U, 1U, 3U}) {
     const Mesh a = icosphere(1, level), b = translated(icosphere(1.1, level), {0.1, 0.2, 0});
     const Report r = solver.distance(a, b), expected = distance(a, b);

@@ -59,7 +59,8 @@ TEST_CASE("triangles of the smallest doubles") {
   check_pair(corner, corner, 0);
   check_pair(point({0, 0, 0}), corner, 0);
   check_pair(point({0, 0, kLeast}), corner, square(kLeast));
-  // From the middle of the long edge, sqrt(1/2) of the smallest double away: no double is near.
+  // The distance from the middle of the long edge is sqrt(1/2) of the smallest double: no double is
+  // near.
   check_pair(single_triangle({kLeast, kLeast, 0}, {kLeast, kLeast, 0}, {kLeast, kLeast, 0}), corner,
              square(kLeast) / 2);
   const Mesh larger = single_triangle({4 * kLeast, 0, 0}, {0, 4 * kLeast, 0}, {0, 0, 4 * kLeast});

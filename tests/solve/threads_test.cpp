@@ -1,5 +1,5 @@
-// Several threads on one Device, and on one Solver. Under the validation layer, which tells of two
-// threads in one queue, VKH_VALIDATION=1.
+// Several threads on one Device, and on one Solver. It runs under the validation layer,
+// VKH_VALIDATION=1, which reports two threads in one queue.
 #include <doctest/doctest.h>
 
 #include <functional>

@@ -15,7 +15,8 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// Of unlike sizes, one far from the origin, one of a single face, one of a mesh and itself.
+/// Pairs of different sizes, one far from the origin, one of a single face, one of a mesh and
+/// itself.
 std::vector<NamedPair> pairs() {
   const Mesh field = height_field(24, 1);
   return {{"spheres", icosphere(1.0, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})},

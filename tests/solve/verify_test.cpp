@@ -1,5 +1,5 @@
-// The host's check of the witness against exact arithmetic: it encloses d(p, B), accepts what is
-// true and refuses a lower bound that is too large by 1e-12 of the distance.
+// The host's check of the witness against exact arithmetic: it encloses d(p, B), accepts true
+// bounds and refuses a lower bound that is too large by 1e-12 of the distance.
 #include "host/solve/verify.h"
 
 #include <doctest/doctest.h>

@@ -29,7 +29,7 @@ VkhContext shared_context() {
   return bench.context();
 }
 
-// As in_float32, also of what is no mesh.
+// The same as in_float32, also for data that is no mesh.
 Mesh rounded(Mesh mesh) {
   for (glm::dvec3& p : mesh.vertices) p = glm::dvec3(glm::vec3(p));
   return mesh;
@@ -43,7 +43,7 @@ void check_engine(VkhResult result) {
 
 ApiMesh::ApiMesh(const Mesh& mesh, MeshLayout layout) : mesh_(rounded(mesh)), layout_(layout) {
   const size_t width = layout.is_16bit ? 2 : 4;
-  // No byte more than the contract asks for.
+  // The buffer has no byte more than the contract requires.
   const size_t index_bytes = (layout.index_offset + 3 * width * mesh.faces.size() + 3) / 4 * 4;
   const size_t vertex_bytes =
       layout.vertex_offset + (mesh.vertices.size() - 1) * layout.stride + 12;

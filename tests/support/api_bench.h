@@ -1,5 +1,5 @@
-// A pair of meshes on the test device through the C API alone, with barriers as the header asks for
-// and no more.
+// A pair of meshes on the test device through the C API alone, with the barriers that the header
+// requires and no more.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace vkh::test {
 
-/// How a mesh lies in its buffers.
+/// The layout of a mesh in its buffers.
 struct MeshLayout {
   uint32_t stride = 12;
   uint32_t vertex_offset = 0;
@@ -25,7 +25,7 @@ struct MeshLayout {
 class ApiMesh {
  public:
   explicit ApiMesh(const Mesh& mesh, MeshLayout layout = {});
-  /// New positions, same faces. Not while a submission runs.
+  /// Writes new positions, for the same faces. Do not call it while a submission runs.
   void move(const Mesh& moved);
   const Mesh& mesh() const { return mesh_; }
   const VkhMesh& view() const { return view_; }
@@ -56,7 +56,7 @@ class ApiCommands {
 /// h(a, b): memory filled with garbage, a problem, reports.
 class ApiPair {
  public:
-  /// Null: the context that all such pairs share.
+  /// Null selects the context that all such pairs share.
   ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance, VkhContext context = nullptr);
 
   void build(VkCommandBuffer commands);
@@ -68,7 +68,7 @@ class ApiPair {
   /// Writes report `slot` (0..3), and makes it visible to the host.
   void report(VkCommandBuffer commands, uint32_t slot = 0);
   VkhReport read(uint32_t slot = 0) const;
-  /// Garbage there, as at first, and no counts.
+  /// Fills it with garbage, as at first, and clears the counts.
   void spoil_report();
   void spoil_hierarchy();
   /// Build, begin, `waves` and report 0, to be changed as a test likes; refers to this pair.
@@ -105,10 +105,10 @@ struct ApiPairs {
   size_t size() const { return pairs.size(); }
 };
 
-/// Byte by byte.
+/// Compares byte by byte.
 bool is_same(const VkhReport& a, const VkhReport& b);
 
-/// Makes what compute shaders wrote visible to the host.
+/// Makes writes of compute shaders visible to the host.
 void record_host_barrier(VkCommandBuffer commands);
 
 Interval interval(const VkhReport& report);

@@ -15,7 +15,7 @@
 namespace vkh::test {
 namespace {
 
-// Nothing here allocates: the heap may be what is broken.
+// Nothing here allocates: the heap may be broken.
 void say(std::string_view text) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
 }
@@ -74,7 +74,7 @@ void explain_bus_errors() {
 
 }  // namespace vkh::test
 
-// Replaces the C library's, so that nobody blocks the signals of faults.
+// Replaces the C library's, so that no library blocks the signals of faults.
 extern "C" __attribute__((visibility("default"))) int pthread_sigmask(int how, const sigset_t* set,
                                                                       sigset_t* old) noexcept {
   static const auto next =

@@ -1,9 +1,10 @@
-// Says what a bus error is of, before it ends a test program. doctest reports the other signals.
+// Reports the cause of a bus error, before it ends a test program. doctest reports the other
+// signals.
 #pragma once
 
 namespace vkh::test {
 
-/// Writes to stderr the address, what is mapped there and the callers, from now on. There are two
+/// From now on writes to stderr the address, the mapping there and the callers. There are two
 /// kinds: a file that is mapped and has no room on its disk, or was cut (BUS_ADRERR: it names the
 /// file), and an address that no memory can have, through the stack's registers (SI_KERNEL: a
 /// kernel or a library has gone astray). Kernels run on threads of Mesa's, which block all signals:

@@ -1,4 +1,4 @@
-// What every InputError's text has to be.
+// The form of every InputError's text.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ inline bool names_a_place(const std::string& rest) {
   return false;
 }
 
-/// One line that names the file, a place in it and what was expected.
+/// One line that names the file, a place in it and the expected content.
 inline void check_error_line(const std::string& line, const std::string& path) {
   CAPTURE(line);
   CHECK(line.find('\n') == std::string::npos);

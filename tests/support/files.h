@@ -10,7 +10,7 @@
 
 namespace vkh::test {
 
-/// Gone at the process's end.
+/// A folder that is removed at the process's end.
 class TempFolder {
  public:
   TempFolder()
@@ -40,7 +40,7 @@ inline std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Returns the path of what was written into the folder.
+/// Returns the path of the written file in the folder.
 inline std::string write_file(const std::string& name, const std::string& text) {
   std::ofstream(path_of(folder() / name), std::ios::binary) << text;
   return folder() / name;

@@ -18,7 +18,7 @@ const char* environment(const char* name) {
   return value != nullptr ? value : "";
 }
 
-// Pipelines take longer than most tests, so each set of switches is compiled once a program.
+// Pipelines take longer than most tests, so each set of switches is compiled once per program.
 struct TestDevice {
   Device device{{.selector = environment("VKH_TEST_DEVICE"),
                  .validation = *environment("VKH_VALIDATION") != '\0'}};

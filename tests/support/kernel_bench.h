@@ -1,4 +1,4 @@
-// Runs single kernels and recording pages on the test device: vectors in, vectors out.
+// Runs single kernels and recording files on the test device: vectors in, vectors out.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,15 @@
 
 namespace vkh::test {
 
-// What a test program makes once and uses to its end: a device, a solver.
+// An object that a test program makes once and uses to its end: a device, a solver.
 inline std::vector<std::shared_ptr<void>>& all_kept() {
   static std::vector<std::shared_ptr<void>> all;
   return all;
 }
 
-/// Made now, destroyed by release_kept. A static object would be destroyed among the exit handlers
-/// of drivers and layers, some of which have then taken themselves apart: they crash.
+/// The object is made now, and destroyed by release_kept. A static object would be destroyed among
+/// the exit handlers of drivers and layers, some of which have then taken themselves apart: they
+/// crash.
 template <class T, class... Args>
 T& kept(Args&&... args) {
   auto made = std::make_shared<T>(std::forward<Args>(args)...);
@@ -30,21 +31,21 @@ T& kept(Args&&... args) {
   return one;
 }
 
-/// In the opposite order. main.cpp calls it.
+/// Destroys them in the opposite order. main.cpp calls it.
 inline void release_kept() {
   while (!all_kept().empty()) all_kept().pop_back();
 }
 
 /// The device of this test program, made once, with the validation layer if VKH_VALIDATION is set
-/// and not empty. VKH_TEST_DEVICE selects another than the best one. Contexts are byAddress where
+/// and not empty. VKH_TEST_DEVICE selects another than the best one. Contexts are byAddress if
 /// VKH_TEST_BY_ADDRESS is not empty.
 vkh::Device& test_device();
 
-/// A device as somebody else's, to be adopted.
+/// A foreign device, to be adopted.
 AdoptedDevice handles_of(const Device& device);
 
-/// What the layer has said so far; 0 if no device was made. Any message fails the program
-/// (main.cpp).
+/// The number of the layer's messages so far; 0 if no device was made. Any message fails the
+/// program (main.cpp).
 uint32_t validation_messages();
 
 class KernelBench {
@@ -59,7 +60,7 @@ class KernelBench {
     const T zero{};
     return reserve<T>(content.empty() ? &zero : content.data(), content.size());
   }
-  /// Likewise, `count` elements of garbage: what a kernel must not rely on.
+  /// The same with `count` elements of garbage, on which a kernel must not rely.
   template <class T>
   Slice<T> garbage(size_t count) {
     return reserve<T>(nullptr, count);
@@ -79,8 +80,8 @@ class KernelBench {
 
  private:
   static constexpr int kGarbage = 0xa5;
-  // Beyond the end of every buffer, within its allocation: a stray write is seen, not lost. None
-  // where an allocation ends at memory that nothing may touch.
+  // Guard bytes beyond the end of every buffer, within its allocation: a stray write is seen, not
+  // lost. There are none if an allocation ends at memory that nothing may touch.
   const size_t guard_bytes_;
 
   template <class T>
@@ -97,7 +98,7 @@ class KernelBench {
   std::vector<Buffer> buffers_;
 };
 
-/// What a single kernel is given: its buffers and push constants.
+/// The arguments of a single kernel: its buffers and push constants.
 template <class K>
 struct Direct : K::Args {
   typename K::Push push;
@@ -106,7 +107,7 @@ struct Direct : K::Args {
 /// A mesh on the bench, with low parts if a coordinate is no float32.
 VkhMesh put_mesh(KernelBench& bench, const Mesh& mesh);
 
-/// The hierarchy of a mesh, built; the scratch as the build left it. `limits`: the bench's, or
+/// The BVH of a mesh, built; the scratch as the build left it. `limits`: the bench's, or
 /// lower ones.
 struct BuiltHierarchy {
   Hierarchy hierarchy;

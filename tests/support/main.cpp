@@ -1,5 +1,5 @@
-// Every test program's main: doctest's, and a failure if the validation layer said anything, or if
-// the filters of the command line leave no case.
+// Every test program's main: doctest's, and a failure if the validation layer reported anything, or
+// if the filters of the command line leave no case.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 

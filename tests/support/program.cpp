@@ -31,8 +31,8 @@ bool is_progress(const std::string& line) {
          first.find_first_not_of("0123456789/") == std::string::npos;
 }
 
-/// But for the lines that tell how far a run is: one each ten seconds, so that a slow machine has
-/// more of them (host/answer/progress_line.h).
+/// The text without the lines of a run's progress: one every ten seconds, so that a slow machine
+/// has more of them (host/answer/progress_line.h).
 std::string without_progress(const std::string& err) {
   std::istringstream lines(err);
   std::string kept;

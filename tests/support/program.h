@@ -20,7 +20,7 @@ struct Outcome {
   int exit_code = -1;
   int signal = 0;  ///< that killed it
   std::string out;
-  std::string err;  ///< but for lines of progress
+  std::string err;  ///< without lines of progress
 };
 
 /// A running program, its stdout and stderr going to files.
@@ -28,14 +28,14 @@ struct Running {
   pid_t process = 0;
   std::string out, err;
 };
-/// Returns when the process runs the program, none of this one's code. `out`: where stdout goes;
-/// empty: into a file of the folder, to be read by finish().
+/// Returns when the process runs the program, none of this one's code. `out`: the target of stdout;
+/// empty: a file of the folder, to be read by finish().
 Running start(const Words& words, const std::string& out = "");
 Outcome finish(const Running& running);
 
 /// Returns when the process has a handler for `signal`.
 void wait_until_caught(const Running& running, int signal);
-/// So far, of all its threads.
+/// Processor time so far, of all its threads.
 double processor_seconds(const Running& running);
 /// Sums over all programs that finish() has waited for.
 double processor_seconds_of_ended();

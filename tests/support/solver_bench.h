@@ -29,7 +29,7 @@ inline ReferencePair with_reference(std::string name, Mesh a, Mesh b) {
   return {std::move(name), std::move(a), std::move(b), exact};
 }
 
-/// Two runs that must be one run: bit by bit what they found, and what they did.
+/// Checks two runs that must be one run: bit by bit their results and their work.
 inline void check_same(const Report& r, const Report& other) {
   CHECK(r.status == other.status);
   CHECK(r.lower == other.lower);

@@ -1,5 +1,5 @@
-// What a test of many cases keeps: the first violations in hexadecimal, and the worst of what is
-// measured, so that one line of doctest speaks for all of them.
+// The record of a test of many cases: the first violations in hexadecimal, and the worst measured
+// values, so that one line of doctest covers all of them.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ class Tally {
     if (seen < 1) log_ += "\n  violated: " + std::string(claim) + "\n    " + describe();
   }
 
-  /// Keeps the largest value of a measure and where it was.
+  /// Keeps the largest value of a measure and its case.
   template <class F>
   void measure(const char* what, double value, const F& describe) {
     const auto [it, first] = worst_.try_emplace(what);
@@ -53,7 +53,7 @@ class Tally {
     return it == counts_.end() ? 0 : it->second;
   }
 
-  /// Enough is known: the rest of the cases need not run.
+  /// Enough violations are known: the rest of the cases need not run.
   bool hopeless() const { return violation_count_ >= 1000; }
 
   /// Prints the worst cases, and fails for any violation.

@@ -1,9 +1,9 @@
 // Times the solver over a manifest of pairs in one live context: presets and changes of them, a
-// warm-up each, then repeats in turn (A B C A B C); one CSV row a pair and preset with medians:
-// of times as a whole and, from a third as many runs more, of stages, whose timestamps take time
-// themselves. Correctness first: where the intervals of all do not meet, or repeats differ by a
-// bit, the exit code is 1. A run that does not close within its limits is not repeated, and
-// counted; then the exit code is 3.
+// warm-up each, then alternating repeats (A B C A B C); one CSV row per pair and preset with
+// medians: of times as a whole and, from a third as many runs more, of stages, whose timestamps
+// take time themselves. Correctness comes first: if the intervals of all do not meet, or repeats
+// differ by a bit, the exit code is 1. A run that does not close within its limits is not repeated,
+// and counted; then the exit code is 3.
 //
 //   vkh_bench MANIFEST.csv [--presets
 //   default,paper,baseline-gpu,-sort,+packet,paper-thin,-u3@64MiB]
@@ -11,7 +11,7 @@
 //             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
 //             [--together N] [--not-robust] [--not-mapped]
 //
-// With --together, the default preset alone: each pair alone and N side by side, a row a group.
+// With --together, the default preset alone: each pair alone and N side by side, a row per group.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>

@@ -9,8 +9,8 @@
 namespace vkh::bench {
 namespace {
 
-// The hierarchy's, the seed, the moves to more room, those of the wave's lines, each once, and the
-// report.
+// The stages of the BVH, the seed, the moves to more room, those of the wave's lines, each once,
+// and the report.
 std::vector<std::string> stage_names() {
   std::vector<std::string> names = {"morton", "sort", "hierarchy", "seed", "move"};
   const auto add = [&](const char* name) {

@@ -24,7 +24,7 @@ struct Cost {
   }
 };
 
-// Of several side by side, the last to end has all submissions in its time.
+// If several run side by side, the time of the last to end contains all submissions.
 double longest_gpu_ms(const std::vector<Report>& reports) {
   double longest = 0;
   for (const Report& r : reports) longest = std::max(longest, gpu_ms(r));

@@ -1,4 +1,4 @@
-// What is raced: a preset, switches changed in it, and the memory that it gets, by one name.
+// A variant to time: a preset, switches changed in it, and its memory, under one name.
 #pragma once
 
 #include <string>

@@ -75,7 +75,7 @@ def together_table():
 
 
 def changes():
-    """Of the default preset with one switch changed: name, ratio of sums, pairs that no longer end."""
+    """The default preset with one switch changed: name, ratio of sums, pairs that no longer end."""
     for row in rows("docs/paper/ablations.csv"):
         if row["base"] == "default" and row["family"] == "all" and "+sort+" not in row["variant"]:
             ended = 80 - int(row["pairs"])
@@ -163,7 +163,7 @@ def draw(kind):
     save(figure, "benchmark-switches")
 
     figure, axis = plt.subplots(figsize=(7.6, 4.2))
-    # What is half of A only: the same kind of pair at every size.
+    # Pairs whose B has half of A's faces: the same kind of pair at every size.
     found = [row for row in growth("torus") if int(row["faces_b"]) < 0.6 * int(row["faces_a"])]
     faces = [int(row["faces_a"]) + int(row["faces_b"]) for row in found]
     for name, colour, value in (("process", COSTS, lambda row: float(row["process_ms"])),

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Makes host/show/font/OpenSans-subset.ttf: what names of files and figures are written with in pictures.
-# Open Sans, for it has this project's own licence, and the signs of bounds, which Noto Sans lacks.
-# Latin, Greek, Cyrillic, and what mathematics and units need; no hints, for the rasteriser knows none.
+# Makes host/show/font/OpenSans-subset.ttf: the font of file names and figures in pictures. Open
+# Sans has this project's own licence, and the signs of bounds, which Noto Sans lacks. The subset
+# has Latin, Greek, Cyrillic, and the signs of mathematics and units; no hints, since the rasteriser
+# uses none.
 # usage: tools/draw/font.sh     on Debian 12: apt-get downloads the font and fonttools, and installs nothing.
 set -euo pipefail
 out=$(cd "$(dirname "$0")/../../host/show/font" && pwd)

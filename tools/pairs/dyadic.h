@@ -22,7 +22,7 @@ inline Dyadic normalised(Dyadic x) {
   return {x.mantissa >> zeros, x.exponent + zeros};
 }
 
-/// Of a finite double.
+/// The exact value of a finite double.
 inline Dyadic dyadic(double x) {
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
@@ -41,7 +41,7 @@ inline bool is_double(const Dyadic& x) { return bits_of(x) <= 53 && x.exponent >
 
 struct Average {
   bool is_exact = false;
-  int bits = 0;      ///< that the exact average takes
+  int bits = 0;      ///< bits of the exact average
   double value = 0;  ///< where it is exact
 };
 
@@ -57,7 +57,8 @@ inline Average average(const std::array<double, 3>& values, const std::array<uin
     top = std::max(top, terms[i].exponent + bits_of(terms[i]));
   }
   if (top == INT32_MIN) return {.is_exact = true};
-  // So far apart that the sum of the two takes more than 53 bits, and so does an edge between them.
+  // Two values so far apart that their sum takes more than 53 bits, and so does an edge between
+  // them.
   if (top - least > 106) return {.bits = top - least};
   Dyadic sum{0, least - static_cast<int>(levels)};
   for (size_t i = 0; i < 3; ++i) {

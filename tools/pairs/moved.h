@@ -17,10 +17,10 @@ struct Move {
   glm::dvec3 shift{};  ///< added last
 };
 
-/// Of `number` alone, but that one in four has a shift by multiples of `size`, a power of two.
+/// Depends on `number` alone; one in four has a shift by multiples of `size`, a power of two.
 Move draw_move(uint64_t number, double size);
 
-/// False where a coordinate would not be exact in double: the mesh is then of no use.
+/// Returns false if a coordinate would not be exact in double: the mesh is then of no use.
 bool move_exactly(Mesh& mesh, const Move& move);
 
 /// Whether every coordinate is a float.

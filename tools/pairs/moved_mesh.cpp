@@ -15,7 +15,7 @@ uint64_t next(uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-// x + y where that is exact: Knuth's two-sum leaves nothing.
+// x + y if that is exact: Knuth's two-sum leaves nothing.
 bool add_exactly(double& x, double y) {
   const double sum = x + y, part = sum - x;
   const double rest = (x - (sum - part)) + (y - part);

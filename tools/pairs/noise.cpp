@@ -2,8 +2,8 @@
 //
 //   vkh_noise --faces N --seed S --out FILE.ply [--shape torus] [--noise 0.001]
 //
-// Two seeds, or two numbers of faces, make a pair. Exit code 2 for a wrong command, 6 for a disk
-// that does not take the file.
+// Two seeds, or two numbers of faces, make a pair. Exit code 2 for a wrong command, 6 for a failed
+// write.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

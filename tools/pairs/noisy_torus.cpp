@@ -8,7 +8,7 @@
 namespace vkh::pairs {
 namespace {
 
-// SplitMix64's finalizer (Steele, Lea, Flood 2014): integers alone.
+// SplitMix64's finalizer (Steele, Lea, Flood 2014): integers only.
 uint64_t mixed(uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -16,13 +16,13 @@ uint64_t mixed(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// In [-1, 1), a multiple of 2^-31.
+// A number in [-1, 1), a multiple of 2^-31.
 double noise_at(uint64_t seed, uint64_t vertex) {
   const auto bits = static_cast<uint32_t>(mixed(mixed(seed) ^ vertex) >> 32);
   return static_cast<double>(static_cast<int64_t>(bits) - (int64_t{1} << 31)) * 0x1p-31;
 }
 
-// Taylor's, for x^2 <= (pi/4)^2: what is left out is below 2^-53 of the result.
+// Taylor's series, for x^2 <= (pi/4)^2: the remainder is below 2^-53 of the result.
 double series(double first, double x2, uint32_t from) {
   constexpr uint32_t kTerms = 9;
   double sum = 0;

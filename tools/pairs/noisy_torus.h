@@ -9,12 +9,14 @@
 
 namespace vkh::pairs {
 
-/// Around the z axis: the tube's centre runs at distance 1, its radius is 3/8. Each vertex lies
-/// off the tube by up to `noise` of that radius, evenly spread. Sums, products and quotients of
-/// doubles only, which IEEE 754 fixes, and sine and cosine by polynomials of our own.
+/// The torus lies around the z axis: the tube's centre runs at distance 1, its radius is 3/8. Each
+/// vertex lies off the tube by up to `noise` of that radius, evenly spread. It uses only sums,
+/// products and quotients of doubles, which IEEE 754 fixes, and sine and cosine by polynomials of
+/// our own.
 class NoisyTorus {
  public:
-  /// At most `faces`, and as near to it as whole rings come. Throws UsageError for fewer than 18.
+  /// Makes at most `faces`, and as near to it as whole rings come. Throws UsageError for fewer than
+  /// 18.
   NoisyTorus(uint64_t faces, uint64_t seed, double noise);
 
   PlyShape shape() const { return {uint64_t{rings_} * around_, 2 * uint64_t{rings_} * around_}; }
@@ -27,7 +29,7 @@ class NoisyTorus {
   double noise_;
 };
 
-/// Of the angle that is turns/of of a full circle.
+/// Sine and cosine of the angle that is turns/of of a full circle.
 struct SineCosine {
   double sine, cosine;
 };

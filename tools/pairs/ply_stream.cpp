@@ -43,7 +43,7 @@ PlyStream::PlyStream(const std::string& path, const PlyShape& shape)
       bytes_left_(shape.vertex_count * vertex_bytes(shape) + shape.face_count * kFaceBytes),
       file_(std::fopen(path.c_str(), "wb"), std::fclose) {
   if (!file_) refuse(std::strerror(errno));
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // what is flushed is large enough
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // flushed blocks are large enough
   buffer_.reserve(kBufferBytes + vertex_bytes(shape_));
   const std::string header = header_of(shape);
   buffer_.assign(header.begin(), header.end());
@@ -52,7 +52,7 @@ PlyStream::PlyStream(const std::string& path, const PlyShape& shape)
 PlyStream::~PlyStream() {
   if (is_finished_ || !file_) return;
   file_.reset();
-  std::error_code none;  // neither a pipe nor a device is ours to remove
+  std::error_code none;  // we may remove neither a pipe nor a device
   if (std::filesystem::is_regular_file(path_, none)) std::filesystem::remove(path_, none);
 }
 

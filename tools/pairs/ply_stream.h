@@ -1,5 +1,4 @@
-// A binary PLY that is written as it is made: its counts are known before, its rows are kept by
-// nobody.
+// A binary PLY that is written as it is made: its counts are known before, its rows are not kept.
 #pragma once
 
 #include <array>
@@ -14,11 +13,11 @@ namespace vkh::pairs {
 
 struct PlyShape {
   uint64_t vertex_count = 0, face_count = 0;
-  bool is_double = false;  ///< the columns' type; float where every coordinate is one exactly
+  bool is_double = false;  ///< the columns' type; float if every coordinate is one exactly
 };
 
-/// Vertices first, then faces, as many as announced. Throws OutputError where the disk does not
-/// take them; a file that was not finished is removed.
+/// Vertices first, then faces, as many as announced. Throws OutputError if the disk does not take
+/// them; an unfinished file is removed.
 class PlyStream {
  public:
   PlyStream(const std::string& path, const PlyShape& shape);

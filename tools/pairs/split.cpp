@@ -6,8 +6,8 @@
 //
 // --grid J first rounds both meshes to a common grid, and the rounded pair is then the small pair:
 // --small-a and --small-b keep it. With 2^E the least power of two that no coordinate of either
-// mesh exceeds in size, the grid's step is 2^(E-J). So a coordinate takes J bits at most, and what
-// is split K times J + K: any J up to 53 - K is exact in double, any up to 24 - K in float.
+// mesh exceeds in size, the grid's step is 2^(E-J). So a coordinate takes J bits at most, and one
+// that is split K times J + K: any J up to 53 - K is exact in double, any up to 24 - K in float.
 //
 // Exit code 2 for a wrong command, 4 for a file that cannot be read or split.
 #include <CLI/CLI.hpp>
@@ -42,8 +42,8 @@ int exponent_above(const Mesh& mesh) {
   return fraction == 0.5 ? exponent - 1 : exponent;
 }
 
-/// To the nearest multiple of 2^step, ties to even. A multiple has 53 bits at most, as what is
-/// rounded has.
+/// Rounds to the nearest multiple of 2^step, ties to even. A multiple has 53 bits at most, like the
+/// argument.
 void round_to_grid(Mesh& mesh, int step) {
   for (glm::dvec3& v : mesh.vertices) {
     for (int axis = 0; axis < 3; ++axis)

@@ -137,8 +137,8 @@ std::optional<Subdivision::Inexact> Subdivision::first_inexact(
   return found;
 }
 
-// The first in the file's order, whatever thread finds one: what comes after one that was refused
-// is not looked at, what comes before is.
+// The first in the file's order, whatever thread finds one: points after a refused one are skipped,
+// points before it are checked.
 void Subdivision::check_points() {
   constexpr size_t kOfPiece = 1024;
   const size_t all = edges_.size() + (n_ > 2 ? mesh_.faces.size() : 0);

@@ -1,5 +1,5 @@
 // A mesh whose faces are split at their edges' midpoints, again and again. Neither its surface nor
-// any distance from it changes, where every midpoint is exact in double.
+// any distance from it changes, if every midpoint is exact in double.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 namespace vkh::pairs {
 
 /// Splitting k times cuts every edge into n = 2^k pieces and every face into n^2. Its corners are
-/// then (i a + j b + l c) / n, for i + j + l = n. Edges that faces share share them. What is held
-/// grows with the mesh and not with what is written.
+/// then (i a + j b + l c) / n, for i + j + l = n. Edges that faces share share them. Memory grows
+/// with the mesh and not with the output.
 class Subdivision {
  public:
   static constexpr uint32_t kMostLevels = 15;
 
-  /// Throws InputError that names the first point that double does not hold, and UsageError where
-  /// indices of 32 bits do not reach. The mesh has to outlive it.
+  /// Throws InputError that names the first point that double does not hold, and UsageError if
+  /// indices of 32 bits do not suffice. The mesh has to outlive it.
   Subdivision(const Mesh& mesh, uint32_t levels);
 
   const PlyShape& shape() const { return shape_; }

@@ -1,7 +1,7 @@
-// How long an envelope test takes for a gate's question, on one core: is every face of A within EPS
-// of B? Two peers, one a program: CGAL's Polyhedral_envelope, and Wang et al.'s fast-envelope (with
-// VKH_FAST_ENVELOPE). Both take prisms of half-width EPS / sqrt(3), so what is inside is within
-// EPS, and what is outside may be within it, too.
+// Times an envelope test on a gate's question, on one core: is every face of A within EPS of B? Two
+// peers, one a program: CGAL's Polyhedral_envelope, and Wang et al.'s fast-envelope (with
+// VKH_FAST_ENVELOPE). Both take prisms of half-width EPS / sqrt(3), so a face inside is within EPS,
+// and a face outside may be within it, too.
 //
 //   vkh_envelope_cgal A B EPS... [--time SECONDS]
 //

@@ -40,7 +40,7 @@ def envelope(program, a, b, limit, seconds):
 
 
 def ours(args, folder, pair):
-    """Rows of the program's own, and what the peers are to be asked."""
+    """The program's own rows, and the questions for the peers."""
     a, b = (str(folder / pair[key]) for key in ("file_a", "file_b"))
     narrow = json.loads(subprocess.run([args.program, "distance", a, b, "--tol", "1e-8", "--json"], capture_output=True, text=True).stdout)
     h = (float.fromhex(narrow["interval"]["lower_hex"]) + float.fromhex(narrow["interval"]["upper_hex"])) / 2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What tools/slurm/submit submits: the tasks of an array, and the merge after them. By hand:
+# The job that tools/slurm/submit submits: the tasks of an array, and the merge after them. By hand:
 #   sbatch --array=0-63 tools/slurm/job.sh task PROGRAM LIST FOLDER SHARDS 64 [OPTIONS OF vkhausdorff batch]
 #   sbatch --dependency=afterany:ARRAY tools/slurm/job.sh merge PROGRAM LIST FOLDER [OPTIONS OF vkhausdorff merge]
 # Paths are absolute, on file systems that all nodes share. Task i of 64 does shards i, i + 64, i + 128 ... of SHARDS.
@@ -18,11 +18,11 @@
 set -euo pipefail
 
 kTries=3          # so often in a row a task is requeued that has written no new line
-kLockSeconds=600  # about so long a task waits for a former process of its own
+kLockSeconds=600  # approximate wait of a task for its own former process
 
 say() { echo "$(date +%FT%T) $(hostname) ${task:+task $task: }$*"; }
 
-# The worst of a batch's codes is the first of 5 4 6 2 1 3 0 among them. What is none of these is worse.
+# The worst of a batch's codes is the first of 5 4 6 2 1 3 0 among them. Any other code is worse.
 worst() {
   local code known
   for code; do
@@ -35,21 +35,23 @@ worst() {
   done
 }
 
-# By a trap: a task that stops gives the program time to end with whole lines.
+# A trap runs this: a task that stops gives the program time to end with whole lines.
 # shellcheck disable=SC2317
 stop() {
   stopped=$1
   [ -z "$child" ] || kill -TERM "$child" 2>/dev/null || true
 }
 
-# Any other end is this script's own failure, such as a full disk. Bash would say 1, which is FAIL.
+# Any other end is this script's own failure, such as a full disk. Bash would return 1, which is
+# FAIL.
 trap 'exit 6' EXIT
 end() {
   trap - EXIT
   exit "$1"
 }
 
-# Until nobody writes a shard's results; `batch` would be refused. Each second it may hear of a signal.
+# Waits until no process writes a shard's results; `batch` would be refused. It checks for a signal
+# each second.
 wait_for_former() {
   local code=75 left=$kLockSeconds
   while [ $code = 75 ] && [ -z "$stopped" ] && [ "$left" -gt 0 ]; do
@@ -62,7 +64,7 @@ wait_for_former() {
   [ $code != 75 ] && [ -z "$stopped" ]
 }
 
-# Vulkan does not heed CUDA_VISIBLE_DEVICES: where a site's cgroups do not hide the others, each task would take the best.
+# Vulkan does not heed CUDA_VISIBLE_DEVICES: if a site's cgroups do not hide the others, each task would take the best.
 warn_of_other_gpus() {
   local file open=0
   for file in /dev/nvidia[0-9]*; do
@@ -72,7 +74,7 @@ warn_of_other_gpus() {
     say "$open GPUs are open to a task of $SLURM_GPUS_ON_NODE: docs/clusters.md says what to do"
 }
 
-# The lines that the task's shards have, of all attempts.
+# The number of lines of the task's shards, from all attempts.
 lines() {
   local shard count=0
   for ((shard = task; shard < shards; shard += tasks)); do
@@ -81,8 +83,9 @@ lines() {
   echo $count
 }
 
-# Runs one shard and leaves its exit code in `code`. Where a trap breaks off bash's wait, the next one may say -1 in place
-# of the code (bash 5.2.15: of one child in five that a signal ended together with this script). So it looks each second.
+# Runs one shard and leaves its exit code in `code`. If a trap breaks off bash's wait, the next one
+# may return -1 in place of the code (bash 5.2.15: of one child in five that a signal ended together
+# with this script). So it checks each second.
 run_shard() {
   local results=$folder/results-$1.jsonl
   if ! wait_for_former "$results"; then
@@ -99,7 +102,8 @@ run_shard() {
   child=''
 }
 
-# Only by this name: the last task's SLURM_JOB_ID is that of the whole array.
+# Requeues the task by its name in the array: the last task's SLURM_JOB_ID is that of the whole
+# array.
 requeue() {
   local now was=-1 times=0
   now=$(lines)
@@ -119,14 +123,14 @@ run_task() {
   trap 'stop limit' USR1
   trap 'stop ended' TERM
   [ -d "$folder" ] || { say "no $folder on this node: is it on a shared file system?"; end 6; }
-  export LP_NUM_THREADS="${LP_NUM_THREADS:-$SLURM_CPUS_ON_NODE}"  # lavapipe takes what it sees, whosever it is
+  export LP_NUM_THREADS="${LP_NUM_THREADS:-$SLURM_CPUS_ON_NODE}"  # lavapipe takes all that it sees
   warn_of_other_gpus
   rm -f "$folder/code-$task"
   for ((shard = task; shard < shards; shard += tasks)); do
     [ -z "$stopped" ] || { codes+=(3); break; }
     run_shard $shard "$@"
     say "shard $shard/$shards: exit code $code"
-    [ $code -lt 128 ] || { killed=$((code - 128)); code=3; }  # what is not done is not closed
+    [ $code -lt 128 ] || { killed=$((code - 128)); code=3; }  # unfinished pairs are not closed
     codes+=("$code")
   done
   [ "$stopped" != limit ] || requeue "told that its time ends"
@@ -136,7 +140,7 @@ run_task() {
   end "$(<"$folder/code-$task")"
 }
 
-# Exits with the worst of the pairs and the tasks: a task without a device, say, has no line that tells of it.
+# Exits with the worst of the pairs and the tasks: a task without a device, say, has no line that shows it.
 run_merge() {
   local code=0 file codes=() files=("$folder"/results-*.jsonl)
   [ -e "${files[0]}" ] || { say "no task wrote anything: see $folder/logs"; end 3; }

@@ -12,7 +12,7 @@ __all__ = ["DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Surv
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
          progress=None, enable=(), preset="", field=False, statistics=False, bands=(), area=None, survey_time=10.0,
          certificate=None):
-    """Whether every point of A is within max of B, proven either way: see the result's verdict.
+    """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
     returns, or paths of files. max: a positive number in the coordinates' own unit, a string such as '0.1%' of A's
@@ -28,7 +28,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
 
 
 def _say_area(r, max):
-    """Why the share of the area that was asked is not proven."""
+    """The reason why the share of the area that was asked is not proven."""
     sides = [("A", "B", r.survey), *([("B", "A", r.survey_back)] if r.survey_back is not None else [])]
     worst = min(sides, key=lambda side: side[2].area_within(max).lower if side[2].bands is not None else 0)
     a, b, survey = worst
@@ -41,8 +41,8 @@ def _say_area(r, max):
 
 
 def assert_within(a, b, max, **options):
-    """AssertionError unless it is proven that every point of A is within max of B. Takes what gate() takes."""
-    __tracebackhide__ = True  # for pytest
+    """Raises AssertionError unless it is proven that every point of A is within max of B. Takes what gate() takes."""
+    __tracebackhide__ = True  # pytest reads it
     r = gate(a, b, max, **options)
     if options.get("area") is not None and r.verdict != "pass":
         raise AssertionError(_say_area(r, max))

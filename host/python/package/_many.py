@@ -14,9 +14,9 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     each device, and answers are those of Solver(b).distance(a); otherwise they are those of distance(a, b).
 
     A result has index, the pair's place in pairs, from 0, and id, or None. A pair that fails (a bad file, a wrong array)
-    ends nothing: its result has error, the exception, and whatever else is asked of it raises that. error is None else.
+    ends nothing: its result has error, the exception, and whatever else is asked of it raises that. Otherwise error is None.
     max: the limit of gate(), a number in the coordinates' unit or a string such as '0.1%' of A's diagonal; results then
-    have verdict, and tol is 1e-7. tol is 1e-6 else; it, symmetric, memory, waves, disable, enable and preset are those of
+    have verdict, and tol is 1e-7, otherwise 1e-6. tol, symmetric, memory, waves, disable, enable and preset are those of
     distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
     pays there. max_input, polygons and bodies are those of read().
@@ -35,12 +35,12 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
                            max_input=max_input, polygons=polygons, bodies=bodies, **named)
-    first = getattr(pairs, "first_index", 0)  # of vkhausdorff.dask's shards
+    first = getattr(pairs, "first_index", 0)  # vkhausdorff.dask's shards have it
     return _Results(stream, _results(stream, items, _with_one if against is not None else _with_two, first))
 
 
 class _Results:
-    """What distances() returns: an iterator, and a context manager that closes itself."""
+    """The result of distances(): an iterator, and a context manager that closes itself."""
 
     def __init__(self, stream, results):
         self._stream, self._results = stream, results
@@ -52,7 +52,7 @@ class _Results:
         return next(self._results)
 
     def close(self):
-        """Cancels what runs. Any thread: one that waits for a result gets StopIteration."""
+        """Cancels what runs. Any thread may call it: one that waits for a result gets StopIteration."""
         self._stream.close()
 
     def __enter__(self):
@@ -63,14 +63,14 @@ class _Results:
 
 
 def _with_two(item):
-    """(id, a, b) of an item of pairs."""
+    """Returns (id, a, b) of an item of pairs."""
     if isinstance(item, (tuple, list)) and len(item) in (2, 3):
         return (None, *item) if len(item) == 2 else tuple(item)
     raise TypeError(f"pairs: expected (a, b) or (id, a, b), not {_shown(item)}")
 
 
 def _with_one(item):
-    """Likewise where all have the same B."""
+    """Does the same where all pairs have one B."""
     if isinstance(item, (tuple, list)) and len(item) == 2 and isinstance(item[0], (str, int)):
         return item[0], item[1], None
     return None, item, None
@@ -82,7 +82,7 @@ def _shown(item):
 
 
 def _put(stream, index, item, split):
-    """None, or the result of a pair that is wrong."""
+    """Puts a pair. Returns None, or the result of a pair that is wrong."""
     id = None
     try:
         id, a, b = split(item)
@@ -116,7 +116,7 @@ def _results(stream, items, split, index):
         if failure is not None:
             raise failure
     finally:
-        failure = None  # whose traceback has this frame
+        failure = None  # its traceback has this frame
         stream.close()
 
 

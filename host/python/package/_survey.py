@@ -1,4 +1,4 @@
-"""What a survey of a mesh found, as Python shows it. vkhausdorff._core makes them."""
+"""The results of a survey of a mesh, as Python shows them. vkhausdorff._core makes them."""
 
 from dataclasses import dataclass, field as _member
 from itertools import chain
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Interval(NamedTuple):
-    """What is enclosed lies in [lower, upper], in exact arithmetic. A tuple of two: lower, upper = interval."""
+    """An enclosure: its value lies in [lower, upper], in exact arithmetic. A tuple of two: lower, upper = interval."""
 
     lower: float
     upper: float
@@ -20,7 +20,7 @@ class Interval(NamedTuple):
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
 class Field:
-    """Of each face, by its row: the largest distance of a point of it lies between lower and upper.
+    """Bounds of each face, by its row: the largest distance of a point of it lies between lower and upper.
 
     lower, upper: float64 arrays of shape (faces,), read-only, in the coordinates' unit, rounded outward.
     """
@@ -53,9 +53,9 @@ class Field:
 
 @dataclass(frozen=True, repr=False)
 class Survey:
-    """What is known of the distances of all of a mesh from the other one. Lengths are in the coordinates' unit.
+    """The known bounds of the distances of all of a mesh from the other one. Lengths are in the coordinates' unit.
 
-    upper: no distance is above it. field: a Field, or None. Of statistics, or None: area, of the mesh, to nearest; mean
+    upper: no distance is above it. field: a Field, or None. Statistics, or None: area, of the mesh, to nearest; mean
     and rms, weighted by area, Intervals; percentiles, {share: Interval} of the least distance that so much of the area is
     within; bands, {distance as it was given: Interval} of the share of the area within it; curve, [(distance, Interval)],
     the same for distances that ascend from 0 to the largest. met: whether all is as narrow as was asked. stats: its cost.
@@ -95,7 +95,7 @@ class Survey:
         return self._within(t)
 
     def _within(self, t):
-        """What is surely within less is within t; what is not even within more is not."""
+        """Area that is surely within less is within t; area that is not even within more is not."""
         known = chain(self.curve, ((d, share) for d, share in self.bands.items() if not isinstance(d, str)))
         lower, upper = float(t >= self.upper), 1.0
         for d, share in known:
@@ -125,11 +125,11 @@ class Survey:
 
 
 for _cls in (Interval, Field, Survey):
-    _cls.__module__ = "vkhausdorff"  # whose names they are, for pickles too
+    _cls.__module__ = "vkhausdorff"  # the package's names, for pickles too
 
 
 def made(field, statistics, upper, met, stats):
-    """A Survey of what C++ found."""
+    """Makes a Survey from the results of C++."""
     field = Field(*field) if field is not None else None
     if statistics is None:
         return Survey(upper, field, None, None, None, None, None, None, met, stats)

@@ -1,4 +1,4 @@
-"""Many pairs by the workers of a Dask cluster: vkhausdorff.distances() over shards, on a distributed.Client that there is."""
+"""Many pairs by the workers of a Dask cluster: vkhausdorff.distances() over shards, on an existing distributed.Client."""
 
 import itertools
 import os
@@ -19,7 +19,7 @@ __all__ = ["distances"]
 
 def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: int = 2, retries: int = 3,
               devices: Sequence[str] = (), **options: Any) -> Iterator[Any]:
-    """What vkhausdorff.distances(pairs, **options) gives, in the order in which shards end: see a result's index and id.
+    """Yields what vkhausdorff.distances(pairs, **options) gives, in the order in which shards end: see a result's index and id.
 
     client: a distributed.Client, not an asynchronous one. Its workers have this package, and see the files that pairs
     name; names are of this process's folder. shard: pairs of a task; take from 100 to 10,000, as a task costs Dask longer
@@ -65,7 +65,7 @@ def _as_they_end(client: Any, shards: Iterator["_Shard"], ahead: int, retries: i
 
 
 class _Shard(list[Any]):
-    """Pairs, of which the first is not the first of all."""
+    """A part of all pairs; its first pair has the number first_index."""
 
     first_index = 0
 
@@ -79,7 +79,7 @@ def _dealt(pairs: Iterable[Any], size: int, has_one: bool) -> Iterator[_Shard]:
 
 
 def _there(pair: Any, has_one: bool) -> Any:
-    """A pair as a worker understands it, whose folder may be another. What is wrong is left to its result."""
+    """A pair as a worker understands it, since its folder may be another. Errors are left to its result."""
     if has_one:
         named = isinstance(pair, (tuple, list)) and len(pair) == 2 and isinstance(pair[0], (str, int))
         return (pair[0], _absolute(pair[1])) if named else _absolute(pair)
@@ -92,7 +92,7 @@ def _absolute(mesh: Any) -> Any:
     return os.path.abspath(mesh) if isinstance(mesh, (str, os.PathLike)) else mesh
 
 
-# What follows runs in workers.
+# The rest runs in workers.
 _one_at_a_time = threading.Lock()  # distances() takes all cores, and a worker may have many threads
 _mine: dict[tuple[str, ...], tuple[str, Any]] = {}
 
@@ -105,7 +105,7 @@ def _do(pairs: _Shard, devices: tuple[str, ...], options: dict[str, Any]) -> lis
 
 
 def _device_of(devices: tuple[str, ...]) -> str:
-    """One of this machine's that no other worker's process has; it is free again when the process ends, however it does."""
+    """A device of this machine that no other worker's process has; it is free again when the process ends, however it does."""
     if not devices:
         return ""
     if devices not in _mine:
@@ -121,7 +121,7 @@ def _claimed(device: str) -> Any:
     folder = pathlib.Path(tempfile.gettempdir()) / f"vkhausdorff-{os.getuid()}"
     folder.mkdir(mode=0o700, exist_ok=True)
     if folder.lstat().st_uid != os.getuid():
-        return None  # somebody else has made it
+        return None  # another user has made it
     lock = open(folder / f"device-{device.encode().hex()}", "ab")
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,5 +1,6 @@
-# Runs a portfile's lines without vcpkg: stand-ins for its functions, for one build type, which refuse what they do not know.
-# They rewrite nothing; vcpkg's own move the CMake files to share/ and mend their paths.
+# Runs a portfile's lines without vcpkg: stand-ins for its functions, for one build type, which
+# refuse unknown arguments. They rewrite nothing; vcpkg's own move the CMake files to share/ and fix
+# their paths.
 # cmake -DPORT=FOLDER -DTREE=BUILD -DPACKAGES=FOLDER -P vcpkg.cmake
 cmake_minimum_required(VERSION 3.25)
 set(CURRENT_PACKAGES_DIR ${PACKAGES})

@@ -1,4 +1,4 @@
-"""Stand-ins for the few of Conan 2's classes that our recipe uses; what they do not know is an AttributeError."""
+"""Stand-ins for the few of Conan 2's classes that our recipe uses; an unknown name is an AttributeError."""
 
 
 class _Options:

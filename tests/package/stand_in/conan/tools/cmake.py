@@ -28,7 +28,7 @@ class CMake:
 
     def configure(self):
         flag = lambda value: ("ON" if value else "OFF") if isinstance(value, bool) else value
-        # As Conan's tool chain sets it: the options `shared` and fPIC.
+        # The settings of Conan's tool chain: the options `shared` and fPIC.
         variables = {"CMAKE_BUILD_TYPE": "Release", "BUILD_SHARED_LIBS": bool(self.file.options.shared), **self.file.toolchain}
         subprocess.run(["cmake", "-S", self.file.source_folder, "-B", self.file.build_folder,
                         *(f"-D{name}={flag(value)}" for name, value in variables.items())], check=True)

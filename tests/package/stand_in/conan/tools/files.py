@@ -8,7 +8,7 @@ def load(conanfile, path):
 
 
 def copy(conanfile, pattern, src, dst):
-    """Of every file below src whose path matches, as Conan has it: `*` goes through folders."""
+    """Copies every file below src whose path matches, like Conan: `*` goes through folders."""
     root = pathlib.Path(src).resolve()
     top = root / pattern.split("/")[0]
     files = [top] if top.is_file() else [path for path in top.rglob("*") if path.is_file()]
