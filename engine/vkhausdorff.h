@@ -114,7 +114,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_UNCERTIFIED = 1024,
   /* Parts of the paper's method that this one does without, or has in another form. */
   VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
-  VKH_SWITCH_PACKET = 4096, /* one traversal for a candidate's three points */
+  VKH_SWITCH_PACKET = 4096, /* one traversal for a candidate's three new points */
   VKH_SWITCH_DEFER = 8192,  /* excess candidates wait; off: they end the run as VKH_STATUS_MEMORY */
   VKH_SWITCH_LARGEST_FIRST = 16384, /* candidates with the largest u are refined first */
   VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */

@@ -21,7 +21,7 @@ inline bool overlap(const VkhMemory& a, const VkhMemory& b) {
 struct Hierarchy {
   Slice<gpu::Branch> branches;
   Slice<gpu::Node> nodes;
-  Slice<uint32_t> ranks;  // of a large B: places of the branches' nodes (bvh_rank)
+  Slice<uint32_t> ranks;  // of a large B: places of the branches' nodes (bvh_rank); else unused
   Slice<gpu::Box> boxes;  // of the pyramid
   Slice<gpu::Triangle> triangles;
   Slice<gpu::TriangleLow> triangle_lows;

@@ -2,9 +2,9 @@
 // frame moves both meshes on the device and runs three ways on the same shape:
 //   warm     refit B's BVH, start from the last frame's run
 //   cold     refit, start from nothing
-//   rebuild  build the BVH anew, start from nothing Prints CSV to stdout and a summary to stderr.
-// gpu_ms is the device's time from the BVH to the report, wall_ms the host's, recording
-// included.
+//   rebuild  build the BVH anew, start from nothing
+// Prints CSV to stdout and a summary to stderr. gpu_ms is the device's time from the BVH to the
+// report, wall_ms the host's, recording included.
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -50,7 +50,7 @@ VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: 2^12 and
                                               // alike on an H200, 2^11 and 2^14 slower
 // Vertices of A, whose traversals start from nowhere: the group's is long, too.
 VKH_CONST uint kGroupWalkVertices = 1u << 11;
-VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of one level that a group holds
+VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of a level that a group holds; more: each alone
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
@@ -79,10 +79,10 @@ VKH_CONST uint kStackDepth = 60u;
   X(kUsePairs, 4u, PAIRS, u3) /* u3 over every pair of known triangles */                         \
   X(kUseU4, 5u, U4, u4)       /* the point-point bisector */                                      \
   X(kUseWarmStart, 6u, WARM_START, warm_start) /* queries start from the parent's triangles */    \
-  X(kUseGroupWalk, 8u, GROUP_WALK, group_walk) /* few queries: a workgroup for each one */      \
+  X(kUseGroupWalk, 8u, GROUP_WALK, group_walk) /* few queries: a workgroup for each one */        \
   X(kUseSharedFaces, 9u, SHARED_FACES, shared_faces) /* faces of A that B has are closed */       \
   X(kUseSort, 11u, SORT, sort)                       /* sort the frontier before it is refined */ \
-  X(kUsePacket, 12u, PACKET, packet) /* one traversal for a candidate's new points */            \
+  X(kUsePacket, 12u, PACKET, packet) /* one traversal for a candidate's new points */             \
   X(kUseDefer, 13u, DEFER, defer)    /* candidates that there is no room to refine wait */        \
   X(kUseLargestFirst, 14u, LARGEST_FIRST, largest_first) /* the largest u are refined first */    \
   X(kUsePaperU3, 15u, U3_PAPER, u3_paper)                /* u3 as the paper has it */             \
@@ -525,8 +525,8 @@ struct ReportPush {
 };
 
 struct MortonPush {
-  uint count;  // of faces
-  uint block;  // keys of a block of the sort whose first digits are counted here; 0: none
+  uint count;      // of faces
+  uint block;      // keys of a block of the sort whose first digits are counted here; 0: none
   uint first_bit;  // of that digit
 };
 

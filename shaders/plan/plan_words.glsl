@@ -12,8 +12,7 @@ const uint kWordBefore = kWordPrefix + 2u;     // keys under it
 const uint kWordSelecting = kWordBefore + 1u;  // 0 or 1
 const uint kWordRoom = kWordSelecting + 1u;    // candidates that can be refined
 const uint kWordHeld = kWordRoom + 1u;         // candidates, if not all can be refined; else 0
-const uint kWordReadFrom =
-    kWordHeld + 1u;  // start of the half of the frontier that the wave reads
+const uint kWordReadFrom = kWordHeld + 1u;  // start of the half of the frontier that the wave reads
 const uint kWordLargest = kWordReadFrom + 1u;  // control.select_largest
 const uint kWordAdopted = kWordLargest + 1u;   // the new witness, seven words
 const uint kPlanWords = kWordAdopted + 7u;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The quotations in README and guide are files that a test compiles or runs, letter by letter;
-their links lead somewhere; a README has at most 120 lines. usage: readme_test.py README GUIDE
---whole FILE... --parts-of FILE... --pages FOLDER Every FILE of --whole stands in the GUIDE as it
-is; other quotations are parts of some FILE."""
+their links lead somewhere; a README has at most 120 lines.
+usage: readme_test.py README GUIDE --whole FILE... --parts-of FILE... --pages FOLDER
+Every FILE of --whole stands in the GUIDE as it is; other quotations are parts of some FILE."""
 import pathlib
 import re
 import sys

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # README's commands in one checkout, in more than one order: any of them may configure first. A
-# scratch copy of the sources; ccache, where there is one, makes most of it quick. usage:
-# orders_test.sh SOURCE
+# scratch copy of the sources; ccache, where there is one, makes most of it quick.
+# usage: orders_test.sh SOURCE
 set -euo pipefail
 source=$1
 folder=$(mktemp -d)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A driver's permanent allocation is no leak of ours if the driver is kept loaded (keep_driver.c),
-# on every make of processor: the driver here leaks on all of them. usage: leaks_test.sh PROBE
-# DRIVER
+# on every make of processor: the driver here leaks on all of them.
+# usage: leaks_test.sh PROBE DRIVER
 set -euo pipefail
 probe=$1 driver=$2
 folder=$(mktemp -d)
