@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The engine without the host, in projects of C: as a subproject (add_subdirectory, FetchContent), as a package with
-# COMPONENTS engine and through pkg-config, static by the vcpkg port and shared by the Conan recipe, both of whose lines are
-# run with stand-ins for those tools. usage: engine_test.sh SOURCE FOLDER; FOLDER/tree is left for wheel_test.sh.
+# The engine without the host, in projects of C: as a subproject (add_subdirectory, FetchContent), and as a package with
+# COMPONENTS engine and through pkg-config, static and shared, by the orders that the recipes of vcpkg and Conan give.
+# usage: engine_test.sh SOURCE FOLDER; FOLDER/tree is left for wheel_test.sh.
 set -euo pipefail
 source=$1 folder=$2
 here=$source/tests/package
@@ -63,24 +63,30 @@ use_package() {
   [ "$(PKG_CONFIG_PATH=$1/lib/pkgconfig pkg-config --modversion vkhausdorff)" = "$version" ] || fail "another version in the .pc file"
 }
 
-echo "-- the vcpkg port, static"
-port=$source/tools/packages/vcpkg/vkhausdorff
-python3 -m json.tool "$port/vcpkg.json" >/dev/null || fail "vcpkg.json is not JSON"
-step cmake -DPORT="$port" -DTREE="$folder/tree" -DPACKAGES="$folder/vcpkg" -P "$here/stand_in/vcpkg.cmake"
+# install_engine SHARED PREFIX
+install_engine() {
+  step cmake -S "$source" -B "$folder/tree" -DCMAKE_BUILD_TYPE=Release -DVKH_HOST=OFF "-DBUILD_SHARED_LIBS=$1" "-DCMAKE_INSTALL_PREFIX=$2"
+  step cmake --build "$folder/tree" -j "$VKH_JOBS"
+  step cmake --install "$folder/tree"
+}
+
+echo "-- the package, static"
+python3 -m json.tool "$source/tools/packages/vcpkg/vkhausdorff/vcpkg.json" >/dev/null || fail "vcpkg.json is not JSON"
+install_engine OFF "$folder/static"
 check_tree "$folder/tree"
-[ -e "$folder/vcpkg/lib/libvkhausdorff.a" ] || fail "no archive"
-mv "$folder/vcpkg" "$folder/moved"
+[ -e "$folder/static/lib/libvkhausdorff.a" ] || fail "no archive"
+mv "$folder/static" "$folder/moved"
 use_package "$folder/moved"
 
-echo "-- the Conan recipe, shared"
-step python3 -B "$here/conan_test.py" "$source" "$folder/tree" "$folder/conan"
-library=$folder/conan/lib/libvkhausdorff.so.$version
+echo "-- the package, shared"
+install_engine ON "$folder/shared"
+library=$folder/shared/lib/libvkhausdorff.so.$version
 [ -e "$library" ] || fail "no $library"
 readelf -d "$library" | grep -q "SONAME.*\[libvkhausdorff.so.${version%.*}\]" || fail "another SONAME than ${version%.*}"
 if readelf -d "$library" | grep "NEEDED.*vulkan"; then fail "the engine links to the Vulkan loader"; fi
 # The same as in package_test.sh: vkh* alone, and the symbols that libstdc++ forces to be visible.
 nm -D --defined-only "$library" | awk '!($2 ~ /[WVu]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
-grep -ohE '\bvkh[A-Z]\w*\(' "$folder/conan/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
+grep -ohE '\bvkh[A-Z]\w*\(' "$folder/shared/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
 diff "$folder/declared" "$folder/exported" || fail "the shared engine exports (>) other symbols than it declares (<)"
-use_package "$folder/conan"
+use_package "$folder/shared"
 echo "engine_test: passed"

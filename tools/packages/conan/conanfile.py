@@ -1,7 +1,7 @@
 """The engine for Conan 2: conan create tools/packages/conan
 
-Its methods are run by tests/package/conan_test.py with stand-ins for Conan's classes. Conan itself, which has
-to fetch vulkan-headers, has not been run. glslangValidator, spirv-opt, spirv-val and python3 come from the system.
+Conan, which has to fetch vulkan-headers, has not been run; tests/package/engine_test.sh builds with these
+options. glslangValidator, spirv-opt, spirv-val and python3 come from the system.
 """
 
 import os

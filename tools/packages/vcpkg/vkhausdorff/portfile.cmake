@@ -1,6 +1,5 @@
 # An overlay port, for this checkout: vcpkg install vkhausdorff --overlay-ports=tools/packages/vcpkg
-# Its lines are run by tests/package/engine_test.sh with stand-ins for vcpkg's functions. vcpkg itself, which has to
-# fetch its tools and ports, has not been run.
+# vcpkg, which has to fetch its tools and ports, has not been run; tests/package/engine_test.sh builds with these options.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../../.." ABSOLUTE)
 
 vcpkg_find_acquire_program(PYTHON3)

@@ -1,2 +1,0 @@
-def stdcpp_library(conanfile):
-    return "stdc++"  # as for GCC's
