@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "host/base/error.h"
+#include "host/base/id_hash.h"
 #include "host/base/output_file.h"
 #include "host/base/system.h"
 

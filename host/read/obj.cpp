@@ -8,6 +8,8 @@
 #include <cctype>
 
 #include "host/base/note.h"
+#include "host/base/parse_number.h"
+#include "host/base/reject.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"
 

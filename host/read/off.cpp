@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "host/base/parse_number.h"
+#include "host/base/reject.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <optional>
 
+#include "host/base/reject.h"
 #include "host/read/ply_header.h"
 #include "host/read/source.h"
 

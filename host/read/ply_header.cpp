@@ -4,6 +4,7 @@
 #include <array>
 
 #include "host/base/note.h"
+#include "host/base/reject.h"
 
 namespace vkh::ply {
 namespace {

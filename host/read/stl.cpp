@@ -8,6 +8,7 @@
 
 #include "host/base/hash_index.h"
 #include "host/base/note.h"
+#include "host/base/reject.h"
 #include "host/read/merge_blocks.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"

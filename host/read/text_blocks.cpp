@@ -4,6 +4,8 @@
 #include <cctype>
 #include <optional>
 
+#include "host/base/reject.h"
+
 namespace vkh {
 namespace {
 
