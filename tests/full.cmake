@@ -1,5 +1,5 @@
 # Chooses what `tools/test` runs by default; the tests labelled "full" are for `tools/test --full`, which .ci/run calls. The
-# default is to end within 20 minutes on two cores from a clone, builds among them (docs/log/build.md has what each took).
+# goal for the default is 20 minutes on two cores from a clone, builds included (docs/log/build.md has what was measured).
 
 # vkh_full(TEST...): labels those that there are.
 function(vkh_full)

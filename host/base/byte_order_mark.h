@@ -3,24 +3,21 @@
 #pragma once
 
 #include <istream>
+#include <string>
 #include <string_view>
 
 namespace vkh {
 
 inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// Reads past the mark if the text, which can be searched, begins with one.
+/// Reads past the mark if the text begins with one. The text must be seekable.
 inline void skip_byte_order_mark(std::istream& text) {
   const std::istream::pos_type begin = text.tellg();
-  for (const char expected : kByteOrderMark) {
-    if (text.peek() == static_cast<unsigned char>(expected)) {
-      text.ignore(1);
-      continue;
-    }
-    text.clear();  // of a text that ends there
-    text.seekg(begin);
+  std::string head(kByteOrderMark.size(), '\0');
+  if (text.read(head.data(), static_cast<std::streamsize>(head.size())) && head == kByteOrderMark)
     return;
-  }
+  text.clear();  // a shorter text has ended
+  text.seekg(begin);
 }
 
 }  // namespace vkh

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -11,6 +12,7 @@
 #include "host/answer/json_object.h"
 #include "host/answer/record.h"
 #include "host/answer/tables.h"
+#include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
 #include "tests/support/files.h"
 
@@ -43,6 +45,23 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("a byte order mark is skipped whole, and nothing that begins like one") {
+  for (const auto& [text, rest] : {std::pair<std::string, std::string>{"\xef\xbb\xbf"
+                                                                       "id",
+                                                                       "id"},
+                                   {"\xef\x80\x80"
+                                    "id",
+                                    "\xef\x80\x80"
+                                    "id"},
+                                   {"\xef\xbb", "\xef\xbb"},
+                                   {"id", "id"},
+                                   {"", ""}}) {
+    std::istringstream in(text);
+    skip_byte_order_mark(in);
+    CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == rest);
+  }
+}
 
 TEST_CASE("CSV as spreadsheets write it") {
   using Rows = std::vector<std::vector<std::string>>;
