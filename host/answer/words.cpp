@@ -58,6 +58,12 @@ std::string hint(const Answer& answer, Status status) {
   if (status == Status::kWaves) return "; ask for more --waves";
   if (status == Status::kMemory) return "; ask for more --memory";
   if (status == Status::kCancelled) return "; it was interrupted";
+  if (status == Status::kPrecision) {
+    const double delta = std::max(answer.inputs[0].place.delta, answer.inputs[1].place.delta);
+    return delta > 0 ? "; no smaller --tol helps: a surface is known to within " +
+                           decimal(delta, 3, Rounding::kUp)
+                     : "; no smaller --tol helps";
+  }
   return "; ask for a smaller --tol than " + answer.tolerance.requested;
 }
 
