@@ -1,19 +1,21 @@
-# Chooses what `tools/test` runs by default; the tests labelled "full" are for `tools/test --full`, which .ci/run calls. The
-# goal for the default is 20 minutes on two cores from a clone, builds included (docs/log/build.md has what was measured).
+# Chooses what `tools/test` runs by default. The goal for it is 20 minutes on two cores from a clone, builds included, and 50
+# for `tools/test --full`, which .ci/run calls and which adds the tests labelled "full" (docs/log/build.md has what was
+# measured). Those labelled "nightly" are for `ninja nightly`.
 
-# vkh_full(TEST...): labels those that there are.
-function(vkh_full)
+# vkh_label(LABEL TEST...): labels those that there are; the last call decides.
+function(vkh_label label)
   foreach(test IN LISTS ARGN)
     if(TEST ${test})
-      set_property(TEST ${test} PROPERTY LABELS full)
+      set_property(TEST ${test} PROPERTY LABELS ${label})
     endif()
   endforeach()
 endfunction()
 
 if(NOT VKH_SANITIZE)
   # Each takes a minute or more, and checks the same as others do with fewer cases, or on one device.
-  vkh_full(compile_amd fallbacks barriers vulkan_faults_of_sets workspace_test batch_folders python_distances
-           kernel_query_by_address kernel_bvh_by_address kernel_load_by_address)
+  vkh_label(full compile_amd fallbacks barriers vulkan_faults_of_sets workspace_test batch_folders python_distances
+                 kernel_query_by_address kernel_bvh_by_address kernel_load_by_address)
+  vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all orders_by_hand)
   return()
 endif()
 
@@ -34,7 +36,10 @@ foreach(source IN LISTS VKH_TEST_SOURCES)
 endforeach()
 get_property(all DIRECTORY PROPERTY TESTS)
 list(REMOVE_ITEM all ${VKH_QUICK})
-vkh_full(${all})
+vkh_label(full ${all})
+# Each took a minute or more in the sanitizer tree: starts of the program by the dozen, whose code is
+# also run by tests of one start, and searches of the same kernels with more cases.
+vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies)
 # The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz api_fuzz)

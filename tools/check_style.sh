@@ -63,9 +63,9 @@ check_format() {
     echo "check_style: no clang-format $kClangFormat here; formatting not checked" >&2
     return 0
   fi
-  for file in "${formatted[@]}"; do
-    clang-format --dry-run -Werror "$file" 2>/dev/null || echo "$file:1: not as clang-format $kClangFormat writes it"
-  done
+  # All files in one process: starts took 40 times as long as the reading.
+  clang-format --dry-run "${formatted[@]}" 2>&1 |
+    sed -nE "s/^([^ :]+):([0-9]+):[0-9]+: .*-Wclang-format-violations.*/\\1:\\2: not as clang-format $kClangFormat writes it/p" | uniq
 }
 
 {

@@ -1,6 +1,7 @@
-"""Every source that the build folder compiles, read by clang by itself and without a warning.
+"""Clang reads each source of the product by itself, without a warning.
 
-usage: clang_test.py BUILD SOURCE. Exit code 77: no clang here.
+usage: clang_test.py BUILD SOURCE [--all]. --all: the tests and tools, too. Exit code 77: no clang
+here.
 """
 
 import concurrent.futures
@@ -14,6 +15,7 @@ import sys
 
 import alone
 
+PRODUCT = ("engine", "host", "check", "examples")
 # Options that clang does not have.
 OURS = ("-Wno-restrict", "-Wno-stringop-overflow")
 
@@ -49,8 +51,9 @@ def main() -> int:
         return 77
     build = alone.configure(build, source)
     entries = json.loads((build / "compile_commands.json").read_text())
-    # Embedded kernels are arrays of numbers.
-    entries = [e for e in entries if pathlib.Path(e["file"]).is_relative_to(source) and "/generated/" not in e["file"]]
+    # Embedded kernels are arrays of numbers, and those of the build folder.
+    folders = [source] if "--all" in sys.argv[3:] else [source / folder for folder in PRODUCT]
+    entries = [e for e in entries if any(pathlib.Path(e["file"]).is_relative_to(f) for f in folders) and "/generated/" not in e["file"]]
     unique = list({e["file"]: e for e in entries}.values())
     if len(unique) < 40:
         print(f"clang_test: {build} compiles {len(unique)} sources of {source}: too few to be all")

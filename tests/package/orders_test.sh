@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # README's commands in one checkout, in more than one order: any of them may configure first. A
 # scratch copy of the sources; ccache, where there is one, makes most of it quick.
-# usage: orders_test.sh SOURCE
+# usage: orders_test.sh SOURCE quick|by_hand
 set -euo pipefail
-source=$1
+source=$1 order=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "orders_test: $*" >&2; tail -n 40 "$folder/log" >&2; exit 1; }
@@ -34,23 +34,32 @@ has_python=YES
 python3 -c 'import numpy, pybind11' 2>/dev/null || [ -d /usr/share/cmake/pybind11 ] || [ -d /usr/lib/cmake/pybind11 ] || has_python=NO
 
 # The commands by hand first, with the default generator; then quickstart, install, by hand again.
-copy "$folder/by_hand"
-step cmake -S . -B out -G 'Unix Makefiles'
-step tools/quickstart
-grep -q 'interval' "$folder/log" || fail "quickstart printed no interval"
-install_says NO
-built_by_hand
-for program in examples/vkh_embed examples/vkh_frames examples/vkh_renderer tools/vkh_bench; do
-  [ -x "out/$program" ] || fail "docs/guide.md names out/$program, which is not built"
-done
-install_says "$has_python"
-step cmake --preset release
-step tools/quickstart
+by_hand() {
+  copy "$folder/by_hand"
+  step cmake -S . -B out -G 'Unix Makefiles'
+  step tools/quickstart
+  grep -q 'interval' "$folder/log" || fail "quickstart printed no interval"
+  install_says NO
+  built_by_hand
+  for program in examples/vkh_embed examples/vkh_frames examples/vkh_renderer tools/vkh_bench; do
+    [ -x "out/$program" ] || fail "docs/guide.md names out/$program, which is not built"
+  done
+  install_says "$has_python"
+  step cmake --preset release
+  step tools/quickstart
+}
 
 # quickstart first; then install, by hand.
-copy "$folder/quick"
-step tools/quickstart
-install_says NO
-step cmake -S . -B out
-step cmake --build out -j "$(nproc)" --target vkhausdorff vkh_embed
-step cmake --preset release
+quick() {
+  copy "$folder/quick"
+  step tools/quickstart
+  install_says NO
+  step cmake -S . -B out
+  step cmake --build out -j "$(nproc)" --target vkhausdorff vkh_embed
+  step cmake --preset release
+}
+
+case $order in
+  quick | by_hand) "$order" ;;
+  *) echo "orders_test: $order is neither quick nor by_hand" >&2; exit 2 ;;
+esac
