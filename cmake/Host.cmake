@@ -58,7 +58,7 @@ else()
   message(STATUS "Not here: deflated meshes in reports, which need zlib1g-dev")
 endif()
 include(Room)
-# Calls go down: each room's code calls the rooms before it alone (tests/house/rooms_test.py, tests/house/links_test.py).
+# Calls go down: each room's code calls the rooms before it alone (tools/lint/rooms_test.py, tools/lint/links_test.py).
 set(VKH_LIBRARY_ROOMS base mesh read gpu solve survey write answer)
 set(VKH_PROGRAM_ROOMS show batch app)
 foreach(room IN LISTS VKH_LIBRARY_ROOMS VKH_PROGRAM_ROOMS)

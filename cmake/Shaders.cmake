@@ -28,7 +28,7 @@ foreach(tool IN ITEMS GLSLANG SPIRV_VAL SPIRV_OPT)
   endif()
 endforeach()
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools VKH_EMBED_DIR)
+file(REAL_PATH ${CMAKE_CURRENT_LIST_DIR}/../tools/kernels VKH_EMBED_DIR)
 set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
 set(VKH_RUN_EMBED ${Python3_EXECUTABLE} -B ${VKH_EMBED})  # -B: leave no __pycache__ in the sources
 # Everything between a kernel's GLSL and its C++ is one process; these are its modules.

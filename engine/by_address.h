@@ -33,8 +33,8 @@ constexpr uint32_t bindings_by_address(std::span<const Binding> bindings) {
 }
 
 // Returns the kernel with those bindings as addresses. The words are of SPIR-V 1.5 and keep the
-// convention of tools/embed_shaders.py: one block a binding, each with one member; one struct of
-// push constants. Throws std::bad_alloc.
+// convention of tools/kernels/embed_shaders.py: one block a binding, each with one member; one
+// struct of push constants. Throws std::bad_alloc.
 std::vector<uint32_t> by_address(std::span<const uint32_t> words, uint32_t bindings);
 
 }  // namespace vkh

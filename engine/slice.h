@@ -1,4 +1,4 @@
-// The parts of a generated kernel header (tools/embed_shaders.py).
+// The parts of a generated kernel header (tools/kernels/embed_shaders.py).
 #pragma once
 
 #ifndef VK_NO_PROTOTYPES

@@ -12,9 +12,14 @@ function(vkh_label label)
 endfunction()
 
 if(NOT VKH_SANITIZE)
-  # Each takes a minute or more, and checks the same as others do with fewer cases, or on one device.
-  vkh_label(full compile_amd fallbacks barriers vulkan_faults_of_sets workspace_test batch_folders python_distances
-                 kernel_query_by_address kernel_bvh_by_address kernel_load_by_address)
+  # Each takes over ten seconds, and checks the same as others do with more cases, on another device or driver, or in
+  # processes that are ended. The faults, the proofs and the spoilt certificates guard what seldom changes.
+  vkh_label(full compile_amd fallbacks barriers workspace_test api_address_test api_limit_test api_move_test presets_test
+                 long_walk_test face_limits_test see schema embed_shaders two_drivers driver_lavapipe128
+                 kernel_query_by_address kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address
+                 vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
+                 proofs mutation_quick attack certificate_polygons batch batch_folders package package_types
+                 python_life python_fork python_lost python_distances python_distances_life)
   vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all orders_by_hand)
   return()
 endif()
@@ -22,14 +27,15 @@ endif()
 # The sanitizer tree begins with the code that accepts any input: readers, scenes, lists, reports,
 # the C API's misuse, the fuzzers. A start of the instrumented program takes two seconds and more,
 # so that tests of many starts are full.
-set(VKH_QUICK_ROOMS read scene host answer batch page)
+set(VKH_QUICK_ROOMS unit files page)
 set(VKH_QUICK api_input_test pair_schema malformed_files leaks)
+set(VKH_QUICK_SOURCES list_test results_test stream_test)
 set(VKH_QUICK_PROGRAMS vkhausdorff engine_tests vkh_leak_probe vkh_leaky_driver)
 foreach(source IN LISTS VKH_TEST_SOURCES)
   get_filename_component(name ${source} NAME_WE)
   get_filename_component(room ${source} DIRECTORY)
   get_filename_component(room ${room} NAME)
-  if(room IN_LIST VKH_QUICK_ROOMS)
+  if(room IN_LIST VKH_QUICK_ROOMS OR name IN_LIST VKH_QUICK_SOURCES)
     list(APPEND VKH_QUICK ${name})
     list(APPEND VKH_QUICK_PROGRAMS ${VKH_PROGRAM_${name}})
   endif()

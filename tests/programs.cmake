@@ -1,7 +1,7 @@
 # One program per folder of tests, and one per test file where the file needs a process, macros or flags of its own. doctest
 # picks a file's cases by --source-file, so that ctest names each file either way, and moving a file is all that it takes.
 set(VKH_TESTS_ALONE
-  "/(math|field)/"        # at the build's own optimization, and rebuilt one by one by tools/mutation.py
+  "/verification/math/"   # at the build's own optimization, and rebuilt one by one by tools/mutation.py
   "/faults/"              # layers and failing allocations, from before main on
   "/frame_test"           # as math's
   "/read_cost_test"       # replaces operator new

@@ -49,7 +49,7 @@ class Tree:
         """True if the test passes. A mutant that does not compile is a mistake in the table."""
         compile_line, link_line = (self.in_this_tree(line) for line in self.commands(test))
         objects = []
-        own, = (self.folder / "tests").glob(f"*/{test}.cpp")
+        own, = (self.folder / "tests").glob(f"**/{test}.cpp")
         for source in [str(own.relative_to(self.folder)), *sources]:
             made = self.folder / (source.replace("/", "_") + ".o")
             self.shell(compile_line.split(" -o ")[0] + f" -O1 -w -o {made} -c {self.folder / source}")

@@ -50,7 +50,7 @@ uint64_t draw(uint64_t& state);  ///< splitmix64
 
 /// Asks the device about a million questions. Throws DeviceError if it is lost.
 SelfTestResult run_self_test(const Device& device);
-/// Creates its pipeline and runs nothing: for tools/compile_kernels.cpp.
+/// Creates its pipeline and runs nothing: for tools/kernels/compile_kernels.cpp.
 void compile_self_test(const Device& device);
 
 }  // namespace vkh

@@ -8,7 +8,7 @@
 //                 for x that is not flushed to 0; see root()
 //   results below 2^-126 may be flushed to zero, and a zero may have either sign
 // One ulp is at most kUlp times the value. The build decorates every operation, so that drivers
-// neither regroup sums nor contract a product and a sum (tools/float_order.py).
+// neither regroup sums nor contract a product and a sum (tools/kernels/float_order.py).
 #ifndef VKH_SHADERS_MATH_CERTIFIED_H
 #define VKH_SHADERS_MATH_CERTIFIED_H
 

@@ -7,10 +7,10 @@
 #include <functional>
 #include <string>
 
-#include "tests/model/vec3.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
+#include "tests/verification/model/vec3.h"
 
 namespace {
 

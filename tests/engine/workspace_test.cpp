@@ -7,9 +7,9 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 namespace {
 

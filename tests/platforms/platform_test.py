@@ -243,7 +243,7 @@ OF_DRIVERS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, 
 DRIVERS = {"swiftshader": SwiftShader,
            **{f"lavapipe{bits}": functools.partial(Lavapipe, bits) for bits in (128, 256, 512)}}
 PLATFORMS = {"windows": Windows, "arm64": Arm64, **DRIVERS}
-NEEDS = {"kernels": ["kernels_tests"], "host": ["host_tests"], "api": ["api_c11"], "sweep": ["vkh_sweep"]}  # and the program
+NEEDS = {"kernels": ["engine_tests"], "host": ["unit_tests", "files_tests"], "api": ["api_c11"], "sweep": ["vkh_sweep"]}  # and the program
 
 
 def main() -> int:

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "host/mesh/round_to_float.h"
-#include "tests/oracle/closest.h"
+#include "tests/verification/oracle/closest.h"
 
 namespace vkh::test {
 namespace {

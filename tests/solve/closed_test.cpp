@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "host/base/rounding.h"
-#include "tests/model/arithmetic.h"
-#include "tests/oracle/exact.h"
 #include "tests/shapes/adversarial.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/support/tally.h"
+#include "tests/verification/model/arithmetic.h"
+#include "tests/verification/oracle/exact.h"
 
 using namespace vkh;
 using namespace vkh::test;

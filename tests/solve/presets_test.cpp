@@ -12,10 +12,10 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/solve/switches.h"
-#include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/support/solver_bench.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 namespace {
 

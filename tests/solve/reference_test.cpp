@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "host/read/mesh_io.h"
-#include "tests/oracle/cgal_oracle.h"
-#include "tests/oracle/exact.h"
-#include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
+#include "tests/verification/oracle/cgal_oracle.h"
+#include "tests/verification/oracle/exact.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 using namespace vkh;
 using namespace vkh::test;

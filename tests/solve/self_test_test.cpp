@@ -11,8 +11,8 @@
 
 #include "kernels/all_kernels.h"
 #include "kernels/self_test.h"
-#include "tests/model/composed.h"
 #include "tests/support/kernel_bench.h"
+#include "tests/verification/model/composed.h"
 
 using namespace vkh;
 using namespace vkh::test;

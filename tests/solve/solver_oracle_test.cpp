@@ -8,10 +8,10 @@
 #include <functional>
 #include <string>
 
-#include "tests/oracle/cgal_oracle.h"
-#include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "tests/verification/oracle/cgal_oracle.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 namespace {
 

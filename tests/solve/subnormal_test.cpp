@@ -7,9 +7,9 @@
 
 #include "host/solve/solver.h"
 #include "host/solve/verify.h"
-#include "tests/oracle/exact.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"
+#include "tests/verification/oracle/exact.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -6,9 +6,9 @@
 
 #include "host/base/error.h"
 #include "host/solve/solver.h"
-#include "tests/oracle/reference_solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 namespace {
 

@@ -8,10 +8,10 @@
 
 #include "host/solve/coverage.h"
 #include "host/solve/solver.h"
-#include "tests/model/arithmetic.h"
-#include "tests/oracle/exact.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/kernel_bench.h"
+#include "tests/verification/model/arithmetic.h"
+#include "tests/verification/oracle/exact.h"
 
 using namespace vkh;
 using namespace vkh::test;

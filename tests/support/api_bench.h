@@ -9,7 +9,7 @@
 #include "engine/vkhausdorff.h"
 #include "host/gpu/memory.h"
 #include "host/mesh/mesh.h"
-#include "tests/oracle/reference_solver.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 namespace vkh::test {
 

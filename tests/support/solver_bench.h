@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "host/solve/solver.h"
-#include "tests/oracle/reference_solver.h"
 #include "tests/support/kernel_bench.h"
+#include "tests/verification/oracle/reference_solver.h"
 
 namespace vkh::test {
 

@@ -1,0 +1,351 @@
+// The gate: verdicts, exit codes and words; units; the files for build servers; and the end of its
+// time. Runs the real program, $VKH_PROGRAM.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "tests/files/gltf_document.h"
+#include "tests/support/program.h"
+
+namespace {
+
+using nlohmann::json;
+using namespace vkh::test;
+
+std::string square(const std::string& name, double width, double z) {
+  std::ostringstream obj;
+  obj << "v 0 0 " << z << "\nv " << width << " 0 " << z << "\nv " << width << " 1 " << z
+      << "\nv 0 1 " << z << "\nf 1 2 3\nf 1 3 4\n";
+  return write_file(name, obj.str());
+}
+/// A quarter apart.
+std::string square_a() { return square("gate_a.obj", 1, 0); }
+std::string square_b() { return square("gate_b.obj", 1, 0.25); }
+/// A square in the plane of A and twice as long: 0 from A to it, 1 back.
+std::string long_one() { return square("gate_long.obj", 2, 0); }
+
+Outcome gate(const std::string& max, Words more = {}) {
+  Words words = {"gate", square_a(), square_b(), "--max", max};
+  words.insert(words.end(), more.begin(), more.end());
+  return run(words);
+}
+
+bool starts_with(const std::string& text, const std::string& begin) {
+  CAPTURE(text);
+  return text.starts_with(begin);
+}
+
+TEST_CASE("PASS, FAIL and UNDECIDED: words first, and the exit code") {
+  const Outcome pass = gate("0.3abs");
+  CHECK(pass.exit_code == 0);
+  CHECK(starts_with(pass.out, "PASS  h(A,B) <= 0.3abs, proven: it is in [0.2"));
+  const Outcome fail = gate("0.2abs");
+  CHECK(fail.exit_code == 1);
+  CHECK(starts_with(fail.out, "FAIL  ("));
+  CHECK(fail.out.find(") on face ") != std::string::npos);
+  CHECK(fail.out.find(" of A is at least 0.2") != std::string::npos);
+  const Outcome undecided = gate("0.25abs");
+  CHECK(undecided.exit_code == 3);
+  CHECK(starts_with(undecided.out, "UNDECIDED  0.25abs lies in [0.2"));
+  const Outcome early = gate("0.251abs", {"--time", "1ms"});
+  CHECK(early.exit_code == 3);
+  CHECK(early.out.find("ask for more --time") != std::string::npos);
+}
+
+TEST_CASE("a limit is required, and no number alone") {
+  for (const Words& words : {Words{"gate", square_a(), square_b()},
+                             Words{"gate", square_a(), square_b(), "--max", "0.3"},
+                             Words{"gate", square_a(), square_b(), "--max", "0abs"}}) {
+    const Outcome outcome = run(words);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.err.find("--max") != std::string::npos);
+  }
+}
+
+TEST_CASE("a share of the area of what has none is refused, and faces of any size have one") {
+  const std::string line = write_file("gate_line.obj", "v 0 0 0\nv 1 0 0\nv 3 0 0\nf 1 2 3\n");
+  const Outcome none = run({"gate", line, square_b(), "--max", "9abs", "--area", "99%"});
+  CHECK(none.exit_code == 4);
+  CHECK(none.err.find(line + ": faces without area; expected a surface") != std::string::npos);
+  // Two triangles whose areas' squares no double holds: the first is twice the second and near B.
+  const std::string tiny = write_file("gate_tiny.obj",
+                                      "v 0 0 0\nv 2e-78 0 0\nv 0 1e-78 0\nv 1 0 0\n"
+                                      "v 1 1e-78 0\nv 1 0 1e-78\nf 1 2 3\nf 4 5 6\n");
+  const std::string at_0 =
+      write_file("gate_at_0.obj", "v 0 0 0\nv 0 1e-80 0\nv 0 0 1e-80\nf 1 2 3\n");
+  for (const auto& [share, code] : {std::pair{"66%", 0}, {"67%", 1}})
+    CHECK(run({"gate", tiny, at_0, "--max", "0.5abs", "--area", share}).exit_code == code);
+}
+
+TEST_CASE("both directions: what is beyond may be a point of B") {
+  const Words pair = {"gate", square_a(), long_one(), "--max", "0.5abs"};
+  CHECK(run(pair).exit_code == 0);
+  Words both = pair;
+  both.emplace_back("--symmetric");
+  const Outcome outcome = run(both);
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find(" of B is at least 0.9") != std::string::npos);
+  both[4] = "1.01abs";
+  CHECK(run(both).exit_code == 0);
+}
+
+TEST_CASE("units: what the files are in, and what a length is in") {
+  CHECK(gate("7mm", {"--unit", "in"}).exit_code == 0);  // 0.2756 in
+  CHECK(gate("6mm", {"--unit", "in"}).exit_code == 1);
+  const Outcome unknown = gate("6mm");
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.err.find("--unit") != std::string::npos);
+  CHECK(gate("6mm", {"--unit", "miles"}).exit_code == 2);
+  CHECK(gate("6mm", {"--unit", "inch"}).err.find("--unit 'inch': write in;") != std::string::npos);
+  CHECK(gate("4mil", {"--unit", "in"}).err.find("write 0.1016mm;") != std::string::npos);
+  for (const Words& apart : {Words{"--max", "0.1", "mm"}, Words{"--max=0.1", "mm"}}) {
+    const Outcome outcome = run(Words{"gate", square_a(), square_b()} + apart);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.err.find("--max '0.1 mm': write 0.1mm, without a blank") != std::string::npos);
+  }
+  const std::string line = gate("7mm", {"--unit", "in"}).out;
+  CHECK(line.substr(0, line.find('\n')).ends_with("] in"));
+  const json r = json::parse(gate("7mm", {"--unit", "in", "--json"}).out);
+  CHECK(r["interval"]["unit"] == "in");
+  CHECK(r["max"]["within"].get<double>() < 7 / 25.4);
+  CHECK(r["max"]["beyond"].get<double>() > 7 / 25.4);
+  CHECK(r["max"]["beyond"].get<double>() == doctest::Approx(7 / 25.4).epsilon(1e-14));
+}
+
+TEST_CASE("the object says what was asked, the verdict and the words") {
+  const json pass = json::parse(gate("0.3abs", {"--json"}).out);
+  CHECK(pass["verdict"] == "pass");
+  CHECK(pass["command"] == "gate");
+  CHECK(pass["max"]["requested"] == "0.3abs");
+  CHECK(starts_with(pass["words"].get<std::string>(), "PASS"));
+  CHECK(pass["interval"]["upper"].get<double>() <= 0.3);
+  const json fail = json::parse(gate("0.2abs", {"--json"}).out);
+  CHECK(fail["verdict"] == "fail");
+  CHECK(fail["interval"]["lower"].get<double>() > 0.2);
+  const json& witness = fail["directions"][0]["witness"];
+  CHECK(witness["to"]["point"][2].get<double>() - witness["from"]["point"][2].get<double>() ==
+        doctest::Approx(0.25));
+  CHECK(json::parse(gate("0.25abs", {"--json"}).out)["verdict"] == "undecided");
+}
+
+TEST_CASE("an answer that is given early forgets no limit, and verifies no witness that is not") {
+  const Words narrow = {"--face-max", write_file("narrow.csv", "0,0.01\n1,0.01\n")};
+  for (const char* time : {"1ms", "40ms", "100ms", "200ms"}) {
+    CAPTURE(time);
+    const int code = gate("10abs", narrow + Words{"--time", time, "--no-cache"}).exit_code;
+    CHECK((code == 3 || code == 1));
+  }
+  const Outcome none =
+      run({"distance", square_a(), square_b(), "--waves", "0", "--verify", "--json"});
+  CHECK((none.exit_code == 0 || none.exit_code == 3));
+  CHECK(json::accept(none.out));
+}
+
+TEST_CASE("no printed end of an interval is on the other side of the limit") {
+  const Outcome outcome = gate("0.2499999abs");
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find("[0.2499,") == std::string::npos);
+  CHECK(outcome.out.find(" is at least 0.2499999") != std::string::npos);
+}
+
+TEST_CASE("too little memory is said") {
+  const auto notes = [](const char* memory) {
+    return json::parse(gate("0.3abs", {"--json", "--memory", memory}).out)["notes"];
+  };
+  REQUIRE(notes("1").size() == 1);
+  CHECK(starts_with(notes("1")[0].get<std::string>(), "memory: --memory is less than a search"));
+  CHECK(notes("16MiB").empty());
+}
+
+TEST_CASE("inputs are named by their SHA-256, where the build has a library for it") {
+  const std::string known = write_file("known.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const json r = json::parse(run({"distance", known, square_a(), "--json"}).out);
+  const json& digest = r["inputs"][0]["sha256"];
+  if (digest.is_null()) return;
+  CHECK(digest == "697b00ab13410c52a542d2e9c63711fcc04e9cbf6c0d3439a9b43cc812e6e713");
+  CHECK(r["inputs"][1]["sha256"] != digest);
+  CHECK(r["inputs"][0]["files"] == json::array());
+  const json demo = json::parse(run({"demo", "--tol", "1e-3", "--json"}).out);
+  CHECK(demo["inputs"][0]["sha256"].is_null());
+  CHECK(demo["inputs"][0]["files"].is_null());
+}
+
+TEST_CASE("--github: an annotation, and the run's summary after what is there") {
+  const std::string summary = write_file("summary.md", "before\n");
+  setenv("GITHUB_STEP_SUMMARY", summary.c_str(), 1);
+  const Outcome fail = gate("0.2abs", {"--github"});
+  CHECK(fail.exit_code == 1);
+  CHECK(starts_with(fail.out, "::error file="));
+  CHECK(fail.out.find(",title=vkhausdorff gate::FAIL") != std::string::npos);
+  CHECK(starts_with(gate("0.3abs", {"--github"}).out, "::notice"));
+  const Outcome undecided = gate("0.25abs", {"--github", "--json"});
+  CHECK(starts_with(undecided.err, "::warning"));  // beside the object there is no room
+  CHECK(json::accept(undecided.out));
+  const std::string text = read_file(summary);
+  CHECK(starts_with(text, "before\n### :x: vkhausdorff gate\n"));
+  CHECK(text.find(":white_check_mark:") != std::string::npos);
+  // An output that cannot be written costs neither the answer nor its words.
+  setenv("GITHUB_STEP_SUMMARY", (folder() / "no/such/file").c_str(), 1);
+  const Outcome lost = gate("0.3abs", {"--github"});
+  CHECK(lost.exit_code == 6);
+  CHECK(lost.out.find("PASS") != std::string::npos);
+  unsetenv("GITHUB_STEP_SUMMARY");
+}
+
+TEST_CASE("build servers are told what became of polygons and bodies") {
+  const std::string quad =
+      write_file("quad,.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 2\n");
+  const std::string junit = folder() / "notes.xml", summary = write_file("notes.md", "");
+  setenv("GITHUB_STEP_SUMMARY", summary.c_str(), 1);
+  const Outcome outcome =
+      run({"gate", quad, square_b(), "--max", "0.3abs", "--github", "--junit=" + junit});
+  unsetenv("GITHUB_STEP_SUMMARY");
+  CHECK(outcome.exit_code == 0);
+  const std::string note = "A: polygons: 1 face of more than three corners was triangulated";
+  const std::string annotation = outcome.out.substr(0, outcome.out.find('\n'));
+  CHECK(annotation.find("%0A" + note) != std::string::npos);
+  CHECK(annotation.find("points, polylines") == std::string::npos);
+  CHECK(read_file(summary).find("| note | `" + note + "` |") != std::string::npos);
+  const std::string xml = read_file(junit), begin = "<system-out>PASS";
+  const size_t at = xml.find(begin);
+  REQUIRE(at != std::string::npos);
+  CHECK(xml.substr(at, xml.find("</system-out>") - at).find("\n" + note) != std::string::npos);
+}
+
+TEST_CASE("--polygons any answers for every triangulation, and not for figures of one") {
+  const std::string bent =
+      write_file("bent.obj", "v 0 0 0\nv 1 0 0.1\nv 1 1 0\nv 0 1 0.1\nf 1 2 3 4\n");
+  const Words pair = {"distance", bent, bent, "--polygons", "any"};
+  const Outcome outcome = run(pair);
+  CHECK(outcome.exit_code == 3);  // it is never narrower than that
+  CHECK(outcome.out.find(
+            "the surface is within 0.101 of the exact one: the interval is wider by it") !=
+        std::string::npos);
+  CHECK(run({"gate", bent, bent, "--max", "0.15abs"}).exit_code == 0);
+  const Outcome open = run({"gate", bent, bent, "--max", "0.15abs", "--polygons", "any"});
+  CHECK(open.exit_code == 3);
+  CHECK(open.out.find("; no smaller --tol helps: a surface is known to within 0.101") !=
+        std::string::npos);
+  CHECK(run({"gate", bent, bent, "--max", "0.3abs", "--polygons", "any"}).exit_code == 0);
+  for (const Words& more : {Words{"--stats"}, Words{"--report", folder() / "bent.html"},
+                            Words{"--certificate", folder() / "bent.vhc"}}) {
+    const Outcome refused = run(pair + more);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("--polygons any: areas and certificates are of one triangulation") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("--bodies all measures what a scene hides, and build servers are told") {
+  Document scene = triangle_document();
+  const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  scene.json["scenes"] = {{{"nodes", {0, 1}}}};
+  scene.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 9}}, {"extensions", hidden}});
+  const std::string a = write_file("hidden.gltf", scene.text()),
+                    b = write_file("shown.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto told = [&](const Words& more) {
+    return run(Words{"gate", a, b, "--max", "1m", "--github"} + more);
+  };
+  const std::string left = "A: bodies: left out: 1 hidden node",
+                    included = "A: bodies: included, though not shown: 1 hidden node";
+  for (const Words& solid : {Words{}, Words{"--bodies", "solid"}}) {
+    const Outcome outcome = told(solid);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.out.find("%0A" + left) != std::string::npos);
+  }
+  const Outcome all = told({"--bodies", "all"});
+  CHECK(all.exit_code == 1);
+  CHECK(all.out.find("%0A" + included) != std::string::npos);
+  const Outcome wrong = told({"--bodies", "none"});
+  CHECK(wrong.exit_code == 2);
+  CHECK(wrong.err.find("--bodies 'none': expected one of solid, all") != std::string::npos);
+}
+
+TEST_CASE("names that would break a line, a terminal or XML are escaped") {
+  const std::string odd = square("ev\x1b[31m<i>&\"l\n,:%.obj", 1, 0), junit = folder() / "odd.xml";
+  const Outcome outcome =
+      run({"gate", odd, square_b(), "--max", "0.2abs", "--github", "--junit=" + junit});
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find('\x1b') == std::string::npos);
+  CHECK(outcome.out.find("%2C%3A%25.obj,title=") != std::string::npos);
+  const std::string xml = read_file(junit);
+  CHECK(xml.find("&lt;i&gt;&amp;&quot;l\\x0a,:%.obj") != std::string::npos);
+  CHECK(xml.find('\x1b') == std::string::npos);
+  const Outcome missing = run({"gate", "no\x1b[31m.obj", odd, "--max", "0.2abs"});
+  CHECK(missing.exit_code == 4);
+  CHECK(missing.err.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("--junit: one test case, its failure, or why there is no verdict") {
+  const std::string junit = folder() / "gate.xml";
+  const auto written = [&](const std::string& max) {
+    gate(max, {"--junit", junit});
+    return read_file(junit);
+  };
+  CHECK(written("0.3abs").find("failures=\"0\" errors=\"0\"") != std::string::npos);
+  const std::string fail = written("0.2abs");
+  CHECK(fail.find("failures=\"1\" errors=\"0\"") != std::string::npos);
+  CHECK(fail.find("<failure type=\"beyond the limit\" message=\"FAIL") != std::string::npos);
+  CHECK(written("0.25abs").find("<error type=\"undecided\"") != std::string::npos);
+  run({"gate", "missing.obj", square_a(), "--max", "1abs", "--junit=" + junit});
+  CHECK(read_file(junit).find("<error type=\"no answer\" message=\"missing.obj: ") !=
+        std::string::npos);
+}
+
+/// The processor time of a run after `signal`, in seconds; its object is checked.
+double latency(const Words& words, int signal, int after_ms) {
+  const double before = processor_seconds_of_ended();
+  const Running running = start(words);
+  wait_until_caught(running, signal);
+  std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+  const double at_signal = processor_seconds(running);
+  kill(running.process, signal);
+  const Outcome outcome = finish(running);
+  const double seconds = processor_seconds_of_ended() - before - at_signal;
+  CAPTURE(outcome.err);
+  CHECK(outcome.signal == 0);
+  CHECK(outcome.exit_code == 3);
+  REQUIRE(json::accept(outcome.out));
+  const json r = json::parse(outcome.out);
+  CHECK(r["status"] == "cancelled");
+  const json& interval = r["interval"];
+  CHECK(interval["lower"].get<double>() <= 0.0443814);
+  if (!interval["upper"].is_null()) CHECK(interval["upper"].get<double>() >= 0.0443803);
+  return seconds;
+}
+
+TEST_CASE("Ctrl-C and SIGTERM are heard at any time, and leave a true interval") {
+  // In little memory it takes many seconds, on any machine. The processor time shows how soon it
+  // ends: other programs do not lengthen it.
+  const Words words = {"demo", "--tol", "1e-13", "--memory", "1", "--json", "--no-cache"};
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int after : {0, 500, 2000}) {
+      CAPTURE(after);
+      CHECK(latency(words, signal, after) < 5);  // 0.2 s
+    }
+  }
+}
+
+TEST_CASE("--time counts from the program's start") {
+  for (const char* time : {"1ms", "100ms", "400ms"}) {
+    CAPTURE(time);
+    const double before = processor_seconds_of_ended();
+    const Outcome outcome =
+        run({"demo", "--tol", "1e-13", "--memory", "1", "--json", "--no-cache", "--time", time});
+    CHECK(processor_seconds_of_ended() - before < 5);
+    CHECK(outcome.exit_code == 3);
+    const json r = json::parse(outcome.out);
+    CHECK(r["status"] == "time");
+    CHECK(r["interval"]["lower"].get<double>() <= 0.0443814);
+  }
+  const json none = json::parse(run({"demo", "--json", "--time", "1ms"}).out);
+  CHECK(none["interval"]["lower"] == 0);
+}
+
+}  // namespace

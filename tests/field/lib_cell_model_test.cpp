@@ -1,5 +1,0 @@
-// The same tests on the model of Vulkan's arithmetic: every operation rounds in a direction of its
-// own.
-#define VKH_TEST_VULKAN_MODEL
-
-#include "tests/field/lib_cell_test.cpp"

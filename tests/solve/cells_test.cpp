@@ -1,0 +1,98 @@
+// Bounds of cells: none is wrong, and each is as narrow as it should be.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/shapes/hard_pairs.h"
+#include "tests/support/cell_check.h"
+#include "tests/support/solver_bench.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+/// Runs a pair, and calls `look` while it lies on the device.
+void survey(const Mesh& a, const Mesh& b, const Survey& look) {
+  SolveOptions options;
+  options.survey = look;
+  options.wave_limit = 1;
+  solver().distance(a, b, options);
+}
+
+CellTally tally_of(const Mesh& a, const Mesh& b, size_t cells) {
+  CellTally tally;
+  survey(a, b, [&](const SurveyedPair& pair, const BoundCells& bound) {
+    CellCheck(pair, b).check(bound, 7, cells, tally);
+  });
+  return tally;
+}
+
+void check_right(const CellTally& tally, size_t cells) {
+  CHECK(tally.cells == cells);
+  CHECK(tally.below == 0);
+  CHECK(tally.above == 0);
+  CHECK(tally.means == 0);
+  CHECK(tally.reached == 0);
+}
+
+std::vector<gpu::CellBounds> bounds_of_faces(const Mesh& a, const Mesh& b) {
+  std::vector<gpu::CellBounds> bounds(a.faces.size());
+  survey(a, b, [&](const SurveyedPair&, const BoundCells& bound) {
+    bound({.cells = {}, .first = 0, .bounds = bounds});
+  });
+  return bounds;
+}
+
+TEST_CASE("no bound of a cell is wrong, of hard pairs of every family") {
+  const size_t families = family_names().size();
+  for (size_t i = 0; i < 2 * families; ++i) {
+    CAPTURE(family_names()[i % families]);
+    const HardPair hard = hard_pair(i % families, 100 + i);
+    check_right(tally_of(hard.pair.a, hard.pair.b, 200), 200);
+  }
+}
+
+TEST_CASE("nor where B has more triangles near a cell than are looked at") {
+  const Mesh b = joined(icosphere(1.0, 4), soup(3, 500));
+  check_right(tally_of(single_triangle({-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0}), b, 400), 400);
+  check_right(tally_of(icosphere(1e-3, 1), b, 400), 400);
+}
+
+TEST_CASE("nor with low parts, far out, or tiny") {
+  const Mesh a = icosphere(1, 2), b = icosphere(1.1, 2);
+  check_right(tally_of(translated(a, {1e3, 0.1, 0}), translated(b, {1e3, 0, 0}), 400), 400);
+  check_right(tally_of(scaled(a, -100), scaled(b, -100), 400), 400);
+  check_right(tally_of(scaled(a, 100), scaled(b, 100), 400), 400);
+}
+
+TEST_CASE("a triangle over a plane: affine, to rounding") {
+  // B's plane in four triangles, A's face above it: 0.125, 0.25 and 0.375 at its corners.
+  const Mesh b = square_patch(2, 0.0);
+  const Mesh a = single_triangle({0.25, 0.25, 0.125}, {0.5, 0.25, 0.25}, {0.25, 0.5, 0.375});
+  const gpu::CellBounds f = bounds_of_faces(a, b)[0];
+  const double scale = 0.5;  // of the frame
+  CHECK(f.lower_a == doctest::Approx(scale * 0.125).epsilon(1e-4));
+  CHECK(f.lower_b == doctest::Approx(scale * 0.25).epsilon(1e-4));
+  CHECK(f.lower_c == doctest::Approx(scale * 0.375).epsilon(1e-4));
+  CHECK(f.reached >= scale * 0.3749);
+  CHECK(f.highest >= scale * 0.375);
+  CHECK(f.highest <= scale * 0.3751);
+}
+
+TEST_CASE("every cell repeats, whichever others are asked about") {
+  const Mesh a = icosphere(1, 2), b = icosphere(1.1, 3);
+  survey(a, b, [&](const SurveyedPair&, const BoundCells& bound) {
+    std::vector<gpu::CellBounds> all(a.faces.size()), some(10);
+    bound({.cells = {}, .first = 0, .bounds = all});
+    bound({.cells = {}, .first = 50, .bounds = some});
+    for (size_t i = 0; i < some.size(); ++i) {
+      CHECK(some[i].highest == all[50 + i].highest);
+      CHECK(some[i].lower_a == all[50 + i].lower_a);
+      CHECK(some[i].face == all[50 + i].face);
+    }
+  });
+}
+
+}  // namespace

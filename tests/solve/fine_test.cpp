@@ -1,0 +1,110 @@
+// Tolerances that 20 bits of barycentrics cannot reach: A is a triangle, B its three corners, so
+// the farthest point is A's circumcentre, at thirds of A's edges. Candidates there become subroots
+// (shaders/candidate/subroot.glsl).
+#include <cmath>
+
+#include "host/solve/verify.h"
+#include "host/survey/prover.h"
+#include "tests/shapes/shapes.h"
+#include "tests/support/solver_bench.h"
+#include "tests/verification/model/arithmetic.h"
+#include "tests/verification/oracle/exact.h"
+
+using namespace vkh;
+using namespace vkh::test;
+
+namespace {
+
+const Mesh kA = single_triangle({0, 0, 0}, {4, 0, 0}, {1, 3, 0});
+
+Mesh corners_of_a() {
+  Mesh b = kA;
+  b.faces = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+  return b;
+}
+
+const Mesh kB = corners_of_a();
+const Rational kSquared = 5;  // of h
+
+SolveOptions options_of(double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  return options;
+}
+
+void check_true(const Report& r) {
+  CHECK(is_lower_bound(r.lower, kSquared));
+  CHECK(is_upper_bound(r.upper, kSquared));
+  CHECK(verify_witness(kA, kB, r).holds);
+}
+
+bool is_coarse(double barycentric) {
+  const double units = std::ldexp(barycentric, 20);
+  return units == std::floor(units);
+}
+
+}  // namespace
+
+TEST_CASE("the farthest point is found to 1e-10, on either kind of device") {
+  for (const bool wide : {false, true}) {
+    for (const double tolerance : {1e-7, 1e-8, 1e-9, 1e-10}) {
+      CAPTURE(wide);
+      CAPTURE(tolerance);
+      SolveOptions options = options_of(tolerance);
+      (wide ? options.enabled : options.disabled) = {"wide"};
+      const Report r = solver().distance(kA, kB, options);
+      CHECK(r.status == Status::kClosed);
+      CHECK_FALSE(is_coarse(r.witness_a.barycentric.y));
+      check_true(r);
+      check_same(solver().distance(kA, kB, options), r);
+    }
+  }
+}
+
+TEST_CASE("an absolute tolerance, both directions and a limit are as fine") {
+  SolveOptions options = options_of(1e-8 * std::sqrt(20));
+  options.tolerance_is_absolute = true;
+  CHECK(solver().distance(kA, kB, options).status == Status::kClosed);
+  const SymmetricReport both = solver().symmetric(kA, kB, options);
+  CHECK(both.interval().status == Status::kClosed);
+  check_true(both.a_to_b);
+  for (const double off : {-2e-7, 2e-7}) {
+    const double limit = std::sqrt(5) + off;
+    SolveOptions gate = options_of(1e-8);
+    gate.limit = {limit, limit};
+    const Report r = solver().distance(kA, kB, gate);
+    CHECK(verdict_of(r.lower, r.upper, r.limit) == (off > 0 ? Verdict::kWithin : Verdict::kBeyond));
+    check_true(r);
+  }
+}
+
+TEST_CASE("what becomes a subroot counts as closed, in the smallest workspace too") {
+  for (const uint64_t memory : {uint64_t{0}, uint64_t{1}}) {
+    for (const char* preset : {"default", "paper", "baseline-gpu"}) {
+      CAPTURE(memory);
+      CAPTURE(preset);
+      SolveOptions options = options_of(1e-8);
+      options.coverage = true;
+      options.memory_bytes = memory;
+      options.preset = preset;
+      options.wave_limit = 300;
+      const Report r = solver().distance(kA, kB, options);
+      REQUIRE(r.coverage_check);
+      CHECK(r.coverage_check->holds);
+      CHECK(r.coverage_check->whole == 1);
+      check_true(r);
+      if (options.preset != "baseline-gpu") CHECK(r.status == Status::kClosed);
+    }
+  }
+}
+
+TEST_CASE("its upper bound is proven by leaves, but for what doubles round") {
+  const SolveOptions options = options_of(1e-9);
+  const Report r = solver().distance(kA, kB, options);
+  const Proof proof =
+      prove(solver(), {.a = kA, .b = kB, .report = r, .options = options, .goes_on = {}});
+  CHECK(proof.upper >= r.upper);
+  CHECK(proof.upper - r.upper <= 1e-12);  // leaves may take so much more: host/survey/prover.cpp
+  CHECK(proof.unproven == 0);
+  CHECK(proof.leaves > 3);
+}

@@ -1,0 +1,132 @@
+// The distance that a certificate's writer uses is not less than the exact one, and hardly more.
+#include "host/survey/leaf.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/shapes/adversarial.h"
+#include "tests/verification/oracle/exact.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+constexpr unsigned kScale = 400;  // of exact positions, as integers: 2^-kScale
+
+/// A point, and its exact position.
+struct Tracked {
+  Point2 point;
+  exact::Vector exact;
+};
+
+Integer scaled(double x) {
+  Rational r(x);
+  r <<= kScale;
+  return r.get_num() / r.get_den();
+}
+
+exact::Vector scaled(const glm::dvec3& p) { return {scaled(p.x), scaled(p.y), scaled(p.z)}; }
+
+Tracked tracked(const glm::dvec3& p) { return {{p, {}}, scaled(p)}; }
+
+Tracked between(const Tracked& x, const Tracked& y, unsigned t) {
+  const auto mixed = [t](const Integer& p, const Integer& q) {
+    return Integer((p * (65536 - t) + q * t) / 65536);
+  };
+  return {between(x.point, y.point, t / 65536.0),
+          {mixed(x.exact.x, y.exact.x), mixed(x.exact.y, y.exact.y), mixed(x.exact.z, y.exact.z)}};
+}
+
+/// The exact distance, as a squared length.
+exact::Fraction distance(const Tracked& p, const std::array<glm::dvec3, 3>& t) {
+  return exact::to_triangle(p.exact, scaled(t[0]), scaled(t[1]), scaled(t[2]));
+}
+
+bool is_at_least(double bound, const exact::Fraction& squared) {
+  const Integer b = scaled(bound);
+  return b * b * squared.denominator >= squared.numerator;
+}
+
+void check(const Tracked& p, const std::array<glm::dvec3, 3>& t, double scale) {
+  const double up = distance_up(p.point, t);
+  const exact::Fraction exact = distance(p, t);
+  CAPTURE(up);
+  CHECK(is_at_least(up, exact));
+  const double less = up - 64 * 0x1p-52 * scale;
+  if (less > 0) CHECK_FALSE(is_at_least(less, exact));
+}
+
+TEST_CASE("distances from above, of hard triangles and points that halvings lead to") {
+  Random random(5);
+  for (int i = 0; i < 3000; ++i) {
+    const StoredTriangle t = hard_triangle(random), face = hard_triangle(random);
+    const std::array<glm::dvec3, 3> corners = {t.at(0), t.at(1), t.at(2)};
+    check(tracked(hard_point(random, t)), corners, 8);
+    std::array<Tracked, 3> part = {tracked(face.at(0)), tracked(face.at(1)), tracked(face.at(2))};
+    for (int halvings = 0; halvings < 60; ++halvings) {
+      const auto gone = static_cast<size_t>(3 * random.unit());
+      part[gone] = between(part[gone], part[(gone + 1) % 3], 128);
+    }
+    check(part[0], corners, 8);
+    check(between(part[0], part[1], static_cast<unsigned>(1 + 255 * random.unit())), corners, 8);
+  }
+}
+
+TEST_CASE("a corner of a face is 0 away from it") {
+  Random random(6);
+  for (size_t i = 0; i < 1000; ++i) {
+    const StoredTriangle t = hard_triangle(random);
+    const std::array<glm::dvec3, 3> corners = {t.at(0), t.at(1), t.at(2)};
+    CHECK(distance_up({corners[i % 3], {}}, corners) == 0);
+  }
+}
+
+Mesh of_triangles(const std::vector<glm::dvec3>& corners) {
+  std::vector<glm::uvec3> faces;
+  for (uint32_t i = 0; i < corners.size(); i += 3) faces.emplace_back(i, i + 1, i + 2);
+  return make_mesh("test", corners, faces);
+}
+
+TEST_CASE("the nearest faces of all, the nearest first") {
+  std::vector<glm::dvec3> corners;
+  for (const double x : {7.0, 3.0, 9.0, 1.0, 5.0, 11.0, 2.0, 8.0, 4.0, 10.0, 6.0})
+    corners.insert(corners.end(), {{x, -1, 0}, {x, 1, 0}, {x, 0, 1}});
+  const Part part = ScaledMesh(of_triangles({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}), 0).part(0);
+  const Hints found = nearest_faces(part, ScaledMesh(of_triangles(corners), 0));
+  REQUIRE(found.count == kMostHints);
+  for (size_t i = 0; i < found.count; ++i)
+    CHECK(corners[3 * size_t{found.face[i]}].x == static_cast<double>(i + 1));
+}
+
+TEST_CASE("a roof needs both of its sides, and the cut is between them") {
+  const Mesh roof =
+      of_triangles({{0, -4, 0}, {0, 4, 0}, {-8, 0, 0}, {0, -4, 0}, {0, 4, 0}, {8, 0, 1}});
+  const ScaledMesh b(roof, 0);
+  const Mesh flat = of_triangles({{-1, 0, 0.5}, {1, 0.5, 0.5}, {1, -0.5, 0.5}});
+  const Part part = ScaledMesh(flat, 0).part(0);
+  Hints hints;
+  hints.add(0);
+  hints.add(1);
+  const std::optional<Leaf> leaf = proof_of(part, b, hints, 0.52);
+  REQUIRE(leaf);
+  CHECK(leaf->alone == 0);
+  CHECK(leaf->first == 0);
+  CHECK(leaf->second == 1);
+  CHECK(leaf->cut_next > 64 * 256);
+  CHECK(leaf->cut_next < 255 * 256);
+  CHECK_FALSE(proof_of(part, b, hints, 0.45));
+  const std::optional<Leaf> whole = proof_of(part, b, hints, 2);
+  REQUIRE(whole);
+  CHECK(whole->alone == Leaf::kUncut);
+}
+
+TEST_CASE("hints are few, and each is there once") {
+  Hints hints;
+  for (uint32_t i = 0; i < 40; ++i) hints.add(i / 2);
+  CHECK(hints.count == kMostHints);
+  for (uint32_t i = 0; i < kMostHints; ++i) CHECK(hints.face[i] == i);
+}
+
+}  // namespace

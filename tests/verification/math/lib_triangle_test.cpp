@@ -1,0 +1,237 @@
+// shaders/math/triangle.h against exact arithmetic: closest points lie in their triangle, distances
+// and radii are never below the exact ones and seldom far above, in any arithmetic Vulkan allows.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/support/tally.h"
+#include "tests/verification/model/exact_lib.h"
+#include "tests/verification/model/lib_device.h"
+
+using namespace vkh;
+using namespace vkh::test;
+
+namespace {
+
+constexpr double kTriangleUlp = 0x1p-23;
+
+double longest_edge(const StoredTriangle& t) {
+  return std::max({glm::length(t.at(1) - t.at(0)), glm::length(t.at(2) - t.at(0)),
+                   glm::length(t.at(2) - t.at(1))});
+}
+
+struct UpperCase {
+  StoredTriangle triangle;
+  Stored origin, p;  ///< p is relative to the origin
+  float base;
+  bool sharp, coarse;
+};
+
+/// Local origins like the kernels', close to p, and anywhere.
+UpperCase hard_upper_case(Random& random) {
+  const StoredTriangle t = hard_triangle(random);
+  const glm::dvec3 p = hard_point(random, t);
+  glm::dvec3 origin = p;
+  switch (random.below(5)) {
+    case 0:
+      break;
+    case 1:
+      origin = t.at(random.below(3));
+      break;
+    case 2:
+      origin = random.in_cube(1.0);
+      break;
+    case 3:
+      origin = glm::dvec3(0.0);
+      break;
+    default:
+      origin += log_uniform(random, -24, 0) * random.direction();
+  }
+  const Stored o = random.below(4) == 0 ? stored_single(origin) : stored(origin);
+  return {t,
+          o,
+          stored(p - o.value()),
+          hard_base(random, t, p),
+          random.below(2) == 0,
+          random.below(2) == 0};
+}
+
+std::string describe_upper(const UpperCase& c) {
+  return hex(c.triangle) + " around " + hex(c.origin) + " p " + hex(c.p) +
+         (c.sharp ? " sharp" : "") + (c.coarse ? " coarse" : "") + " base " +
+         hex(static_cast<double>(c.base));
+}
+
+struct UpperAnswer {
+  double distance, slack, radius, plain;
+  Stored offset;
+  float v, w;
+  uint32_t feature;
+};
+
+UpperAnswer distance_up(const UpperCase& c, const Device& device) {
+  const float reach = std::max(length_up(c.origin), length_up(c.p));
+  return device.run([&]() -> UpperAnswer {
+    const math::Surface s =
+        math::surface_around(c.triangle, c.origin, reach, c.sharp, c.base, c.coarse ? 1e30f : 0.0f);
+    const math::Two3 p = math::given(c.p);
+    const math::Closest at = math::closest_point(math::rounded(p), s.at);
+    return {math::wide(math::surface_distance_up(p, s)),
+            math::wide(s.slack),
+            math::wide(math::radius_up(s.at)),
+            math::wide(math::plain_distance2(math::rounded(p), s.at)),
+            c.coarse ? Stored{} : math::answer(math::offset_from(p, s, at)),
+            math::answer(at.v),
+            math::answer(at.w),
+            at.feature};
+  });
+}
+
+/// The point that the answer names, times 2^150: relative to the case's origin.
+exact::Vector named_point(const UpperAnswer& got, const ExactTriangle& local) {
+  const Integer one = fixed(1.0), v = fixed(static_cast<double>(got.v)),
+                w = fixed(static_cast<double>(got.w));
+  const exact::Vector& base = got.feature == math::kEdgeBc ? local.b : local.a;
+  const bool ends_at_c = got.feature == math::kEdgeBc || got.feature == math::kEdgeAc;
+  const exact::Vector& end = ends_at_c ? local.c : local.b;
+  return one * base + v * (end - base) + w * (local.c - base);
+}
+
+void check_weights(const UpperAnswer& got, Tally& tally, const auto& describe) {
+  const double v = static_cast<double>(got.v), w = static_cast<double>(got.w);
+  tally.require(v >= 0.0 && w >= 0.0 && fixed(v) + fixed(w) <= fixed(1.0),
+                "0 <= v, w and v + w <= 1", describe);
+  tally.require(got.feature <= math::kInside && (got.feature == math::kInside || w == 0.0),
+                "w is 0 on an edge", describe);
+}
+
+/// The excess over d (1 + 24 ulp) + 2 slack comes from the foot, which is found in float32, and
+/// from the choice of the closest feature: a few ulp of the local coordinates. An edge that is
+/// taken for a point (kSmallSquare) adds itself. A sharp distance is good to 48 bits of itself and
+/// 16 ulp of its part above the base.
+void check_loose(const UpperCase& c, const UpperAnswer& got, double near, Tally& tally,
+                 const auto& describe) {
+  const double size = got.radius + glm::length(c.p.value());
+  const double base = static_cast<double>(c.base);
+  const double fine = 0x1p-38 * (near + base);  // 64 kUlp2
+  const double above = near - base;
+  const bool sharp = c.sharp && !c.coarse;
+  const double allowed = sharp ? 16.0 * kTriangleUlp * std::abs(above) + fine
+                               : kTriangleUlp * (24.0 * near + 16.0 * std::abs(above));
+  const double rest = got.distance - above - allowed - 2.0 * got.slack - 0x1p-46;
+  const double ulps = rest / (size * kTriangleUlp);
+  tally.require(size == 0.0 || ulps <= 6.0, "upper is tight", describe);
+  if (size > 0x1p-20) tally.measure("rest, ulp of the coordinates", ulps, describe);
+  if (!sharp || near <= 0x1p-3 * size || near < 0x1p-30) return;
+  tally.measure("a far distance's excess, kUlp2 of distance and base",
+                (got.distance - above - 16.0 * kTriangleUlp * std::abs(above) - 2.0 * got.slack) /
+                    (0x1p-44 * (near + base)),
+                describe);
+}
+
+/// A coarse surface's slack, with 4 ulp of the distance and 3 of the square's own, covers the error
+/// of plain floats.
+void check_coarse(const UpperAnswer& got, double near, Tally& tally, const auto& describe) {
+  const double short_of = near - std::sqrt(got.plain) * (1.0 + 7.0 * kTriangleUlp);
+  tally.require(short_of <= got.slack + 0x1p-60, "plain_distance2 is off by at most the slack",
+                describe);
+  tally.measure("plain_distance2, error / slack", short_of / got.slack, describe);
+}
+
+}  // namespace
+
+TEST_CASE("triangle.h: surface_distance_up is never below the distance, and is tight") {
+  const uint64_t count = case_count();
+  Random random(20240616);
+  Tally tally("surface_distance_up");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    const UpperCase c = hard_upper_case(random);
+    const Device device(i);
+    const UpperAnswer got = distance_up(c, device);
+    const ExactTriangle local = ExactTriangle(c.triangle).moved(fixed_vector(c.origin));
+    const exact::Vector p = fixed_vector(c.p);
+    const Rational exact = local.squared_distance(p);
+    const double near = sqrt_near(exact);
+    const auto describe = [&] {
+      return std::string(device.name()) + ": " + describe_upper(c) + " got " + hex(got.distance) +
+             " exact " + hex(near);
+    };
+    tally.require(is_upper_bound(static_cast<double>(c.base), got.distance, exact),
+                  "base + upper >= d(p, S)", describe);
+    check_weights(got, tally, describe);
+    if (c.coarse) {
+      check_coarse(got, near, tally, describe);
+    } else {
+      const double off = length_near(
+          fixed(1.0) * (p - fixed_vector(got.offset)) - named_point(got, local), 2 * kFixedBits);
+      tally.require(off <= got.slack, "offset_from is off by at most slack", describe);
+      tally.measure("offset_from, error / slack", off / got.slack, describe);
+    }
+    check_loose(c, got, near, tally, describe);
+  }
+  tally.conclude(4 * count);
+}
+
+namespace {
+
+struct Radii {
+  double enclosing, corner;
+  uint32_t opposite;
+  double quality;
+};
+
+Rational squared_edge(const ExactTriangle& t, uint32_t opposite) {
+  return square_of(opposite == 0 ? t.c - t.b : opposite == 1 ? t.a - t.c : t.b - t.a);
+}
+
+void check_steering(const StoredTriangle& t, const ExactTriangle& exact, const Radii& got,
+                    Tally& tally, const auto& describe) {
+  const double longest = longest_edge(t);
+  const double chosen = sqrt_near(squared_edge(exact, got.opposite));
+  tally.require(chosen >= longest * (1.0 - 8.0 * kTriangleUlp) - 0x1p-60,
+                "opposite_longest names a longest edge", describe);
+  const exact::Vector n = exact::cross(exact.b - exact.a, exact.c - exact.a);
+  const double area = length_near(n, 2 * kFixedBits);
+  const double quality = longest > 0.0 ? area / (longest * longest) : 0.0;
+  tally.require(got.quality >= 0.0 && got.quality < 1.0, "quality is in [0, 1)", describe);
+  // Under 2^-24, ratio sees a fourth power under kSmallSquare; above it, area may be flushed.
+  if (longest < 0x1p-16) return;
+  tally.measure("quality off", std::abs(got.quality - quality), describe);
+  tally.require(std::abs(got.quality - quality) <= 16.0 * kTriangleUlp, "quality", describe);
+}
+
+}  // namespace
+
+TEST_CASE("triangle.h: radii, the longest edge, quality") {
+  const uint64_t count = case_count();
+  Random random(20240617);
+  Tally tally("enclosing_radius_up, radius_up, opposite_longest, quality");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    StoredTriangle t = hard_triangle(random);
+    // Half of them have a corner at the local origin, like candidates.
+    const glm::dvec3 at = t.at(0) * static_cast<double>(random.below(2));
+    for (Stored& s : t.corner) s = stored_single(s.value() - at);
+    const Device device(i);
+    const Radii got = device.run([&]() -> Radii {
+      const math::Corners c = math::given_high(t);
+      return {math::wide(math::enclosing_radius_up(c)), math::wide(math::radius_up(c)),
+              math::opposite_longest(c), math::wide(math::quality(c))};
+    });
+    const auto describe = [&] {
+      return std::string(device.name()) + ": " + hex(t) + " got " + hex(got.enclosing) + " " +
+             hex(got.corner);
+    };
+    const ExactTriangle exact(t);
+    const Rational smallest = squared_enclosing_radius(exact);
+    tally.require(is_upper_bound(got.enclosing, smallest), "enclosing_radius_up", describe);
+    for (const exact::Vector& corner : {exact.a, exact.b, exact.c}) {
+      tally.require(is_upper_bound(got.corner, square_of(corner)), "radius_up", describe);
+    }
+    check_steering(t, exact, got, tally, describe);
+    const double near = sqrt_near(smallest);
+    if (near < 0x1p-23) continue;
+    tally.measure("enclosing radius / smallest", got.enclosing / near, describe);
+    tally.measure("enclosing radius, -ulp", (1.0 - got.enclosing / near) / kTriangleUlp, describe);
+  }
+  tally.conclude(6 * count);
+}

@@ -1,0 +1,142 @@
+// Bounds cells and faces of thousands of small, hard, generated pairs on one device, and holds them
+// against closest points and an independent solver in double precision, with a margin for its
+// rounding. It prints one line for each violation, with the options that repeat it, and a summary.
+//
+//   vkh_cell_sweep [--count N] [--first I] [--seed S] [--cells N] [--device D] [--spoil X]
+//
+// Exit code 1 for any violation. Pair i depends on the seed and i alone.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "host/base/parallel.h"
+#include "host/solve/solver.h"
+#include "host/survey/survey.h"
+#include "tests/shapes/hard_pairs.h"
+#include "tests/support/cell_check.h"
+#include "tests/verification/oracle/reference_solver.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+struct Arguments {
+  uint64_t count = 1000, first = 0, seed = 1;
+  size_t cells = 40;
+  std::string device;
+  double spoil = 0;
+};
+
+struct Totals {
+  CellTally cells;
+  uint64_t faces = 0, wrong_faces = 0, pairs_wrong = 0, unmet = 0;
+};
+
+Mesh face_of(const Mesh& mesh, size_t face) {
+  const glm::uvec3 f = mesh.faces[face];
+  return single_triangle(mesh.vertices[f.x], mesh.vertices[f.y], mesh.vertices[f.z]);
+}
+
+/// Scales by a power of two, so that the reference's squares neither overflow nor vanish.
+Mesh in_unit(Mesh mesh, int exponent) {
+  for (glm::dvec3& v : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], exponent);
+  }
+  return mesh;
+}
+
+bool is_true(const Mesh& a, const Mesh& b, size_t face, const Enclosure& found) {
+  const double size = std::max(found.upper, 1e-9);
+  const Interval truth = reference_hausdorff(face_of(a, face), b, 0.01 * size, 20000);
+  constexpr double kRounding = 1e-13;  // of coordinates of order 1
+  return found.lower <= truth.upper + kRounding && found.upper >= truth.lower - kRounding;
+}
+
+/// Faces whose bounds the reference refutes.
+uint64_t wrong_faces(const MeshPair& pair, const Field& field, int exponent, double spoil) {
+  const Mesh a = in_unit(pair.a, exponent), b = in_unit(pair.b, exponent);
+  std::atomic<uint64_t> wrong = 0;
+  for_each_index(field.face_count(), [&](size_t f) {
+    const Enclosure found{std::ldexp(field.lower[f], exponent) * (1 + spoil),
+                          std::ldexp(field.upper[f], exponent) * (1 - spoil)};
+    if (!is_true(a, b, f, found)) ++wrong;
+  });
+  return wrong;
+}
+
+void sweep_pair(Solver& solver, const Arguments& args, uint64_t i, Totals& totals) {
+  const size_t families = family_names().size();
+  const size_t family = i % families;
+  const HardPair hard = hard_pair(family, args.seed * 1000003 + i);
+  SurveyOptions asked;
+  asked.faces = asked.statistics = true;
+  asked.time_limit_s = 0.1;
+  SurveyResult result;
+  CellTally tally;
+  int exponent = 0;
+  SolveOptions options;
+  options.time_limit_s = 5;
+  options.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+    exponent = pair.frame.exponent;
+    CellCheck(pair, hard.pair.b).check(bound, args.seed + i, args.cells, tally);
+    survey_with(asked, result)(pair, bound);
+  };
+  solver.distance(hard.pair.a, hard.pair.b, options);
+  const uint64_t faces = wrong_faces(hard.pair, result.field, exponent, args.spoil);
+  totals.cells.add(tally);
+  totals.faces += result.field.face_count();
+  totals.wrong_faces += faces;
+  totals.unmet += !result.is_met;
+  if (faces == 0 && tally.wrong() == 0) return;
+  ++totals.pairs_wrong;
+  std::printf(
+      "VIOLATION pair %llu (%s): %llu faces; of cells %llu below, %llu above, %llu means, "
+      "%llu reached\n",
+      static_cast<unsigned long long>(i), family_names()[family].c_str(),
+      static_cast<unsigned long long>(faces), static_cast<unsigned long long>(tally.below),
+      static_cast<unsigned long long>(tally.above), static_cast<unsigned long long>(tally.means),
+      static_cast<unsigned long long>(tally.reached));
+}
+
+int sweep(const Arguments& args) {
+  Device device({.selector = args.device});
+  Solver solver(device);
+  Totals totals;
+  for (uint64_t i = args.first; i < args.first + args.count; ++i)
+    sweep_pair(solver, args, i, totals);
+  std::printf(
+      "cell sweep: %llu pairs (seed %llu, from %llu) on %s: %llu faces and %llu cells at "
+      "%llu points, %llu faces and %llu bounds of cells wrong; %llu surveys ended by time\n",
+      static_cast<unsigned long long>(args.count), static_cast<unsigned long long>(args.seed),
+      static_cast<unsigned long long>(args.first), device.description().name.c_str(),
+      static_cast<unsigned long long>(totals.faces),
+      static_cast<unsigned long long>(totals.cells.cells),
+      static_cast<unsigned long long>(totals.cells.samples),
+      static_cast<unsigned long long>(totals.wrong_faces),
+      static_cast<unsigned long long>(totals.cells.wrong()),
+      static_cast<unsigned long long>(totals.unmet));
+  return totals.pairs_wrong > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments args;
+  CLI::App app("Bounds of cells and faces of generated pairs, against double precision.",
+               "vkh_cell_sweep");
+  app.add_option("--count", args.count, "Pairs");
+  app.add_option("--first", args.first, "Number of the first pair");
+  app.add_option("--seed", args.seed, "Of the whole sweep");
+  app.add_option("--cells", args.cells, "Random cells of each pair");
+  app.add_option("--device", args.device, "As for vkhausdorff");
+  app.add_option("--spoil", args.spoil, "Narrow faces' bounds by so much: the sweep must see it");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return sweep(args);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vkh_cell_sweep: %s\n", error.what());
+    return 2;
+  }
+}
