@@ -46,11 +46,11 @@ VKH_CONST uint kAskPoints = 0u;               // the wave's new points
 VKH_CONST uint kAskCentroids = 1u;            // the centroids of its survivors
 VKH_CONST uint kAskVertices = 2u;             // of A, in plain floats
 VKH_CONST uint kAskVerticesAgain = 3u;        // to 48 bits above the base
-VKH_CONST uint kGroupWalkQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
+VKH_CONST uint kGroupTraversalQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
                                               // alike on an H200, 2^11 and 2^14 slower
 // Vertices of A, whose traversals start from nowhere: the group's is long, too.
-VKH_CONST uint kGroupWalkVertices = 1u << 11;
-VKH_CONST uint kGroupWalkBoxes = 512u;   // boxes of a level that a group holds; more: each alone
+VKH_CONST uint kGroupTraversalVertices = 1u << 11;
+VKH_CONST uint kGroupTraversalBoxes = 512u;   // boxes of a level that a group holds; more: each alone
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
@@ -94,9 +94,9 @@ VKH_SWITCHES(VKH_SWITCH)
 // plain floats, by which NOTHING IS CERTIFIED.
 VKH_CONST uint kUseCoverage = 1u << 7;
 VKH_CONST uint kUseUncertified = 1u << 10;
-// Cells can be bounded after the run (field/cell_bounds.comp).
+// Cells can be bounded after the run (report/cell_bounds.comp).
 VKH_CONST uint kUseField = 1u << 17;
-// A candidate whose barycentric bits run out becomes a root of its own (candidate/subroot.glsl).
+// A candidate whose barycentric bits run out becomes a root of its own (wave/subroot.glsl).
 VKH_CONST uint kUseSubroots = 1u << 18;
 // Meshes are checked on the device (bvh/mesh_check.comp).
 VKH_CONST uint kUseInputCheck = 1u << 19;
@@ -340,7 +340,7 @@ struct Control {
   uint deferred;            // candidates that stay as they are in this wave
   uint parents;             // candidates that it refines
   uint select_key;  // where some are deferred, those with a smaller or the same key are refined:
-  uint select_tie;  // candidate/candidate.glsl
+  uint select_tie;  // wave/candidate.glsl
   uint select_largest;  // in this wave the largest u come first
   uint sort_from;       // frontiers of fewer candidates are not sorted
   uint sorted;          // this wave's is

@@ -1,6 +1,6 @@
 // The stages of a wave, one per line, in the order in which they run. These lines determine the
 // recorded commands (engine/wave.cpp), the pipelines that a context creates (engine/kernels.cpp),
-// the sizes that the plan writes (plan/sizes.glsl) and the columns of times (vkh_bench). A new
+// the sizes that the plan writes (wave/sizes.glsl) and the columns of times (vkh_bench). A new
 // stage is its kernel and a line here.
 //
 //   SIZED(kernel, given, size, needed, column, groups)   an indirect dispatch
@@ -8,7 +8,7 @@
 //
 // kernel: its type in C++. given: the buffers and push constants that engine/wave.cpp has for it.
 // size: its name in WaveSizes. needed: one of the predicates below. column: of the times. groups:
-// the workgroups, from the wave's counts in plan/sizes.glsl.
+// the workgroups, from the wave's counts in wave/sizes.glsl.
 #ifndef VKH_SHADERS_STAGES_H
 #define VKH_SHADERS_STAGES_H
 
@@ -39,7 +39,7 @@ VKH_PREDICATE(bounds_cells, (kSwitches & kUseField) != 0u)
 VKH_PREDICATE(has_subroots, (kSwitches & kUseSubroots) != 0u)
 VKH_PREDICATE(checks_input, (kSwitches & kUseInputCheck) != 0u)
 // Whether a whole workgroup may traverse for one query.
-VKH_PREDICATE(walks_by_group, kWide && (kSwitches & kUseGroupWalk) != 0u)
+VKH_PREDICATE(traverses_by_group, kWide && (kSwitches & kUseGroupWalk) != 0u)
 VKH_PREDICATE(splits_apart,
               (kSwitches & kUseSort) == 0u && (!kWide || (kSwitches & kUseApart) != 0u))
 VKH_PREDICATE(bounds_plainly, (kSwitches & kUseBesides) == 0u)

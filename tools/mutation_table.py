@@ -11,7 +11,7 @@ BOUNDS = "shaders/math/bounds.h"
 PAPER = "shaders/paper/bounds_paper.h"
 BARY = "shaders/math/bary.h"
 DYADIC = "shaders/math/dyadic.h"
-CELL = "shaders/field/cell.h"
+CELL = "shaders/report/cell.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/solve/frame.cpp"
 

@@ -1,5 +1,5 @@
 // For --verify: the part of each face of A that has been closed, as an exact 64-bit integer, in
-// units of 2^-40 of the face. A part that became a subroot (candidate/subroot.glsl) counts as
+// units of 2^-40 of the face. A part that became a subroot (wave/subroot.glsl) counts as
 // closed from then on, and is not counted again. All of it compiles to nothing if kUseCoverage is
 // off. The kernel declares `areas`, `control`.
 #ifndef VKH_SHADERS_BASE_COVERAGE_GLSL

@@ -1,10 +1,10 @@
 // u4: the pair of corners' own closest points, as points (eq. 12), for the two corners at the
-// shortest edge. The kernel declares what candidate/candidate.glsl and base/surface.glsl need.
+// shortest edge. The kernel declares what wave/candidate.glsl and base/surface.glsl need.
 #ifndef VKH_SHADERS_PAPER_BOUND_U4_GLSL
 #define VKH_SHADERS_PAPER_BOUND_U4_GLSL
 
 #include "shaders/base/surface.glsl"
-#include "shaders/candidate/candidate.glsl"
+#include "shaders/wave/candidate.glsl"
 
 Surface closest_point_surface(Two3 corner, uint triangle, View view) {
   Surface s = load_surface(triangle, view);

@@ -1,10 +1,10 @@
 // The packet traversal (docs/method.md, section 6): one traversal of B's BVH for the three new
 // points of a candidate, each a bit of a mask. It finds the same for each as nearest_triangle does.
-// The kernel declares what walk/walk.glsl needs.
+// The kernel declares what traversal/traversal.glsl needs.
 #ifndef VKH_SHADERS_PAPER_PACKET_GLSL
 #define VKH_SHADERS_PAPER_PACKET_GLSL
 
-#include "shaders/walk/walk.glsl"
+#include "shaders/traversal/traversal.glsl"
 
 const uint kPacket = 3u;
 const float kUnasked = 3.3e38;  // a tight traversal's first reach is 3.00001e38
@@ -54,9 +54,9 @@ void try_leaf(uint leaf, uint mask, inout Packet p) {
   }
 }
 
-// The invocation's own stack, as in walk/walk.glsl.
-uint left_packet_child[kWalkStack];
-vec3 left_packet_distance2[kWalkStack];
+// The invocation's own stack, as in traversal/traversal.glsl.
+uint left_packet_child[kTraversalStack];
+vec3 left_packet_distance2[kTraversalStack];
 uint left_packets;
 
 // The next child that may improve some point, and the mask of these points; kNone if there is none.
@@ -103,8 +103,8 @@ uint step_packet(uint at, vec3 unasked, Packet p, inout uint mask) {
   return next;
 }
 
-// `mask`: the points to query. A node leaves three children at most: kWalkStack.
-void walk_packet(uint mask, inout Packet p) {
+// `mask`: the points to query. A node leaves three children at most: kTraversalStack.
+void traverse_packet(uint mask, inout Packet p) {
   left_packets = 0u;
   uint at = 0u;
   for (uint k = 0u; k < kPacket; ++k) p.reach[k] = reach_of(p.query[k], p.best[k]);

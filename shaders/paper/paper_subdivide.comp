@@ -19,7 +19,7 @@ layout(scalar, binding = 9) buffer Areas { Area areas[]; };
 layout(scalar, binding = 10) readonly buffer Order { uint order[]; };
 layout(scalar, binding = 11) buffer CentroidNearest { uint centroid_nearest[]; };
 
-#include "shaders/candidate/centroid.glsl"
+#include "shaders/wave/centroid.glsl"
 #include "shaders/paper/sorted.glsl"
 #include "shaders/wave/subdivide.glsl"
 

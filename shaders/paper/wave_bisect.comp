@@ -20,8 +20,8 @@ layout(scalar, binding = 9) readonly buffer TriangleLows { TriangleLow triangle_
 layout(scalar, binding = 10) writeonly buffer U3Bounds { float u3_bounds[]; };
 
 #include "shaders/base/surface.glsl"
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/child.glsl"
+#include "shaders/wave/candidate.glsl"
+#include "shaders/wave/child.glsl"
 #include "shaders/paper/paper_u3.glsl"
 
 void main() {

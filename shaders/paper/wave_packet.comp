@@ -16,9 +16,9 @@ layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
 layout(scalar, binding = 3) buffer Points { Point points[]; };
 layout(scalar, binding = 4) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
 
-#include "shaders/walk/walk.glsl"
+#include "shaders/traversal/traversal.glsl"
 #include "shaders/paper/packet.glsl"
-#include "shaders/walk/query.glsl"
+#include "shaders/traversal/query.glsl"
 #include "shaders/base/stream.glsl"
 
 float answer(uint i, Query q, Nearest found) {
@@ -40,7 +40,7 @@ float ask(uint parent) {
     if (points[i].nearest != kNone) try_at_once(p.query[k], points[i].nearest, p.best[k]);
   }
   if (mask == 0u) return 0.0;
-  walk_packet(mask, p);
+  traverse_packet(mask, p);
   float d = 0.0;
   for (uint k = 0u; k < kPacket; ++k) {
     if ((mask & (1u << k)) != 0u) d = max(d, answer(3u * parent + k, p.query[k], p.best[k]));

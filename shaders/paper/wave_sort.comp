@@ -18,7 +18,7 @@ layout(scalar, binding = 4) readonly buffer Nodes { uvec4 nodes[]; };
 layout(scalar, binding = 5) writeonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 6) writeonly buffer Values { uint values[]; };
 
-#include "shaders/candidate/candidate.glsl"
+#include "shaders/wave/candidate.glsl"
 #include "shaders/base/face_code.glsl"
 
 // The code is within the box of B, since traversals end there.

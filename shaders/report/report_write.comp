@@ -31,8 +31,8 @@ layout(scalar, binding = 10) readonly buffer BFault { uint b_fault; };
 layout(scalar, push_constant) uniform PushBlock { ReportPush push; };
 
 #include "shaders/base/last_group.glsl"
-#include "shaders/candidate/base.glsl"
-#include "shaders/candidate/subroot.glsl"
+#include "shaders/wave/base.glsl"
+#include "shaders/wave/subroot.glsl"
 
 // A corner of B, made of the parts that the run uses.
 Two3 b_corner(uint v) {

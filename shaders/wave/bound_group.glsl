@@ -1,13 +1,13 @@
 // The cascade for some children at once, by a whole workgroup: the owner of each value, and how the
 // distances are shared out. The workgroup has kGroupSize invocations. The kernel declares what
-// base/surface.glsl, candidate/child.glsl and candidate/centroid.glsl need.
+// base/surface.glsl, wave/child.glsl and wave/centroid.glsl need.
 #ifndef VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
 #define VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
 
 #include "shaders/base/surface.glsl"
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/child.glsl"
-#include "shaders/candidate/dispatch.glsl"
+#include "shaders/wave/candidate.glsl"
+#include "shaders/wave/child.glsl"
+#include "shaders/wave/dispatch.glsl"
 
 const uint kKnowers = kMostChildren;
 #include "shaders/wave/known.glsl"

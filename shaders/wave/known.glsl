@@ -1,11 +1,11 @@
 // Triangles of B that are known to be near a child, for the children that a workgroup bounds. The
-// kernel declares kKnowers, the number of these children, candidate/centroid.glsl, and what
-// candidate/child.glsl needs.
+// kernel declares kKnowers, the number of these children, wave/centroid.glsl, and what
+// wave/child.glsl needs.
 #ifndef VKH_SHADERS_WAVE_KNOWN_GLSL
 #define VKH_SHADERS_WAVE_KNOWN_GLSL
 
-#include "shaders/candidate/child.glsl"
-#include "shaders/candidate/dispatch.glsl"
+#include "shaders/wave/child.glsl"
+#include "shaders/wave/dispatch.glsl"
 
 // The most triangles: three own, three more of the parent's six points, the parent's centroid, the
 // child's own centroid.

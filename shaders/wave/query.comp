@@ -6,12 +6,12 @@
 // (wave/split.glsl). Out: their nearest and distance; control.maximum[kMaxLower]; and for a split
 // all that wave_subdivide writes but the points' positions.
 //   A's vertices, in plain floats, at the start of a run, and the last run's witness behind them if
-// push.warm (seed/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
+// push.warm (wave/seed.glsl). Out: vertex_nearest, vertex_distance; control.witness;
 // control.maximum[kMaxVertex].
 //   the same once more, or the witness alone if the base has moved, to 48 bits above the base,
 // which follows from the maximum of the first. Out: the same; control.maximum[kMaxLower].
 // An invocation traverses for a point of its own, or, if there are few, a whole workgroup for one
-// (walk/group_walk.glsl).
+// (traversal/group_traversal.glsl).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -36,13 +36,13 @@ layout(scalar, push_constant) uniform PushBlock { QueryPush push; };
 
 #include "shaders/base/coverage.glsl"
 #include "shaders/base/stream.glsl"
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/dispatch.glsl"
-#include "shaders/candidate/no_centroid.glsl"
-#include "shaders/candidate/unsorted.glsl"
-#include "shaders/walk/group_walk.glsl"
-#include "shaders/walk/query.glsl"
-#include "shaders/seed/seed.glsl"
+#include "shaders/wave/candidate.glsl"
+#include "shaders/wave/dispatch.glsl"
+#include "shaders/wave/no_centroid.glsl"
+#include "shaders/wave/unsorted.glsl"
+#include "shaders/traversal/group_traversal.glsl"
+#include "shaders/traversal/query.glsl"
+#include "shaders/wave/seed.glsl"
 #include "shaders/wave/split.glsl"
 
 // A wave whose plan has moved the base queries only its witness.
@@ -63,9 +63,9 @@ uint asked_count(uint asks) {
 // vertices has few traversals, and does not know which.
 bool are_few(uint asks, uint count) {
   if (is_fused() && asks == kAskPoints) return splits_in_groups();
-  bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupWalkVertices;
+  bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupTraversalVertices;
   // The test stands here once more: optimisers then leave out the group's traversal.
-  return walks_by_group() && (are_points(asks) ? walks_in_groups(count) : few_vertices);
+  return traverses_by_group() && (are_points(asks) ? traverses_in_groups(count) : few_vertices);
 }
 
 Item item_at(uint asks, uint i, bool mine) {

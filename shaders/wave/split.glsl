@@ -1,20 +1,20 @@
 // A wave's first step, over the frontier: it decides which candidates are refined, how each is
 // split, and its new points: three, or, if the wave splits twice, three of its own and three of
-// each child (candidate/split_counts.glsl). A split is by midpoints, or by double longest-edge
+// each child (wave/split_counts.glsl). A split is by midpoints, or by double longest-edge
 // bisection if the candidate is thin (docs/method.md, section 4); always 1 -> 4. Candidates without
-// room to be refined (plan/select.glsl) are copied to the next frontier. A candidate that
+// room to be refined (wave/select.glsl) are copied to the next frontier. A candidate that
 // the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
 // A workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
-// declares `frontier`, `splits`, `areas`, what walk/walk.glsl and candidate/candidate.glsl need,
-// candidate/centroid.glsl or no_centroid.glsl, and candidate/unsorted.glsl or paper/sorted.glsl.
+// declares `frontier`, `splits`, `areas`, what traversal/traversal.glsl and wave/candidate.glsl need,
+// wave/centroid.glsl or no_centroid.glsl, and wave/unsorted.glsl or paper/sorted.glsl.
 #ifndef VKH_SHADERS_WAVE_SPLIT_GLSL
 #define VKH_SHADERS_WAVE_SPLIT_GLSL
 
 #include "shaders/base/coverage.glsl"
 #include "shaders/base/stream.glsl"
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/dispatch.glsl"
-#include "shaders/walk/walk.glsl"
+#include "shaders/wave/candidate.glsl"
+#include "shaders/wave/dispatch.glsl"
+#include "shaders/traversal/traversal.glsl"
 
 shared uint slot_in_group[kGroupSize];
 shared uint child_splits_in_group[kGroupSize];

@@ -2,7 +2,7 @@
 // candidates, their splits and queried points; the admitted faces of A; survivors and centroids if
 // there is a filter. Out: frontier's writing half; every closed child's u is kept
 // (kMaxClosed), every open one's too (kMaxNext); samples are offered as witnesses. If the wave is
-// fused, the last workgroup to end plans the next one (plan/plan.glsl): control; sizes.
+// fused, the last workgroup to end plans the next one (wave/plan.glsl): control; sizes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -31,7 +31,7 @@ layout(scalar, binding = 15) buffer GroupsDone { uint groups_done; };
 
 // The corners' distances are not read after the cuts, and shared memory is scarce.
 #define plan_words corner_bits
-#include "shaders/plan/plan.glsl"
+#include "shaders/wave/plan.glsl"
 
 // This kernel has none.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold) { return v; }

@@ -26,11 +26,11 @@ layout(scalar, binding = 12) readonly buffer FaceShared { uint face_shared[]; };
 layout(scalar, binding = 13) buffer CentroidNearest { uint centroid_nearest[]; };
 
 #include "shaders/base/surface.glsl"
-#include "shaders/candidate/candidate.glsl"
-#include "shaders/candidate/centroid.glsl"
-#include "shaders/candidate/child.glsl"
+#include "shaders/wave/candidate.glsl"
+#include "shaders/wave/centroid.glsl"
+#include "shaders/wave/child.glsl"
 #include "shaders/base/coverage.glsl"
-#include "shaders/candidate/dispatch.glsl"
+#include "shaders/wave/dispatch.glsl"
 #include "shaders/base/stream.glsl"
 
 const uint kKnowers = kGroupSize;

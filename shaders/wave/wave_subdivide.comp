@@ -21,8 +21,8 @@ layout(scalar, binding = 8) readonly buffer TriangleLows { TriangleLow triangle_
 layout(scalar, binding = 9) buffer Areas { Area areas[]; };
 layout(scalar, binding = 10) buffer CentroidNearest { uint centroid_nearest[]; };
 
-#include "shaders/candidate/centroid.glsl"
-#include "shaders/candidate/unsorted.glsl"
+#include "shaders/wave/centroid.glsl"
+#include "shaders/wave/unsorted.glsl"
 #include "shaders/wave/subdivide.glsl"
 
 void main() { subdivide(); }

@@ -9,7 +9,7 @@ layout(local_size_x = 1) in;
 layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
 layout(scalar, binding = 1) writeonly buffer Sizes { WaveSizes sizes; };
 
-#include "shaders/plan/sizes.glsl"
+#include "shaders/wave/sizes.glsl"
 
 void main() {
   bool running = control.status == kStatusRunning;

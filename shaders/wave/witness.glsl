@@ -2,13 +2,13 @@
 // order that depends on scheduling: the one with the smallest key is taken, and the key is a hash
 // of all that the report contains about a witness, so that two samples with one key are one to the
 // report, but for one chance in 2^32 a pair of them. wave_bound offers them, after all are
-// measured; the plan adopts one (plan/adopt.glsl). The kernel declares `survivors`, `centroids`,
-// and what candidate/child.glsl needs.
+// measured; the plan adopts one (wave/adopt.glsl). The kernel declares `survivors`, `centroids`,
+// and what wave/child.glsl needs.
 #ifndef VKH_SHADERS_WAVE_WITNESS_GLSL
 #define VKH_SHADERS_WAVE_WITNESS_GLSL
 
 #include "shaders/base/invocation.glsl"
-#include "shaders/candidate/child.glsl"
+#include "shaders/wave/child.glsl"
 #include "shaders/math/hash.h"
 
 // Samples of the wave: its new points, then survivors' centroids.

@@ -32,10 +32,10 @@ class FloatPlaces(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             (root / "shaders/math").mkdir(parents=True)
-            (root / "shaders/walk").mkdir()
+            (root / "shaders/traversal").mkdir()
             (root / "shaders/math/certified.h").write_text("float ratio(float a, float b) { return a / sqrt(b); }\n")
             (root / "shaders/math/other.h").write_text(other)
-            (root / "shaders/walk/a.comp").write_text(KERNEL.format(line))
+            (root / "shaders/traversal/a.comp").write_text(KERNEL.format(line))
             return list(float_places.breaches(root))
 
     def test_integers_and_excuses_pass(self):
@@ -44,7 +44,7 @@ class FloatPlaces(unittest.TestCase):
         self.assertEqual(self.said("  // uncertified: steers\n  // only\n  x[4] = sqrt(x[6]);"), [])
 
     def test_breaches_are_named(self):
-        at = "shaders/walk/a.comp:10: "
+        at = "shaders/traversal/a.comp:10: "
         for line, what in [("  x[4] = x[5] / x[6];", "a division"), ("  x[4] /= 3.0;", "a division"),
                            ("  x[4] = sqrt(x[6]);", "a root (Sqrt)"), ("  x[4] = inversesqrt(x[6]);", "InverseSqrt"),
                            ("  x[4] = length(vec3(x[1]));", "Length"),

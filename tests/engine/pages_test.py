@@ -18,7 +18,7 @@ BESIDE = re.compile(r"^layout\([^)]*\b(binding|push_constant)\b.*$", re.M)
 WORDS = {"uvec4", "vec2"}  # whole loads of a struct
 DECLARES = re.compile(r"The kernel declares (.*)$", re.S)
 # The files of which a kernel includes one or the other.
-HOOKS = ["candidate/centroid.glsl", "candidate/unsorted.glsl"]
+HOOKS = ["wave/centroid.glsl", "wave/unsorted.glsl"]
 # Kernels of the doctor, which is no part of a run.
 APART = {"self_test.comp"}
 
@@ -112,13 +112,13 @@ class Pages(unittest.TestCase):
     def said(self, page, kernel="layout(scalar, binding = 0) buffer Heights { float heights[]; };"):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
-            for room in ("base", "walk"):
+            for room in ("base", "traversal"):
                 (root / "shaders" / room).mkdir(parents=True)
             (root / "shaders/base/switches.glsl").write_text("#ifndef S\n#define S\nstruct CountPush { uint count; };\n#endif\n")
             (root / "shaders/base/half.glsl").write_text("float half_of(float a) { return 0.5 * a; }\n")
-            (root / "shaders/walk/a.comp").write_text(kernel)
-            (root / "shaders/walk/b.comp").write_text("layout(scalar, binding = 0) buffer Heights { float heights[]; };")
-            (root / "shaders/walk/page.glsl").write_text(page)
+            (root / "shaders/traversal/a.comp").write_text(kernel)
+            (root / "shaders/traversal/b.comp").write_text("layout(scalar, binding = 0) buffer Heights { float heights[]; };")
+            (root / "shaders/traversal/page.glsl").write_text(page)
             return "\n".join(complaints(root))
 
     def test_what_breaks_it_is_named(self):

@@ -1,6 +1,6 @@
 // Tolerances that 20 bits of barycentrics cannot reach: A is a triangle, B its three corners, so
 // the farthest point is A's circumcentre, at thirds of A's edges. Candidates there become subroots
-// (shaders/candidate/subroot.glsl).
+// (shaders/wave/subroot.glsl).
 #include <cmath>
 
 #include "host/solve/verify.h"

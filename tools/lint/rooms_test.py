@@ -15,8 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
-    "shaders": ["math", "base", "sort", "bvh", "candidate", "walk", "plan", "seed", "wave", "paper",
-                "report", "field", "doctor"],
+    "shaders": ["math", "base", "bvh", "traversal", "wave", "paper", "report", "doctor"],
     "host": ["base", "mesh", "read", "gpu", "solve", "survey", "write", "answer", "show", "batch", "app"],
     "tests": ["verification/oracle", "shapes", "support", "verification/model", "verification/math", "unit", "files/malformed", "files",
               "engine", "solve", "page", "verification/check", "verification/faults", "app", "python", "platforms",
@@ -121,7 +120,7 @@ class Rooms(unittest.TestCase):
     def breach(self, changes):
         """The complaints about a small house with these files in it."""
         house = {"shaders/gpu_types.h": "", "shaders/math/a.h": '#include "shaders/gpu_types.h"\n',
-                 "shaders/walk/b.glsl": '#include "shaders/math/a.h"\n',
+                 "shaders/traversal/b.glsl": '#include "shaders/math/a.h"\n',
                  "host/base/c.h": "", "host/gpu/d.cpp": '#include "host/base/c.h"\n', **changes}
         with tempfile.TemporaryDirectory() as folder:
             for name, text in house.items():
@@ -135,7 +134,7 @@ class Rooms(unittest.TestCase):
         for changes, named in [
                 ({"host/base/c.h": '#include "host/gpu/e.h"\n', "host/gpu/e.h": ""},
                  "host/base/c.h: includes host/gpu/e.h, which stands after it"),
-                ({"shaders/math/a.h": '#include "shaders/walk/b.glsl"\n'}, "stands after it"),
+                ({"shaders/math/a.h": '#include "shaders/traversal/b.glsl"\n'}, "stands after it"),
                 ({"host/gpu/e.h": '#include "host/gpu/f.h"\n',
                   "host/gpu/f.h": '#include "host/gpu/e.h"\n'},
                  "host/gpu/e.h -> host/gpu/f.h -> host/gpu/e.h"),

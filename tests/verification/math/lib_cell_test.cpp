@@ -1,4 +1,4 @@
-// shaders/field/cell.h against exact arithmetic: over a cell, the bounds from a few hard triangles
+// shaders/report/cell.h against exact arithmetic: over a cell, the bounds from a few hard triangles
 // enclose the distance, in any arithmetic that Vulkan allows.
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #ifdef VKH_TEST_VULKAN_MODEL
 #define float ::vkh::model::Real
 #endif
-#include "shaders/field/cell.h"
+#include "shaders/report/cell.h"
 #undef float
 
 #include "tests/support/tally.h"

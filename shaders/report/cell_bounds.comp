@@ -1,0 +1,168 @@
+// Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces, or faces
+// push.first and after if none are given. In: cells; A and B's BVH. Out: bounds[cell]. One
+// traversal finds the triangle nearest to the cell's middle; another examines all that may be
+// closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand for the
+// rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
+// (push.triangle_count is 0), bounds are NaN.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/base/invocation.glsl"
+
+layout(local_size_x = kGroupSize) in;
+layout(scalar, binding = 0) readonly buffer ControlBlock { Control control; };
+layout(scalar, binding = 1) readonly buffer Nodes { uvec4 nodes[]; };
+layout(scalar, binding = 2) readonly buffer Triangles { uvec4 triangles[]; };
+layout(scalar, binding = 3) readonly buffer TriangleLows { TriangleLow triangle_lows[]; };
+layout(scalar, binding = 4) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 5) readonly buffer Faces { uvec3 faces[]; };
+layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
+layout(scalar, binding = 7) readonly buffer Cells { Cell cells[]; };
+layout(scalar, binding = 8) writeonly buffer Bounds { CellBounds bounds[]; };
+layout(scalar, binding = 9) readonly buffer BFault { uint b_fault; };
+layout(scalar, push_constant) uniform PushBlock { CellPush push; };
+
+#include "shaders/base/root.glsl"
+#include "shaders/report/cell.h"
+#include "shaders/traversal/traversal.glsl"
+
+Cell cell_at(uint i) {
+  if (push.given != 0u) {
+    Cell c = cells[i];
+    c.face = min(c.face, push.face_count - 1u);
+    return c;
+  }
+  uint face = min(push.first + i, push.face_count - 1u);
+  return Cell(pack_corners(whole_root()), face, vertex_nearest[faces[face].x]);
+}
+
+// A box is off by the low parts of what is in it and of the point, an ulp of each, and its distance
+// by its own rounding.
+float box_doubt(CellFrame t, float distance) {
+  return 4.0 * kUlp * (t.reach + t.radius + distance);
+}
+
+// Boxes at this distance, squared, or farther hold nothing that is closest anywhere on T.
+float cell_reach(Gathered g, CellFrame t) {
+  float far = round_up(g.nearest + 2.0 * t.radius, 4.0);
+  far = round_up(far + box_doubt(t, far), 8.0);
+  return min(round_up(far * far, 8.0), 3.0e38);
+}
+
+// A distance that surely lies between the centre and a box at this distance, squared, or farther.
+float box_distance_down(CellFrame t, float distance2) {
+  float d = root(min(distance2, 1.0e37));
+  return max(round_down(d, 8.0) - box_doubt(t, d), 0.0);
+}
+
+// Adds the triangles of a leaf.
+Gathered with_leaf(Gathered g, CellFrame t, uint leaf, inout uint looked_at) {
+  uint first = leaf & (kMaxTriangles - 1u);
+  uint last = first + ((leaf >> 28) & 7u);
+  for (uint i = first; i <= last; ++i) {
+    g = gathered(g, t, load_surface(i, cell_view(t)), i);
+    ++looked_at;
+  }
+  return g;
+}
+
+// Adds the boxes that are left.
+Gathered with_boxes(Gathered g, CellFrame t, float reach, inout uint to_go) {
+  for (uint k = 0u; k < left_count; ++k) {
+    if (left_distance2[k] < reach) g = without(g, t, box_distance_down(t, left_distance2[k]));
+    --to_go;
+  }
+  return g;
+}
+
+// Goes over all that may be closest somewhere on the cell. Bounds from below need all that is
+// within reach, and drivers may end a loop early (docs/certificate.md, 'Loops that a driver ends'):
+// the loops' work is counted, and not by the variable that ends them, which compilers take as known
+// behind them.
+Gathered gather(CellFrame t, uint start) {
+  Query middle = Query(t.origin, 0.0, false);
+  if (start != kNone) start = min(start, push.triangle_count - 1u);
+  uint nearest = min(nearest_triangle(middle, start).triangle, push.triangle_count - 1u);
+  Gathered g = begin_gathering(t, load_surface(nearest, cell_view(t)), nearest);
+  float reach = cell_reach(g, t);
+  uint not_leaves = 0u;
+  uint found = 0u;
+  uint looked_at = 0u;
+  left_count = 0u;
+  traversal_at = 0u;
+  while (traversal_at != kNone && looked_at < kCellTriangles) {
+    while ((traversal_at & kLeafFlag) == 0u) traversal_at = step_down(traversal_at, t.origin.hi, reach);
+    if (traversal_at == kNone) break;
+    not_leaves += 1u - (traversal_at >> 31);
+    found += ((traversal_at >> 28) & 7u) + 1u;
+    g = with_leaf(g, t, traversal_at, looked_at);
+    traversal_at = pop(reach);
+  }
+  if (traversal_at != kNone) ++left_count;  // the box taken from the top is left, too
+  uint to_go = left_count;
+  g = with_boxes(g, t, reach, to_go);
+  if (not_leaves != 0u || looked_at != found || to_go != 0u) g = without(g, t, 0.0);
+  return g;
+}
+
+// Adds the triangles nearest to the corners, two at a time, if they are not the same.
+Gathered with_pairs(Gathered g, CellFrame t) {
+  if (g.of_corners.x == kNone || g.of_corners.y == kNone || g.of_corners.z == kNone) return g;
+  for (uint k = 0u; k < 3u; ++k) {
+    uint i = choose(k == 2u, g.of_corners.y, g.of_corners.x);
+    uint j = choose(k == 0u, g.of_corners.y, g.of_corners.z);
+    if (i == j || (k == 2u && i == g.of_corners.x)) continue;
+    Surface s = load_surface(i, cell_view(t));
+    Surface r = load_surface(j, cell_view(t));
+    g = cut_between(g, t, s, cell_distances(t, s), r, cell_distances(t, r));
+  }
+  return g;
+}
+
+// The face of B as given.
+uint face_of(uint triangle) {
+  return triangles[kTriangleWords * min(triangle, push.triangle_count - 1u)].w;
+}
+
+CellBounds bounds_of(Gathered g, CellFrame t) {
+  vec3 lower = lower_of(g, t);
+  CellBounds b;
+  b.lower_a = lower.x;
+  b.lower_b = lower.y;
+  b.lower_c = lower.z;
+  b.upper_a = g.upper.x;
+  b.upper_b = g.upper.y;
+  b.upper_c = g.upper.z;
+  b.highest = g.highest;
+  b.reached = reached_of(g);
+  b.mean_upper = min(g.mean, g.highest);
+  b.square_upper = g.square;
+  b.face_a = face_of(g.of_corners.x);
+  b.face_b = face_of(g.of_corners.y);
+  b.face_c = face_of(g.of_corners.z);
+  b.face = face_of(g.triangle);
+  b.triangle = g.triangle;
+  return b;
+}
+
+bool is_of_meshes() {
+  return push.triangle_count != 0u && control.input_fault == kNone && b_fault == kNone;
+}
+
+CellBounds nothing_known() {
+  float nan = uintBitsToFloat(0x7fc00000u);
+  return CellBounds(nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, kNone, kNone, kNone, kNone,
+                    kNone);
+}
+
+void main() {
+  uint i = item_index();
+  if (i >= push.count) return;
+  if (!is_of_meshes()) {
+    bounds[i] = nothing_known();
+    return;
+  }
+  Cell cell = cell_at(i);
+  CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
+  bounds[i] = bounds_of(with_pairs(gather(t, cell.start), t), t);
+}
