@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -29,20 +28,6 @@ bool is_same(const struct stat& x, const struct stat& y) {
   return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
-/// Follows the links without realpath(), since a dangling link's target is made. Empty: links
-/// without end.
-std::string end_of_links(const std::string& path) {
-  constexpr int kMostLinks = 40;  // Linux's own limit
-  fs::path at = path;
-  std::error_code none;
-  for (int i = 0; i < kMostLinks; ++i) {
-    const fs::path target = fs::read_symlink(at, none);
-    if (none) return at.string();
-    at = at.parent_path() / target;  // replaces the folder if the target is absolute
-  }
-  return {};
-}
-
 std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
@@ -60,20 +45,13 @@ class NoBrokenPipe {
   void (*before_)(int);
 };
 
-/// Returns false, with errno, if it cannot be, or if a pipe's reader takes nothing for ten seconds.
+/// Returns false, with errno, if it cannot be.
 bool write_all(int file, std::string_view text) {
-  constexpr int kPatienceMs = 10'000;
   const NoBrokenPipe guard;
   while (!text.empty()) {
     const ssize_t written = write(file, text.data(), text.size());
     if (written >= 0) {
       text.remove_prefix(static_cast<size_t>(written));
-    } else if (errno == EAGAIN) {
-      pollfd ready{file, POLLOUT, 0};
-      if (poll(&ready, 1, kPatienceMs) == 0) {
-        errno = ETIMEDOUT;
-        return false;
-      }
     } else if (errno != EINTR) {
       return false;
     }
@@ -115,8 +93,10 @@ OutputFile::OutputFile(std::string option, std::string path, const std::vector<s
     open_special(there->st_mode);
     return;
   }
-  target_ = end_of_links(path_);
-  if (target_.empty()) refuse("links without end");
+  std::error_code none;
+  const bool is_link = fs::is_symlink(path_, none);
+  if (is_link && !there) refuse("a link that leads nowhere");
+  target_ = is_link ? fs::canonical(path_).string() : path_;
   check_place();
 }
 
@@ -129,10 +109,11 @@ void OutputFile::refuse(const std::string& why) const {
 }
 
 // Keeps the file open until it is written to: a pipe's reader would take its closing for the end.
+// O_NONBLOCK is for the opening alone, which would wait for a reader.
 void OutputFile::open_special(unsigned mode) {
-  if (S_ISBLK(mode)) refuse("is a disk, not a file");
-  special_ = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (special_ >= 0) return;
+  const int file = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  special_ = file;
+  if (file >= 0 && fcntl(file, F_SETFL, 0) == 0) return;
   if (errno == ENXIO && S_ISFIFO(mode)) refuse("a pipe that nobody reads: start its reader first");
   refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
 }

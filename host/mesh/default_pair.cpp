@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "host/mesh/round_to_float.h"
-#include "host/mesh/simplify.h"
 
 namespace vkh {
 namespace {
@@ -21,28 +20,8 @@ using Loop = std::vector<uint32_t>;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// (cos, sin) of a share of a full turn, from + and * alone: libm's last bit differs between
-// machines, and one bit can change which edges the simplification collapses.
-dvec2 direction(double turn) {
-  const double quarter = std::floor(4 * turn + 0.5);
-  const double x = (turn - quarter / 4) * 2 * kPi, xx = x * x;  // |x| <= pi/4: 1e-16 after x^16
-  double cosine = 1, sine = 1;
-  for (int k = 16; k >= 2; k -= 2) {
-    cosine = 1 - xx * cosine / (k * (k - 1));
-    sine = 1 - xx * sine / (k * (k + 1));
-  }
-  sine *= x;
-  switch (static_cast<int>(quarter) & 3) {
-    case 0:
-      return {cosine, sine};
-    case 1:
-      return {-sine, cosine};
-    case 2:
-      return {-cosine, -sine};
-    default:
-      return {sine, -cosine};
-  }
-}
+// (cos, sin) of a share of a full turn.
+dvec2 direction(double turn) { return {std::cos(2 * kPi * turn), std::sin(2 * kPi * turn)}; }
 
 double cross(const dvec2& v, const dvec2& w) { return v.x * w.y - v.y * w.x; }
 
@@ -64,6 +43,14 @@ struct Thread {
   uint32_t turns = 0;
 };
 
+/// Vertices around a full turn, and steps of a quarter turn.
+struct Fineness {
+  uint32_t columns = 0;  ///< of the shoulder; a multiple of 6
+  uint32_t hole_columns = 0;
+  uint32_t thread_columns = 0;
+  uint32_t fillet_steps = 0;
+};
+
 /// Joins loops by bands of triangles. A part is a chain of loops around its cross-section,
 /// counter-clockwise in (radius, z), so that every band faces outward.
 class PartBuilder {
@@ -74,7 +61,7 @@ class PartBuilder {
   Loop keyed(double radius, double z);
   void band(const Loop& from, const Loop& to, const dvec2& centre = dvec2(0));
   void chain(const std::vector<Loop>& loops, const dvec2& centre = dvec2(0));
-  Loop fillet(const Loop& foot, const dvec2& centre, double radius);
+  Loop fillet(const Loop& foot, const dvec2& centre, double radius, uint32_t steps);
   Loop thread(const Loop& bottom, const Thread& thread);
   void plate(const Loop& inner, const Loop& outer, const std::vector<Loop>& holes, bool faces_up);
   Mesh finish(std::string name) &&;
@@ -91,7 +78,8 @@ class PartBuilder {
   std::vector<glm::uvec3> faces_;
 };
 
-// Rounds to float32 as an STL file would.
+// Rounds to float32 as an STL file would: the last bit of a cosine, which differs between
+// machines, is lost, but for one coordinate in 10^8.
 uint32_t PartBuilder::add(const dvec2& p, double z) {
   vertices_.push_back(round_to_float({p.x, p.y, z}));
   return static_cast<uint32_t>(vertices_.size() - 1);
@@ -167,11 +155,10 @@ void PartBuilder::chain(const std::vector<Loop>& loops, const dvec2& centre) {
 }
 
 // A quarter of a hollow torus from an upward to an outward face; `centre` is in (radius, z).
-Loop PartBuilder::fillet(const Loop& foot, const dvec2& centre, double radius) {
-  constexpr uint32_t kSteps = 16;
+Loop PartBuilder::fillet(const Loop& foot, const dvec2& centre, double radius, uint32_t steps) {
   std::vector<Loop> rings{foot};
-  for (uint32_t step = 1; step <= kSteps; ++step) {
-    const dvec2 d = direction(0.25 * step / kSteps);
+  for (uint32_t step = 1; step <= steps; ++step) {
+    const dvec2 d = direction(0.25 * step / steps);
     const dvec2 at = centre - radius * dvec2(d.y, d.x);
     rings.push_back(ring(at.x, at.y, static_cast<uint32_t>(foot.size())));
   }
@@ -254,8 +241,8 @@ struct BoltHoles {
 };
 
 // Six counterbored through holes, chamfered below, from z = 0 to z = 12.
-BoltHoles bolt_holes(PartBuilder& part) {
-  constexpr uint32_t kHoles = 6, kColumns = 64;
+BoltHoles bolt_holes(PartBuilder& part, uint32_t columns) {
+  constexpr uint32_t kHoles = 6;
   constexpr double kPitchRadius = 42;
   constexpr std::array<dvec2, 5> kProfile{dvec2(7.5, 12), {7.5, 8}, {4.5, 8}, {4.5, 0.5}, {5, 0}};
   BoltHoles holes;
@@ -263,7 +250,7 @@ BoltHoles bolt_holes(PartBuilder& part) {
     const dvec2 centre = kPitchRadius * direction((k + 0.5) / kHoles);
     std::vector<Loop> loops;
     loops.reserve(kProfile.size());
-    for (const dvec2& p : kProfile) loops.push_back(part.circle({centre, p.x, kColumns}, p.y));
+    for (const dvec2& p : kProfile) loops.push_back(part.circle({centre, p.x, columns}, p.y));
     part.chain(loops, centre);
     holes.tops.push_back(loops.front());
     holes.bottoms.push_back(loops.back());
@@ -271,41 +258,46 @@ BoltHoles bolt_holes(PartBuilder& part) {
   return holes;
 }
 
-Mesh coupling_hub() {
-  constexpr uint32_t kColumns = 240;
+Mesh coupling_hub(const Fineness& fine, std::string name) {
+  constexpr uint32_t kRimColumns = 240, kSplineColumns = 144;  // bands to teeth are not flat
+  const uint32_t columns = fine.columns, thread_columns = fine.thread_columns;
   constexpr Teeth kRim{.root = 54, .crest = 55, .count = 100, .columns = 6};
   constexpr Teeth kSplines{.root = 23.6, .crest = 25.2, .count = 24, .columns = 16};
   PartBuilder part;
-  const BoltHoles holes = bolt_holes(part);
+  const BoltHoles holes = bolt_holes(part, fine.hole_columns);
 
   const Loop bore_bottom = part.keyed(13, 0);
-  const Loop flange_inner = part.ring(18, 0, kColumns), flange_outer = part.ring(53, 0, kColumns);
+  const Loop flange_inner = part.ring(18, 0, columns), flange_outer = part.ring(53, 0, kRimColumns);
   part.band(bore_bottom, flange_inner);
   part.plate(flange_inner, flange_outer, holes.bottoms, false);
 
-  const Loop rim_top = part.ring(53, 12, kColumns);
+  const Loop rim_top = part.ring(53, 12, kRimColumns);
   part.chain({flange_outer, part.toothed(kRim, 1), part.toothed(kRim, 11), rim_top});
 
-  const Loop fillet_foot = part.ring(30, 12, kColumns);
+  const Loop fillet_foot = part.ring(30, 12, columns);
   part.plate(fillet_foot, rim_top, holes.tops, true);
-  const Loop shoulder = part.fillet(fillet_foot, {30, 19}, 7);
+  const Loop shoulder = part.fillet(fillet_foot, {30, 19}, 7, fine.fillet_steps);
 
-  const Loop thread_foot = part.ring(22, 38, 144);
+  const Loop thread_foot = part.ring(22, 38, thread_columns);
   part.chain({shoulder, part.toothed(kSplines, 19), part.toothed(kSplines, 36),
-              part.ring(22, 36.5, 144), thread_foot});
+              part.ring(22, 36.5, kSplineColumns), thread_foot});
   const Loop thread_top = part.thread(thread_foot, {.crest = 23.2, .pitch = 2, .turns = 8});
 
-  part.chain({thread_top, part.ring(22, 58, 144), part.ring(20.5, 59.5, 144), part.keyed(13, 59.5),
-              part.keyed(12, 58.5), part.keyed(12, 1), bore_bottom});
-  return std::move(part).finish("coupling hub");
+  part.chain({thread_top, part.ring(22, 58, thread_columns), part.ring(20.5, 59.5, thread_columns),
+              part.keyed(13, 59.5), part.keyed(12, 58.5), part.keyed(12, 1), bore_bottom});
+  return std::move(part).finish(std::move(name));
 }
 
 }  // namespace
 
 MeshPair default_pair() {
   MeshPair pair;
-  pair.a = coupling_hub();
-  pair.b = simplify(pair.a, pair.a.faces.size() / 2);
+  pair.a =
+      coupling_hub({.columns = 240, .hole_columns = 64, .thread_columns = 144, .fillet_steps = 16},
+                   "coupling hub");
+  pair.b =
+      coupling_hub({.columns = 120, .hole_columns = 32, .thread_columns = 72, .fillet_steps = 8},
+                   "coupling hub, coarser");
   pair.a.unit = pair.b.unit = "mm";
   return pair;
 }

@@ -6,8 +6,8 @@
 namespace vkh {
 
 /// A: a flanged coupling hub in millimetres (bore with keyway, bolt holes, toothed rim, splines,
-/// thread), closed, tessellated as CAD programs do it, with many long thin triangles. B: A
-/// simplified to half of its faces. Both are the same to the last bit on every machine.
+/// thread), closed, tessellated as CAD programs do it, with many long thin triangles. B: the same
+/// hub, tessellated half as finely around its axis. Coordinates are float32, in double.
 MeshPair default_pair();
 
 }  // namespace vkh

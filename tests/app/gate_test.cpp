@@ -315,8 +315,8 @@ double latency(const Words& words, int signal, int after_ms) {
   const json r = json::parse(outcome.out);
   CHECK(r["status"] == "cancelled");
   const json& interval = r["interval"];
-  CHECK(interval["lower"].get<double>() <= 0.0443814);
-  if (!interval["upper"].is_null()) CHECK(interval["upper"].get<double>() >= 0.0443803);
+  CHECK(interval["lower"].get<double>() <= 0.0361167);
+  if (!interval["upper"].is_null()) CHECK(interval["upper"].get<double>() >= 0.0361165);
   return seconds;
 }
 
@@ -342,7 +342,7 @@ TEST_CASE("--time counts from the program's start") {
     CHECK(outcome.exit_code == 3);
     const json r = json::parse(outcome.out);
     CHECK(r["status"] == "time");
-    CHECK(r["interval"]["lower"].get<double>() <= 0.0443814);
+    CHECK(r["interval"]["lower"].get<double>() <= 0.0361167);
   }
   const json none = json::parse(run({"demo", "--json", "--time", "1ms"}).out);
   CHECK(none["interval"]["lower"] == 0);
