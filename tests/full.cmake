@@ -45,7 +45,8 @@ list(REMOVE_ITEM all ${VKH_QUICK})
 vkh_label(full ${all})
 # Each took a minute or more in the sanitizer tree: starts of the program by the dozen, whose code is
 # also run by tests of one start, and searches of the same kernels with more cases.
-vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies)
+vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
+                  vkh_check certificates)
 # The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz api_fuzz)
