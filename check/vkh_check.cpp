@@ -17,7 +17,7 @@
 #include "host/base/sha256.h"
 #include "host/base/system.h"
 #include "host/read/corners_hash.h"
-#include "host/read/mesh_builder.h"
+#include "host/read/file_mesh_builder.h"
 #include "host/read/mesh_io.h"
 
 namespace vkh::check {

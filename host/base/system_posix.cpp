@@ -1,4 +1,3 @@
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,31 +19,7 @@ extern "C" void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-#ifdef __APPLE__
-constexpr const char* kLoaders[] = {"libvulkan.1.dylib", "/usr/local/lib/libvulkan.1.dylib",
-                                    "/opt/homebrew/lib/libvulkan.1.dylib", "libMoltenVK.dylib"};
-#else
-constexpr const char* kLoaders[] = {"libvulkan.so.1", "libvulkan.so"};
-#endif
-
-void* vulkan_loader() {
-  for (const char* name : kLoaders) {
-    if (void* library = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
-  }
-  return nullptr;
-}
-
 }  // namespace
-
-#ifdef __APPLE__
-const char* const kVulkanLoader =
-    "libvulkan.1.dylib or libMoltenVK.dylib: install the Vulkan SDK, or molten-vk and "
-    "vulkan-loader from Homebrew";
-const bool kAsksForPortability = true;
-#else
-const bool kAsksForPortability = false;
-const char* const kVulkanLoader = "libvulkan.so.1: install your driver's or the package libvulkan1";
-#endif
 
 std::vector<std::string> command_line(int argc, const char* const* argv) {
   return {argv + (argc > 0 ? 1 : 0), argv + argc};
@@ -76,10 +51,5 @@ std::string host_name() {
 }
 
 void end_process(int code) { std::_Exit(code); }
-
-AnyFunction vulkan_loader_function(const char* name) {
-  void* library = vulkan_loader();
-  return library == nullptr ? nullptr : reinterpret_cast<AnyFunction>(dlsym(library, name));
-}
 
 }  // namespace vkh

@@ -43,10 +43,6 @@ std::wstring variable(const wchar_t* name) {
 
 }  // namespace
 
-const char* const kVulkanLoader = "vulkan-1.dll: install your graphics card's driver";
-
-const bool kAsksForPortability = false;
-
 std::string utf8_of(std::wstring_view text) {
   const int from = static_cast<int>(text.size());
   const int size = WideCharToMultiByte(CP_UTF8, 0, text.data(), from, nullptr, 0, nullptr, nullptr);
@@ -104,14 +100,6 @@ unsigned long process_id() { return GetCurrentProcessId(); }
 void end_process(int code) {
   TerminateProcess(GetCurrentProcess(), static_cast<UINT>(code));
   std::abort();  // TerminateProcess does not return
-}
-
-AnyFunction vulkan_loader_function(const char* name) {
-  // Searches the program's folder and Windows' own, not the current one.
-  const HMODULE library =
-      LoadLibraryExW(L"vulkan-1.dll", nullptr, LOAD_LIBRARY_SEARCH_DEFAULT_DIRS);
-  return library == nullptr ? nullptr
-                            : reinterpret_cast<AnyFunction>(GetProcAddress(library, name));
 }
 
 }  // namespace vkh

@@ -8,8 +8,8 @@
 
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/system.h"
 #include "host/gpu/queue_family.h"
+#include "host/gpu/vulkan_loader.h"
 
 namespace vkh {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/system.h"
+#include "host/gpu/vulkan_loader.h"
 
 namespace vkh {
 

@@ -227,7 +227,7 @@ class Reader {
   const Model& model_;
   const Scene scene_;
   Data data_;
-  MeshBuilder builder_;
+  FileMeshBuilder builder_;
   uint64_t faces_ = 0, lines_ = 0, without_positions_ = 0;
   uint32_t most_positions_ = 0, column_ = 0;
   bool has_targets_ = false;

@@ -96,7 +96,7 @@ bool is_printed_nan(std::string_view word) {
 
 class ObjReader {
  public:
-  ObjReader(const MeshSource& source, const TextBlock& block, MeshBuilder& builder)
+  ObjReader(const MeshSource& source, const TextBlock& block, FileMeshBuilder& builder)
       : source_(source),
         block_(block),
         builder_(builder),
@@ -275,7 +275,7 @@ class ObjReader {
 
   const MeshSource& source_;
   const TextBlock block_;
-  MeshBuilder& builder_;
+  FileMeshBuilder& builder_;
   TextScanner scanner_;
   Ignored ignored_;
   std::vector<int32_t> indices_;
@@ -307,7 +307,7 @@ void note_ignored(const Ignored& lines, std::vector<std::string>& notes) {
 }
 
 Mesh read_obj_whole(const MeshSource& source) {
-  MeshBuilder builder(source);
+  FileMeshBuilder builder(source);
   ObjReader reader(source, whole_text(source), builder);
   reader.read();
   reader.check_greatest();
@@ -322,7 +322,7 @@ struct ObjBlock {
   std::vector<uint32_t> relative;
 };
 
-void place_relative(const ObjBlock& block, size_t vertices_before, MeshBuilder& builder) {
+void place_relative(const ObjBlock& block, size_t vertices_before, FileMeshBuilder& builder) {
   if (static_cast<int64_t>(vertices_before) + block.range.least < 0)
     reject(builder.name(), "byte 0", "an index before the first vertex", "none");
   for (const uint32_t number : block.relative)
@@ -332,7 +332,7 @@ void place_relative(const ObjBlock& block, size_t vertices_before, MeshBuilder& 
 Mesh read_obj_by_blocks(const MeshSource& source) {
   const ThreadPool pool = pool_of(source);
   TextBlocks blocks(source, 0, Cut::kUncontinued);
-  std::vector<MeshBuilder> builders = blocks.builders();
+  std::vector<FileMeshBuilder> builders = blocks.builders();
   std::vector<ObjBlock> read(blocks.count());
   blocks.for_each(pool, [&](size_t i, const TextBlock& block) {
     ObjReader reader(blocks.source(), block, builders[i]);
@@ -341,10 +341,10 @@ Mesh read_obj_by_blocks(const MeshSource& source) {
   });
   std::vector<size_t> starts;
   starts.reserve(builders.size());
-  for (const MeshBuilder& builder : builders) starts.push_back(builder.vertices().size());
+  for (const FileMeshBuilder& builder : builders) starts.push_back(builder.vertices().size());
   const size_t vertex_count = starts_of(starts);
   pool.for_each(read.size(), [&](size_t i) { place_relative(read[i], starts[i], builders[i]); });
-  MeshBuilder all = MeshBuilder::joined(source, std::move(builders));
+  FileMeshBuilder all = FileMeshBuilder::joined(source, std::move(builders));
   Ignored ignored;
   for (const ObjBlock& block : read) {
     ignored.add(block.ignored);

@@ -97,7 +97,7 @@ uint32_t index_in(const TextScanner& scanner, std::string_view word, uint64_t ve
 
 class RowReader {
  public:
-  RowReader(TextScanner& scanner, const Counts& counts, MeshBuilder& builder)
+  RowReader(TextScanner& scanner, const Counts& counts, FileMeshBuilder& builder)
       : scanner_(scanner), counts_(counts), builder_(builder) {}
 
   /// Vertices and faces are counted as one.
@@ -167,7 +167,7 @@ class RowReader {
 
   TextScanner& scanner_;
   const Counts& counts_;
-  MeshBuilder& builder_;
+  FileMeshBuilder& builder_;
   std::vector<uint32_t> corners_;
   size_t line_ = 0;  ///< the line in which the row begins
   uint64_t words_of_first_ = 0;
@@ -175,7 +175,7 @@ class RowReader {
 
 Mesh read_off_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name, '#');
-  MeshBuilder builder(source);
+  FileMeshBuilder builder(source);
   const Counts counts = read_off_header(scanner, source.size());
   builder.reserve(counts.vertices, counts.faces);
   {
@@ -194,9 +194,9 @@ Mesh read_off_by_blocks(const MeshSource& source) {
   TextScanner header(head, source.name, '#');
   const Counts counts = read_off_header(header, source.size());
   check_header_ends(header, source);
-  MeshBuilder(source).check_room(counts.vertices, counts.faces);
+  FileMeshBuilder(source).check_room(counts.vertices, counts.faces);
   RowBlocks blocks(source, header.offset(), '#');
-  std::vector<MeshBuilder> builders = blocks.builders();
+  std::vector<FileMeshBuilder> builders = blocks.builders();
   std::vector<uint64_t> words(builders.size());
   blocks.for_each(counts.vertices + counts.faces, [&](size_t i, const Rows& rows) {
     RowReader reader(rows.scanner, counts, builders[i]);
@@ -206,7 +206,7 @@ Mesh read_off_by_blocks(const MeshSource& source) {
   words.erase(std::remove(words.begin(), words.end(), 0), words.end());
   if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to()) != words.end())
     reject(source.name, "byte 0", "vertices of different lengths", "one length");
-  return MeshBuilder::joined(source, std::move(builders)).finish("byte 0");
+  return FileMeshBuilder::joined(source, std::move(builders)).finish("byte 0");
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ class AsciiBody {
     scanner_.fail(what, expected);
   }
   std::string place() const { return scanner_.place(); }
-  void read_rest(MeshBuilder& builder) {
+  void read_rest(FileMeshBuilder& builder) {
     note_lines(comments_, " of comment in the body ignored", builder);
     note_lines(longer_, " with words behind a face's properties, which were ignored", builder);
     note_rest(scanner_, builder.notes);
@@ -104,7 +104,7 @@ class AsciiBody {
     return word == "comment" || word == "obj_info";
   }
 
-  static void note_lines(const Lines& lines, const char* text, MeshBuilder& builder) {
+  static void note_lines(const Lines& lines, const char* text, FileMeshBuilder& builder) {
     if (lines.count == 0) return;
     builder.notes.push_back(note_of(NoteCode::kUnread, counted(lines.count, "line") + text +
                                                            ", the first is line " +
@@ -137,7 +137,7 @@ class BinaryBody {
     reject(source_.name, row_place(*element_, row_) + ", " + place(), what, expected);
   }
   std::string place() const { return "byte " + std::to_string(at_); }
-  void read_rest(MeshBuilder& builder) const {
+  void read_rest(FileMeshBuilder& builder) const {
     check_rest(source_.bytes.substr(at_), at_, element_, builder);
   }
 
@@ -205,7 +205,7 @@ void skip_property(Body& body, const Property& property) {
 template <class Body>
 class BodyReader {
  public:
-  BodyReader(const Header& header, const Layout& layout, Body body, MeshBuilder& builder)
+  BodyReader(const Header& header, const Layout& layout, Body body, FileMeshBuilder& builder)
       : header_(header), layout_(layout), body_(body), builder_(builder) {}
 
   /// Rows of all elements are counted as one.
@@ -283,7 +283,7 @@ class BodyReader {
   const Header& header_;
   const Layout& layout_;
   Body body_;
-  MeshBuilder& builder_;
+  FileMeshBuilder& builder_;
   std::vector<uint32_t> corners_;
 };
 
@@ -314,7 +314,7 @@ std::vector<double> read_scalar(const Header& header, const Layout& layout, size
 template <class Body>
 Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
   const Layout layout = layout_of(header, source);
-  MeshBuilder builder(source);
+  FileMeshBuilder builder(source);
   builder.reserve(layout.vertex->count, layout.face->count);
   std::optional<BodyReader<Body>> reader;
   reader.emplace(header, layout, Body(scanner, source), builder);
@@ -341,18 +341,18 @@ Mesh read_ply_whole(const MeshSource& source) {
 
 Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
   const Layout layout = layout_of(header, source);
-  MeshBuilder(source).check_room(layout.vertex->count, layout.face->count);
+  FileMeshBuilder(source).check_room(layout.vertex->count, layout.face->count);
   uint64_t row_count = 0;
   for (const Element& element : header.elements) row_count += element.count;
   RowBlocks blocks(source, body_begin, '\0');
-  std::vector<MeshBuilder> builders = blocks.builders();
+  std::vector<FileMeshBuilder> builders = blocks.builders();
   blocks.for_each(row_count, [&](size_t i, const Rows& rows) {
     BodyReader reader(header, layout, AsciiBody(rows.scanner, source), builders[i]);
     reader.read(rows.begin, rows.end);
     if (reader.body().has_notes())  // they have lines of the whole file
       reject(source.name, "byte 0", "lines beside the rows", "none");
   });
-  return MeshBuilder::joined(source, std::move(builders)).finish("byte 0");
+  return FileMeshBuilder::joined(source, std::move(builders)).finish("byte 0");
 }
 
 Mesh read_ply_by_blocks(const MeshSource& source) {

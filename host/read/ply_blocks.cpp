@@ -69,7 +69,7 @@ class BlockReader {
         block_bytes_(block_bytes_of(source)) {}
 
   Mesh read(uint64_t body_begin) {
-    MeshBuilder(source_).check_room(layout_.vertex->count, layout_.face->count);
+    FileMeshBuilder(source_).check_room(layout_.vertex->count, layout_.face->count);
     uint64_t at = body_begin;
     const Element* last = nullptr;
     for (const Element& element : header_.elements) {
@@ -77,7 +77,7 @@ class BlockReader {
       at = read_element(element, at);
       last = &element;
     }
-    MeshBuilder builder(source_, std::move(vertices_), std::move(faces_));
+    FileMeshBuilder builder(source_, std::move(vertices_), std::move(faces_));
     builder.count_faces(polygons_, short_faces_, file_faces_, 0);
     constexpr uint64_t kMostRest = uint64_t{1} << 20;
     const uint64_t size = source_.size();
@@ -232,7 +232,7 @@ class BlockReader {
 
   uint64_t read_face_blocks(const PlyBlocks& blocks) {
     const uint64_t triangles = blocks.back().triangle;
-    MeshBuilder(source_).check_room(layout_.vertex->count, triangles);
+    FileMeshBuilder(source_).check_room(layout_.vertex->count, triangles);
     if (faces_.size() != triangles) {
       faces_ = {};
       resize_together(pool_, faces_, triangles);

@@ -249,7 +249,7 @@ std::string row_place(const Element& element, uint64_t row) {
 
 // Blank bytes are padding, a few others litter; a rest with room for a triangle or a vertex may be
 // one, from counts that differ from the rows.
-void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBuilder& builder) {
+void check_rest(std::string_view rest, uint64_t at, const Element* last, FileMeshBuilder& builder) {
   if (rest.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == std::string_view::npos) return;
   if (last && rest.size() >= least_row_of_three(*last)) {
     reject(builder.name(), "byte " + std::to_string(at),

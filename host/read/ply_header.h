@@ -82,7 +82,7 @@ std::string row_place(const Element& element, uint64_t row);
 
 /// Notes or rejects what follows a binary body that ends at `at`. `last`: the element of the last
 /// row.
-void check_rest(std::string_view rest, uint64_t at, const Element* last, MeshBuilder& builder);
+void check_rest(std::string_view rest, uint64_t at, const Element* last, FileMeshBuilder& builder);
 
 /// Reads a binary body on several threads. Throws InputError if anything is wrong, and if vertices
 /// have lists.

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/read/mesh_builder.h"
+#include "host/read/file_mesh_builder.h"
 #include "host/read/mesh_io.h"
 #include "host/read/source.h"
 

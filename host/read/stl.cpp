@@ -25,7 +25,7 @@ uint64_t announced_triangles(std::string_view head) {
 
 class VertexMerger {
  public:
-  VertexMerger(MeshBuilder& builder, size_t triangle_count)
+  VertexMerger(FileMeshBuilder& builder, size_t triangle_count)
       : builder_(builder),
         index_(triangle_count / 2, Hash{.vertices = &builder.vertices()},
                Same{&builder.vertices()}) {}
@@ -51,7 +51,7 @@ class VertexMerger {
     }
   };
 
-  MeshBuilder& builder_;
+  FileMeshBuilder& builder_;
   HashIndex<Hash, Same> index_;
 };
 
@@ -108,7 +108,7 @@ bool looks_like_triangle(const char* at, double mesh_size) {
 // Exporters leave litter behind the last triangle. If it holds another one, with or without stray
 // bytes before it, then the count is wrong: measuring only those counted would certify a part of
 // the model.
-void check_rest(std::string_view rest, uint64_t begin, MeshBuilder& builder) {
+void check_rest(std::string_view rest, uint64_t begin, FileMeshBuilder& builder) {
   if (rest.empty()) return;
   double mesh_size = 0;
   for (const glm::dvec3& v : builder.vertices()) {
@@ -148,7 +148,7 @@ bool has_attribute_bytes(std::string_view bytes) {
 }
 
 Mesh read_binary(const MeshSource& source) {
-  MeshBuilder builder(source);
+  FileMeshBuilder builder(source);
   const bool has_attributes = has_attribute_bytes(source.bytes);
   const uint64_t count = has_attributes ? announced_triangles(source.bytes) : checked_count(source);
   builder.reserve(0, count);
@@ -180,7 +180,7 @@ Mesh read_binary(const MeshSource& source) {
 // Merged corners that break the limit are refused as a reader of one corner after the other does: a
 // corner that is there already is counted before it is found.
 template <class Corner>
-MeshBuilder merged(const MeshSource& source, const ThreadPool& pool, Array<Corner> corners) {
+FileMeshBuilder merged(const MeshSource& source, const ThreadPool& pool, Array<Corner> corners) {
   constexpr uint64_t kSpare = 12;
   MergedCorners mesh = CornerMerger(pool, corners).merge();
   const uint64_t bytes = mesh_bytes(mesh.vertices.size(), mesh.faces.size());
@@ -193,7 +193,7 @@ Mesh read_binary_by_blocks(const MeshSource& source) {
   constexpr uint64_t kMostRest = uint64_t{1} << 20;
   const uint64_t count = checked_count(source), end = kHeaderBytes + count * kTriangleBytes;
   const uint64_t per_block = std::max<uint64_t>(1, block_bytes_of(source) / kTriangleBytes);
-  MeshBuilder(source).check_room(0, count);
+  FileMeshBuilder(source).check_room(0, count);
   if (source.size() - end > kMostRest)
     reject(source.name, byte_place(end), "more than is looked at", "less");
   const ThreadPool pool = pool_of(source);
@@ -217,7 +217,7 @@ Mesh read_binary_by_blocks(const MeshSource& source) {
     }
     count_read(source, bytes.size());
   });
-  MeshBuilder builder = merged(source, pool, std::move(corners));
+  FileMeshBuilder builder = merged(source, pool, std::move(corners));
   check_rest(Windows::Window(windows).read(end, source.size()), end, builder);
   return std::move(builder).finish(byte_place(kHeaderBytes), Positions::kDiffer);
 }
@@ -329,7 +329,7 @@ class AsciiReader {
 
 class MergingUse {
  public:
-  MergingUse(MeshBuilder& builder, size_t triangle_count)
+  MergingUse(FileMeshBuilder& builder, size_t triangle_count)
       : builder_(builder), merger_(builder, triangle_count) {}
 
   void corner(const glm::dvec3& p) { face_[corners_++] = merger_.insert(p); }
@@ -339,14 +339,14 @@ class MergingUse {
   }
 
  private:
-  MeshBuilder& builder_;
+  FileMeshBuilder& builder_;
   VertexMerger merger_;
   glm::uvec3 face_{};
   int corners_ = 0;
 };
 
 Mesh read_ascii(const MeshSource& source) {
-  MeshBuilder builder(source);
+  FileMeshBuilder builder(source);
   std::string place;
   {
     MergingUse use(builder, source.bytes.size() / 200);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "host/base/text_scanner.h"
-#include "host/read/mesh_builder.h"
+#include "host/read/file_mesh_builder.h"
 
 namespace vkh {
 
@@ -41,8 +41,8 @@ class TextBlocks {
   /// The source that was cut, but without its keep_going: the pool asks that.
   const MeshSource& source() const { return quiet_; }
   /// Makes one builder for each block.
-  std::vector<MeshBuilder> builders() const {
-    return std::vector<MeshBuilder>(count_, MeshBuilder(quiet_));
+  std::vector<FileMeshBuilder> builders() const {
+    return std::vector<FileMeshBuilder>(count_, FileMeshBuilder(quiet_));
   }
 
   /// Calls work(i, block) for all that are not empty. Throws InputError if no line begins that may
@@ -82,7 +82,7 @@ class RowBlocks {
   RowBlocks(const MeshSource& source, uint64_t begin, char comment)
       : pool_(pool_of(source)), blocks_(source, begin, Cut::kLine), comment_(comment) {}
 
-  std::vector<MeshBuilder> builders() const { return blocks_.builders(); }
+  std::vector<FileMeshBuilder> builders() const { return blocks_.builders(); }
 
   /// Calls work(i, rows) for each block, which has to read all of them. Throws InputError unless
   /// there are `row_count` in all.

@@ -272,7 +272,7 @@ class Builder {
   const MeshSource& source_;
   Model& model_;
   const Volumes& volumes_;
-  MeshBuilder builder_;
+  FileMeshBuilder builder_;
   std::vector<Level> levels_;
   std::vector<Slot> slots_;
   uint64_t use_ = 0;

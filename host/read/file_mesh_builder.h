@@ -18,15 +18,15 @@ inline constexpr const char* kAMesh = "a mesh: export the surface as triangles (
 std::string counted(uint64_t count, const std::string& noun);
 
 /// Collects a file's vertices and faces, within the source's limits.
-class MeshBuilder {
+class FileMeshBuilder {
  public:
-  explicit MeshBuilder(const MeshSource& source) : name_(source.name), limits_(source.limits) {}
+  explicit FileMeshBuilder(const MeshSource& source) : name_(source.name), limits_(source.limits) {}
 
   /// Joins the blocks of a file, in order. Throws InputError if together they break the limits.
-  static MeshBuilder joined(const MeshSource& source, std::vector<MeshBuilder>&& blocks);
+  static FileMeshBuilder joined(const MeshSource& source, std::vector<FileMeshBuilder>&& blocks);
   /// Takes what was read without a builder.
-  MeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
-              std::vector<glm::uvec3> faces);
+  FileMeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
+                  std::vector<glm::uvec3> faces);
 
   const std::string& name() const { return name_; }
   const std::vector<glm::dvec3>& vertices() const { return vertices_; }

@@ -1,4 +1,4 @@
-#include "host/read/mesh_builder.h"
+#include "host/read/file_mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,18 +33,18 @@ std::string counted(uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-void MeshBuilder::check_room(uint64_t vertex_count, uint64_t face_count) const {
+void FileMeshBuilder::check_room(uint64_t vertex_count, uint64_t face_count) const {
   if (mesh_bytes(vertex_count, face_count) > limits_.max_input_bytes)
     refuse_size(vertex_count, face_count);
 }
 
-void MeshBuilder::reserve(uint64_t vertex_count, uint64_t face_count) {
+void FileMeshBuilder::reserve(uint64_t vertex_count, uint64_t face_count) {
   check_room(vertex_count, face_count);
   vertices_.reserve(vertex_count);
   faces_.reserve(face_count);
 }
 
-void MeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const {
+void FileMeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const {
   const std::string place = face_count > 0 ? "face " + std::to_string(face_count - 1)
                                            : "vertex " + std::to_string(vertex_count - 1);
   reject(name_, place,
@@ -55,7 +55,7 @@ void MeshBuilder::refuse_size(uint64_t vertex_count, uint64_t face_count) const 
          kLessInput);
 }
 
-void MeshBuilder::add_face(std::span<const uint32_t> corners) {
+void FileMeshBuilder::add_face(std::span<const uint32_t> corners) {
   if (corners.size() < 3) {
     ++short_faces_;
     file_faces_.add(faces_.size(), 0);
@@ -75,8 +75,8 @@ void MeshBuilder::add_face(std::span<const uint32_t> corners) {
   }
 }
 
-MeshBuilder::MeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
-                         std::vector<glm::uvec3> faces)
+FileMeshBuilder::FileMeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
+                                 std::vector<glm::uvec3> faces)
     : name_(source.name),
       limits_(source.limits),
       vertices_(std::move(vertices)),
@@ -84,13 +84,14 @@ MeshBuilder::MeshBuilder(const MeshSource& source, std::vector<glm::dvec3> verti
   make_room(0, 0);
 }
 
-MeshBuilder MeshBuilder::joined(const MeshSource& source, std::vector<MeshBuilder>&& blocks) {
+FileMeshBuilder FileMeshBuilder::joined(const MeshSource& source,
+                                        std::vector<FileMeshBuilder>&& blocks) {
   std::vector<size_t> vertices, faces;
-  for (const MeshBuilder& block : blocks) {
+  for (const FileMeshBuilder& block : blocks) {
     vertices.push_back(block.vertices_.size());
     faces.push_back(block.faces_.size());
   }
-  MeshBuilder all(source);
+  FileMeshBuilder all(source);
   const ThreadPool pool = pool_of(source);
   const size_t vertex_count = starts_of(vertices), face_count = starts_of(faces);
   all.make_room(vertex_count, face_count);
@@ -106,14 +107,14 @@ MeshBuilder MeshBuilder::joined(const MeshSource& source, std::vector<MeshBuilde
     blocks[i].faces_ = {};
   });
   for (size_t i = 0; i < blocks.size(); ++i) {
-    const MeshBuilder& block = blocks[i];
+    const FileMeshBuilder& block = blocks[i];
     all.count_faces(block.polygons_, block.short_faces_, block.file_faces_, faces[i]);
   }
   return all;
 }
 
 // Returns false for faces that make_mesh refuses.
-bool MeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
+bool FileMeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
   return std::all_of(faces.begin(), faces.end(), [&](const glm::uvec3& face) {
     for (int k = 0; k < 3; ++k) {
       if (face[k] >= vertices_.size()) return false;
@@ -125,7 +126,7 @@ bool MeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
 }
 
 // Triangulates from one face to another, with as many triangles each.
-Polygons MeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::Run& end) {
+Polygons FileMeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::Run& end) {
   const uint32_t each = (end.triangles - begin.triangles) / (end.faces - begin.faces);
   Polygons found;
   for (uint32_t i = 0; i < end.faces - begin.faces; ++i) {
@@ -149,7 +150,7 @@ Polygons MeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::
   return found;
 }
 
-Polygons MeshBuilder::triangulate(const ThreadPool& pool) {
+Polygons FileMeshBuilder::triangulate(const ThreadPool& pool) {
   constexpr uint32_t kTriangles = 1 << 15;  // about 3 ms
   std::vector<std::pair<FileFaces::Run, FileFaces::Run>> parts;
   FileFaces::Run before;
@@ -185,7 +186,7 @@ Polygons MeshBuilder::triangulate(const ThreadPool& pool) {
   return all;
 }
 
-void MeshBuilder::note_polygons(const Polygons& polygons) {
+void FileMeshBuilder::note_polygons(const Polygons& polygons) {
   std::string note = counted(polygons_, "face") + " of more than three corners " +
                      (polygons_ == 1 ? "was" : "were") + " triangulated";
   if (polygons.clipped > 0) note += ", " + std::to_string(polygons.clipped) + " of them not convex";
@@ -205,7 +206,7 @@ void MeshBuilder::note_polygons(const Polygons& polygons) {
           std::to_string(polygons.first_fanned) + " it " + what_is_odd(polygons.first_kind)));
 }
 
-void MeshBuilder::refuse_odd(const Polygons& polygons) const {
+void FileMeshBuilder::refuse_odd(const Polygons& polygons) const {
   if (polygons.fanned == 0 || limits_.odd_polygons == OddPolygons::kFanned) return;
   std::string what = "an outline that " + what_is_odd(polygons.first_kind);
   if (polygons.fanned > 1) what += ", the first of " + counted(polygons.fanned, "such face");
@@ -214,7 +215,7 @@ void MeshBuilder::refuse_odd(const Polygons& polygons) const {
          "corners");
 }
 
-void MeshBuilder::refuse_no_face(const std::string& place) const {
+void FileMeshBuilder::refuse_no_face(const std::string& place) const {
   if (short_faces_ == 0 && !vertices_.empty())
     reject(name_, place, counted(vertices_.size(), "point") + " and no face", kAMesh);
   reject(name_, place,
@@ -223,7 +224,7 @@ void MeshBuilder::refuse_no_face(const std::string& place) const {
          "at least one face: a distance between no surfaces is undefined");
 }
 
-Mesh MeshBuilder::finish(const std::string& place, Positions positions) && {
+Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
   if (faces_.empty()) refuse_no_face(place);
   if (faces_.size() + short_faces_ >= UINT32_MAX)
     reject(name_, place, "too many faces", "fewer than 2^32 - 1");
