@@ -8,7 +8,7 @@ faces = np.array([[0, 1, 2]])
 r = vkh.distance(va, faces, vb, faces, tol=1e-6, symmetric=True)
 print(r.lower, r.upper, r.closed, r.witness_a, r.face_b)
 
-with vkh.Solver(vb, faces) as solver:  # B's hierarchy is built once
+with vkh.Solver(vb, faces) as solver:  # B's BVH is built once
     for scale in (1, 2, 3):
         r = solver.distance(va * scale, faces, time=10)
         print(f"{r.lower} <= h <= {r.upper}: {r.status}")
