@@ -21,7 +21,8 @@ gpu::BeginPush begin_push(const Problem& p) {
 
 // The same choice as in `query`: a whole workgroup per item if they are few.
 bool in_groups(const Problem& p) {
-  return gpu::traverses_by_group(p.switches, p.wide) && p.vertex_count <= gpu::kGroupTraversalVertices;
+  return gpu::traverses_by_group(p.switches, p.wide) &&
+         p.vertex_count <= gpu::kGroupTraversalVertices;
 }
 
 }  // namespace

@@ -73,8 +73,10 @@ struct RunBuffers : Workspace {
   Slice<gpu::uvec3> b_faces;
   Slice<uint32_t> b_fault;
   Slice<gpu::Area> areas;
-  Slice<uint32_t> vertex_state;  // vertex_distance, before it is one
-  Slice<uint32_t> order;         // of the frontier, where it is sorted
+  // The same memory as vertex_distance. seed_faces leaves each vertex's state there; the first
+  // query replaces it by the distance.
+  Slice<uint32_t> vertex_state;
+  Slice<uint32_t> order;  // of the frontier, where it is sorted
 };
 
 // The same with push constants; `points` are the queries.
@@ -83,8 +85,9 @@ struct Given : RunBuffers {
   Given(const RunBuffers& run, const Push& p) : RunBuffers(run), push(p) {}
   Push push;
 };
-// The points for `query`, kAsk*; so many of A's vertices and, if `warm`, the present witness: a
-// wave asks for the witness alone where the base has moved.
+// The points for `query`, kAsk*; so many of A's vertices and, if `warm`, the present witness. A
+// wave passes no vertices and `warm`: if its plan has moved the base, query.comp measures the
+// witness alone, as the item behind zero vertices.
 gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count = 0,
                           bool warm = true);
 

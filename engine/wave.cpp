@@ -14,6 +14,7 @@ struct Lines {
       : wave(p),
         points(wave, query_push(p, gpu::kAskPoints)),
         centroids(wave, query_push(p, gpu::kAskCentroids)) {
+    // Query has one binding, `points`. For centroids it is given the stream of centroids.
     centroids.points = wave.centroids;
   }
   RunBuffers wave;

@@ -42,15 +42,16 @@ VKH_CONST uint kMaxGroupsX =
 // Invocations of query: one query each, or one for all if a wave has few queries.
 VKH_CONST uint kQueryGroup = 64u;
 // The points of its queries.
-VKH_CONST uint kAskPoints = 0u;               // the wave's new points
-VKH_CONST uint kAskCentroids = 1u;            // the centroids of its survivors
-VKH_CONST uint kAskVertices = 2u;             // of A, in plain floats
-VKH_CONST uint kAskVerticesAgain = 3u;        // to 48 bits above the base
+VKH_CONST uint kAskPoints = 0u;                    // the wave's new points
+VKH_CONST uint kAskCentroids = 1u;                 // the centroids of its survivors
+VKH_CONST uint kAskVertices = 2u;                  // of A, in plain floats
+VKH_CONST uint kAskVerticesAgain = 3u;             // to 48 bits above the base
 VKH_CONST uint kGroupTraversalQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
-                                              // alike on an H200, 2^11 and 2^14 slower
+                                                   // alike on an H200, 2^11 and 2^14 slower
 // Vertices of A, whose traversals start from nowhere: the group's is long, too.
 VKH_CONST uint kGroupTraversalVertices = 1u << 11;
-VKH_CONST uint kGroupTraversalBoxes = 512u;   // boxes of a level that a group holds; more: each alone
+// Boxes of a level that a group holds; more: each alone.
+VKH_CONST uint kGroupTraversalBoxes = 512u;
 VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
@@ -278,7 +279,7 @@ struct TriangleLow {
 
 // A sub-triangle of A that is still undecided: 36 bytes.
 struct Candidate {
-  uvec4 corners;  // three dyadic barycentric pairs, see math/bary.h
+  uvec4 corners;  // three dyadic barycentric pairs, see math/dyadic.h
   uint root;      // face of A
   uvec3 nearest;  // closest triangle of B found for each corner
   float upper;    // u: h(candidate, B) <= Control::base + upper, rounding included
@@ -286,7 +287,7 @@ struct Candidate {
 
 // A refined candidate in its wave.
 struct Split {
-  uint code;          // math/bary.h; kSplitNone where it ends here
+  uint code;          // math/dyadic.h; kSplitNone where it ends here
   uint child_splits;  // if it is split twice: the codes of its four children, 5 bits each;
                       // kChildSplitNone
   uint parent;        // its slot in the half of the frontier being read
@@ -388,6 +389,7 @@ struct CentroidBox {
   uint minus_hi[3];
 };
 
+// VkhReport in vkhausdorff.h is this struct word by word; api.cpp asserts its size and offsets.
 struct Report {
   float lower;  // certified: lower <= h(A,B) for the coordinates in the buffers
   float upper;  // certified: h(A,B) <= upper

@@ -17,7 +17,7 @@
 
 namespace vkh {
 
-const char* program_version();
+const char* program_version();  ///< defined in words.cpp
 
 /// A mesh of the question. Before it is read, only its path is known.
 struct Input {
@@ -80,6 +80,8 @@ struct Answer {
   Waits waits;
 };
 
+// words.cpp defines these.
+
 /// The whole answer's interval.
 CertifiedInterval interval_of(const Answer& answer);
 /// The verdict on one direction, and on all, of an answer with `max`.
@@ -107,9 +109,13 @@ double gap_as_printed(const Answer& answer, double lower, double upper);
 /// A file's name as a terminal may show it: control characters are written as \xNN.
 std::string printable(const std::string& text);
 
+// servers.cpp defines this one.
+
 /// Picks the notes on the inputs' surfaces, which build servers get too: "A: polygons: ...".
 std::vector<std::string> surface_notes(const std::vector<std::string>& notes_a,
                                        const std::vector<std::string>& notes_b);
+
+// json.cpp defines these.
 
 /// One line of JSON, without a newline at its end, of docs/schema/answer.schema.json.
 std::string to_json(const Answer& answer);
@@ -122,17 +128,23 @@ struct Failure {
 };
 std::string to_json(const Failure& failure);
 
+// table.cpp defines these.
+
 /// Prints the words, and ten to fifteen lines; `verbose` adds switches, stages, waves and the cull
 /// histogram.
 void print_table(std::ostream& out, const Answer& answer, bool verbose);
 /// Prints one line of such a table.
 void print_row(std::ostream& out, const char* label, const std::string& text);
 
+// survey_rows.cpp defines this one.
+
 /// A survey's results as rows of that table.
 struct TableRow {
   std::string label, text;
 };
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey);
+
+// servers.cpp defines these: the formats that build servers read.
 
 /// The outcome of one JUnit test case; `element` empty: it passed.
 struct JunitCase {

@@ -49,7 +49,8 @@ void check_bounds(const Json& answer);
 /// A whole number of 0 or more. Throws InputError that names `key` for anything else: 1.9, true.
 uint64_t count_in(const Json& object, const std::string& key);
 
-/// Adds the survey of a direction's mesh.
+/// Adds the survey of one direction's mesh: `survey`, and `field` and `statistics` where they were
+/// asked for.
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer);
 
 /// kBrief leaves out times, stages, waves and workspace, which only one run or machine has.

@@ -161,7 +161,8 @@ void check_complete(const std::vector<Part>& parts) {
            "all " + std::to_string(parts[0].count) + " parts");
 }
 
-/// Returns the checked parts in their order.
+/// Parses the answers, checks that they are all the parts of one comparison, each once, and returns
+/// them in the order of their numbers.
 std::vector<Part> checked(const std::vector<WrittenAnswer>& written) {
   std::vector<Part> parts;
   parts.reserve(written.size());

@@ -296,7 +296,8 @@ Done work(const std::shared_ptr<Progressing>& shared) {
   return done;
 }
 
-/// The answer known so far, when no caller waits for the rest.
+/// Returns the answer known so far, for a caller that no longer waits for the run. Unless that
+/// answer is final, its status says why the run was stopped.
 Done unfinished(Progressing& at) {
   at.line.end();
   Done done;

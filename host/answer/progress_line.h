@@ -49,7 +49,7 @@ class ProgressLine {
 
   /// Shows, after a run, how much of a mesh is bounded.
   void show_survey(size_t cells) { show_count("survey", cells, "cells bounded"); }
-  /// Shows, after a run, how much of a mesh is proven.
+  /// Shows, after a run, how many leaves of a mesh's certificate are made so far.
   void show_proof(size_t leaves) { show_count("certificate", leaves, "leaves"); }
 
   /// Shows how many of all pairs are done, and the time left.

@@ -27,9 +27,10 @@ MeshPair read_pair(const std::string& file_a, const std::string& file_b, ReadLim
 /// The answer before anything is read: [0, infinity).
 Answer unread_answer(const PairJob& job);
 
-/// Fills in counts, units, lengths in them, and a first bound, which is returned: no point of
-/// either is farther from the other than the joint diagonal. Throws UsageError for units that do
-/// not go together and lengths that they do not resolve.
+/// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound, which
+/// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal
+/// and both deltas. Throws UsageError for units that do not go together and for lengths that cannot
+/// be converted to the files' unit, and InputError where a share is asked of a mesh without area.
 double take_meshes(const PairJob& job, const Mesh& a, const Mesh& b, Answer& answer);
 
 /// The options for an interval as narrow as such an answer needs.

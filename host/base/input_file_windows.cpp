@@ -8,7 +8,8 @@
 namespace vkh {
 namespace {
 
-/// Makes one read of at most 1 GiB; returns the bytes read.
+/// Makes one read of at most 1 GiB; returns the bytes read, 0 at the end of the file or where the
+/// read fails.
 DWORD read_once(HANDLE file, uint64_t offset, char* to, size_t count) {
   constexpr size_t kMost = size_t{1} << 30;
   OVERLAPPED place{};

@@ -35,7 +35,7 @@ enum class NoteCode {
 /// The code's name, such as "short-faces".
 std::string_view code_name(NoteCode code);
 
-/// Joins "short-faces: " and the text.
+/// Joins the code's name and the text: "short-faces: ...".
 std::string note_of(NoteCode code, const std::string& text);
 
 /// The code that a note begins with; empty where it has none.

@@ -46,7 +46,8 @@ bool is_bool(pybind11::handle given);
 std::string text_from(const char* name, const char* expected, pybind11::handle given);
 double number_from(const char* name, const char* expected, pybind11::handle given);
 
-/// Throws "tol: expected ..., not 'x'".
+/// Throws TypeError "tol: expected ..., not 'x'"; refuse_value throws ValueError with the same
+/// text.
 [[noreturn]] void refuse_type(const char* name, const char* expected, pybind11::handle given);
 [[noreturn]] void refuse_value(const char* name, const char* expected, pybind11::handle given);
 

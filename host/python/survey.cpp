@@ -192,7 +192,7 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
   return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-/// (key, (lower, upper)), from which Python makes the values that it shows.
+/// Returns (key, (lower, upper)); _survey.py makes an Interval of the bounds.
 py::tuple pair_of(const py::object& key, double lower, double upper) {
   return py::make_tuple(key, py::make_tuple(lower, upper));
 }

@@ -123,7 +123,8 @@ class ObjReader {
   std::string place() const { return scanner_.place(); }
 
  private:
-  /// The ways in which a line may be continued on the next one.
+  /// Says how the next line may continue a skipped line that ends in a backslash: not at all, by
+  /// numbers (as long curves do) or by names (as group lists do).
   enum class Continued { kNot, kByNumbers, kByNames };
 
   void read_line() {

@@ -174,8 +174,9 @@ void check_has_faces(const Header& header, const MeshSource& source, uint64_t po
            kAMesh);
 }
 
-// The number of the property of one of those names; rejects none, several and, where `list`, any
-// that is not a list of integers, otherwise any list.
+// Returns the index of the only property that has one of the names. Rejects an element that has
+// none or several of them, and a property of the wrong kind: with `list` it must be a list of
+// integers, without it no list.
 size_t only_property(const Element& element, const MeshSource& source,
                      std::span<const std::string_view> names, bool list) {
   std::optional<size_t> only;

@@ -14,7 +14,8 @@ struct Stranger {
 
 /// Recognises a format by how a file begins.
 Stranger stranger_by_content(std::string_view head);
-/// Recognises a format by the extension of its name, in lower case and with its point.
+/// Recognises a format by a file's extension, which the caller gives in lower case and with its
+/// point: ".step".
 Stranger stranger_by_extension(std::string_view extension);
 
 }  // namespace vkh

@@ -77,7 +77,9 @@ TextBlocks::TextBlocks(const MeshSource& source, uint64_t begin, Cut cut)
 // A block begins where the first line does after so many bytes, and ends where the next one begins.
 // Both are found from the text after those bytes alone, so that neighbours agree.
 TextBlock TextBlocks::block_at(size_t i, Windows::Window& window) const {
-  constexpr uint64_t kMost = uint64_t{1} << 20;  // beyond the block, for its last line
+  // Looks for a block's last line 2^8, 2^10, .. bytes beyond the block. The test against kMost
+  // follows the attempt, so that the last one looks 4 MiB beyond.
+  constexpr uint64_t kMost = uint64_t{1} << 20;
   const uint64_t from = begin_ + i * block_bytes_;
   const uint64_t to = std::min(from + block_bytes_, size_);
   for (uint64_t beyond = 1 << 8;; beyond *= 4) {

@@ -36,7 +36,7 @@ class TextBlocks {
   TextBlocks(const MeshSource& source, uint64_t begin, Cut cut);
 
   size_t count() const { return count_; }
-  /// Returns whether for_each counts what was read from now on.
+  /// Sets whether for_each adds what it reads to the progress from now on.
   void count_bytes(bool counts) { counts_ = counts; }
   /// The source that was cut, but without its keep_going: the pool asks that.
   const MeshSource& source() const { return quiet_; }
@@ -45,8 +45,8 @@ class TextBlocks {
     return std::vector<FileMeshBuilder>(count_, FileMeshBuilder(quiet_));
   }
 
-  /// Calls work(i, block) for all that are not empty. Throws InputError if no line begins that may
-  /// begin a block, and what `work` throws.
+  /// Calls work(i, block) for every block that is not empty, and passes on what `work` throws.
+  /// Throws InputError if no line that may begin a block follows soon after a cut.
   template <class F>
   void for_each(const ThreadPool& pool, const F& work) {
     pool.for_each(count_, [&](size_t i) {

@@ -20,7 +20,8 @@ constexpr std::string_view kSlices =
     "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07|slicestackid";
 constexpr std::string_view kModelRelation =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-// Colours and names of faces; objects in other parts.
+// Namespaces that a file may require: the core, production (objects in other parts), materials
+// (colours of faces) and triangle sets (names of faces).
 constexpr std::array<std::string_view, 4> kKnown = {
     kCore, kProduction, "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};

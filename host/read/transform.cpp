@@ -60,8 +60,9 @@ Affine nowhere() {
 
 using Float128Rows = std::array<std::array<Float128, 3>, 3>;
 
-// Products of two doubles are exact, each of up to four sums is off by 2^-113 of at most 4 |q|^2,
-// the quotient by as much: an entry, which is at most 1, is off by less than 2^-105.
+// Products of two doubles are exact. Each of up to four sums is off by 2^-113 of at most 4 |q|^2,
+// and the quotient is off by as much; on the diagonal, the difference from 1 adds at most 2^-113.
+// An entry, which is at most 1, is therefore off by less than 2^-105.
 Float128Rows rotation_of(const std::array<double, 4>& q) {
   const Float128 x = float128(q[0]), y = float128(q[1]), z = float128(q[2]), w = float128(q[3]);
   const Float128 n = x * x + y * y + z * z + w * w;

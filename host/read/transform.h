@@ -16,8 +16,8 @@ struct Affine {
 
 bool is_identity(const Affine& map);
 
-/// Translation, rotation, scale, in a scene's terms: x -> t + R(q) (s x). The rotation is that of
-/// the quaternion's direction, whatever its length: x, y, z, w.
+/// Translation, rotation and scale as a scene gives them: x -> t + R(q) (s x), where s scales each
+/// axis. The quaternion q is stored as x, y, z, w; R(q) takes its direction and ignores its length.
 struct Placing {
   std::array<double, 3> translation = {0, 0, 0}, scale = {1, 1, 1};
   std::array<double, 4> rotation = {0, 0, 0, 1};

@@ -10,8 +10,8 @@
 
 namespace vkh {
 
-/// The source of the page's pieces. `json` is the answer's, read again: texts are from there, so
-/// that the page agrees with the JSON, and is in UTF-8.
+/// Data that the functions below write the page's parts from. `json` is the answer's JSON, parsed
+/// again: the page takes its texts from it, so that they agree with the JSON and are in UTF-8.
 struct PageText {
   const Answer& answer;
   nlohmann::ordered_json json;

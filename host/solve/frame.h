@@ -43,9 +43,9 @@ struct Frame {
   FileInterval to_files(double lower, double upper, double displacement, double farthest) const;
 };
 
-/// Describes how a mesh's vertices are stored in a frame: as sums of two float32, high and low,
-/// three per vertex. write_vertices writes them only where they are needed: a second copy of a
-/// large mesh takes time and memory.
+/// Describes how a mesh's vertices will be stored in a frame: each of three coordinates as a sum of
+/// two float32, high and low. It holds no floats: write_vertices() writes them, where they are
+/// needed, since a second copy of a large mesh takes time and memory.
 struct StoredMesh {
   Frame frame;
   bool has_low = false;  ///< some low part is not 0

@@ -16,8 +16,9 @@ namespace {
 constexpr double kRoundedPosition = 1.1e-7;
 // Tolerances from here on can afford that.
 constexpr double kPlainTolerance = 8 * kRoundedPosition;
-// With low parts, feet placed by 24-bit weights leave as much; tighter tolerances give up this part
-// of themselves for it.
+// With low parts the position is exact enough, but the closest point on a triangle is computed from
+// float32 barycentrics, of 24 bits, which misplaces it by as much. A tight tolerance gives up at
+// most this share of itself for that.
 constexpr double kMostForWeights = 0.1;
 // The share of the tolerance that is kept for rounding it and the sum of it and the lower bound to
 // float32.

@@ -143,10 +143,14 @@ class PairBuffers {
   const Device& device_;
   HierarchyMemory hierarchy_;
   Buffer staging_, meshes_, workspace_, report_, readback_, areas_, areas_readback_;
-  Buffer cells_, bounds_;          // for a survey
-  Buffer building_;                // scratch, unless it is the workspace
-  Buffer larger_, left_;           // the memory of a run that paused: after and before that
-  std::optional<VkhMemory> next_;  // where the run goes on now
+  Buffer cells_, bounds_;  // for a survey
+  Buffer building_;        // scratch, unless it is the workspace
+  // A run that paused goes on in `larger_`, if there was memory for it. If it pauses again and gets
+  // more, `left_` is the `larger_` that it leaves, kept until that has been copied.
+  Buffer larger_, left_;
+  // The memory in which the run goes on after the next record_move(), perhaps the one that it has;
+  // empty: none is recorded.
+  std::optional<VkhMemory> next_;
   VkDeviceSize uploaded_bytes_ = 0;
   bool is_resident_ = false;
   VkhMesh mesh_b_{};

@@ -69,7 +69,7 @@ VkhReport nothing_known() {
 
 // One submission.
 struct Runner::Submission {
-  std::vector<size_t> running;  // buffers
+  std::vector<size_t> running;  // indices into buffers_
   bool uploads, builds, begins;
   uint32_t waves;
 };
@@ -300,6 +300,8 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
                         .begins = true,
                         .waves = on_cpu || inputs[0].known_since ? kFewFirstWaves : kFirstWaves};
   for (size_t i = 0; i < inputs.size(); ++i) submission.running.push_back(i);
+  // On a CPU the BVH of B can take seconds. It is a submission of its own, without waves, so that
+  // the caller is asked between it and the first wave and may end the run there.
   if (on_cpu && inputs.size() == 1 && buffers_[0]->mesh_b() != nullptr) {
     const uint32_t waves = std::exchange(submission.waves, 0);
     submit(submission, outputs);

@@ -304,6 +304,7 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
                      .options = options[i],
                      .number = i});
   }
+  // Pairs without a limit are solved once; see pair.h.
   return decide_limits(pairs, [&](const std::vector<Pair>& some) { return solve(some, start); });
 }
 

@@ -184,7 +184,8 @@ class Together {
     all.device = devices.begin()->second;
     for (auto next = ++devices.begin(); next != devices.end(); ++next)
       all.more_devices.push_back(next->second);
-    // The parts' own bounds may come from other parts.
+    // Each part's known_lower may include bounds that other parts proved; the whole reports only
+    // the one that the caller gave.
     all.known_lower = asked_known_;
     all.status = joined_status(all, reports);
     return all;

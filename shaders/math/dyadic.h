@@ -38,12 +38,12 @@ VKH_FN Bary3 unpack_corners(uvec4 w) {
   return t;
 }
 
-// ---- subdivision: 1 -> 4
-// ---------------------------------------------------------------------------------------- A split
-// is a code. 0: midpoints, new point i in the middle of the edge opposite corner i. Otherwise
-// double longest-edge bisection, 1 + x + 3 y + 9 z: bisect the edge opposite corner x (new point
-// 3), then each half at the edge opposite its corner y (new point 4) or z (new point 5). Points
-// 0..2 are the corners.
+// ---- subdivision: 1 -> 4 ------------------------------------------------------------
+
+// A split is a code. 0: midpoints, new point i in the middle of the edge opposite corner i.
+// Otherwise double longest-edge bisection, 1 + x + 3 y + 9 z: bisect the edge opposite corner x
+// (new point 3), then each half at the edge opposite its corner y (new point 4) or z (new point 5).
+// Points 0..2 are the corners.
 
 VKH_CONST uint kSplitMidpoint = 0u;
 VKH_CONST uint kChildSplitNone = 31u;     // as kSplitNone, in 5 bits
@@ -155,9 +155,10 @@ VKH_FN Bary3 child_of(Bary6 p, uvec3 points) {
   return t;
 }
 
-// A dyadic point next to the centroid; inside the root, and inside t but for the rounding to an
-// integer.
 VKH_FN uint third(uint x) { return x / 3u; }
+
+// Returns a dyadic point next to the centroid of t. The point is inside the root; it is inside t
+// except for the rounding to an integer.
 VKH_FN uvec2 centroid_of(Bary3 t) {
   return uvec2(third(t.a.x + t.b.x + t.c.x), third(t.a.y + t.b.y + t.c.y));
 }

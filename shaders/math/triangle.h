@@ -50,9 +50,9 @@ VKH_FN Closest closest_on_edge(vec3 from_start, vec3 edge, float t, uint feature
 // All three edges are tried, and the interior in the orthogonal frame (ab, h) with h the altitude
 // from ab to c: Gram-Schmidt is backward stable, so a needle or a cap costs a few ulp of its
 // longest edge, where the normal equations would lose a factor (longest edge / altitude)^2.
-// Degenerate triangles fall to their edges or to a point. Next to a corner, feet that are sqrt(ulp)
-// d apart are equally far in plain floats, which would cost half an ulp of d: features are told
-// apart within the plane.
+// Degenerate triangles fall to their edges or to a point. Next to a corner, closest points on two
+// features that are sqrt(ulp) d apart are equally far in plain floats, which would cost half an ulp
+// of d: features are told apart within the plane.
 VKH_FN Closest closest_point(vec3 p, Corners t) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
@@ -135,8 +135,8 @@ struct View {
   float enough;  // a surface may be coarse if its slack is no more than this; 0: none may
 };
 
-// A triangle of B around a local origin: its corners to 48 bits, and rounded to find the closest
-// point with.
+// A triangle of B around a local origin. `a`, `b` and `c` hold its corners to 48 bits, unless it is
+// coarse or plain; `at` holds them rounded to floats, and serves to find the closest point.
 struct Surface {
   Two3 a, b, c;
   Corners at;

@@ -1,6 +1,5 @@
-// Two-float arithmetic, outward-rounded where stated; it may divide and take a root as
-// certified.h may. An unevaluated sum hi + lo of two floats holds about 48 bits (Dekker 1971;
-// Knuth's TwoSum).
+// Two-float arithmetic, outward-rounded where stated. An unevaluated sum hi + lo of two floats
+// holds about 48 bits (Dekker 1971; Knuth's TwoSum).
 //
 // No step relies on fma: lavapipe's is not fused, and a contracted product is only more accurate.
 // two_product is exact in any direction of rounding. two_sum is where + and - round to nearest, and

@@ -1,8 +1,8 @@
 // Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces, or faces
 // push.first and after if none are given. In: cells; A and B's BVH. Out: bounds[cell]. One
 // traversal finds the triangle nearest to the cell's middle; another examines all that may be
-// closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand for the
-// rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
+// closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand for
+// the rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
 // (push.triangle_count is 0), bounds are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -91,7 +91,8 @@ Gathered gather(CellFrame t, uint start) {
   left_count = 0u;
   traversal_at = 0u;
   while (traversal_at != kNone && looked_at < kCellTriangles) {
-    while ((traversal_at & kLeafFlag) == 0u) traversal_at = step_down(traversal_at, t.origin.hi, reach);
+    while ((traversal_at & kLeafFlag) == 0u)
+      traversal_at = step_down(traversal_at, t.origin.hi, reach);
     if (traversal_at == kNone) break;
     not_leaves += 1u - (traversal_at >> 31);
     found += ((traversal_at >> 28) & 7u) + 1u;

@@ -1,4 +1,5 @@
-// Queries of a stream of points. The kernel declares `points`, and what traversal/traversal.glsl needs.
+// Queries of a stream of points. The kernel declares `points`, and what traversal/traversal.glsl
+// needs.
 #ifndef VKH_SHADERS_TRAVERSAL_QUERY_GLSL
 #define VKH_SHADERS_TRAVERSAL_QUERY_GLSL
 

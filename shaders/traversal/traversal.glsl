@@ -8,8 +8,8 @@
 #include "shaders/base/surface.glsl"
 #include "shaders/math/lower.h"
 
-// Up to here a sample's distance is bounded from below, see measured(): beyond, a foot that is
-// 1.2e-7 off costs under 1e-8, or under 1e-10 in a tight run.
+// The largest distance at which a sample's distance is also bounded from below, see measured():
+// beyond it, a closest point that is 1.2e-7 off costs under 1e-8, or under 1e-10 in a tight run.
 float next_to_surface(bool tight) { return tight ? 1.0e-4 : 1.0e-6; }
 
 // Corners of triangle i in the frame at `origin`; each is off by one rounding.
@@ -114,8 +114,9 @@ bool is_nearer(Query q, Nearest x, Nearest than) {
 }
 
 // A traversal's result as a sample: its distance to 48 bits, if a plain traversal left that out.
-// Next to B it must not be too large: a foot that 24-bit weights place is 2^-24 of its triangle
-// off, so there the distance is bounded from below. If it is not above `than`, it does not matter.
+// Next to B it must not be too large: a closest point computed from float32 barycentrics, of 24
+// bits, is 2^-24 of its triangle off, so there the distance is bounded from below. If it is not
+// above `than`, it does not matter.
 Nearest measured(Query q, Nearest best, float than) {
   if (best.triangle == kNone) return best;
   if (!q.tight) {
@@ -177,8 +178,9 @@ void leave_farther(Near other, inout Near nearest, float reach) {
   ++left_count;
 }
 
-// Goes from a node to its nearest child within reach. To sort the others costs what it saves. This
-// is not a loop, which would index vector components by a variable: slow on CPU devices.
+// Goes from a node to its nearest child within reach, and leaves the others within reach for later;
+// if there is none, goes to the next one that was left. Sorting the others would cost what it
+// saves. A loop would index vector components by a variable, which is slow on CPU devices.
 uint step_down(uint at, vec3 p, float reach) {
   Near a = child_at(at, 0u, p);
   Near b = child_at(at, 1u, p);
@@ -210,7 +212,8 @@ void traverse(Query q, inout Nearest best) {
   float reach = reach_of(q, best);
   while (traversal_at != kNone) {
     while (traversal_at != kNone && tied_count + kLeafTriangles <= kTied) {
-      while ((traversal_at & kLeafFlag) == 0u) traversal_at = step_down(traversal_at, q.p.hi, reach);
+      while ((traversal_at & kLeafFlag) == 0u)
+        traversal_at = step_down(traversal_at, q.p.hi, reach);
       if (traversal_at == kNone) break;
       uint first = traversal_at & (kMaxTriangles - 1u);
       uint last = first + ((traversal_at >> 28) & 7u);

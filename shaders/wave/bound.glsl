@@ -30,7 +30,8 @@ const float kEnough = 0.25;
 
 uint child_total() { return is_filtered() ? control.count[kCountSurvivors] : child_count(); }
 
-// The child's code; kNone if its parent was not split.
+// Returns the code of the wave's child i, or of survivor i if there is a filter; kNone if i names
+// no child (see is_child).
 uint code_of(uint i) {
   if (is_filtered()) return survivors[i];
   return is_child(i) ? i : kNone;

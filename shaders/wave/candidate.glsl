@@ -32,11 +32,12 @@ float adopted_lower() { return control.witness.distance; }
 // larger.
 float reached(float lower) { return max(lower, control.known_lower - control.base); }
 
-// The margin above the lower bound within which a candidate is closed. A part of the tolerance, 32
-// ulp of the distances that samples are known by, is kept for the certificate of the lower bound:
-// of what they are above the base and, if they are compared in plain floats, of the base too; 64
-// kUlp2 of it otherwise. A smaller margin would refine the rounding of distances; if only the part
-// above the base is too coarse, a quarter is asked for all the same: the next plan moves the base.
+// The margin above the lower bound within which a candidate is closed: the tolerance, less what the
+// distances of samples may be wrong by. They are wrong by 32 ulp of what lies above the base and,
+// if compared in plain floats, by 32 ulp of the base too; otherwise by 64 kUlp2 of it. At least a
+// quarter of the tolerance stays, even if the part above the base is too coarse, because the next
+// plan then moves the base. The margin is never under the error of the base: less would refine
+// rounding.
 float effective_tolerance(float lower) {
   float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
   float above_noise = 32.0 * kUlp * reached(lower);

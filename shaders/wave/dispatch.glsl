@@ -14,7 +14,9 @@ Dispatch groups_of(uint groups) {
 Dispatch groups_for(uint items) { return groups_of((items + kGroupSize - 1u) / kGroupSize); }
 
 // Whether each of so many queries has a whole workgroup.
-bool traverses_in_groups(uint queries) { return traverses_by_group() && queries <= kGroupTraversalQueries; }
+bool traverses_in_groups(uint queries) {
+  return traverses_by_group() && queries <= kGroupTraversalQueries;
+}
 
 // Whether the new points of so many candidates are queried in packets.
 bool asks_in_packets(uint parents) { return packs_points() && !traverses_in_groups(3u * parents); }

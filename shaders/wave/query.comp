@@ -73,10 +73,10 @@ Item item_at(uint asks, uint i, bool mine) {
   return asks == kAskVertices ? first_item(i, mine) : known_item(i, mine);
 }
 
-// For a fused query: splits a candidate, and takes a new point of it. A workgroup has all those of
-// some candidates, or one, which all its invocations traverse for: then every workgroup of a
-// candidate works out its split, and the one of the first point keeps it. `i`: the number of the
-// point in the wave.
+// Splits a candidate for a fused query, and takes a new point of it. A workgroup has all new points
+// of some candidates, or one point, which all its invocations traverse for: then every workgroup of
+// a candidate works out its split, and the candidate's first workgroup, that of its first point,
+// keeps it. `i`: the number of the point in the wave.
 Item new_item(bool by_group, out uint i) {
   uint each = points_each();
   uint lane = gl_LocalInvocationID.x;
@@ -89,7 +89,8 @@ Item new_item(bool by_group, out uint i) {
     item = workgroup_index() / each;
     k = workgroup_index() % each;
     first = k == 0u && lane == 0u;
-    // Reserves the splits of all its children.
+    // The candidate's first workgroup also keeps the splits of its children. new_point() records a
+    // child's split at that child's first point, so each of the first lanes works out one point.
     if (k == 0u && lane < each) k = lane;
   }
   Refined r = refine(item, by_group ? lane == 0u : first, group);

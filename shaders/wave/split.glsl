@@ -5,8 +5,8 @@
 // room to be refined (wave/select.glsl) are copied to the next frontier. A candidate that
 // the risen lower bound closes, or that is too small to be decided, gets kSplitNone; its u is kept.
 // A workgroup has kGroupSize invocations, and refines as many candidates at most. The kernel
-// declares `frontier`, `splits`, `areas`, what traversal/traversal.glsl and wave/candidate.glsl need,
-// wave/centroid.glsl or no_centroid.glsl, and wave/unsorted.glsl or paper/sorted.glsl.
+// declares `frontier`, `splits`, `areas`, what traversal/traversal.glsl and wave/candidate.glsl
+// need, wave/centroid.glsl or no_centroid.glsl, and wave/unsorted.glsl or paper/sorted.glsl.
 #ifndef VKH_SHADERS_WAVE_SPLIT_GLSL
 #define VKH_SHADERS_WAVE_SPLIT_GLSL
 
@@ -23,7 +23,7 @@ shared uint child_splits_in_group[kGroupSize];
 struct Refined {
   uint from;   // its slot in the half of the frontier being read
   uint slot;   // place among the wave's parents; kNone: it is none of them
-  uint split;  // math/bary.h; kSplitNone where it ends here
+  uint split;  // math/dyadic.h; kSplitNone where it ends here
   bool closed;
   float upper;
   uint centre;  // the triangle closest to its centroid, or kNone
@@ -135,8 +135,8 @@ uint shared_slot_of(uint item, bool held, bool first, Refined r, uint group) {
 }
 
 // Whether rounding holds u up, so that no split helps: the candidate is tiny; or it lies on B,
-// where 24-bit weights place feet no nearer than 2^-23 of a triangle, taken to be as large as
-// A's.
+// where float32 barycentrics, of 24 bits, place closest points no nearer than 2^-23 of a triangle,
+// taken to be as large as A's.
 bool is_noise(Bary3 corners, uint number, Root root, float upper) {
   Corners t = plain_corners(root, corners);
   if (is_subroot(number)) root = load_root(face_of(number));
