@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/checks.h"
-#include "engine/stages.h"
+#include "engine/record.h"
 #include "engine/support.h"
 
 namespace vkh {

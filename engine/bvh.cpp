@@ -1,7 +1,7 @@
 // B's BVH: a linear one over Morton-sorted triangles, built and refitted on the GPU.
 #include <algorithm>
 
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

@@ -1,5 +1,5 @@
 // The field: bounds of the distance over cells of A, next to a run and without effect on it.
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

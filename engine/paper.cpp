@@ -1,7 +1,7 @@
 // The stage that only the paper's presets record: the frontier is sorted before it is refined.
 #include <cstddef>
 
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

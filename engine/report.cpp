@@ -1,5 +1,5 @@
 // The report: the witness certified against every triangle of B, and the current interval.
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

@@ -1,6 +1,6 @@
 // The seed: one query per vertex of A, the first lower bound and its witness, the first wave's
 // plan.
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

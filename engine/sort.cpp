@@ -3,7 +3,7 @@
 // promise to make progress).
 #include <algorithm>
 
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

@@ -3,7 +3,7 @@
 // shaders/stages.h, recorded here in their order if the switches need them.
 #include <cstddef>
 
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 namespace {

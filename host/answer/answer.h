@@ -24,7 +24,7 @@ struct Input {
   std::string path;
   bool is_read = false;
   MeshCounts counts = {};
-  MeshPlace place = {};
+  MeshAccuracy place = {};
   std::string sha256 = {};              ///< the file's hash in hexadecimal digits; empty: not known
   std::vector<FileHash> files = {};     ///< the other files read (files_beneath), if known
   std::vector<std::string> notes = {};  ///< the notes that people should know

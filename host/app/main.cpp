@@ -142,10 +142,13 @@ int run(const Words& words, Clock::time_point start) {
       return printed(run_batch_command(line.job, line.batch));
     case Command::kMerge:
       return printed(run_merge_command(line.merge));
-    default:
-      note_interrupts();
-      return run_pair(line, words, Stop(start, line.time_limit_s));
+    case Command::kDistance:
+    case Command::kGate:
+    case Command::kDemo:
+      break;
   }
+  note_interrupts();
+  return run_pair(line, words, Stop(start, line.time_limit_s));
 }
 
 int run_and_catch(const Words& words, Clock::time_point start) {

@@ -147,12 +147,12 @@ std::string read_pipe(const std::filesystem::path& path, const std::string& name
 }
 
 // The reader of a file and what it reads; throws InputError if none fits.
-struct Told {
+struct RecognisedFile {
   Parse parse;
   MeshSource source;
 };
 
-Told told_format(const MeshSource& file) {
+RecognisedFile recognise_format(const MeshSource& file) {
   constexpr size_t kHead = 4096;  // enough to recognise the format
   check_going(file.name, file.limits);
   const std::string start = head_of(file, kByteOrderMark.size() + kHead);
@@ -179,8 +179,8 @@ std::string folder_beside(const std::filesystem::path& path) {
 
 Mesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
-  const Told told = told_format(file);
-  Mesh mesh = told.parse(told.source);
+  const RecognisedFile recognised = recognise_format(file);
+  Mesh mesh = recognised.parse(recognised.source);
   mesh.has_all_bodies = file.limits.bodies == Bodies::kAll;
   return mesh;
 }
@@ -205,13 +205,13 @@ std::vector<FileBeneath> files_beneath(const std::filesystem::path& path,
   if (!file.is_open() || file.size() > limits.max_input_bytes) return {};
   const std::string name = name_of(path);
   try {
-    const Told told = told_format({.name = name,
-                                   .bytes = {},
-                                   .limits = limits,
-                                   .file = &file,
-                                   .folder = folder_beside(path)});
-    if (told.parse != &parse_gltf) return {};
-    return files_of_gltf(told.source);
+    const RecognisedFile recognised = recognise_format({.name = name,
+                                                        .bytes = {},
+                                                        .limits = limits,
+                                                        .file = &file,
+                                                        .folder = folder_beside(path)});
+    if (recognised.parse != &parse_gltf) return {};
+    return files_of_gltf(recognised.source);
   } catch (const InputError&) {  // read_mesh reports it, too
     return {};
   }

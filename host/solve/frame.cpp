@@ -89,7 +89,7 @@ bool may_keep_origin(const Box& box) {
   return extent_of(box, glm::dvec3(0)) <= 4 * extent_of(box, middle_of(box));
 }
 
-// The share of a range of vertices in a StoredMesh.
+// The share of a range of vertices in a StoragePlan.
 struct Stored {
   double worst = 0;
   bool has_low = false;
@@ -127,8 +127,8 @@ Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool
   return stored;
 }
 
-StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
-  StoredMesh out{.frame = frame};
+StoragePlan store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
+  StoragePlan out{.frame = frame};
   std::vector<Stored> stored(parts_of(mesh));
   for_each_range(mesh, [&](size_t part, VertexRange range) {
     stored[part] = store_range(frame, mesh, range, only_high);
@@ -144,7 +144,7 @@ StoredMesh store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
 
 // Scaling is exact but for underflow, which leaves less than 2^-1000. Delta is not part of the
 // check below: a mesh that is off its place is stored as well as any other.
-StoredMesh with_delta(StoredMesh stored, const Frame& frame, const Mesh& mesh) {
+StoragePlan with_delta(StoragePlan stored, const Frame& frame, const Mesh& mesh) {
   if (mesh.delta == 0) return stored;
   const double delta = scaled(mesh.delta, frame.exponent);
   const bool is_normal = delta >= std::numeric_limits<double>::min();
@@ -153,8 +153,8 @@ StoredMesh with_delta(StoredMesh stored, const Frame& frame, const Mesh& mesh) {
 }
 
 // Returns nothing if a coordinate needs a low part.
-std::optional<StoredMesh> store_exactly(const Frame& frame, const Mesh& mesh) {
-  StoredMesh stored = store_in(frame, mesh, true);
+std::optional<StoragePlan> store_exactly(const Frame& frame, const Mesh& mesh) {
+  StoragePlan stored = store_in(frame, mesh, true);
   if (stored.has_low || !(stored.displacement < 0x1p-61)) return std::nullopt;
   return stored;
 }
@@ -217,11 +217,11 @@ FileInterval Frame::to_files(double lower, double upper, double displacement,
   return {length_down(down), std::min(length_up(up), farthest)};
 }
 
-StoredMesh store_in(const Frame& frame, const Mesh& mesh) {
+StoragePlan store_in(const Frame& frame, const Mesh& mesh) {
   return with_delta(store_in(frame, mesh, false), frame, mesh);
 }
 
-void write_vertices(const StoredMesh& stored, const Mesh& mesh, float* high, float* low) {
+void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low) {
   const Scale scale(stored.frame.exponent);
   const glm::dvec3 centre = stored.frame.centre;
   for_each_range(mesh, [&](size_t, VertexRange range) {
@@ -238,8 +238,8 @@ FramedPair frame_pair(const Mesh& a, const Mesh& b) {
   const Box joint = join(bounding_box(a), bounding_box(b));
   if (may_keep_origin(joint)) {
     const Frame frame = frame_around(joint, glm::dvec3(0));
-    std::optional<StoredMesh> stored_a = store_exactly(frame, a);
-    std::optional<StoredMesh> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
+    std::optional<StoragePlan> stored_a = store_exactly(frame, a);
+    std::optional<StoragePlan> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
     if (stored_b) {
       return {frame, with_delta(*stored_a, frame, a), with_delta(*stored_b, frame, b)};
     }
@@ -252,7 +252,7 @@ FramedMesh frame_mesh(const Mesh& mesh) {
   const Box box = bounding_box(mesh);
   if (may_keep_origin(box)) {
     const Frame frame = frame_around(box, glm::dvec3(0));
-    std::optional<StoredMesh> stored = store_exactly(frame, mesh);
+    std::optional<StoragePlan> stored = store_exactly(frame, mesh);
     if (stored) return {frame, with_delta(*stored, frame, mesh)};
   }
   const Frame frame = frame_around(box, middle_of(box));

@@ -46,20 +46,20 @@ struct Frame {
 /// Describes how a mesh's vertices will be stored in a frame: each of three coordinates as a sum of
 /// two float32, high and low. It holds no floats: write_vertices() writes them, where they are
 /// needed, since a second copy of a large mesh takes time and memory.
-struct StoredMesh {
+struct StoragePlan {
   Frame frame;
   bool has_low = false;  ///< some low part is not 0
   /// The largest distance of a stored vertex from the exact one, in frame units, rounded up: the
   /// displacement by storing plus Mesh::delta. h is 1-Lipschitz in both meshes.
   double displacement = 0;
 };
-StoredMesh store_in(const Frame& frame, const Mesh& mesh);
+StoragePlan store_in(const Frame& frame, const Mesh& mesh);
 /// Writes three floats per vertex and reads none of them. Writes `low` only if has_low.
-void write_vertices(const StoredMesh& stored, const Mesh& mesh, float* high, float* low);
+void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low);
 
 struct FramedPair {
   Frame frame;
-  StoredMesh a, b;
+  StoragePlan a, b;
 };
 /// Makes the joint box reach from 1/2 to 1. Prefers centre 0 where that keeps every coordinate in
 /// its high part, as for float32 files near the origin; otherwise the middle of the joint box.
@@ -67,7 +67,7 @@ FramedPair frame_pair(const Mesh& a, const Mesh& b);
 
 struct FramedMesh {
   Frame frame;
-  StoredMesh stored;
+  StoragePlan stored;
 };
 /// The same for one mesh alone.
 FramedMesh frame_mesh(const Mesh& mesh);

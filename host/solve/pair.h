@@ -20,8 +20,8 @@ struct Pair {
   const Mesh& a;
   const Mesh& b;
   const Frame& frame;
-  const StoredMesh& stored_a;
-  const StoredMesh* stored_b;  // null: resident
+  const StoragePlan& stored_a;
+  const StoragePlan* stored_b;  // null: resident
   const ResidentMesh* resident;
   double displacement;  // both meshes' together
   bool has_low;         // of either mesh

@@ -16,7 +16,7 @@ namespace vkh {
 /// A mesh to be uploaded.
 struct MeshData {
   const Mesh* mesh = nullptr;
-  const StoredMesh* stored = nullptr;
+  const StoragePlan* stored = nullptr;
 };
 
 /// The memory that a run may use: the device's own alone, or the host's as well, which the device

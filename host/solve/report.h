@@ -92,7 +92,7 @@ struct CoverageCheck {
 };
 
 /// Mesh::delta, by which the interval is wider, and Mesh::unit of a mesh.
-struct MeshPlace {
+struct MeshAccuracy {
   double delta = 0;
   std::string unit = {};
 };
@@ -113,7 +113,7 @@ struct Report {
   SurfacePoint witness_a, witness_b;
   bool has_witness = false;  ///< false: no sample was measured yet
   MeshCounts mesh_a, mesh_b;
-  MeshPlace place_a, place_b;
+  MeshAccuracy place_a, place_b;
   DeviceDescription device;
   std::vector<DeviceDescription> more_devices;  ///< others that took part in a run over several
   std::vector<LeftOut> left_out;                ///< devices that were lost, or had no memory

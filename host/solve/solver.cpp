@@ -55,8 +55,8 @@ struct Solver::Impl {
   Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
   std::vector<Report> distances(std::span<const PairView> meshes,
                                 const std::vector<SolveOptions>& options);
-  std::vector<Report> solve_alike(const std::vector<Pair>& pairs, uint32_t switches,
-                                  Clock::time_point start);
+  std::vector<Report> solve_with_switches(const std::vector<Pair>& pairs, uint32_t switches,
+                                          Clock::time_point start);
   std::vector<Report> solve(const std::vector<Pair>& pairs, Clock::time_point start);
   Device& device;
   Runner runner;
@@ -180,8 +180,8 @@ SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
 }  // namespace
 
 // `pairs` have the same pipelines.
-std::vector<Report> Solver::Impl::solve_alike(const std::vector<Pair>& pairs, uint32_t switches,
-                                              Clock::time_point start) {
+std::vector<Report> Solver::Impl::solve_with_switches(const std::vector<Pair>& pairs,
+                                                      uint32_t switches, Clock::time_point start) {
   std::vector<Watch> watches;
   std::vector<RunInput> inputs;
   watches.reserve(pairs.size());  // inputs refer to them
@@ -226,7 +226,7 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::t
   for (const auto& [switches, numbers] : alike) {
     std::vector<Pair> some;
     for (const size_t i : numbers) some.push_back(pairs[i]);
-    std::vector<Report> found = solve_alike(some, switches, start);
+    std::vector<Report> found = solve_with_switches(some, switches, start);
     for (size_t i = 0; i < numbers.size(); ++i) reports[numbers[i]] = std::move(found[i]);
   }
   return reports;

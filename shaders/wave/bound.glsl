@@ -58,15 +58,15 @@ Candidate with_bits(Candidate c, Bary3 t) {
   return Candidate(pack_corners(whole_root()), control.face_count + i, c.nearest, c.upper);
 }
 
-void write(bool mine, Child c, uint centre, Verdict v, float threshold) {
+void close_or_keep(bool mine, Child c, uint centroid_triangle, Verdict v, float threshold) {
   bool closed = mine && v.upper <= threshold;
   bool open = mine && !closed;
   if (mine) close_area(closed, c.root, c.at);
-  uint slot = give(closed, open, v);
+  uint slot = count_and_place(closed, open, v);
   if (!open) return;
   Candidate left = Candidate(pack_corners(c.at), c.root, c.nearest, v.upper);
   frontier[writing(slot)] = with_bits(left, c.at);
-  keep_nearest_to_centroid(writing(slot), centre);
+  keep_nearest_to_centroid(writing(slot), centroid_triangle);
 }
 
 void bound_children() {
@@ -76,8 +76,8 @@ void bound_children() {
   bool fine = children < kMostChildren;
   uint i = workgroup_index() * children + lane;
   bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
-  float threshold = cull_threshold(raised_lower(), tolerant);
-  float enough = kWide && tolerant ? kEnough * effective_tolerance(raised_lower()) : 0.0;
+  float threshold = cull_threshold(lower_with_this_wave(), tolerant);
+  float enough = kWide && tolerant ? kEnough * effective_tolerance(lower_with_this_wave()) : 0.0;
   begin_group();
   offer_samples();
   uint code = kNone;
@@ -85,7 +85,7 @@ void bound_children() {
   bool mine = code != kNone;
   bool bounded = false;
   Child c;
-  uint centre = kNone;
+  uint centroid_triangle = kNone;
   if (mine) {
     c.root = root_of(code);
     c.at = whole_root();
@@ -93,8 +93,8 @@ void bound_children() {
   }
   if (bounded) {
     c = load_child(code);
-    centre = centre_of(i);
-    know(lane, centre);
+    centroid_triangle = centre_of(i);
+    know(lane, centroid_triangle);
     know_corners(lane, c);
     know_parent_samples(lane, code);
     hold(lane, c);
@@ -116,7 +116,7 @@ void bound_children() {
     barrier();
   }
   if (bounded) v = bound_besides(i, lane, c, bound_in_pairs(lane, v), threshold);
-  write(mine, c, centre, v, threshold);
+  close_or_keep(mine, c, centroid_triangle, v, threshold);
 }
 
 #endif

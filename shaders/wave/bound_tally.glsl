@@ -19,7 +19,7 @@ const uint kTallies = kTallyOpen + 1u;
 // is scarce.
 uint tally_word(uint i) { return known_triangle[i]; }
 
-// Called by every invocation, as are those below; a barrier stands before give.
+// Called by every invocation, as are those below; a barrier stands before count_and_place.
 void begin_tally() {
   if (gl_LocalInvocationID.x < kTallies) known_triangle[gl_LocalInvocationID.x] = 0u;
 }
@@ -49,7 +49,7 @@ void give_tally() {
 }
 
 // A child that is closed, or open, or neither. Returns the slot of an open one in the stream.
-uint give(bool closed, bool open, Verdict v) {
+uint count_and_place(bool closed, bool open, Verdict v) {
   float closed_u = closed ? v.upper : 0.0;
   float next = open ? v.upper : 0.0;
   if (!kWide) {

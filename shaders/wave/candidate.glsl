@@ -25,12 +25,12 @@ float upper_of(Candidate c) { return rebased(c.upper); }
 
 // The best sample's distance, above the base: with this wave's samples, complete once its queries
 // have ended; and as it was when the wave began, which stays until the plan.
-float raised_lower() { return uintBitsToFloat(control.maximum[kMaxLower]); }
+float lower_with_this_wave() { return uintBitsToFloat(control.maximum[kMaxLower]); }
 float adopted_lower() { return control.witness.distance; }
 
 // The distance that candidates are closed against: the best sample's, or a known one that is
 // larger.
-float reached(float lower) { return max(lower, control.known_lower - control.base); }
+float lower_to_beat(float lower) { return max(lower, control.known_lower - control.base); }
 
 // The margin above the lower bound within which a candidate is closed: the tolerance, less what the
 // distances of samples may be wrong by. They are wrong by 32 ulp of what lies above the base and,
@@ -40,7 +40,7 @@ float reached(float lower) { return max(lower, control.known_lower - control.bas
 // rounding.
 float effective_tolerance(float lower) {
   float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
-  float above_noise = 32.0 * kUlp * reached(lower);
+  float above_noise = 32.0 * kUlp * lower_to_beat(lower);
   float left = max(control.cull_tolerance - noise - above_noise, 0.25 * control.cull_tolerance);
   return max(left, noise);
 }
@@ -50,7 +50,8 @@ float effective_tolerance(float lower) {
 // candidates some would stop there, undecided, though h is far below. `tolerant` is the switch
 // kUseToleranceCull; without it only candidates under the lower bound are closed.
 float cull_threshold(float lower, bool tolerant) {
-  float threshold = tolerant ? reached(lower) + effective_tolerance(lower) : reached(lower);
+  float threshold =
+      tolerant ? lower_to_beat(lower) + effective_tolerance(lower) : lower_to_beat(lower);
   return control.limit > 0.0 ? max(threshold, limit_above_base()) : threshold;
 }
 

@@ -110,7 +110,8 @@ void share_room() {
 // All that is left is within the tolerance: culling would find this with one more wave.
 bool within_tolerance() {
   return control.root_cursor == control.face_count && control.count[kCountFrontier] > 0u &&
-         uintBitsToFloat(control.maximum[kMaxFrontier]) <= cull_threshold(raised_lower(), true);
+         uintBitsToFloat(control.maximum[kMaxFrontier]) <=
+             cull_threshold(lower_with_this_wave(), true);
 }
 
 void end_if_done() {

@@ -26,7 +26,7 @@ struct Refined {
   uint split;  // math/dyadic.h; kSplitNone where it ends here
   bool closed;
   float upper;
-  uint centre;  // the triangle closest to its centroid, or kNone
+  uint centroid_triangle;  // the triangle closest to its centroid, or kNone
   Candidate c;
   Bary3 at;
   Root root;
@@ -51,7 +51,7 @@ uint best_start(Refined r, vec3 p) {
   if ((kSwitches & kUseWarmStart) == 0u) return kNone;
   Nearest best = nothing_near();
   for (uint k = 0u; k < 4u; ++k) {
-    uint i = k < 3u ? r.c.nearest[k] : r.centre;
+    uint i = k < 3u ? r.c.nearest[k] : r.centroid_triangle;
     if (i != kNone && i != best.triangle) try_triangle(p, i, best);
   }
   return best.triangle;
@@ -91,7 +91,7 @@ void spill(bool held, Candidate c, float upper) {
 void defer(uint slot, Refined r) {
   r.c.upper = r.upper;
   frontier[writing(slot)] = r.c;
-  keep_nearest_to_centroid(writing(slot), r.centre);
+  keep_nearest_to_centroid(writing(slot), r.centroid_triangle);
 }
 
 // The place of an item's candidate among the wave's parents; kNone if there is no room for it in
@@ -154,7 +154,7 @@ Refined refine(uint item, bool first, uint group) {
   bool held = item < control.count[kCountFrontier];
   r.from = held ? slot_of_item(item) : 0u;
   r.c = frontier[reading(r.from)];
-  r.centre = nearest_to_centroid(reading(r.from));
+  r.centroid_triangle = nearest_to_centroid(reading(r.from));
   r.upper = upper_of(r.c);
   r.slot = shared_slot_of(item, held, first, r, group);
   bool tolerant = (kSwitches & kUseToleranceCull) != 0u;

@@ -88,7 +88,7 @@ Verdict filter_child(uint code, Child c, float threshold) {
 void main() {
   uint code = item_index();
   bool mine = code < child_count() && is_child(code);
-  float threshold = cull_threshold(raised_lower(), (kSwitches & kUseToleranceCull) != 0u);
+  float threshold = cull_threshold(lower_with_this_wave(), (kSwitches & kUseToleranceCull) != 0u);
   Verdict v = Verdict(0.0, kCullCount, kNone);
   Two3 centre = two(vec3(0.0));
   if (mine) {

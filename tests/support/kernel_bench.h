@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/stages.h"
+#include "engine/record.h"
 #include "host/gpu/memory.h"
 #include "host/mesh/mesh.h"
 

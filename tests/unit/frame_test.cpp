@@ -67,13 +67,13 @@ Rational squared_displacement(const Frame& frame, const glm::dvec3& given, const
 /// The coordinates as they are uploaded.
 struct Written {
   std::vector<float> high, low;
-  Written(const StoredMesh& stored, const Mesh& mesh)
+  Written(const StoragePlan& stored, const Mesh& mesh)
       : high(3 * mesh.vertices.size()), low(3 * mesh.vertices.size()) {
     write_vertices(stored, mesh, high.data(), low.data());
   }
 };
 
-void check_stored(const Frame& frame, const Mesh& mesh, const StoredMesh& stored_mesh,
+void check_stored(const Frame& frame, const Mesh& mesh, const StoragePlan& stored_mesh,
                   Tally& tally) {
   const double displacement = stored_mesh.displacement;
   const Written written(stored_mesh, mesh);
@@ -186,7 +186,7 @@ TEST_CASE("a delta is part of the displacement, exactly or more, and moves nothi
     const FramedPair before = frame_pair(pair.a, pair.b);
     pair.a.delta = log_uniform(random, -1070, 900);
     const FramedPair after = frame_pair(pair.a, pair.b);
-    const StoredMesh alone = store_in(before.frame, pair.a);
+    const StoragePlan alone = store_in(before.frame, pair.a);
     const auto describe = [&] { return hex(pair.a.delta) + " " + hex(after.a.displacement); };
     const Rational least =
         Rational(before.a.displacement) + Rational(pair.a.delta) * power(before.frame.exponent);

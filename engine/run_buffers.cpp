@@ -1,6 +1,6 @@
 // The buffers that the kernels of a run bind, and the points for `query`, in the seed and in every
 // wave.
-#include "engine/stages.h"
+#include "engine/record.h"
 
 namespace vkh {
 
