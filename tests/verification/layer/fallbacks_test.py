@@ -102,9 +102,9 @@ little = "--memory=1300KiB"
 expected = answer_of(demo(little, VK_INSTANCE_LAYERS=""))
 for what, environment in {
     "bindings of 512 KiB": limits(maxStorageBufferRange=1 << 19),
-    "allocations of 2 MiB": limits(maxMemoryAllocationSize=2 << 20),
-    "both": limits(maxStorageBufferRange=1 << 19, maxMemoryAllocationSize=2 << 20),
-    "both, and no push descriptors": NO_PUSH | limits(maxStorageBufferRange=1 << 19, maxMemoryAllocationSize=2 << 20),
+    "allocations of 4 MiB": limits(maxMemoryAllocationSize=4 << 20),
+    "both": limits(maxStorageBufferRange=1 << 19, maxMemoryAllocationSize=4 << 20),
+    "both, and no push descriptors": NO_PUSH | limits(maxStorageBufferRange=1 << 19, maxMemoryAllocationSize=4 << 20),
 }.items():
     done = demo(little, **environment)
     answer = answer_of(done)
