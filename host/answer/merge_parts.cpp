@@ -79,7 +79,7 @@ std::string reading_of(const Json& json) {
     text += input.at("faces").dump();
     for (const Json& note : input.at("notes")) {
       const auto line = note.get<std::string>();
-      if (is_on_surface(line)) text += '\n' + line;
+      if (is_about_surface(line)) text += '\n' + line;
     }
     text += '\n';
   }

@@ -157,7 +157,7 @@ std::vector<std::string> surface_notes(const std::vector<std::string>& notes_a,
   std::vector<std::string> told;
   for (const auto* const notes : {&notes_a, &notes_b}) {
     for (const std::string& note : *notes) {
-      if (is_on_surface(note)) told.push_back((notes == &notes_a ? "A: " : "B: ") + note);
+      if (is_about_surface(note)) told.push_back((notes == &notes_a ? "A: " : "B: ") + note);
     }
   }
   return told;

@@ -28,7 +28,7 @@ std::string_view code_of_note(std::string_view note) {
   return known == kCodeNames.end() ? std::string_view() : *known;
 }
 
-bool is_on_surface(std::string_view note) {
+bool is_about_surface(std::string_view note) {
   const std::string_view code = code_of_note(note);
   return code == code_name(NoteCode::kPolygons) || code == code_name(NoteCode::kBodies);
 }

@@ -42,6 +42,6 @@ std::string note_of(NoteCode code, const std::string& text);
 std::string_view code_of_note(std::string_view note);
 
 /// Whether build servers get it too: the measured surface is not all that the file holds.
-bool is_on_surface(std::string_view note);
+bool is_about_surface(std::string_view note);
 
 }  // namespace vkh

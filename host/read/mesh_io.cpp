@@ -11,9 +11,9 @@
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
-#include "host/base/text_scanner.h"
 #include "host/read/readers.h"
 #include "host/read/strangers.h"
+#include "host/read/text_scanner.h"
 
 namespace vkh {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/text_scanner.h"
 #include "host/read/readers.h"
+#include "host/read/text_scanner.h"
 
 namespace vkh::ply {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "host/base/text_scanner.h"
 #include "host/read/file_mesh_builder.h"
+#include "host/read/text_scanner.h"
 
 namespace vkh {
 

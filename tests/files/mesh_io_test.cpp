@@ -478,8 +478,8 @@ TEST_CASE("each note begins with its code") {
   }
   CHECK(vkh::code_of_note("left out") == "");
   CHECK(vkh::code_of_note("polygons") == "polygons");
-  CHECK(vkh::is_on_surface("bodies: left out: 1 modifier (12 faces)"));
-  CHECK(!vkh::is_on_surface("unread: 5 bytes after the last triangle ignored"));
+  CHECK(vkh::is_about_surface("bodies: left out: 1 modifier (12 faces)"));
+  CHECK(!vkh::is_about_surface("unread: 5 bytes after the last triangle ignored"));
 }
 
 TEST_CASE("error lines stay one printable line") {

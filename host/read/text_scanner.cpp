@@ -1,4 +1,4 @@
-#include "host/base/text_scanner.h"
+#include "host/read/text_scanner.h"
 
 #include <algorithm>
 #include <cstdint>
