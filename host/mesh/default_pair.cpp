@@ -20,8 +20,22 @@ using Loop = std::vector<uint32_t>;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// (cos, sin) of a share of a full turn.
-dvec2 direction(double turn) { return {std::cos(2 * kPi * turn), std::sin(2 * kPi * turn)}; }
+// Returns (cos, sin) of a share of a full turn. At the axes one of them is 0 exactly, for any libm.
+dvec2 direction(double turn) {
+  const double quarter = std::floor(4 * turn + 0.5);
+  const double x = (turn - quarter / 4) * 2 * kPi;  // at most pi/4
+  const double c = std::cos(x), s = std::sin(x);
+  switch (static_cast<int>(quarter) & 3) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
+}
 
 double cross(const dvec2& v, const dvec2& w) { return v.x * w.y - v.y * w.x; }
 
