@@ -133,11 +133,11 @@ TEST_CASE("the flange's faces are flat and face one way") {
   CHECK(bottom == doctest::Approx(-3.14159 * (53 * 53 - 13 * 13 - 6 * 5 * 5)).epsilon(2e-3));
 }
 
-// The numbers are those of g++ 12 and clang 14 at -O0 to -O3 -march=native on x86-64.
+// The numbers are those of g++ 12 at -O1 and -O3 on x86-64; other platforms run this test, too.
 TEST_CASE("the pair is the same to the last bit on every machine") {
   const vkh::MeshPair again = vkh::default_pair();
   CHECK(fingerprint(again.a) == fingerprint(pair().a));
   CHECK(fingerprint(again.b) == fingerprint(pair().b));
   CHECK(fingerprint(pair().a) == 0xbb2eb9de8b407476u);
-  CHECK(fingerprint(pair().b) == 0xb668293c0ee5fd3eu);
+  CHECK(fingerprint(pair().b) == 0xfbbfb14ab3fe0073u);
 }
