@@ -1,6 +1,7 @@
 # Chooses what `tools/test` runs by default. The goal for it is 20 minutes on two cores from a clone, builds included, and 50
 # for `tools/test --full`, which .ci/run calls and which adds the tests labelled "full" (docs/log/build.md has what was
-# measured). Those labelled "nightly" are for `ninja nightly`.
+# measured). Those labelled "nightly" are for `ninja nightly`, and in the sanitizer tree for
+# `ctest --test-dir out/asan -L nightly`.
 
 # vkh_label(LABEL TEST...): labels those that there are; the last call decides.
 function(vkh_label label)
