@@ -21,7 +21,8 @@ if(NOT VKH_SANITIZE)
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons batch batch_folders package package_types
                  python_life python_fork python_lost python_distances python_distances_life)
-  vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all orders_by_hand driver_lavapipe128_more)
+  vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all orders_by_hand driver_lavapipe128_more
+                    platform_arm64_more)
   return()
 endif()
 
@@ -47,8 +48,8 @@ vkh_label(full ${all})
 # Each took a minute or more in the sanitizer tree: starts of the program by the dozen, whose code is
 # also run by tests of one start, and searches of the same kernels with more cases.
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
-                  vkh_check certificates attack certificate_polygons batch_folders python_life python_meshes
-                  python_lost python_environment)
+                  vkh_check certificates attack certificate_polygons batch batch_folders see recipes completion python_life
+                  python_meshes python_lost python_environment python_fork python_certificate)
 # The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz api_fuzz)
