@@ -94,9 +94,8 @@ OutputFile::OutputFile(std::string option, std::string path, const std::vector<s
     return;
   }
   std::error_code none;
-  const bool is_link = fs::is_symlink(path_, none);
-  if (is_link && !there) refuse("a link that leads nowhere");
-  target_ = is_link ? fs::canonical(path_).string() : path_;
+  target_ = fs::is_symlink(path_, none) ? fs::canonical(path_, none).string() : path_;
+  if (target_.empty()) refuse("a link that leads nowhere");
   check_place();
 }
 
@@ -111,6 +110,7 @@ void OutputFile::refuse(const std::string& why) const {
 // Keeps the file open until it is written to: a pipe's reader would take its closing for the end.
 // O_NONBLOCK is for the opening alone, which would wait for a reader.
 void OutputFile::open_special(unsigned mode) {
+  if (S_ISBLK(mode)) refuse("is a disk, not a file");
   const int file = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   special_ = file;
   if (file >= 0 && fcntl(file, F_SETFL, 0) == 0) return;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -168,6 +169,10 @@ TEST_CASE("what cannot be written is refused before the run, where that can be t
   const std::string pipe = folder() / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   check_refused(with_json(pipe), "nobody reads");
+  // No driver has this number: nothing could be overwritten. Only root may make it.
+  const std::string disk = folder() / "disk";
+  if (mknod(disk.c_str(), S_IFBLK | 0600, makedev(240, 0)) == 0)
+    check_refused(with_json(disk), "is a disk");
 }
 
 TEST_CASE("the answer is printed whatever becomes of the file: exit code 6") {
