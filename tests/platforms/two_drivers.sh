@@ -9,4 +9,4 @@ lavapipe=/usr/share/vulkan/icd.d/lvp_icd.x86_64.json
 export VK_DRIVER_FILES=$lavapipe:$drivers/vk_swiftshader_icd.json
 export VK_ICD_FILENAMES=$VK_DRIVER_FILES VK_LAYER_PATH=$drivers VKH_VALIDATION=1 NODEVICE_SELECT=1
 export VKH_TEST_DEVICE=llvmpipe VKH_TEST_SECOND_DEVICE=SwiftShader
-exec "$build/tests/parts_tests" '--source-file=*/over_test.cpp'
+exec "$build/tests/solve_tests" '--source-file=*/over_test.cpp'
