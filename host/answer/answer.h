@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/answer/question.h"
 #include "host/base/length.h"
 #include "host/base/sha256.h"
 #include "host/solve/report.h"
@@ -48,11 +49,6 @@ struct Asked {
   /// The share of a mesh's area that is to be within, in [0, 1]; none: all of it, every point.
   std::optional<double> area = {};
   std::string area_requested = {};  ///< the share as the user typed it
-};
-
-/// The part of A's faces that an answer covers: `index` from 0. It never passes for the whole.
-struct PartOf {
-  uint64_t index = 0, count = 1;
 };
 
 /// The times that a user waited, in milliseconds; parts that ran side by side overlap.

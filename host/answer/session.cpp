@@ -5,10 +5,7 @@
 #include <iterator>
 
 #include "host/base/error.h"
-#include "host/base/note.h"
 #include "host/base/parallel.h"
-#include "host/solve/part.h"
-#include "host/solve/together.h"
 
 namespace vkh {
 namespace {
@@ -31,21 +28,6 @@ bool is_one(const std::string& selector) {
     return true;
   } catch (const DeviceError&) {
     return false;
-  }
-}
-
-std::vector<Solver*> solvers_of(const Session& session) {
-  std::vector<Solver*> solvers{session.solver.get()};
-  for (const Opened& one : session.more) solvers.push_back(one.solver.get());
-  return solvers;
-}
-
-void note_left_out(const Session& session, Answer& answer) {
-  for (const LeftOut& one : answer.a_to_b.left_out) {
-    const Device& device = one.device == 0 ? *session.device : *session.more[one.device - 1].device;
-    answer.notes.push_back(
-        note_of(NoteCode::kDevices,
-                "the others did the part of " + device.description().name + ": " + one.why));
   }
 }
 
@@ -90,26 +72,6 @@ Session open_session(const std::string& selector, bool several, const SolveOptio
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   session.setup_ms = taken.count();
   return session;
-}
-
-void solve_directed(const Session& session, const MeshPair& pair, const SolveOptions& options,
-                    Answer& answer) {
-  const std::vector<Solver*> solvers = solvers_of(session);
-  const auto distance = [&](const Mesh& a, const Mesh& b, const SolveOptions& of_it) {
-    return distance_over(solvers, a, b, of_it);
-  };
-  if (!answer.part) {
-    answer.a_to_b = distance(pair.a, pair.b, options);
-  } else {
-    const auto [index, count] = *answer.part;
-    const size_t faces = pair.a.faces.size();
-    if (count > faces)
-      throw UsageError("--part: A has " + std::to_string(faces) + " faces, too few for " +
-                       std::to_string(count) + " parts");
-    answer.a_to_b =
-        distance_of_part(distance, pair.a, part_in_order(faces, index, count), pair.b, options);
-  }
-  note_left_out(session, answer);
 }
 
 }  // namespace vkh

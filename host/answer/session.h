@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/answer.h"
 #include "host/gpu/device.h"
-#include "host/mesh/mesh_pair.h"
 #include "host/solve/solver.h"
 
 namespace vkh {
@@ -32,10 +30,5 @@ std::vector<std::string> selectors_of(const std::string& text);
 /// be asked for and it names no device, a text for selectors_of(). `cache_folder`: see Solver.
 Session open_session(const std::string& selector, bool several, const SolveOptions& options,
                      const std::filesystem::path& cache_folder);
-
-/// Solves h(A,B), or a part's, on every device of the session, with notes on devices that were
-/// lost. Throws UsageError for a part that A has too few faces for.
-void solve_directed(const Session& session, const MeshPair& pair, const SolveOptions& options,
-                    Answer& answer);
 
 }  // namespace vkh

@@ -192,16 +192,15 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
 CommandLine pair_line(Command command, const Typed& typed, const Words& words, const char* name) {
   CommandLine line{.command = command,
                    .help = {},
-                   .job = job_of(typed, words, name),
+                   .question = question_of(typed, words, name),
                    .time_limit_s = typed.time ? parse_time(*typed.time)
                                               : std::numeric_limits<double>::infinity(),
                    .outputs = outputs_of(typed),
                    .device = {}};
-  line.job.hashes =
-      line.outputs.json || line.outputs.json_file || line.outputs.pictures.report || line.job.proof;
-  line.job.survey.faces = line.job.survey.faces || line.outputs.pictures.of_cells();
-  line.job.survey.statistics =
-      line.job.survey.statistics || line.outputs.pictures.report.has_value();
+  line.question.hashes = line.outputs.json || line.outputs.json_file ||
+                         line.outputs.pictures.report || line.question.certificate;
+  line.question.faces = line.question.faces || line.outputs.pictures.of_cells();
+  line.question.statistics = line.question.statistics || line.outputs.pictures.report.has_value();
   return line;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/pair_job.h"
+#include "host/answer/question.h"
 #include "host/app/picture_options.h"
 #include "host/batch/folders.h"
 #include "host/batch/list.h"
@@ -38,7 +38,7 @@ struct BatchAsked {
   std::string results;
   Shard shard;
   bool resumes = false, fails_fast = false;
-  StreamOptions devices;  ///< the options that PairJob does not have
+  StreamOptions devices;  ///< the options that Question does not have
   std::string device;     ///< names between commas, or all
   uint64_t read_ahead_bytes = 0;
   double time_limit_s = 0;  ///< the limit of a pair; infinite: none
@@ -57,7 +57,7 @@ struct MergeAsked {
 struct CommandLine {
   Command command = Command::kHelp;
   std::string help;         ///< the text to print for kHelp
-  PairJob job;              ///< the job of distance, gate, demo and batch
+  Question question;        ///< what distance, gate, demo and batch ask
   double time_limit_s = 0;  ///< infinite: none
   Outputs outputs;
   std::string device;  ///< the device of doctor

@@ -11,8 +11,8 @@
 #include <optional>
 #include <set>
 
+#include "host/answer/asking.h"
 #include "host/answer/exit_code.h"
-#include "host/answer/pair_job.h"
 #include "host/app/arguments.h"
 #include "host/app/doctor.h"
 #include "host/app/many_pairs.h"
@@ -53,17 +53,17 @@ void check_verified(const Answer& answer) {
 }
 
 /// Returns the answer, or writes the error to the outputs and throws it.
-Done answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
+Answered answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
   try {
-    return run_job(line.job, stop);
+    return ask(line.question, stop);
   } catch (const InputError& error) {
-    destinations.write(failure_of(error.what(), kExitBadInput, line.job));
+    destinations.write(failure_of(error.what(), kExitBadInput, line.question));
     throw;
   } catch (const DeviceError& error) {
-    destinations.write(failure_of(error.what(), kExitDevice, line.job));
+    destinations.write(failure_of(error.what(), kExitDevice, line.question));
     throw;
   } catch (const UsageError& error) {
-    destinations.write(failure_of(error.what(), kExitUsage, line.job));
+    destinations.write(failure_of(error.what(), kExitUsage, line.question));
     throw;
   }
 }
@@ -86,10 +86,10 @@ struct Places {
 
 Places places_of(const CommandLine& line) {
   check_distinct(line.outputs);
-  const std::vector<std::string> inputs = {line.job.file_a, line.job.file_b, line.job.face_max_a,
-                                           line.job.face_max_b};
+  const std::vector<std::string> inputs = {line.question.file_a, line.question.file_b,
+                                           line.question.face_max_a, line.question.face_max_b};
   return {.destinations = Destinations(line.outputs, inputs),
-          .pictures = Pictures(line.outputs.pictures, line.job.symmetric, inputs)};
+          .pictures = Pictures(line.outputs.pictures, line.question.symmetric, inputs)};
 }
 
 /// Reports the misuse of words that name no place for an answer, or not yet: programs may wait for
@@ -106,7 +106,8 @@ auto or_tell(const Words& words, const F& work) {
 
 int run_pair(const CommandLine& line, const Words& words, const Stop& stop) {
   auto [destinations, pictures] = or_tell(words, [&] { return places_of(line); });
-  const Done done = answer_for(line, stop, destinations);  // destroyed after the answer is printed
+  const Answered done =
+      answer_for(line, stop, destinations);  // destroyed after the answer is printed
   std::string not_written = destinations.write(done.answer);
   const std::string not_drawn = pictures.write(done);
   if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
@@ -139,7 +140,7 @@ int run(const Words& words, Clock::time_point start) {
       return run_doctor(line.device);
     case Command::kBatch:
       note_interrupts();
-      return printed(run_batch_command(line.job, line.batch));
+      return printed(run_batch_command(line.question, line.batch));
     case Command::kMerge:
       return printed(run_merge_command(line.merge));
     case Command::kDistance:

@@ -59,10 +59,10 @@ void check_outputs(const std::string& results, const TablesAsked& tables) {
   }
 }
 
-BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
+BatchJob batch_of(const Question& question, const BatchAsked& asked, PairList& list) {
   BatchJob batch;
-  batch.pair = job;
-  batch.pair.options.time_limit_s = asked.time_limit_s;
+  batch.question = question;
+  batch.question.options.time_limit_s = asked.time_limit_s;
   batch.shared = shared_files(list.entries);
   for (Entry& entry : list.entries) {
     if (asked.shard.has(entry.id)) batch.entries.push_back(std::move(entry));
@@ -72,8 +72,8 @@ BatchJob batch_of(const PairJob& job, const BatchAsked& asked, PairList& list) {
   batch.fails_fast = asked.fails_fast;
   batch.devices = asked.devices;
   batch.devices.devices = selectors_of(asked.device);
-  if (job.caches) batch.devices.cache_folder = user_cache_folder();
-  batch.devices.first = job.options;
+  if (question.caches) batch.devices.cache_folder = user_cache_folder();
+  batch.devices.first = question.options;
   batch.read_ahead_bytes = asked.read_ahead_bytes;
   return batch;
 }
@@ -97,7 +97,7 @@ ExitCode write_indexes(const BatchJob& batch) {
   for (size_t i = 0; i < std::min(failures.size(), kMost); ++i) note(failures[i]);
   if (failures.size() > kMost)
     note("and " + std::to_string(failures.size() - kMost) + " more pairs are not drawn");
-  folders.write_indexes(batch.results, batch.entries, batch.pair.max.has_value());
+  folders.write_indexes(batch.results, batch.entries, batch.question.max.has_value());
   for (const std::string& file : folders.indexes())
     std::cout << "  index      " << printable(file) << '\n';
   if (!failures.empty()) return kExitNotWritten;
@@ -106,7 +106,7 @@ ExitCode write_indexes(const BatchJob& batch) {
 
 }  // namespace
 
-ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
+ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
   check_outputs(asked.results, asked.tables);
   // Lines would be added to the list, and a last one without an end would be cut off.
   std::error_code none;
@@ -116,7 +116,7 @@ ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked) {
   PairList list = list_of(asked);
   for (const std::string& text : list.notes) note(text);
   std::vector<std::string> inputs = {asked.list.empty() ? asked.against : asked.list};
-  BatchJob batch = batch_of(job, asked, list);
+  BatchJob batch = batch_of(question, asked, list);
   for (const Entry& entry : batch.entries) {
     inputs.push_back(entry.file_a);
     inputs.push_back(entry.file_b);

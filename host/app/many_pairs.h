@@ -7,7 +7,7 @@
 namespace vkh {
 
 /// Throw what run_batch() and Results throw. Notes go to stderr.
-ExitCode run_batch_command(const PairJob& job, const BatchAsked& asked);
+ExitCode run_batch_command(const Question& question, const BatchAsked& asked);
 ExitCode run_merge_command(const MergeAsked& asked);
 
 }  // namespace vkh

@@ -105,8 +105,8 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   if (of_pairs.tolerance.empty()) of_pairs.tolerance = has_limit ? "1e-7" : "1e-6";
   CommandLine line;
   line.command = Command::kBatch;
-  line.job = job_of(of_pairs, words, "batch");
-  line.job.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
+  line.question = question_of(of_pairs, words, "batch");
+  line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   BatchAsked& batch = line.batch;
   if (typed.against.empty() && typed.files.size() > 1)
     throw UsageError("batch: expected one LIST, or --against B with meshes");

@@ -101,9 +101,10 @@ void tell_misuse(const Words& words, const std::string& message) {
   }
 }
 
-Failure failure_of(const std::string& message, int code, const PairJob& job) {
+Failure failure_of(const std::string& message, int code, const Question& question) {
   Failure failure{.code = code, .message = message, .file = {}, .place = {}};
-  for (const std::string& file : {job.file_a, job.file_b, job.face_max_a, job.face_max_b}) {
+  for (const std::string& file :
+       {question.file_a, question.file_b, question.face_max_a, question.face_max_b}) {
     if (file.empty() || !message.starts_with(file + ": ")) continue;
     failure.file = file;
     failure.place = place_in(message, file);

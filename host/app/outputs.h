@@ -34,6 +34,6 @@ class Destinations {
 void tell_misuse(const Words& words, const std::string& message);
 
 /// Makes a Failure of an error's one line, which begins with its file.
-Failure failure_of(const std::string& message, int code, const PairJob& job);
+Failure failure_of(const std::string& message, int code, const Question& question);
 
 }  // namespace vkh

@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "host/answer/steps.h"
 #include "host/base/error.h"
-#include "host/survey/certificate.h"
 #include "host/write/field_file.h"
 
 namespace vkh {
@@ -47,17 +47,6 @@ std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
                                : parse_length("--range", typed[i], PlainNumber::kRefused);
   }
   return range;
-}
-
-std::string certificate_text(const Done& done) {
-  const Answer& answer = done.answer;
-  if (!answer.proof_a || answer.b_to_a.has_value() != answer.proof_b.has_value())
-    throw OutputError("the run ended before there was a certificate");
-  std::optional<CertifiedDirection> back;
-  if (answer.b_to_a) back.emplace(CertifiedDirection{*answer.b_to_a, *answer.proof_b});
-  return certificate_of({done.pair.a, answer.inputs[0].sha256},
-                        {done.pair.b, answer.inputs[1].sha256}, {answer.a_to_b, *answer.proof_a},
-                        back);
 }
 
 void add_look_options(CLI::App& command, TypedPictures& typed) {
@@ -190,10 +179,11 @@ Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
   if (asked.certificate) certificate_.emplace("--certificate", *asked.certificate, taken);
 }
 
-std::string Pictures::write(const Done& done) const {
+std::string Pictures::write(const Answered& done) const {
   if (!asked_.any()) return "";
   try {
-    if (certificate_) certificate_->write(certificate_text(done));
+    if (certificate_)
+      certificate_->write(certificate_text(done.answer, {done.pair.a, done.pair.b}));
     if (!asked_.of_cells()) return "";
     if (!done.session.device) throw OutputError("the run ended before there were bounds of faces");
     const Device& device = *done.session.device;

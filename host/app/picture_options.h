@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/pair_job.h"
+#include "host/answer/asking.h"
 #include "host/base/output_file.h"
 #include "host/batch/folders.h"
 #include "host/show/drawn.h"
@@ -53,7 +53,7 @@ class Pictures {
   Pictures(const PicturesAsked& asked, bool symmetric, const std::vector<std::string>& inputs);
 
   /// Returns what could not be written, and why; empty if nothing.
-  std::string write(const Done& done) const;
+  std::string write(const Answered& done) const;
 
  private:
   struct Files {

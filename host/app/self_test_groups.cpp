@@ -10,7 +10,7 @@
 namespace vkh {
 namespace {
 
-using Question = gpu::SelfTestQuestion;
+using Trial = gpu::SelfTestQuestion;
 using Group = gpu::SelfTestGroup;
 using Groups = gpu::SelfTestGroups;
 
@@ -21,7 +21,7 @@ bool holds(const gpu::uvec4& ballot, uint32_t lane) {
   return lane < kLanes && (words[lane / 32] >> (lane % 32) & 1u) != 0;
 }
 
-uint32_t last_turn(const Question& q) { return q.bits & 3u; }
+uint32_t last_turn(const Trial& q) { return q.bits & 3u; }
 
 enum class Flow { kWhole, kBranch, kLoop };
 constexpr std::array kFlowNames{"in a whole subgroup", "in a branch", "in a loop"};
@@ -42,7 +42,7 @@ bool same(const gpu::vec3& p, const gpu::vec3& q) { return p.x == q.x && p.y == 
 
 class Judge {
  public:
-  Judge(std::span<const Question> questions, std::span<const Groups> groups) : asked_(questions) {
+  Judge(std::span<const Trial> questions, std::span<const Groups> groups) : asked_(questions) {
     for (uint32_t i = 0; i < groups.size(); ++i) {
       const Group& g = groups[i].whole;
       items_[{g.subgroup, g.lane}] = i;
@@ -69,13 +69,13 @@ class Judge {
  private:
   /// Whether both can be at the place in the code where `item` took its last view.
   bool may_be_beside(uint32_t item, uint32_t other, Flow flow) const {
-    const Question &q = asked_[item], &o = asked_[other];
+    const Trial &q = asked_[item], &o = asked_[other];
     if (flow == Flow::kBranch) return (q.a > q.b) == (o.a > o.b);
     return flow == Flow::kWhole || last_turn(o) >= last_turn(q);
   }
 
   Given given(uint32_t item, Flow flow, uint32_t turn) const {
-    const Question& q = asked_[item];
+    const Trial& q = asked_[item];
     if (flow == Flow::kBranch && !(q.a > q.b)) return {item, q.b, q.a};
     return {flow == Flow::kLoop ? item + turn : item, q.a, q.b};
   }
@@ -107,14 +107,14 @@ class Judge {
     return {};
   }
 
-  std::span<const Question> asked_;
+  std::span<const Trial> asked_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> items_;  // by subgroup and lane
   std::map<uint32_t, uint32_t> sizes_;                       // sizes of subgroups
 };
 
 }  // namespace
 
-void judge_groups(std::span<const Question> questions, std::span<const Groups> groups,
+void judge_groups(std::span<const Trial> questions, std::span<const Groups> groups,
                   SelfTestResult& result) {
   const Judge judge(questions, groups);
   for (uint32_t i = 0; i < groups.size(); ++i) {

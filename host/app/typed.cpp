@@ -35,18 +35,16 @@ SolveOptions options_of(const Typed& typed) {
   return options;
 }
 
-SurveyWish survey_of(const Typed& typed) {
-  SurveyWish wish;
-  wish.faces = !typed.field_tolerance.empty();
-  if (wish.faces)
-    wish.face_tolerance =
+void add_survey_of(const Typed& typed, Question& question) {
+  question.faces = !typed.field_tolerance.empty();
+  if (question.faces)
+    question.face_tolerance =
         parse_length("--field-tol", typed.field_tolerance, PlainNumber::kFraction);
   for (const std::string& band : typed.bands)
-    wish.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
-  wish.statistics = typed.statistics || !typed.bands.empty();
-  if (!typed.area.empty()) wish.area = parse_share("--area", typed.area);
-  wish.area_requested = typed.area;
-  return wish;
+    question.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
+  question.statistics = typed.statistics || !typed.bands.empty();
+  if (!typed.area.empty()) question.area = parse_share("--area", typed.area);
+  question.area_requested = typed.area;
 }
 
 void check_together(const Typed& typed) {
@@ -83,42 +81,43 @@ const char* const kLengths =
     "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of A's bounding-box "
     "diagonal, 1e-6diag";
 
-PairJob job_of(const Typed& typed, const Words& words, const char* command) {
-  PairJob job;
-  job.command = command;
-  job.words = words;
-  job.file_a = typed.file_a;
-  job.file_b = typed.file_b;
+Question question_of(const Typed& typed, const Words& words, const char* command) {
+  Question question;
+  question.command = command;
+  question.words = words;
+  question.file_a = typed.file_a;
+  question.file_b = typed.file_b;
   if (!typed.unit.empty()) check_unit("--unit", typed.unit);
-  job.unit = typed.unit;
-  job.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kFraction);
-  if (!typed.max.empty()) job.max = parse_length("--max", typed.max, PlainNumber::kRefused);
-  job.face_max_a = typed.face_max_a;
-  job.face_max_b = typed.face_max_b;
-  job.proof = !typed.pictures.certificate.empty();
+  question.unit = typed.unit;
+  question.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kFraction);
+  if (!typed.max.empty()) question.max = parse_length("--max", typed.max, PlainNumber::kRefused);
+  question.face_max_a = typed.face_max_a;
+  question.face_max_b = typed.face_max_b;
+  question.certificate = !typed.pictures.certificate.empty();
   check_together(typed);
   check_part(typed);
-  if (typed.part) job.part = parse_part(*typed.part);
+  if (typed.part) question.part = parse_part(*typed.part);
   if (typed.known_lower)
-    job.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
-  job.several_devices = job.command == "distance";
-  job.symmetric = typed.symmetric;
-  job.survey = survey_of(typed);
-  job.verify = typed.verify;
-  job.device = typed.device;
-  job.caches = !typed.no_cache;
-  job.options = options_of(typed);
-  if (typed.max_input) job.limits.max_input_bytes = parse_size("--max-input", *typed.max_input);
+    question.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
+  question.several_devices = question.command == "distance";
+  question.symmetric = typed.symmetric;
+  add_survey_of(typed, question);
+  question.verify = typed.verify;
+  question.device = typed.device;
+  question.caches = !typed.no_cache;
+  question.options = options_of(typed);
+  if (typed.max_input)
+    question.limits.max_input_bytes = parse_size("--max-input", *typed.max_input);
   if (!typed.polygons.empty()) {
     check_names("--polygons", {typed.polygons}, {"fan", "any"});
-    if (typed.polygons == "fan") job.limits.odd_polygons = OddPolygons::kFanned;
-    job.limits.any_triangulation = typed.polygons == "any";
+    if (typed.polygons == "fan") question.limits.odd_polygons = OddPolygons::kFanned;
+    question.limits.any_triangulation = typed.polygons == "any";
   }
   if (!typed.bodies.empty()) {
     check_names("--bodies", {typed.bodies}, {"solid", "all"});
-    if (typed.bodies == "all") job.limits.bodies = Bodies::kAll;
+    if (typed.bodies == "all") question.limits.bodies = Bodies::kAll;
   }
-  return job;
+  return question;
 }
 
 Outputs outputs_of(const Typed& typed) {

@@ -44,8 +44,8 @@ void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and
 void add_survey_options(CLI::App& command, Typed& typed);
 void add_output_options(CLI::App& command, Typed& typed);
 
-/// Turn the typed options into requests. Throw UsageError.
-PairJob job_of(const Typed& typed, const Words& words, const char* command);
+/// Turn the typed options into questions. Throw UsageError.
+Question question_of(const Typed& typed, const Words& words, const char* command);
 Outputs outputs_of(const Typed& typed);
 
 }  // namespace vkh

@@ -101,7 +101,7 @@ Limit in_files(const Length& length, const char* option, const std::string& file
   if (length.of == Length::Of::kDiagonal) {
     limit = around(number * float128(diagonal_a));
   } else if (length.of == Length::Of::kFiles) {
-    limit = around(number);
+    limit = length.is_double ? Limit{length.number, length.number} : around(number);
   } else {
     const Unit* file = find_unit(file_unit);
     if (file == nullptr) {

@@ -19,6 +19,7 @@ struct Length {
   double number = 0;      ///< in terms of `of`; a percentage's hundredth
   Of of = Of::kDiagonal;
   std::string unit = {};
+  bool is_double = false;  ///< `number` was given as this very double, and not as a decimal text
 };
 
 /// Returns, for a length known to lie between a limit's ends, the decimal of fifteen digits there,
@@ -39,7 +40,8 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
 void check_unit(const char* option, const std::string& unit);
 
 /// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
-/// arithmetic it is from `within` to `beyond`, which are 32 ulps apart. A share of a diagonal
+/// arithmetic it is from `within` to `beyond`, which are 32 ulps apart, or both the number itself where that
+/// was given as a double in the files' unit. A share of a diagonal
 /// refers to the diagonal of the coordinates as they are read, whatever their delta. Throws
 /// UsageError, naming `option`, if a length in millimetres meets files of an unknown unit.
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,

@@ -51,7 +51,7 @@ class Batch {
       : job_(job),
         file_("--out", job.results, inputs_of(job)),
         budget_(job.read_ahead_bytes != 0 ? job.read_ahead_bytes : kReadAhead),
-        reader_(job.pair, job.shared, [this] { return goes_on(); }) {
+        reader_(job.question, job.shared, [this] { return goes_on(); }) {
     keep_older_lines();
     stream_ = std::make_unique<PairStream>(
         job_.devices, [this](StreamResult&& result) { take(std::move(result)); });
@@ -133,7 +133,7 @@ class Batch {
                         .device = stream_->times(),
                         .devices = stream_->devices(),
                         .results = job_.results,
-                        .has_limit = job_.pair.max.has_value()});
+                        .has_limit = job_.question.max.has_value()});
     out.flush();
   }
 
@@ -210,7 +210,7 @@ class Batch {
         older->second.name.key != entry.name.key)
       return false;
     const bool is_drawn = !job_.folders || older->second.status.empty() ||
-                          job_.folders->has(entry.name, entry.job.symmetric);
+                          job_.folders->has(entry.name, entry.question.symmetric);
     if (!is_drawn) return false;
     const std::lock_guard lock(mutex_);
     if (kept_.insert(entry.name.id).second) {
@@ -225,8 +225,8 @@ class Batch {
                     .a = running.meshes.a,
                     .b = running.meshes.b,
                     .shares_b = running.meshes.shares_b,
-                    .symmetric = running.entry.job.symmetric,
-                    .options = asked_options(running.entry.job, running.entry.known)};
+                    .symmetric = running.entry.question.symmetric,
+                    .options = solve_options(running.entry.question, running.entry.known)};
     pair.options.progress = [this](const Progress&) { return goes_on(); };
     if (job_.folders)
       pair.beside = [this](Solver& solver, StreamResult& result) { draw(solver, result); };
@@ -270,17 +270,8 @@ class Batch {
 
   static Answer answer_of(const NamedEntry& entry, StreamResult result) {
     Answer answer = entry.known;
-    answer.a_to_b = std::move(result.a_to_b);
-    answer.b_to_a = std::move(result.b_to_a);
-    add_memory_notes(entry.job.options.memory_bytes, answer);
-    answer.waits.total = answer.waits.read + answer.a_to_b.times.wall_ms +
-                         (answer.b_to_a ? answer.b_to_a->times.wall_ms : 0);
+    take_reports(entry.question, std::move(result), answer);
     return answer;
-  }
-
-  static bool is_cancelled(const Answer& answer) {
-    return answer.a_to_b.status == Status::kCancelled ||
-           (answer.b_to_a && answer.b_to_a->status == Status::kCancelled);
   }
 
   void write_result(const NamedEntry& entry, StreamResult&& result) {

@@ -14,7 +14,7 @@
 namespace vkh {
 
 struct BatchJob {
-  PairJob pair;                  ///< the request for each; options.time_limit_s is per pair
+  Question question;             ///< what is asked of each; options.time_limit_s is per pair
   std::vector<Entry> entries;    ///< the pairs of this shard
   std::set<std::string> shared;  ///< shared_files() of the whole list
   std::string results;           ///< the file that lines are added to

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "host/answer/merge.h"
-#include "host/answer/survey_wish.h"
+#include "host/answer/steps.h"
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/system.h"
@@ -71,7 +71,7 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
   bool is_left = false;
   try {
     if (pair.goes_on()) write(pair, answer);
-    is_left = !pair.goes_on() && !has(pair.entry.name, pair.entry.job.symmetric);
+    is_left = !pair.goes_on() && !has(pair.entry.name, pair.entry.question.symmetric);
   } catch (...) {
     error = std::current_exception();
   }
@@ -83,16 +83,12 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
 // Writes no picture of a survey that was cut short: it would later be taken for a whole one.
 void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const NamedEntry& entry = pair.entry;
-  SurveyWish wish;
-  wish.faces = true;
-  wish.statistics = reports_.has_value();
-  survey_all({.wish = wish,
-              .a = *pair.meshes.a,
-              .b = *pair.meshes.b,
-              .left_s = [&] { return entry.job.options.time_limit_s; },
-              .goes_on = pair.goes_on,
-              .show = [](size_t) {}},
-             pair.solver, asked_options(entry.job, entry.known), answer);
+  Question question = entry.question;
+  question.faces = true;
+  question.statistics = reports_.has_value();
+  const Observer observer{.goes_on = pair.goes_on,
+                          .left_s = [&] { return question.options.time_limit_s; }};
+  finish(question, pair.solver, {*pair.meshes.a, *pair.meshes.b}, observer, answer);
   if (!pair.goes_on()) return;
   const Measured measured{answer, *pair.meshes.a, *pair.meshes.b};
   const std::string& id = entry.name.id;

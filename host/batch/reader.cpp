@@ -35,27 +35,27 @@ std::string hashes_in_text(const Input& input) {
 
 // Hashes all that an answer depends on, except for the device, and --max-input, which may decide a
 // refusal.
-std::string key_of(const PairJob& job, const Answer& known, bool shares_b) {
+std::string key_of(const Question& question, const Answer& known, bool shares_b) {
   std::string text = program_version();
   const auto add = [&](const std::string& part) { text += '\n' + part; };
   add("all files");  // before 0.2.0, keys did not cover all files
   for (const Input& input : known.inputs) add(hashes_in_text(input));
-  add(job.tolerance.requested);
-  add(job.max ? job.max->requested : "");
-  add(job.unit);
-  if (job.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
-  if (job.limits.any_triangulation) add("polygons any");
-  if (job.limits.bodies == Bodies::kAll) add("bodies all");
-  add(job.symmetric ? "symmetric" : "");
+  add(question.tolerance.requested);
+  add(question.max ? question.max->requested : "");
+  add(question.unit);
+  if (question.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
+  if (question.limits.any_triangulation) add("polygons any");
+  if (question.limits.bodies == Bodies::kAll) add("bodies all");
+  add(question.symmetric ? "symmetric" : "");
   add(shares_b ? "prepared" : "");
-  const SolveOptions& o = job.options;
+  const SolveOptions& o = question.options;
   add(o.preset);
   for (const std::string& name : o.enabled) add("+" + name);
   for (const std::string& name : o.disabled) add("-" + name);
   add(std::to_string(o.time_limit_s));
   add(std::to_string(o.wave_limit));
   add(std::to_string(o.memory_bytes));
-  add(std::to_string(job.limits.max_input_bytes));
+  add(std::to_string(question.limits.max_input_bytes));
   return sha256_of_text(text);
 }
 
@@ -96,18 +96,19 @@ InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
 NamedEntry EntryReader::name(const Entry& entry) {
   NamedEntry named;
   named.entry = &entry;
-  PairJob& job = named.job = base_;
-  job.file_a = entry.file_a;
-  job.file_b = entry.file_b;
+  Question& question = named.question = base_;
+  question.file_a = entry.file_a;
+  question.file_b = entry.file_b;
   if (!entry.unit.empty()) check_unit("unit", entry.unit);
-  if (!entry.unit.empty()) job.unit = entry.unit;
+  if (!entry.unit.empty()) question.unit = entry.unit;
   const bool has_gate_tolerance = !base_.tolerance_is_typed && !entry.max.empty();
   const std::string tolerance =
       entry.tolerance.empty() && has_gate_tolerance ? "1e-7" : entry.tolerance;
-  if (!tolerance.empty()) job.tolerance = parse_length("tol", tolerance, PlainNumber::kFraction);
-  if (!entry.max.empty()) job.max = parse_length("max", entry.max, PlainNumber::kRefused);
-  job.symmetric = entry.symmetric.value_or(job.symmetric);
-  named.known = unread_answer(job);
+  if (!tolerance.empty())
+    question.tolerance = parse_length("tol", tolerance, PlainNumber::kFraction);
+  if (!entry.max.empty()) question.max = parse_length("max", entry.max, PlainNumber::kRefused);
+  question.symmetric = entry.symmetric.value_or(question.symmetric);
+  named.known = unread_answer(question);
   const bool shares_b = shared_.count(entry.file_b) > 0;
   named.known.inputs[0].path = entry.a;
   named.known.inputs[1].path = entry.b;
@@ -118,7 +119,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
     named.known.inputs[i].files = std::move(hashes.files);
     if (!is_shared) named.file_bytes += hashes.bytes;
   }
-  named.name = {entry.id, key_of(job, named.known, shares_b)};
+  named.name = {entry.id, key_of(question, named.known, shares_b)};
   return named;
 }
 
@@ -173,12 +174,12 @@ EntryReader::MeshPointer EntryReader::shared_mesh_of(const std::string& file,
 EntryMeshes EntryReader::read(NamedEntry& entry) {
   const auto start = Clock::now();
   EntryMeshes meshes;
-  meshes.shares_b = shared_.count(entry.job.file_b) > 0;
-  meshes.a = mesh_of(entry.job.file_a, entry.job.limits);
-  meshes.b = meshes.shares_b ? shared_mesh_of(entry.job.file_b, entry.job.limits)
-                             : mesh_of(entry.job.file_b, entry.job.limits);
+  meshes.shares_b = shared_.count(entry.question.file_b) > 0;
+  meshes.a = mesh_of(entry.question.file_a, entry.question.limits);
+  meshes.b = meshes.shares_b ? shared_mesh_of(entry.question.file_b, entry.question.limits)
+                             : mesh_of(entry.question.file_b, entry.question.limits);
   Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
-  take_meshes(entry.job, *meshes.a, *meshes.b, known);
+  take_meshes(entry.question, *meshes.a, *meshes.b, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {
     known.inputs[i].path = entry.known.inputs[i].path;
     known.inputs[i].sha256 = entry.known.inputs[i].sha256;

@@ -9,8 +9,9 @@
 #include <string>
 
 #include "host/answer/input_hashes.h"
-#include "host/answer/reading.h"
 #include "host/answer/record.h"
+#include "host/answer/stop.h"
+#include "host/answer/steps.h"
 #include "host/batch/list.h"
 
 namespace vkh {
@@ -21,7 +22,7 @@ constexpr uint64_t kBytesOfAByte = 3;
 /// An entry with the facts known before its meshes are read.
 struct NamedEntry {
   const Entry* entry = nullptr;
-  PairJob job;
+  Question question;
   RecordName name;
   Answer known;             ///< the known answer, with its inputs' hashes
   uint64_t file_bytes = 0;  ///< the size of all files that are read for it alone
@@ -39,9 +40,9 @@ std::set<std::string> shared_files(const std::vector<Entry>& entries);
 /// Threads may share it.
 class EntryReader {
  public:
-  /// `base`: the request for every pair. `shared`: the files of the whole list, whatever the shard,
-  /// since answers depend on it. `keep_going`: false ends reading with Interrupted.
-  EntryReader(PairJob base, std::set<std::string> shared, std::function<bool()> keep_going)
+  /// `base`: what is asked of every pair. `shared`: the files of the whole list, whatever the
+  /// shard, since answers depend on it. `keep_going`: false ends reading with Interrupted.
+  EntryReader(Question base, std::set<std::string> shared, std::function<bool()> keep_going)
       : base_(std::move(base)), shared_(std::move(shared)), keep_going_(std::move(keep_going)) {}
 
   /// Throws UsageError for an entry's wrong options.
@@ -60,7 +61,7 @@ class EntryReader {
   MeshPointer shared_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();
 
-  PairJob base_;
+  Question base_;
   std::set<std::string> shared_;
   std::function<bool()> keep_going_;
   std::mutex mutex_;

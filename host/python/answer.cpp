@@ -1,6 +1,10 @@
-#include "host/python/answer.h"
-
+// An answer as Python gets it.
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+
+#include <vector>
+
+#include "host/python/result.h"
 
 namespace vkh::python {
 namespace {
@@ -39,48 +43,113 @@ py::dict stats_of(const Report& r) {
       "wall_ms"_a = t.wall_ms);
 }
 
-std::optional<Verdict> verdict_within(double lower, double upper, const Limit& limit) {
-  if (!(limit.within > 0)) return std::nullopt;
-  return verdict_of(lower, upper, limit);
+py::array_t<double> array_of(const std::vector<double>& numbers) {
+  return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+/// Returns (key, (lower, upper)); _survey.py makes an Interval of the bounds.
+py::tuple pair_of(const py::object& key, double lower, double upper) {
+  return py::make_tuple(key, py::make_tuple(lower, upper));
+}
+
+/// A distance as the caller gave it: a number, or its text.
+py::object key_of(const Length& length) {
+  return length.is_double ? py::object(py::float_(length.number))
+                          : py::object(py::str(length.requested));
+}
+
+py::dict statistics_of(const Question& question, const Statistics& s) {
+  py::list bands, percentiles, curve;
+  std::vector<const Length*> lengths;  // as they were asked: the limit first (finish.cpp)
+  if (question.max) lengths.push_back(&*question.max);
+  for (const Length& band : question.bands) lengths.push_back(&band);
+  for (size_t i = 0; i < s.bands.size(); ++i)
+    bands.append(pair_of(key_of(*lengths[i]), s.bands[i].share.lower, s.bands[i].share.upper));
+  for (const Percentile& p : s.percentiles)
+    percentiles.append(pair_of(py::float_(p.share), p.distance.lower, p.distance.upper));
+  for (const AreaWithin& at : s.curve)
+    curve.append(pair_of(py::float_(at.distance), at.share.lower, at.share.upper));
+  return py::dict("area"_a = s.area, "mean"_a = py::make_tuple(s.mean.lower, s.mean.upper),
+                  "rms"_a = py::make_tuple(s.rms.lower, s.rms.upper), "bands"_a = bands,
+                  "percentiles"_a = percentiles, "curve"_a = curve);
+}
+
+py::object survey_of(const Question& question, const Report& report,
+                     const std::optional<SurveyResult>& found) {
+  if (!found) return py::none();
+  py::object field = py::none(), statistics = py::none();
+  if (question.faces)
+    field = py::make_tuple(array_of(found->field.lower), array_of(found->field.upper));
+  if (found->statistics) statistics = statistics_of(question, *found->statistics);
+  const py::dict stats("cells"_a = found->cells, "bounded"_a = found->bounded,
+                       "wall_ms"_a = found->ms);
+  return py::module_::import("vkhausdorff._survey")
+      .attr("made")(field, statistics, report.upper, found->is_met, stats);
+}
+
+py::list notes_of(const Answer& answer) {
+  py::list notes;
+  for (const std::string& note : answer.notes) notes.append(note);
+  return notes;
+}
+
+py::dict proof_of(const Proof& proof) {
+  return py::dict("upper"_a = proof.upper, "leaves"_a = proof.leaves,
+                  "cut_leaves"_a = proof.cut_leaves, "unproven"_a = proof.unproven,
+                  "wall_ms"_a = proof.ms);
+}
+
+py::object certificate_of(const Answer& answer) {
+  const bool is_whole = answer.proof_a && answer.proof_b.has_value() == answer.b_to_a.has_value();
+  if (!is_whole) return py::none();
+  if (!answer.proof_b) return proof_of(*answer.proof_a);
+  return py::dict("upper"_a = std::max(answer.proof_a->upper, answer.proof_b->upper),
+                  "a_to_b"_a = proof_of(*answer.proof_a), "b_to_a"_a = proof_of(*answer.proof_b));
+}
+
+py::dict stats_of(const Answer& answer, bool is_forward) {
+  if (!answer.b_to_a) return stats_of(answer.a_to_b);
+  const CertifiedInterval whole = interval_of(answer);
+  return py::dict("status"_a = status_name(whole.status), "gap"_a = whole.gap,
+                  "tolerance"_a = answer.a_to_b.tolerance,
+                  "direction"_a = is_forward ? "a_to_b" : "b_to_a",
+                  "a_to_b"_a = stats_of(answer.a_to_b), "b_to_a"_a = stats_of(*answer.b_to_a));
+}
+
+void add_limit(const Answer& answer, Result& result) {
+  if (!answer.max) return;
+  result.verdict = verdict_of(answer);
+  const std::optional<FaceLimits>& faces = answer.max->faces_a;
+  if (faces || answer.max->area)
+    result.stats["max"] = faces ? faces->limit.within : answer.max->limit.within;
+  if (answer.max->area) result.stats["area"] = *answer.max->area;
+  if (!faces) return;
+  result.stats["faces_within"] = faces->within;
+  result.stats["runs"] = faces->runs;
 }
 
 }  // namespace
 
-Answer answer_of(const Report& r) {
-  return {r.lower,     r.upper,     r.status,   verdict_within(r.lower, r.upper, r.limit),
-          r.witness_a, r.witness_b, stats_of(r)};
+Result result_of(const Question& question, const Answer& answer) {
+  const CertifiedInterval whole = interval_of(answer);
+  const bool is_forward = !answer.b_to_a || answer.a_to_b.lower >= answer.b_to_a->lower;
+  const Report& r = is_forward ? answer.a_to_b : *answer.b_to_a;
+  Result result;
+  result.lower = whole.lower;
+  result.upper = whole.upper;
+  result.status = whole.status;
+  result.witness_a = r.witness_a;
+  result.witness_b = r.witness_b;
+  if (!is_forward) std::swap(result.witness_a, result.witness_b);
+  result.stats = stats_of(answer, is_forward);
+  result.notes = notes_of(answer);
+  add_limit(answer, result);
+  result.survey = survey_of(question, answer.a_to_b, answer.survey_a);
+  if (answer.b_to_a) result.survey_back = survey_of(question, *answer.b_to_a, answer.survey_b);
+  if (question.certificate) result.stats["certificate"] = certificate_of(answer);
+  return result;
 }
 
-Answer answer_of(const FaceGate& gate) {
-  Answer answer = answer_of(gate.report);
-  answer.verdict = gate.verdict;
-  answer.stats["max"] = gate.limit.within;
-  answer.stats["faces_within"] = gate.within;
-  answer.stats["runs"] = gate.runs;
-  return answer;
-}
-
-const char* Answer::verdict_name() const { return verdict ? vkh::verdict_name(*verdict) : nullptr; }
-
-Answer answer_of(const SymmetricReport& both) {
-  const CertifiedInterval whole = both.interval();
-  const bool there = both.a_to_b.lower >= both.b_to_a.lower;
-  const Report& r = there ? both.a_to_b : both.b_to_a;
-  Answer answer{whole.lower,
-                whole.upper,
-                whole.status,
-                verdict_within(whole.lower, whole.upper, r.limit),
-                r.witness_a,
-                r.witness_b,
-                {}};
-  if (!there) std::swap(answer.witness_a, answer.witness_b);
-  answer.stats["status"] = status_name(whole.status);
-  answer.stats["gap"] = whole.gap;
-  answer.stats["tolerance"] = both.a_to_b.tolerance;
-  answer.stats["direction"] = there ? "a_to_b" : "b_to_a";
-  answer.stats["a_to_b"] = stats_of(both.a_to_b);
-  answer.stats["b_to_a"] = stats_of(both.b_to_a);
-  return answer;
-}
+const char* Result::verdict_name() const { return verdict ? vkh::verdict_name(*verdict) : nullptr; }
 
 }  // namespace vkh::python

@@ -24,6 +24,8 @@ class Arguments {
             const pybind11::kwargs& named);
   /// Returns a required argument.
   const pybind11::object& at(const char* name) const;
+  /// Whether the function takes such an argument.
+  bool knows(const char* name) const { return place_of(name) < values_.size(); }
   /// Returns null if it was not given.
   const pybind11::object* find(const char* name) const;
 

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/answer/steps.h"
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "host/python/session.h"
@@ -26,18 +27,18 @@ Alive& alive() {
 }  // namespace
 
 // The default for GPUs, which take most: 3 workers of 16 pairs, and as many that wait for them.
-size_t Flow::default_ahead(const StreamOptions& devices) {
+FlowQuestion FlowQuestion::with_ahead() && {
   const size_t lanes = devices.lanes != 0 ? devices.lanes : 3;
   const size_t together = devices.together != 0 ? devices.together : 16;
-  return 2 * lanes * together * devices.devices.size();
+  if (ahead == 0) ahead = 2 * lanes * together * devices.devices.size();
+  return std::move(*this);
 }
 
-Flow::Flow(FlowAsked asked) : asked_(std::move(asked)) {
-  if (asked_.ahead == 0) asked_.ahead = default_ahead(asked_.devices);
+Flow::Flow(FlowQuestion asked) : asked_(std::move(asked).with_ahead()) {
   StreamOptions devices = asked_.devices;
-  devices.first = asked_.options;
+  devices.first = asked_.question.options;
   devices.waiting = asked_.ahead;  // so that no thread ever waits in push()
-  stream_.emplace(devices, [this](StreamResult&& result) { deliver(std::move(result)); });
+  stream_.emplace(devices, [this](StreamResult&& result) { take_result(std::move(result)); });
   const std::lock_guard lock(alive().mutex);
   alive().flows.insert(this);
 }
@@ -90,45 +91,78 @@ void Flow::work() {
     try {
       solve(std::move(pair));
     } catch (...) {
-      deliver({.number = number,
-               .a_to_b = {},
-               .b_to_a = std::nullopt,
-               .error = std::current_exception()});
+      deliver({.number = number, .error = std::current_exception()});
     }
     lock.lock();
   }
 }
 
+bool Flow::is_over() const {
+  const std::lock_guard lock(mutex_);
+  return is_ended_;
+}
+
 void Flow::solve(FlowPair pair) {
-  ReadLimits limits = asked_.limits;
-  limits.keep_going = [this] {
-    const std::lock_guard lock(mutex_);
-    return !is_ended_;
-  };
-  StreamPair whole{.number = pair.number,
-                   .a = made_mesh(std::move(pair.a), limits),
-                   .b = asked_.against,
+  const Question& question = asked_.question;
+  ReadLimits limits = question.limits;
+  limits.keep_going = [this] { return !is_over(); };
+  const auto running = std::make_shared<Running>();
+  running->a = made_mesh(std::move(pair.a), limits);
+  running->b = asked_.against ? asked_.against : made_mesh(std::move(pair.b), limits);
+  running->answer = unread_answer(question);
+  take_meshes(question, *running->a, *running->b, running->answer);
+  push(pair.number, running);
+}
+
+void Flow::push(size_t number, const std::shared_ptr<Running>& running) {
+  const Question& question = asked_.question;
+  StreamPair whole{.number = number,
+                   .a = running->a,
+                   .b = running->b,
                    .shares_b = asked_.against != nullptr,
-                   .symmetric = asked_.symmetric,
-                   .options = asked_.options};
-  if (!asked_.against) whole.b = made_mesh(std::move(pair.b), limits);
-  if (asked_.max) whole.options.limit = limit_for(*asked_.max, *whole.a);
+                   .symmetric = question.symmetric,
+                   .options = solve_options(question, running->answer)};
+  if (question.asks_for_cells()) {
+    whole.beside = [this, running](Solver& solver, StreamResult& result) {
+      take_reports(asked_.question, StreamResult(result), running->answer);
+      finish(asked_.question, solver, {*running->a, *running->b},
+             {.goes_on = [this] { return !is_over(); }}, running->answer);
+    };
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    running_.emplace(number, running);
+  }
   try {
     stream_->push(std::move(whole));
   } catch (...) {  // no device is left, and the fault is not the pair's: wait() reports it
   }
 }
 
-void Flow::deliver(StreamResult&& result) {
+// Runs on the stream's delivering thread.
+void Flow::take_result(StreamResult&& result) {
+  std::shared_ptr<Running> running;
+  {
+    const std::lock_guard lock(mutex_);
+    running = running_.extract(result.number).mapped();
+  }
+  if (result.error) return deliver({.number = result.number, .error = result.error});
+  const size_t number = result.number;
+  if (!asked_.question.asks_for_cells())
+    take_reports(asked_.question, std::move(result), running->answer);
+  deliver({.number = number, .answer = std::move(running->answer)});
+}
+
+void Flow::deliver(FlowResult&& result) {
   const std::lock_guard lock(mutex_);
   results_.push_back(std::move(result));
   results_changed_.notify_all();
 }
 
 // Called with mutex_ locked.
-std::optional<StreamResult> Flow::next_result() {
+std::optional<FlowResult> Flow::next_result() {
   if (results_.empty() || is_ended_) return std::nullopt;
-  StreamResult result = std::move(results_.front());
+  FlowResult result = std::move(results_.front());
   results_.pop_front();
   const auto taken = bytes_.find(result.number);
   bytes_sum_ -= taken->second;
@@ -136,12 +170,12 @@ std::optional<StreamResult> Flow::next_result() {
   return result;
 }
 
-std::optional<StreamResult> Flow::take() {
+std::optional<FlowResult> Flow::take() {
   const std::lock_guard lock(mutex_);
   return next_result();
 }
 
-std::optional<StreamResult> Flow::wait() {
+std::optional<FlowResult> Flow::wait() {
   constexpr std::chrono::milliseconds kStep(50);
   for (;;) {
     {

@@ -10,21 +10,22 @@
 #include <thread>
 #include <vector>
 
+#include "host/answer/answer.h"
+#include "host/answer/question.h"
 #include "host/python/mesh.h"
-#include "host/python/options.h"
 #include "host/solve/stream.h"
 
 namespace vkh::python {
 
-/// The options of every pair, and its devices.
-struct FlowAsked {
-  SolveOptions options;
-  std::optional<MaxAsked> max;
-  bool symmetric = false;
-  ReadLimits limits;    ///< for files
+/// What is asked of every pair, and on which devices.
+struct FlowQuestion {
+  Question question;    ///< its `limits` are for files
   MeshPointer against;  ///< the B of all; null: each has its own
   StreamOptions devices;
   size_t ahead = 0;  ///< most pairs that are put and not taken; 0: twice what devices hold
+
+  /// Replaces an `ahead` of 0.
+  FlowQuestion with_ahead() &&;
 };
 
 struct FlowPair {
@@ -32,10 +33,17 @@ struct FlowPair {
   MeshGiven a, b;  ///< empty `b` if all have the same
 };
 
+/// The answer of a pair, or the exception that it ended with.
+struct FlowResult {
+  size_t number = 0;
+  Answer answer = {};
+  std::exception_ptr error = nullptr;
+};
+
 class Flow {
  public:
   /// Opens devices in threads.
-  explicit Flow(FlowAsked asked);
+  explicit Flow(FlowQuestion asked);
   ~Flow();
   Flow(const Flow&) = delete;
   Flow& operator=(const Flow&) = delete;
@@ -46,11 +54,11 @@ class Flow {
   /// Does not wait: threads of the flow read the pair, clean it and pass it on.
   void put(FlowPair pair);
   /// Takes a result, in the order in which pairs end; `number` is the pair's.
-  std::optional<StreamResult> take();
+  std::optional<FlowResult> take();
   /// Does the same, but waits for a result; nothing when no pair that was put is left, or end()
   /// came. Called within a WithoutGil. Throws DeviceError if no device is left, and what ask()
   /// throws.
-  std::optional<StreamResult> wait();
+  std::optional<FlowResult> wait();
 
   /// Drops what waits, cancels what runs, and returns when no thread and no device is left. Never
   /// takes the GIL.
@@ -61,18 +69,26 @@ class Flow {
   static constexpr uint64_t kMostBytes = uint64_t{2} << 30;
 
  private:
-  static size_t default_ahead(const StreamOptions& devices);
   void add_thread();
   void work();
   void solve(FlowPair pair);
-  void deliver(StreamResult&& result);
-  std::optional<StreamResult> next_result();
+  /// A pair on its way through a device.
+  struct Running {
+    MeshPointer a, b;
+    Answer answer = {};
+  };
+  void push(size_t number, const std::shared_ptr<Running>& running);
+  void take_result(StreamResult&& result);
+  void deliver(FlowResult&& result);
+  bool is_over() const;
+  std::optional<FlowResult> next_result();
 
-  FlowAsked asked_;
+  const FlowQuestion asked_;
   mutable std::mutex mutex_;
   std::condition_variable jobs_changed_, results_changed_;
   std::deque<FlowPair> jobs_;
-  std::deque<StreamResult> results_;
+  std::deque<FlowResult> results_;
+  std::map<size_t, std::shared_ptr<Running>> running_;
   std::map<size_t, uint64_t> bytes_;  // for pairs that are put and not taken
   uint64_t bytes_sum_ = 0;
   size_t idle_ = 0;

@@ -5,6 +5,7 @@
 #include "host/python/arguments.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
+#include "host/python/question.h"
 #include "host/python/session.h"
 
 namespace vkh::python {
@@ -22,17 +23,15 @@ py::object exception_of(const std::exception_ptr& error) {
   return py::none();
 }
 
-Answer streamed_answer(StreamResult&& result, bool is_symmetric) {
-  Answer answer;
-  if (result.error) {
-    answer.error = exception_of(result.error);
-  } else if (is_symmetric && result.b_to_a) {
-    answer = answer_of(SymmetricReport{std::move(result.a_to_b), std::move(*result.b_to_a)});
+Result streamed_result(const Question& question, FlowResult&& found) {
+  Result result;
+  if (found.error) {
+    result.error = exception_of(found.error);
   } else {
-    answer = answer_of(result.a_to_b);
+    result = result_of(question, found.answer);
   }
-  answer.index = result.number;
-  return answer;
+  result.index = found.number;
+  return result;
 }
 
 size_t count_of(const Arguments& given, const char* name) {
@@ -66,29 +65,23 @@ bool is_given(const Arguments& given, const char* name) {
   return value != nullptr && !value->is_none();
 }
 
-FlowAsked asked_from(const Arguments& given) {
-  constexpr const char* kMax =
-      "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or None";
-  constexpr double kGateTolerance = 1e-7;
-  FlowAsked asked;
-  asked.options = options_of(given);
-  if (is_given(given, "max")) asked.max = read_max(given, kMax);
-  if (asked.max && !is_given(given, "tol")) asked.options.tolerance = kGateTolerance;
-  asked.symmetric = given.flag("symmetric");
+FlowQuestion asked_from(const Arguments& given) {
+  FlowQuestion asked;
+  asked.question = question_of("distances", given);
+  asked.question.limits = limits_of(given);
   asked.ahead = count_of(given, "ahead");
   asked.devices = devices_of(given);
-  asked.limits = limits_of(given);
   if (is_given(given, "against"))
-    asked.against = mesh_of("against", "B", given.at("against"), asked.limits);
+    asked.against = mesh_of("against", "B", given.at("against"), asked.question.limits);
   return asked;
 }
 
 py::object failed(size_t index, const py::object& id, const py::object& error) {
-  Answer answer;
-  answer.index = index;
-  answer.id = id;
-  answer.error = error;
-  return py::cast(std::move(answer));
+  Result result;
+  result.index = index;
+  result.id = id;
+  result.error = error;
+  return py::cast(std::move(result));
 }
 
 }  // namespace
@@ -96,15 +89,16 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "distances",
-      {"against", "tol", "symmetric", "max", "device", "time", "waves", "memory", "disable",
-       "enable", "preset", "together", "lanes", "ahead", "max_input", "polygons", "bodies"},
+      {"against",   "tol",      "symmetric", "max",    "device",     "time",  "waves",
+       "memory",    "disable",  "enable",    "preset", "together",   "lanes", "ahead",
+       "max_input", "polygons", "bodies",    "field",  "statistics", "bands", "survey_time"},
       0,
       0};
   const Call call;
   const Arguments given(*signature, positional, named);
   mark_used();
-  FlowAsked asked = asked_from(given);
-  is_symmetric_ = asked.symmetric;
+  FlowQuestion asked = asked_from(given);
+  question_ = asked.question;
   const WithoutGil outside;
   flow_ = std::make_shared<Flow>(std::move(asked));
 }
@@ -131,20 +125,20 @@ py::object PythonStream::take(bool waits) {
   const Call call;
   const std::shared_ptr<Flow> flow = flow_;
   if (flow == nullptr) return py::none();
-  std::optional<StreamResult> result = flow->take();
-  if (!result && waits) {
+  std::optional<FlowResult> found = flow->take();
+  if (!found && waits) {
     try {
       const WithoutGil outside;
-      result = flow->wait();
+      found = flow->wait();
     } catch (const Raised&) {
       throw py::error_already_set();
     }
   }
-  if (!result) return py::none();
-  Answer answer = streamed_answer(std::move(*result), is_symmetric_);
-  const auto id = ids_.extract(*answer.index);
-  if (id) answer.id = id.mapped();
-  return py::cast(std::move(answer));
+  if (!found) return py::none();
+  Result result = streamed_result(question_, std::move(*found));
+  const auto id = ids_.extract(*result.index);
+  if (id) result.id = id.mapped();
+  return py::cast(std::move(result));
 }
 
 // After a fork the parent's threads and devices are not there, and nothing of them may be touched.

@@ -6,7 +6,8 @@
 #include <map>
 #include <memory>
 
-#include "host/python/answer.h"
+#include "host/answer/question.h"
+#include "host/python/result.h"
 
 namespace vkh::python {
 
@@ -31,7 +32,7 @@ class PythonStream {
 
  private:
   std::shared_ptr<Flow> flow_;
-  bool is_symmetric_ = false;
+  Question question_;                       // of all pairs
   std::map<size_t, pybind11::object> ids_;  // for pairs that are put and not taken
 };
 

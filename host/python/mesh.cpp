@@ -12,9 +12,9 @@
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
-#include "host/python/answer.h"
 #include "host/python/interpreter.h"
-#include "host/python/options.h"
+#include "host/python/question.h"
+#include "host/python/result.h"
 #include "host/python/session.h"
 #include "host/read/mesh_io.h"
 

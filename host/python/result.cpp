@@ -1,10 +1,11 @@
 // The class Result of the package.
+#include "host/python/result.h"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
-#include "host/python/answer.h"
 #include "host/python/interpreter.h"
 
 namespace vkh::python {
@@ -13,7 +14,7 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-std::string text_of(const Answer& r) {
+std::string text_of(const Result& r) {
   if (!r.error.is_none())
     return std::string("<vkhausdorff.Result without an answer: ") +
            Py_TYPE(r.error.ptr())->tp_name + ": " + py::cast<std::string>(py::str(r.error)) + ">";
@@ -53,8 +54,8 @@ Enum named(const std::string& name, const char* (*name_of)(Enum), Enum last) {
   throw py::value_error("'" + name + "' is not known here");
 }
 
-Answer read_state(const py::tuple& state) {
-  Answer r;
+Result result_in(const py::tuple& state) {
+  Result r;
   r.lower = py::cast<double>(state[0]);
   r.upper = py::cast<double>(state[1]);
   r.status = named(py::cast<std::string>(state[2]), status_name, Status::kLimit);
@@ -71,10 +72,10 @@ Answer read_state(const py::tuple& state) {
   return r;
 }
 
-Answer answer_from_state(const py::tuple& state) {
+Result result_from_state(const py::tuple& state) {
   constexpr const char* kStranger = "this pickle is not of a vkhausdorff.Result";
   try {
-    return read_state(state);
+    return result_in(state);
   } catch (const py::cast_error&) {  // values of other types
     throw py::value_error(kStranger);
   } catch (const py::error_already_set&) {  // fewer values
@@ -85,12 +86,12 @@ Answer answer_from_state(const py::tuple& state) {
 // Reads a member whether there is an answer or not.
 template <class Get>
 auto of_any(Get get) {
-  return [get](const py::object& self) { return get(made<Answer>(self, "Result")); };
+  return [get](const py::object& self) { return get(made<Result>(self, "Result")); };
 }
 
 /// Raises the exception that stands instead of an answer.
-const Answer& answered(const py::object& self) {
-  const auto& r = made<Answer>(self, "Result");
+const Result& answered(const py::object& self) {
+  const auto& r = made<Result>(self, "Result");
   if (r.error.is_none()) return r;
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(r.error.ptr())), r.error.ptr());
   throw py::error_already_set();
@@ -103,20 +104,20 @@ auto of_result(Get get) {
 
 // Reads a member of A's survey; None without one.
 auto of_survey(const char* name) {
-  return of_result([name](const Answer& r) {
+  return of_result([name](const Result& r) {
     return r.survey.is_none() ? py::object(py::none()) : py::object(r.survey.attr(name));
   });
 }
 
 py::object area_within(const py::object& self, const py::object& distance) {
   const Call call;
-  const Answer& r = answered(self);
+  const Result& r = answered(self);
   if (r.survey.is_none())
     throw py::value_error("area_within(): ask for it with statistics=True or bands=(...)");
   return r.survey.attr("area_within")(distance);
 }
 
-py::object survey_met(const Answer& r) {
+py::object survey_met(const Result& r) {
   if (r.survey.is_none()) return py::none();
   const auto met = [](const py::object& survey) {
     return survey.is_none() || py::cast<bool>(survey.attr("met"));
@@ -125,7 +126,7 @@ py::object survey_met(const Answer& r) {
 }
 
 // The proven values of the pair; not the cost of the run.
-py::tuple proven(const Answer& r) {
+py::tuple proven(const Result& r) {
   return py::make_tuple(r.lower, r.upper, status_name(r.status), r.verdict_name(),
                         state_of(r.witness_a), state_of(r.witness_b), r.survey, r.survey_back);
 }
@@ -137,13 +138,13 @@ bool same_errors(const py::object& x, const py::object& y) {
 }
 
 py::object equal(const py::object& self, const py::object& other) {
-  if (!py::isinstance<Answer>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+  if (!py::isinstance<Result>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
   const Call call;
-  const auto &x = made<Answer>(self, "Result"), &y = made<Answer>(other, "Result");
+  const auto &x = made<Result>(self, "Result"), &y = made<Result>(other, "Result");
   return py::bool_(proven(x).equal(proven(y)) && same_errors(x.error, y.error));
 }
 
-py::dict dict_of_answer(const Answer& r) {
+py::dict dict_of_result(const Result& r) {
   const auto plain = [](const py::object& survey) {
     return survey.is_none() ? py::object(survey) : py::object(survey.attr("to_dict")());
   };
@@ -157,7 +158,7 @@ py::dict dict_of_answer(const Answer& r) {
 
 py::dict dict_of(const py::object& self) {
   const Call call;
-  const Answer& r = made<Answer>(self, "Result");
+  const Result& r = made<Result>(self, "Result");
   py::dict values;
   if (r.index) values = py::dict("index"_a = *r.index, "id"_a = r.id);
   if (!r.error.is_none()) {
@@ -165,11 +166,11 @@ py::dict dict_of(const py::object& self) {
         py::dict("type"_a = Py_TYPE(r.error.ptr())->tp_name, "message"_a = py::str(r.error));
     return values;
   }
-  values.attr("update")(dict_of_answer(r));
+  values.attr("update")(dict_of_result(r));
   return values;
 }
 
-void define_surveys(py::class_<Answer>& result) {
+void define_surveys(py::class_<Result>& result) {
   result
       .def_property_readonly(
           "field", of_survey("field"),
@@ -192,12 +193,12 @@ void define_surveys(py::class_<Answer>& result) {
       .def_property_readonly("survey_met", of_result(survey_met),
                              "whether all became as narrow as was asked, before survey_time "
                              "ended;\nNone if nothing was")
-      .def_property_readonly("survey", of_result([](const Answer& r) { return r.survey; }),
+      .def_property_readonly("survey", of_result([](const Result& r) { return r.survey; }),
                              "the Survey of A, which has all of these; None if nothing was asked")
       .def_property_readonly("survey_back",
-                             of_result([](const Answer& r) { return r.survey_back; }),
+                             of_result([](const Result& r) { return r.survey_back; }),
                              "the Survey of B, in a symmetric run")
-      .def_property_readonly("field_back", of_result([](const Answer& r) {
+      .def_property_readonly("field_back", of_result([](const Result& r) {
                                return r.survey_back.is_none()
                                           ? py::object(py::none())
                                           : py::object(r.survey_back.attr("field"));
@@ -207,7 +208,7 @@ void define_surveys(py::class_<Answer>& result) {
 }
 
 // Results are equal if the same is proven, whatever it cost.
-void define_values(py::class_<Answer>& result) {
+void define_values(py::class_<Result>& result) {
   result
       .def("to_dict", dict_of,
            "to_dict(self)\n--\n\n"
@@ -215,24 +216,24 @@ void define_values(py::class_<Answer>& result) {
       .def("__repr__", of_any(text_of))
       .def("__eq__", equal)
       .def("__hash__",
-           of_any([](const Answer& r) { return py::hash(py::make_tuple(r.lower, r.upper)); }))
+           of_any([](const Result& r) { return py::hash(py::make_tuple(r.lower, r.upper)); }))
       .def(py::pickle(
           [](const py::object& self) {
-            const Answer& r = made<Answer>(self, "Result");
+            const Result& r = made<Result>(self, "Result");
             return py::tuple(proven(r) + py::make_tuple(r.stats, r.index, r.id, r.error));
           },
-          [](const py::tuple& state) { return answer_from_state(state); }));
+          [](const py::tuple& state) { return result_from_state(state); }));
 }
 
 // Defines what distances() adds about a pair.
-void define_place(py::class_<Answer>& result) {
+void define_place(py::class_<Result>& result) {
   result
-      .def_property_readonly("index", of_any([](const Answer& r) { return r.index; }),
+      .def_property_readonly("index", of_any([](const Result& r) { return r.index; }),
                              "of distances(): the pair's place in the iterable, from 0; else None")
-      .def_property_readonly("id", of_any([](const Answer& r) { return r.id; }),
+      .def_property_readonly("id", of_any([](const Result& r) { return r.id; }),
                              "of distances(): what the pair was called, as it was given; else None")
       .def_property_readonly(
-          "error", of_any([](const Answer& r) { return r.error; }),
+          "error", of_any([](const Result& r) { return r.error; }),
           "of distances(): the exception that the pair ended with, else None. Where it is one,\n"
           "whatever else is asked of the result raises it");
 }
@@ -240,33 +241,33 @@ void define_place(py::class_<Answer>& result) {
 }  // namespace
 
 void define_result(py::module_& m) {
-  py::class_<Answer> result(m, "Result", "A certified interval and what proves its lower end.");
+  py::class_<Result> result(m, "Result", "A certified interval and what proves its lower end.");
   result
-      .def_property_readonly("lower", of_result([](const Answer& r) { return r.lower; }),
+      .def_property_readonly("lower", of_result([](const Result& r) { return r.lower; }),
                              "lower <= distance, in exact arithmetic")
-      .def_property_readonly("upper", of_result([](const Answer& r) { return r.upper; }),
+      .def_property_readonly("upper", of_result([](const Result& r) { return r.upper; }),
                              "distance <= upper, in exact arithmetic")
-      .def_property_readonly("closed", of_result([](const Answer& r) { return r.closed(); }),
+      .def_property_readonly("closed", of_result([](const Result& r) { return r.closed(); }),
                              "whether upper - lower met the tolerance")
       .def_property_readonly(
-          "status", of_result([](const Answer& r) { return status_name(r.status); }),
+          "status", of_result([](const Result& r) { return status_name(r.status); }),
           "why the run ended: closed, precision, time, waves, memory, cancelled, or limit where\n"
           "the limit of gate() was decided")
       .def_property_readonly(
-          "verdict", of_result([](const Answer& r) { return r.verdict_name(); }),
+          "verdict", of_result([](const Result& r) { return r.verdict_name(); }),
           "of gate(): 'pass', 'fail' or 'undecided', the first two proven; else None")
       .def_property_readonly(
-          "witness_a", of_result([](const Answer& r) { return point_of(r.witness_a); }),
+          "witness_a", of_result([](const Result& r) { return point_of(r.witness_a); }),
           "the point of A (x, y, z) that is farthest from B as far as found, proving lower; in a "
           "symmetric run the one that is closest to it if B has the farthest point")
       .def_property_readonly("witness_b",
-                             of_result([](const Answer& r) { return point_of(r.witness_b); }),
+                             of_result([](const Result& r) { return point_of(r.witness_b); }),
                              "the closest point of B to it (x, y, z); in a symmetric run likewise")
-      .def_property_readonly("face_a", of_result([](const Answer& r) { return r.witness_a.face; }),
+      .def_property_readonly("face_a", of_result([](const Result& r) { return r.witness_a.face; }),
                              "row of fa with the witness")
-      .def_property_readonly("face_b", of_result([](const Answer& r) { return r.witness_b.face; }),
+      .def_property_readonly("face_b", of_result([](const Result& r) { return r.witness_b.face; }),
                              "row of fb with its partner")
-      .def_property_readonly("stats", of_result([](const Answer& r) { return r.stats; }),
+      .def_property_readonly("stats", of_result([](const Result& r) { return r.stats; }),
                              "what the run was asked, did and cost");
   define_place(result);
   define_surveys(result);

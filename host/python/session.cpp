@@ -19,13 +19,13 @@ std::set<Session*>& sessions_alive() {
   return *alive;
 }
 
-struct Question {
+struct Heard {
   PyObject* progress;
   const Progress* p;
 };
 
 Reply ask_python(void* data) {
-  const auto& [progress, p] = *static_cast<const Question*>(data);
+  const auto& [progress, p] = *static_cast<const Heard*>(data);
   if (PyErr_CheckSignals() != 0) return Reply::kRaised;
   if (progress == Py_None) return Reply::kGoOn;
   PyObject* answer = PyObject_CallFunction(progress, "Idd", p->wave, p->lower, p->upper);
@@ -87,7 +87,9 @@ Session::~Session() {
 }
 
 void Session::prepare(Mesh b) {
-  use([&](Solver& solver) { parts_->b.emplace(solver.prepare(std::move(b))); });
+  use([&](Solver& solver, const PreparedMesh*) {
+    parts_->b.emplace(solver.prepare(std::move(b)));
+  });
 }
 
 // Each step may throw and be tried again by the next call.
@@ -101,10 +103,10 @@ void Session::reopen() {
 }
 
 // A lost device may show itself by another error first, so that it is checked after each.
-void Session::run(const std::function<void(Solver&)>& work) {
+void Session::run(const Work& work) {
   try {
     if (is_lost_) reopen();
-    work(parts_->solver);
+    work(parts_->solver, parts_->b ? &*parts_->b : nullptr);
   } catch (const DeviceError& error) {
     if (parts_ != nullptr) is_lost_ = parts_->device.is_lost();
     if (!is_lost_) throw;
@@ -112,7 +114,7 @@ void Session::run(const std::function<void(Solver&)>& work) {
   }
 }
 
-void Session::use(const std::function<void(Solver&)>& work) {
+void Session::use(const Work& work) {
   try {
     const WithoutGil outside;
     const Turn turn(*this);
@@ -121,18 +123,6 @@ void Session::use(const std::function<void(Solver&)>& work) {
   } catch (const Raised&) {
     throw py::error_already_set();
   }
-}
-
-void Session::distance(const std::function<void(const ToPrepared&)>& work) {
-  use([&](Solver& solver) {
-    work([&](const Mesh& a, const SolveOptions& options) {
-      return solver.distance(a, *parts_->b, options);
-    });
-  });
-}
-
-void Session::with_prepared(const std::function<void(Solver&, const Mesh&)>& work) {
-  use([&](Solver& solver) { work(solver, parts_->b->mesh()); });
 }
 
 void Session::close() {
@@ -146,16 +136,14 @@ void Session::free_all() {
   for (Session* session : sessions_alive()) session->parts_.reset();
 }
 
-void listen_to(const py::object& progress, SolveOptions& options) {
-  options.progress = [&progress](const Progress& p) {
-    Question asked{progress.ptr(), &p};
-    return ask(ask_python, &asked);
-  };
+bool hear(const py::object& progress, const Progress& p) {
+  Heard heard{progress.ptr(), &p};
+  return ask(ask_python, &heard);
 }
 
 void hear_signals() {
-  Question asked{Py_None, nullptr};
-  ask(ask_python, &asked);
+  Heard heard{Py_None, nullptr};
+  ask(ask_python, &heard);
 }
 
 }  // namespace vkh::python

@@ -26,17 +26,14 @@ class Session {
   void prepare(Mesh b);
 
   /// Runs `work` without the GIL, one caller at a time. Between submissions of a run, the callback
-  /// that `listen_to` put into its options checks for signals. Throws a RuntimeError, not a
+  /// (hear) checks for signals. Throws a RuntimeError, not a
   /// deadlock, if called from within itself, by a progress callback; a ValueError once closed; a
   /// DeviceError if the device is lost meanwhile. The next call opens it anew, with what was
   /// prepared.
-  void use(const std::function<void(Solver&)>& work);
-  /// A function of a mesh that measures to the prepared one.
-  using ToPrepared = std::function<Report(const Mesh&, const SolveOptions&)>;
-  /// Does the same, with a function to the prepared mesh.
-  void distance(const std::function<void(const ToPrepared&)>& work);
-  /// Does the same, and passes the mesh that was prepared.
-  void with_prepared(const std::function<void(Solver&, const Mesh&)>& work);
+  ///
+  /// The second argument is the mesh that was prepared, or null.
+  using Work = std::function<void(Solver&, const PreparedMesh*)>;
+  void use(const Work& work);
 
   /// Waits for the run of another thread. In a callback of its own run it waits for nothing: that
   /// run goes on, and is the last.
@@ -49,7 +46,7 @@ class Session {
   struct Parts;
   class Turn;
   void reopen();
-  void run(const std::function<void(Solver&)>& work);
+  void run(const Work& work);
 
   std::string selector_;
   std::unique_ptr<Parts> parts_;  // null if a lost device could not be opened anew
@@ -59,11 +56,11 @@ class Session {
   bool is_closed_ = false;
 };
 
-/// Makes a run end with KeyboardInterrupt (or what else a signal's handler raises), and calls
-/// `progress(wave, lower, upper)`, unless that is None; false from it cancels.
-void listen_to(const pybind11::object& progress, SolveOptions& options);
+/// Calls `progress(wave, lower, upper)`, unless it is None, and returns false if that cancels.
+/// Called within a run, between its submissions; throws if a signal's handler raised.
+bool hear(const pybind11::object& progress, const Progress& p);
 
-/// Called within a run, between its submissions: throws if a signal's handler raised.
+/// Called the same way: throws if a signal's handler raised.
 void hear_signals();
 
 }  // namespace vkh::python

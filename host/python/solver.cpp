@@ -1,16 +1,14 @@
 #include "host/python/solver.h"
 
-#include <pybind11/numpy.h>
-
+#include <chrono>
 #include <map>
 
+#include "host/answer/steps.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/base/output_file.h"
 #include "host/python/interpreter.h"
-#include "host/python/mesh.h"
-#include "host/python/options.h"
-#include "host/python/proof.h"
-#include "host/python/survey.h"
+#include "host/python/question.h"
 
 namespace vkh::python {
 namespace {
@@ -18,43 +16,6 @@ namespace {
 namespace py = pybind11;
 
 constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as '0' or part of a name";
-
-/// The limit of gate(): one for all, or one per face.
-struct GateWish {
-  Limit limit;
-  std::optional<std::vector<Limit>> of_faces;
-};
-
-/// Reads it in A's own coordinates: a number as it is, or a string such as '0.1%', or numbers for
-/// A's faces.
-GateWish read_gate_wish(const Arguments& given, const Mesh& a) {
-  constexpr const char* kExpected =
-      "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or a "
-      "number for each face of A";
-  const FloatEnvironment ours;
-  const py::object& max = given.at("max");
-  if (py::isinstance<py::str>(max)) return {limit_for(read_max(given, kExpected), a), std::nullopt};
-  const auto array = py::array::ensure(max);
-  if (!array || array.ndim() != 1) return {limit_for(read_max(given, kExpected), a), std::nullopt};
-  const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max);
-  if (!numbers) PyErr_Clear();
-  if (!numbers) refuse_type("max", kExpected, max);
-  std::vector<Limit> of_faces;
-  for (py::ssize_t i = 0; i < numbers.shape(0); ++i)
-    of_faces.push_back({numbers.at(i), numbers.at(i)});
-  return {{}, std::move(of_faces)};
-}
-
-/// The options of both functions and of a Solver's run.
-SolveOptions heard_options(const Arguments& given) {
-  static const py::object* none = new py::none();
-  SolveOptions options = options_of(given);
-  const py::object* progress = given.find("progress");
-  if (progress != nullptr && !progress->is_none() && PyCallable_Check(progress->ptr()) == 0)
-    refuse_type("progress", "a function of wave, lower and upper, or None", *progress);
-  listen_to(progress != nullptr ? *progress : *none, options);
-  return options;
-}
 
 // One session a device, kept between calls of distance(): making one takes longer than most runs.
 // It is never destroyed, but freed: see interpreter.cpp.
@@ -70,83 +31,118 @@ Session& session_for(const std::string& device) {
   return *sessions().try_emplace(device, std::move(made)).first->second;
 }
 
-// Raises a KeyboardInterrupt that came too late for a run after it.
-template <class Found>
-Answer answered(const Found& found) {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  return answer_of(found);
+/// Reads the keyword `progress`: None if it was not given.
+py::object progress_of(const Arguments& given) {
+  const py::object* progress = given.find("progress");
+  if (progress == nullptr || progress->is_none()) return py::none();
+  if (PyCallable_Check(progress->ptr()) == 0)
+    refuse_type("progress", "a function of wave, lower and upper, or None", *progress);
+  return *progress;
 }
 
-/// The arguments of both functions.
-struct Given {
-  SolveOptions options;
-  bool is_symmetric;
-  std::string device;
-  MeshPointer a, b;
-  SurveyAsked survey;
-  Certificate certificate;
+/// Reads the keyword `certificate`: a text, or an object from which os.fspath() makes one. Checks
+/// the place before anything is run.
+std::unique_ptr<OutputFile> certificate_file(const Arguments& given) {
+  constexpr const char* kExpected = "the path of a file that ends in .vhc, or None";
+  const py::object* path = given.find("certificate");
+  if (path == nullptr || path->is_none()) return nullptr;
+  py::object text = *path;
+  if (py::hasattr(text, "__fspath__")) text = py::module_::import("os").attr("fspath")(text);
+  const std::string file = text_from("certificate", kExpected, text);
+  if (!file.ends_with(".vhc")) refuse_value("certificate", kExpected, text);
+  return std::make_unique<OutputFile>("certificate", file, std::vector<std::string>{});
+}
 
-  Given(const Arguments& given, MeshPointer mesh_a, MeshPointer mesh_b)
-      : options(heard_options(given)),
-        is_symmetric(given.flag("symmetric")),
-        device(given.text("device", kDevice)),
+/// A call: its question, its meshes, and the outputs besides the result.
+struct Given {
+  Question question;
+  py::object progress;
+  std::unique_ptr<OutputFile> certificate;
+  MeshPointer a, b;
+
+  Given(const char* command, const Arguments& given, MeshPointer mesh_a, MeshPointer mesh_b)
+      : question(question_of(command, given)),
+        progress(progress_of(given)),
+        certificate(certificate_file(given)),
         a(std::move(mesh_a)),
-        b(std::move(mesh_b)),
-        survey(read_survey(given, *a)),
-        certificate(given, options) {
-    if (a == b) b = std::make_shared<const Mesh>(*a);  // SurveyRun tells them apart by their place
+        b(std::move(mesh_b)) {
+    question.certificate = certificate != nullptr;
+    if (question.certificate && (question.area || question.is_by_face()))
+      throw UsageError(
+          "certificate: is of the interval, not to be had with area or limits of A's faces");
   }
 };
 
-Answer solve(Given& given) {
-  SymmetricReport both;  // its forward direction, if that is all that is asked
-  Surveys surveys;
-  session_for(given.device).use([&](Solver& s) {
-    SurveyRun run(given.survey, given.options, *given.a, surveys);
-    if (given.is_symmetric) {
-      both = s.symmetric(*given.a, *given.b, run.options());
-    } else {
-      both.a_to_b = s.distance(*given.a, *given.b, run.options());
-    }
-    run.beside([&](const SolveOptions& options) { s.distance(*given.a, *given.b, options); });
-    if (given.is_symmetric)
-      run.beside([&](const SolveOptions& options) { s.distance(*given.b, *given.a, options); });
-  });
-  if (given.survey.is_any) narrow(given.survey, both.a_to_b, surveys.a);
-  if (given.survey.is_any && given.is_symmetric) narrow(given.survey, both.b_to_a, surveys.b);
-  if (given.certificate.is_asked())
-    session_for(given.device).use([&](Solver& s) {
-      given.certificate.make(s, {*given.a, *given.b}, both.a_to_b,
-                             given.is_symmetric ? &both.b_to_a : nullptr);
-    });
-  Answer answer = given.is_symmetric ? answered(both) : answered(both.a_to_b);
-  add_surveys(given.survey, surveys.a, given.is_symmetric ? &surveys.b : nullptr, answer);
-  given.certificate.tell(answer);
-  return answer;
+/// Asks Python between submissions, in the floating-point environment of the caller.
+class Listener {
+ public:
+  explicit Listener(const Given& given) : given_(given) {}
+
+  Observer observer() {
+    return {.goes_on = [this] { return goes_on(); },
+            .search =
+                [this](const Progress& p) {
+                  const bool goes_on = ours_.outside([&] { return hear(given_.progress, p); });
+                  is_cancelled_ = is_cancelled_ || !goes_on;
+                  return goes_on;
+                },
+            .leaves = [this](size_t) { is_proving_ = true; }};
+  }
+
+ private:
+  // The keyword `time` is for the search and the certificate, and survey_time for the rest.
+  bool goes_on() {
+    if (!is_cancelled_) ours_.outside(hear_signals);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    const bool is_late = is_proving_ && spent.count() >= given_.question.options.time_limit_s;
+    return !is_cancelled_ && !is_late;
+  }
+
+  const Given& given_;
+  FloatEnvironment ours_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  bool is_cancelled_ = false, is_proving_ = false;
+};
+
+/// Writes the certificate's file, if there is a proof, and its size into the result. Warns if it
+/// proves less than the interval. Arrays are in no file, so that its hashes are those of their
+/// corners alone.
+void write_certificate(Given& given, const Answer& answer, Result& result) {
+  if (!given.certificate || result.stats["certificate"].is_none()) return;
+  const std::string text = certificate_text(answer, {*given.a, *given.b});
+  given.certificate->write(text);
+  result.stats["certificate"]["bytes"] = text.size();
+  const bool is_less = answer.proof_a->upper > answer.a_to_b.upper ||
+                       (answer.proof_b && answer.proof_b->upper > answer.b_to_a->upper);
+  if (!is_less) return;
+  const char* warning =
+      "the certificate proves less than upper says: see stats['certificate']['upper']";
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, warning, 1) != 0) throw py::error_already_set();
 }
 
-/// Solves with a limit of its own for each face of A.
-Answer solve_by_face(const Given& given, const std::vector<Limit>& limits) {
-  if (given.is_symmetric)
-    throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
-  if (given.survey.area)
-    throw UsageError("area: faces with limits of their own are asked about whole");
-  FaceGate found;
-  Surveys surveys;
-  session_for(given.device).use([&](Solver& s) {
-    SurveyRun run(given.survey, given.options, *given.a, surveys, true);
-    found = gate_faces(s, *given.a, *given.b, limits, run.options());
-    run.beside([&](const SolveOptions& options) { s.distance(*given.a, *given.b, options); });
+Result answered(Given given, Session& session) {
+  Answer answer = unread_answer(given.question);
+  {
+    const FloatEnvironment ours;
+    take_meshes(given.question, *given.a, *given.b, answer);
+  }
+  session.use([&](Solver& solver, const PreparedMesh* prepared) {
+    Listener listener(given);
+    Solver* const solvers[] = {&solver};
+    const AskedMeshes meshes{*given.a, *given.b, prepared};
+    solve(given.question, solvers, meshes, listener.observer(), answer);
+    finish(given.question, solver, meshes, listener.observer(), answer);
   });
-  if (given.survey.is_any) narrow(given.survey, found.report, surveys.a);
-  Answer answer = answered(found);
-  add_surveys(given.survey, surveys.a, nullptr, answer);
-  return answer;
+  // Raises a KeyboardInterrupt that came too late for a run after it.
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  Result result = result_of(given.question, answer);
+  write_certificate(given, answer, result);
+  return result;
 }
 
 }  // namespace
 
-Answer distance(const py::args& positional, const py::kwargs& named) {
+Result distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
       new Signature{"distance",
                     {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
@@ -156,13 +152,13 @@ Answer distance(const py::args& positional, const py::kwargs& named) {
                     6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
-  const Arguments given(*signature, all, named);
-  Given asked(given, mesh_of("A", given.at("va"), given.at("fa")),
-              mesh_of("B", given.at("vb"), given.at("fb")));
-  return solve(asked);
+  const Arguments arguments(*signature, all, named);
+  return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")),
+                   mesh_of("B", arguments.at("vb"), arguments.at("fb"))},
+                  session_for(arguments.text("device", kDevice)));
 }
 
-Answer gate(const py::args& positional, const py::kwargs& named) {
+Result gate(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
       new Signature{"gate",
                     {"a", "b", "max", "tol", "symmetric", "device", "time", "waves", "memory",
@@ -170,21 +166,11 @@ Answer gate(const py::args& positional, const py::kwargs& named) {
                      "area", "survey_time", "certificate"},
                     3,
                     3};
-  constexpr double kTolerance = 1e-7;
   const Call call;
   const Arguments arguments(*signature, positional, named);
-  Given given(arguments, mesh_of("a", "A", arguments.at("a")),
-              mesh_of("b", "B", arguments.at("b")));
-  const GateWish asked = read_gate_wish(arguments, *given.a);
-  if (arguments.find("tol") == nullptr) given.options.tolerance = kTolerance;
-  read_area(arguments, asked.limit, given.survey);
-  if (given.certificate.is_asked() && (asked.of_faces || given.survey.area))
-    throw UsageError(
-        "certificate: is of the interval, not to be had with area or limits of A's faces");
-  if (asked.of_faces) return solve_by_face(given, *asked.of_faces);
-  // The survey decides questions about its area.
-  if (!given.survey.area) given.options.limit = asked.limit;
-  return solve(given);
+  return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
+                   mesh_of("b", "B", arguments.at("b"))},
+                  session_for(arguments.text("device", kDevice)));
 }
 
 void free_devices() { Session::free_all(); }
@@ -197,10 +183,11 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
   const std::string device = given.text("device", kDevice);
   const MeshPointer b = mesh_of("B", given.at("vb"), given.at("fb"));
   session_ = std::make_shared<Session>(device);
+  b_ = b;
   session_->prepare(*b);
 }
 
-Answer PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
+Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
       new Signature{"Solver.distance",
                     {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable",
@@ -208,30 +195,12 @@ Answer PythonSolver::distance(const py::args& positional, const py::kwargs& name
                     2,
                     3};
   const Call call;
-  const std::shared_ptr<Session> session = session_;
+  const std::shared_ptr<Session> session = session_;  // it may be closed meanwhile
   if (session == nullptr) throw py::value_error("this Solver is closed");
   const py::args all = spread(positional, named, {"va", "fa"});
-  const Arguments given(*signature, all, named);
-  const SolveOptions options = heard_options(given);
-  const MeshPointer mesh = mesh_of("A", given.at("va"), given.at("fa"));
-  const Mesh& a = *mesh;
-  const SurveyAsked asked = read_survey(given, a);
-  Certificate certificate(given, options);
-  Report report;
-  Surveys surveys;
-  session->distance([&](const Session::ToPrepared& to_b) {  // it may have been closed meanwhile
-    const SurveyRun run(asked, options, a, surveys);
-    report = to_b(a, run.options());
-  });
-  if (asked.is_any) narrow(asked, report, surveys.a);
-  if (certificate.is_asked())
-    session->with_prepared([&](Solver& solver, const Mesh& b) {
-      certificate.make(solver, {a, b}, report, nullptr);
-    });
-  Answer answer = answered(report);
-  add_surveys(asked, surveys.a, nullptr, answer);
-  certificate.tell(answer);
-  return answer;
+  const Arguments arguments(*signature, all, named);
+  return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")), b_},
+                  *session);
 }
 
 void PythonSolver::close() {

@@ -3,15 +3,15 @@
 
 #include <memory>
 
-#include "host/python/answer.h"
-#include "host/python/arguments.h"
+#include "host/python/mesh.h"
+#include "host/python/result.h"
 #include "host/python/session.h"
 
 namespace vkh::python {
 
-Answer distance(const pybind11::args& positional, const pybind11::kwargs& named);
-/// Does the same with a limit: the answer has a verdict.
-Answer gate(const pybind11::args& positional, const pybind11::kwargs& named);
+Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
+/// Does the same with a limit: the result has a verdict.
+Result gate(const pybind11::args& positional, const pybind11::kwargs& named);
 
 /// Frees the devices that distance() keeps, and those of all Solvers.
 void free_devices();
@@ -24,10 +24,11 @@ class PythonSolver {
   PythonSolver(const PythonSolver&) = delete;
   PythonSolver& operator=(const PythonSolver&) = delete;
 
-  Answer distance(const pybind11::args& positional, const pybind11::kwargs& named);
+  Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
   void close();
 
  private:
+  MeshPointer b_;
   std::shared_ptr<Session> session_;  // shared with the calls in flight on other threads
 };
 

@@ -50,7 +50,8 @@ struct SolveOptions {
   /// false: BVH and solution alone are timed, as Times has them; each timestamp between stages
   /// waits for what is before it, which all together costs an H200 2 %.
   bool stage_times = true;
-  Survey survey;          ///< called for A's cells, after each run; with a limit there may be two
+  Survey survey;  ///< called for A's cells, after each run; with a limit there may be two. See
+                  ///< Solver::with_cells
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   /// false: bounds in plain floats, a report that nothing vouches for; for vkh_bench alone, which
   /// measures what the certificate costs.

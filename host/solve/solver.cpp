@@ -370,7 +370,9 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
   const auto start = Clock::now();
   check_options(options);
   const std::vector<SolveOptions> heard = options_of(pairs, options, ours);
-  std::vector<Report> there = impl_->distances(pairs, heard);
+  std::vector<SolveOptions> of_there = heard;
+  for (SolveOptions& of_it : of_there) of_it.time_limit_s /= 2;
+  std::vector<Report> there = impl_->distances(pairs, of_there);
   const double elapsed_s = ms_since(start) / 1000;
   std::vector<SymmetricReport> both(pairs.size());
   std::vector<size_t> sought;
@@ -403,6 +405,19 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
 SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options) {
   const PairView pair{.a = a, .b = b};
   return std::move(symmetrics({&pair, 1}, options)[0]);
+}
+
+void Solver::with_cells(const PairView& pair, const SolveOptions& options, const Survey& use) {
+  SolveOptions run = options;
+  run.limit = {};
+  run.known_lower = 0;
+  run.known_since = {};
+  run.coverage = false;
+  run.wave_limit = 1;
+  run.time_limit_s = std::numeric_limits<double>::infinity();
+  run.survey = use;
+  const PairView alone{.a = pair.a, .b = pair.b, .prepared = pair.prepared};
+  distances({&alone, 1}, run);
 }
 
 }  // namespace vkh

@@ -82,9 +82,15 @@ class Solver {
   Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
 
   /// Encloses max(h(a, b), h(b, a)). The reverse direction has the forward direction's tolerance
-  /// and what is left of the time, and is pruned by the forward direction's lower bound. It is not
-  /// sought, its interval true and wide, if the forward direction is beyond options.limit.
+  /// and what is left of the time, half of it at least, and is pruned by the forward direction's
+  /// lower bound. It is not sought, its interval true and wide, if the forward direction is beyond
+  /// options.limit.
   SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
+
+  /// Calls `use` once while the pair lies on the device, to bound cells of A. Before that it makes
+  /// one wave. Takes switches, preset, memory and progress from `options`, and neither limits nor
+  /// budgets; the pair's own options are ignored.
+  void with_cells(const PairView& pair, const SolveOptions& options, const Survey& use);
 
  private:
   struct Impl;

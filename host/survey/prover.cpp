@@ -328,17 +328,12 @@ class Prover {
 Proof prove(Solver& solver, const ProofJob& job) {
   refuse_any_triangulation(job.a, job.b, "certificate");
   Proof proof;
-  SolveOptions again = job.options;
-  again.limit = {};
-  again.known_lower = 0;
-  again.coverage = false;
-  again.wave_limit = 1;
-  again.time_limit_s = std::numeric_limits<double>::infinity();
-  again.progress = {};
-  again.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
-    Prover(pair, bound, job, proof).prove();
-  };
-  solver.distance(job.a, job.b, again);
+  SolveOptions options = job.options;
+  options.progress = {};
+  solver.with_cells({.a = job.a, .b = job.b}, options,
+                    [&](const SurveyedPair& pair, const BoundCells& bound) {
+                      Prover(pair, bound, job, proof).prove();
+                    });
   return proof;
 }
 

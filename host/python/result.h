@@ -7,19 +7,19 @@
 #include <optional>
 #include <string>
 
-#include "host/solve/face_gate.h"
-#include "host/solve/report.h"
+#include "host/answer/answer.h"
 
 namespace vkh::python {
 
 /// In a symmetric run, the witness is that of the direction with the larger lower bound, always in
 /// terms of A and B.
-struct Answer {
+struct Result {
   double lower = 0, upper = 0;
   Status status = Status::kClosed;
   std::optional<Verdict> verdict;  ///< present if a limit was given
   SurfacePoint witness_a, witness_b;
   pybind11::dict stats;
+  pybind11::list notes;  ///< dicts of each note
   pybind11::object survey = pybind11::none(), survey_back = pybind11::none();  ///< for A, for B
   std::optional<size_t> index = {};           ///< number of a pair in distances()
   pybind11::object id = pybind11::none();     ///< the pair's id in distances(), if it has one
@@ -33,9 +33,8 @@ struct Answer {
 /// Defines the class Result.
 void define_result(pybind11::module_& m);
 
-Answer answer_of(const Report& report);
-Answer answer_of(const SymmetricReport& both);
-Answer answer_of(const FaceGate& gate);
+/// The values of an answer, with the GIL.
+Result result_of(const Question& question, const Answer& answer);
 
 // Python can make objects that no constructor has seen: Solver.__new__, or a subclass that uses
 // itself before super().__init__().

@@ -1,0 +1,276 @@
+#include "host/answer/asking.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <mutex>
+#include <new>
+
+#include "host/answer/input_hashes.h"
+#include "host/answer/progress_line.h"
+#include "host/answer/steps.h"
+#include "host/base/begin_now.h"
+#include "host/base/error.h"
+#include "host/base/float_environment.h"
+#include "host/base/sha256.h"
+#include "host/base/system.h"
+#include "host/mesh/default_pair.h"
+#include "host/read/mesh_io.h"
+
+namespace vkh {
+namespace {
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The state that the threads of a question share, and the answer known so far.
+class Asking {
+ public:
+  Asking(const Question& asked, const Stop& until)
+      : question(asked), stop(until), known_(unread_answer(asked)) {}
+
+  const Question question;
+  const Stop stop;
+  ProgressLine line;
+
+  /// Takes the meshes once they are read: then units and a first bound are known.
+  void read(const MeshPair& pair, double ms) {
+    const std::lock_guard lock(mutex_);
+    farthest_ = take_meshes(question, pair.a, pair.b, known_);
+    known_.waits.read = ms;
+  }
+  void open(const DeviceDescription& device, double ms) {
+    const std::lock_guard lock(mutex_);
+    for (Report* r : directions()) r->device = device;
+    known_.waits.start = ms;
+  }
+  void advance(const Progress& progress) {
+    line.show(progress);
+    const std::lock_guard lock(mutex_);
+    // The progress covers a part of A's faces and bounds none of the others.
+    if (known_.max && (known_.max->faces_a || known_.max->faces_b)) return;
+    Report& r = progress.back && known_.b_to_a ? *known_.b_to_a : known_.a_to_b;
+    r.lower = progress.lower;
+    r.upper = std::min(progress.upper, farthest_);
+  }
+
+  /// Keeps the answer once all runs have ended; only a survey may be missing.
+  void keep(const Answer& answer) {
+    const std::lock_guard lock(mutex_);
+    known_ = answer;
+    is_final_ = true;
+  }
+  bool is_final() const {
+    const std::lock_guard lock(mutex_);
+    return is_final_;
+  }
+
+  Answer known() const {
+    const std::lock_guard lock(mutex_);
+    return known_;
+  }
+
+ private:
+  std::vector<Report*> directions() {
+    if (known_.b_to_a) return {&known_.a_to_b, &*known_.b_to_a};
+    return {&known_.a_to_b};
+  }
+
+  mutable std::mutex mutex_;
+  Answer known_;
+  bool is_final_ = false;
+  double farthest_ = std::numeric_limits<double>::infinity();
+};
+
+Observer observer_of(Asking& at) {
+  return {.goes_on = [&at] { return !at.stop.is_asked(); },
+          .left_s = [&at] { return at.stop.left_s(); },
+          .search =
+              [&at](const Progress& progress) {
+                at.advance(progress);
+                return !is_interrupted();
+              },
+          .cells = [&at](size_t cells) { at.line.show_survey(cells); },
+          .leaves = [&at](size_t leaves) { at.line.show_proof(leaves); },
+          .found = [&at](const Answer& answer) { at.keep(answer); }};
+}
+
+/// Reads both files at the same time. Throws what read_mesh throws, A's error before B's. Shows the
+/// progress, and ends with Interrupted when it is to stop. After a bad A the call does not wait for
+/// B, whose threads go on and keep `at`.
+MeshPair read_pair(const std::shared_ptr<Asking>& at) {
+  constexpr uint64_t kWorthwhile = 100'000'000;  // about a second on one core
+  uint64_t bytes = 0;
+  const std::string &file_a = at->question.file_a, &file_b = at->question.file_b;
+  for (const std::string& file : {file_a, file_b}) {
+    std::error_code none;
+    const uintmax_t size = std::filesystem::file_size(path_of(file), none);
+    if (!none) bytes += size;
+  }
+  const auto bytes_read = std::make_shared<std::atomic<uint64_t>>(0);
+  ReadLimits limits = at->question.limits;
+  limits.bytes_read = bytes_read.get();
+  limits.keep_going = [bytes_read, bytes, at] {
+    if (bytes >= kWorthwhile) at->line.show_reading(*bytes_read, bytes);
+    return !at->stop.is_asked();
+  };
+  auto b = begin_now([file_b, limits] { return read_mesh(path_of(file_b), limits); });
+  MeshPair pair{read_mesh(path_of(file_a), limits), {}};
+  pair.b = b.get();
+  return pair;
+}
+
+/// Hashes all files that are read, beside the other work; a caller waits only for the result.
+class Hashes {
+ public:
+  explicit Hashes(const std::shared_ptr<Asking>& at)
+      : at_(at), is_wanted_(at->question.hashes && !at->question.file_a.empty()) {
+    if (!is_wanted_) return;
+    for (const std::string& file : {at->question.file_a, at->question.file_b})
+      digests_.push_back(begin_hash(file));
+    for (const std::string& file : {at->question.face_max_a, at->question.face_max_b})
+      limits_.push_back(begin_hash(file));
+  }
+
+  /// Begins with the files beneath both. Call it once both are read: parsing a file for their names
+  /// earlier would hold it in memory a second time.
+  void begin_beneath() {
+    if (!is_wanted_) return;
+    for (const std::string& file : {at_->question.file_a, at_->question.file_b}) {
+      beneath_.push_back(begin_now([at = at_, file]() -> Beneath {
+        ReadLimits limits = at->question.limits;
+        limits.keep_going = [at] { return !at->stop.is_asked(); };
+        try {
+          return hashes_beneath(file, limits);
+        } catch (const Interrupted&) {
+          return std::nullopt;
+        } catch (const std::bad_alloc&) {  // it must not cost the answer
+          return std::nullopt;
+        }
+      }));
+    }
+  }
+
+  /// Writes the hashes of an input only if those of all its files are known.
+  void fill(Answer& answer) {
+    for (size_t i = 0; i < beneath_.size(); ++i) {
+      Beneath beneath = beneath_[i].get();
+      if (!beneath) continue;
+      answer.inputs[i].sha256 = digests_[i].get();
+      answer.inputs[i].files = std::move(*beneath);
+    }
+    if (!is_wanted_ || !answer.max) return;
+    for (size_t i = 0; i < limits_.size(); ++i) {
+      auto& faces = i == 0 ? answer.max->faces_a : answer.max->faces_b;
+      if (faces) faces->sha256 = limits_[i].get();
+    }
+  }
+
+ private:
+  using Beneath = std::optional<std::vector<FileHash>>;
+
+  std::future<std::string> begin_hash(const std::string& file) {
+    return begin_now([at = at_, file] {
+      if (file.empty()) return std::string();
+      return sha256_of(path_of(file), [at] { return !at->stop.is_asked(); });
+    });
+  }
+
+  std::shared_ptr<Asking> at_;
+  bool is_wanted_;
+  std::vector<std::future<std::string>> digests_, limits_;
+  std::vector<std::future<Beneath>> beneath_;
+};
+
+std::vector<Solver*> solvers_of(const Session& session) {
+  std::vector<Solver*> solvers{session.solver.get()};
+  for (const Opened& one : session.more) solvers.push_back(one.solver.get());
+  return solvers;
+}
+
+std::future<Session> begin_opening(const Question& question) {
+  SolveOptions options = question.options;
+  // With a limit, pipelines for cells are made once it is decided.
+  const bool apart = question.max && !question.area;
+  if (question.asks_for_cells() && !apart)
+    options.survey = [](const SurveyedPair&, const BoundCells&) {};
+  return begin_now([selector = question.device, several = question.several_devices, options,
+                    cache = question.caches ? user_cache_folder() : std::filesystem::path()] {
+    return open_session(selector, several, options, cache);
+  });
+}
+
+Answered work(const std::shared_ptr<Asking>& at) {
+  const Question& question = at->question;
+  Hashes hashes(at);
+  auto opening = begin_opening(question);
+  const auto start = Clock::now();
+  Answered done;
+  done.pair = question.file_a.empty() ? default_pair() : read_pair(at);
+  at->read(done.pair, ms_since(start));
+  hashes.begin_beneath();
+  done.session = opening.get();
+  at->open(done.session.device->description(), done.session.setup_ms);
+  done.answer = at->known();
+  const AskedMeshes meshes{done.pair.a, done.pair.b};
+  const Observer observer = observer_of(*at);
+  solve(question, solvers_of(done.session), meshes, observer, done.answer);
+  finish(question, *done.session.solver, meshes, observer, done.answer);
+  hashes.fill(done.answer);
+  return done;
+}
+
+/// Returns the answer known so far, for a caller that no longer waits for the run. Unless that
+/// answer is final, its status says why the run was stopped.
+Answered unfinished(Asking& at) {
+  at.line.end();
+  Answered done;
+  done.answer = at.known();
+  if (at.is_final()) return done;
+  done.answer.a_to_b.status = at.stop.why();
+  if (done.answer.b_to_a) done.answer.b_to_a->status = at.stop.why();
+  return done;
+}
+
+/// Returns true once `result` is ready; false when the caller is to wait no longer.
+bool wait_for(const std::future<Answered>& result, const Asking& at) {
+  constexpr std::chrono::milliseconds kLook(20);
+  constexpr double kGraceful = 0.06;  // a run on a GPU ends by itself in it, with more to report
+  constexpr double kToAddUp = 3;      // a survey has files to write that the user asked for
+  const Stop& stop = at.stop;
+  // A certificate proves the final result of the search, so that is waited for too.
+  const auto patience = [&] {
+    return at.is_final() || at.question.certificate ? kToAddUp : kGraceful;
+  };
+  double asked_at = std::numeric_limits<double>::infinity();
+  while (result.wait_for(kLook) == std::future_status::timeout) {
+    if (!stop.is_asked()) continue;
+    asked_at = std::min(asked_at, stop.elapsed_s());
+    if (stop.elapsed_s() - asked_at > patience()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Answered ask(const Question& question, const Stop& stop) {
+  // The state is shared: threads that are left behind still read it.
+  const auto at = std::make_shared<Asking>(question, stop);
+  auto result = begin_now([at] {
+    const FloatEnvironment ours;
+    return work(at);
+  });
+  Answered done;
+  try {
+    done = wait_for(result, *at) ? result.get() : unfinished(*at);
+  } catch (const Interrupted&) {
+    done = unfinished(*at);
+  }
+  at->line.end();
+  done.answer.waits.total = stop.elapsed_s() * 1000;
+  return done;
+}
+
+}  // namespace vkh

@@ -1,0 +1,26 @@
+// A question on its way to an answer: files are read and hashed, a device is opened and the pair is
+// solved on other threads, so that the end of its time, Ctrl-C and SIGTERM are handled whatever a
+// driver does meanwhile.
+#pragma once
+
+#include "host/answer/answer.h"
+#include "host/answer/question.h"
+#include "host/answer/session.h"
+#include "host/answer/stop.h"
+#include "host/mesh/mesh_pair.h"
+
+namespace vkh {
+
+/// An answer, with the objects that are destroyed only after it is printed.
+struct Answered {
+  Answer answer;
+  MeshPair pair;
+  Session session;
+};
+
+/// Throws what reading, Device and Solver throw, and UsageError for a length that the files' units
+/// do not resolve. When `stop` is asked for, the answer is what is known: its interval is true, if
+/// only [0, infinity). Threads may then be left behind: the program must end by end_process.
+Answered ask(const Question& question, const Stop& stop);
+
+}  // namespace vkh

@@ -1,0 +1,188 @@
+// The steps after a distance is enclosed: surveys of all of A, certificates, the host's own check.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "host/answer/steps.h"
+#include "host/base/decimal.h"
+#include "host/base/error.h"
+#include "host/base/note.h"
+#include "host/solve/cells.h"
+#include "host/solve/verify.h"
+#include "host/survey/certificate.h"
+
+namespace vkh {
+namespace {
+
+constexpr double kSeconds = 10;       // unless --time gives more, or less
+constexpr double kPartOfTime = 0.85;  // adding up and the outputs need the rest
+
+Limit resolved(const Length& length, const char* option, const Answer& answer) {
+  return in_files(length, option, answer.unit, answer.a_to_b.diagonal_a);
+}
+
+// Returns each band as two: rounded down, and up.
+std::vector<Limit> bands_of(const Question& question, const Answer& answer) {
+  std::vector<Limit> bands;
+  if (answer.max && (question.area || question.statistics)) bands.push_back(answer.max->limit);
+  for (const Length& band : question.bands) {
+    bands.push_back(limit_in_files(band, question.option("bands").c_str(), answer.unit,
+                                   answer.a_to_b.diagonal_a));
+  }
+  return bands;
+}
+
+/// What the steps of one answer share.
+struct Finishing {
+  const Question& question;
+  Solver& solver;
+  const Observer& observer;
+  const SolveOptions options;  ///< of the search
+  Answer& answer;
+};
+
+double survey_time(const Finishing& at, size_t left) {
+  if (at.question.survey_time_s) return *at.question.survey_time_s;
+  const double time = at.observer.time_left_s();
+  if (!std::isfinite(time)) return kSeconds;
+  return kPartOfTime * std::max(time, 0.0) / static_cast<double>(left);
+}
+
+// `left`: the surveys that are still to come, this one among them.
+SurveyOptions survey_options(const Finishing& at, size_t left) {
+  const Question& question = at.question;
+  SurveyOptions options;
+  options.faces = question.faces;
+  if (question.face_tolerance)
+    options.field_tolerance =
+        resolved(*question.face_tolerance, question.option("field-tol").c_str(), at.answer).within;
+  if (at.answer.max) options.limit = at.answer.max->limit;
+  options.statistics = question.statistics || question.area;
+  for (const Limit& band : bands_of(question, at.answer))
+    options.bands.insert(options.bands.end(), {band.within, band.beyond});
+  options.enough = question.area;
+  if (!question.statistics) options.percentiles.clear();
+  if (!question.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
+  options.time_limit_s = survey_time(at, left);
+  options.goes_on = [&observer = at.observer](size_t cells) {
+    if (observer.cells) observer.cells(cells);
+    return observer.is_to_go_on();
+  };
+  return options;
+}
+
+// Joins both: a share that holds from a length rounded down up to it rounded up holds for it.
+void join_bands(Statistics& s) {
+  std::vector<AreaWithin> bands;
+  for (size_t i = 0; i + 1 < s.bands.size(); i += 2) {
+    const AreaWithin &down = s.bands[i], &up = s.bands[i + 1];
+    bands.push_back(
+        {typed_length({down.distance, up.distance}), {down.share.lower, up.share.upper}});
+  }
+  s.bands = std::move(bands);
+}
+
+// Narrows the report, since a run that only decides a limit leaves a wide interval: no distance is
+// above the largest bound of a face. A run that ended before its survey began has one bound for all
+// faces.
+void join(Report& report, SurveyResult& survey, size_t face_count) {
+  Field& field = survey.field;
+  if (field.face_count() != face_count) field = field_within(face_count, report.upper);
+  report.upper = std::min(report.upper, *std::max_element(field.upper.begin(), field.upper.end()));
+  if (survey.statistics) join_bands(*survey.statistics);
+}
+
+/// A direction, and what is to be found of the mesh that it begins at.
+struct Side {
+  const Mesh& from;
+  const Mesh& to;
+  const PreparedMesh* prepared;
+  const char* name;
+  Report& report;
+};
+
+void note(const Finishing& at, NoteCode code, const std::string& text) {
+  at.answer.notes.push_back(note_of(code, text));
+}
+
+SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOptions& options) {
+  SurveyResult result;
+  if (!at.observer.is_to_go_on()) return result;
+  SolveOptions run = at.options;
+  run.progress = [&](const Progress&) { return at.observer.is_to_go_on(); };
+  try {
+    at.solver.with_cells({.a = side.from, .b = side.to, .prepared = side.prepared}, run,
+                         survey_with(options, result));
+  } catch (const std::bad_alloc&) {
+    note(at, NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name);
+  } catch (const MemoryError&) {
+    note(at, NoteCode::kSurvey, std::string("the device had no memory to survey ") + side.name);
+  }
+  return result;
+}
+
+SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
+  SurveyOptions options = survey_options(at, left);
+  options.upper = side.report.upper;
+  SurveyResult result = survey_of(at, side, options);
+  join(side.report, result, side.from.faces.size());
+  if (options.statistics && !result.statistics)
+    note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);
+  return result;
+}
+
+std::optional<Proof> prove_side(const Finishing& at, const Side& side) {
+  std::optional<Proof> proof;
+  if (!std::isfinite(side.report.upper)) return proof;
+  try {
+    proof = prove(at.solver, {side.from, side.to, side.report, at.options, [&](size_t leaves) {
+                                if (at.observer.leaves) at.observer.leaves(leaves);
+                                return at.observer.is_to_go_on();
+                              }});
+  } catch (const std::bad_alloc&) {
+    note(at, NoteCode::kCertificate, "there was no memory for a certificate");
+  } catch (const MemoryError&) {
+    note(at, NoteCode::kCertificate, "the device had no memory for a certificate");
+  }
+  if (proof && proof->upper > side.report.upper)
+    note(at, NoteCode::kCertificate,
+         "the certificate proves less: " + side.from.name + " is within " +
+             shortest_decimal(proof->upper));
+  return proof;
+}
+
+void verify(const Side& side) {
+  if (side.report.has_witness)
+    side.report.witness_check = verify_witness(side.from, side.to, side.report);
+}
+
+}  // namespace
+
+double Observer::time_left_s() const {
+  return left_s ? left_s() : std::numeric_limits<double>::infinity();
+}
+
+void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
+            const Observer& observer, Answer& answer) {
+  const Finishing at{question, solver, observer, solve_options(question, answer), answer};
+  std::vector<Side> sides{{meshes.a, meshes.b, meshes.prepared, "A", answer.a_to_b}};
+  if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", *answer.b_to_a});
+  for (size_t i = 0; question.asks_for_survey() && i < sides.size(); ++i)
+    (i == 0 ? answer.survey_a : answer.survey_b) = survey_side(at, sides[i], sides.size() - i);
+  if (observer.found) observer.found(answer);
+  for (size_t i = 0; question.certificate && i < sides.size(); ++i)
+    (i == 0 ? answer.proof_a : answer.proof_b) = prove_side(at, sides[i]);
+  for (size_t i = 0; question.verify && i < sides.size(); ++i) verify(sides[i]);
+}
+
+std::string certificate_text(const Answer& answer, const AskedMeshes& meshes) {
+  if (!answer.proof_a || answer.b_to_a.has_value() != answer.proof_b.has_value())
+    throw OutputError("the run ended before there was a certificate");
+  std::optional<CertifiedDirection> back;
+  if (answer.b_to_a) back.emplace(CertifiedDirection{*answer.b_to_a, *answer.proof_b});
+  return certificate_of({meshes.a, answer.inputs[0].sha256}, {meshes.b, answer.inputs[1].sha256},
+                        {answer.a_to_b, *answer.proof_a}, back);
+}
+
+}  // namespace vkh

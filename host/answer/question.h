@@ -1,0 +1,69 @@
+// What is asked about a pair of meshes, before any file or device is touched. The command line, a
+// row of a list and Python fill it in; host/answer/steps.h turns it into an answer.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/length.h"
+#include "host/base/limit.h"
+#include "host/read/read_limits.h"
+#include "host/solve/solve_options.h"
+
+namespace vkh {
+
+/// The part of A's faces that an answer covers: `index` from 0. It never passes for the whole.
+struct PartOf {
+  uint64_t index = 0, count = 1;
+};
+
+struct Question {
+  std::string command;             ///< Answer::command
+  std::vector<std::string> words;  ///< Answer::words
+  const char* dashes = "--";       ///< before an option's name in a message; Python has none
+
+  // The meshes.
+  std::string file_a, file_b;  ///< both empty: the built-in pair
+  std::string unit;            ///< the unit of files that do not name one; empty: unknown
+  ReadLimits limits;           ///< all but the callbacks
+  bool hashes = false;         ///< Input::sha256 is wanted
+
+  // The distance.
+  Length tolerance;
+  bool tolerance_is_typed = true;     ///< false: a pair's own limit brings a gate's with it
+  bool symmetric = false;             ///< both directions
+  std::optional<PartOf> part;         ///< the part of A, alone
+  std::optional<Length> known_lower;  ///< the bound that other parts have shown
+  SolveOptions options;               ///< all but tolerance, limit and progress
+
+  // A limit.
+  std::optional<Length> max;
+  std::string face_max_a, face_max_b;  ///< files with limits per face; empty: none
+  std::vector<Limit> face_limits_a;    ///< limits of A's faces; empty: those of the file
+  std::optional<double> area;          ///< the share of A's area that is to be within `max`
+  std::string area_requested;          ///< the share as the user typed it
+
+  // What is wanted of all of A besides.
+  bool faces = false;                    ///< bounds of each face: for a picture, or a file
+  std::optional<Length> face_tolerance;  ///< the width of those
+  bool statistics = false;
+  std::vector<Length> bands;            ///< shares of A's area within these distances
+  std::optional<double> survey_time_s;   ///< the time of each survey, besides that of all
+  bool certificate = false;             ///< Answer::proof_a is wanted
+  bool verify = false;                  ///< the host checks the answer
+
+  // The devices.
+  std::string device;            ///< DeviceRequest::selector
+  bool several_devices = false;  ///< allows several, see open_session()
+  bool caches = true;            ///< keeps compiled pipelines in the user's folder
+
+  bool is_by_face() const {
+    return !face_max_a.empty() || !face_max_b.empty() || !face_limits_a.empty();
+  }
+  bool asks_for_survey() const { return faces || statistics || !bands.empty() || area; }
+  std::string option(const char* name) const { return std::string(dashes) + name; }
+  bool asks_for_cells() const { return certificate || asks_for_survey(); }
+};
+
+}  // namespace vkh

@@ -1,0 +1,125 @@
+// The step from meshes to an enclosed distance.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/answer/face_limits.h"
+#include "host/answer/steps.h"
+#include "host/base/error.h"
+#include "host/base/note.h"
+#include "host/solve/face_gate.h"
+#include "host/solve/part.h"
+#include "host/solve/together.h"
+
+namespace vkh {
+namespace {
+
+constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
+
+SolveOptions heard_options(const Question& question, const Observer& observer,
+                           const Answer& answer) {
+  SolveOptions options = solve_options(question, answer);
+  if (observer.left_s) options.time_limit_s = std::max(observer.left_s(), kLeastTime);
+  options.progress = observer.search;
+  // Uses the pipelines that a survey needs, so that it needs no others.
+  if (question.asks_for_cells()) options.survey = [](const SurveyedPair&, const BoundCells&) {};
+  return options;
+}
+
+/// A direction whose faces may have limits of their own: in a file, or given.
+struct GatedSide {
+  const std::string& file;
+  std::span<const Limit> given;
+  const Mesh& from;
+  const Mesh& to;
+  std::optional<FaceLimits>& limits;
+};
+
+Report gate(const GatedSide& side, const SolveOptions& options, Solver& solver,
+            const Answer& answer) {
+  if (side.file.empty() && side.given.empty()) return solver.distance(side.from, side.to, options);
+  std::vector<Limit> limits(side.given.begin(), side.given.end());
+  if (!side.file.empty())
+    limits = read_face_limits(side.file, side.from, answer.max->limit, answer.unit,
+                              answer.a_to_b.diagonal_a);
+  FaceGate found = gate_faces(solver, side.from, side.to, limits, options);
+  side.limits = FaceLimits{.path = side.file,
+                           .within = found.within,
+                           .faces = side.from.faces.size(),
+                           .runs = found.runs,
+                           .limit = found.limit,
+                           .verdict = found.verdict};
+  return std::move(found.report);
+}
+
+/// Solves both directions on their own: limits of faces bound nothing in the reverse direction.
+void solve_by_face(const Question& question, const AskedMeshes& meshes, Solver& solver,
+                   SolveOptions options, const Observer& observer, Answer& answer) {
+  options.tolerance = answer.a_to_b.tolerance;
+  options.tolerance_is_absolute = true;
+  SolveOptions there = options;
+  if (question.symmetric) there.time_limit_s /= 2;
+  answer.a_to_b =
+      gate({question.face_max_a, question.face_limits_a, meshes.a, meshes.b, answer.max->faces_a},
+           there, solver, answer);
+  if (!question.symmetric) return;
+  options.time_limit_s = std::max(observer.time_left_s(), kLeastTime);
+  options.progress = [&observer](Progress progress) {
+    progress.back = true;
+    return !observer.search || observer.search(progress);
+  };
+  answer.b_to_a = gate({question.face_max_b, {}, meshes.b, meshes.a, answer.max->faces_b}, options,
+                       solver, answer);
+}
+
+void note_left_out(std::span<Solver* const> solvers, Answer& answer) {
+  for (const LeftOut& one : answer.a_to_b.left_out) {
+    answer.notes.push_back(note_of(
+        NoteCode::kDevices, "the others did the part of " +
+                                solvers[one.device]->device().description().name + ": " + one.why));
+  }
+}
+
+Report distance_of(std::span<Solver* const> solvers, const AskedMeshes& meshes,
+                   const SolveOptions& options) {
+  if (meshes.prepared != nullptr)
+    return solvers.front()->distance(meshes.a, *meshes.prepared, options);
+  return distance_over(solvers, meshes.a, meshes.b, options);
+}
+
+Report distance_of_one_part(std::span<Solver* const> solvers, const AskedMeshes& meshes,
+                            const PartOf& part, const SolveOptions& options) {
+  const size_t faces = meshes.a.faces.size();
+  if (part.count > faces)
+    throw UsageError("--part: A has " + std::to_string(faces) + " faces, too few for " +
+                     std::to_string(part.count) + " parts");
+  const auto distance = [&](const Mesh& a, const Mesh& b, const SolveOptions& of_it) {
+    return distance_over(solvers, a, b, of_it);
+  };
+  return distance_of_part(distance, meshes.a, part_in_order(faces, part.index, part.count),
+                          meshes.b, options);
+}
+
+}  // namespace
+
+void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
+           const Observer& observer, Answer& answer) {
+  const SolveOptions options = heard_options(question, observer, answer);
+  if (question.is_by_face()) {
+    solve_by_face(question, meshes, *solvers.front(), options, observer, answer);
+  } else if (question.symmetric) {
+    if (solvers.size() > 1)
+      throw UsageError("--symmetric: over several devices ask for each direction by itself");
+    SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options);
+    answer.a_to_b = std::move(both.a_to_b);
+    answer.b_to_a = std::move(both.b_to_a);
+  } else {
+    answer.a_to_b = question.part ? distance_of_one_part(solvers, meshes, *question.part, options)
+                                  : distance_of(solvers, meshes, options);
+    note_left_out(solvers, answer);
+  }
+  add_memory_notes(options.memory_bytes, answer);
+  if (observer.found) observer.found(answer);
+}
+
+}  // namespace vkh

@@ -1,0 +1,70 @@
+// The steps from a question and its meshes to an answer. Each stands here once: the command line,
+// a batch and Python call them with solvers of their own.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "host/answer/answer.h"
+#include "host/answer/question.h"
+#include "host/solve/solver.h"
+#include "host/solve/stream.h"
+
+namespace vkh {
+
+/// Hears how a question gets on, on the threads that work, and may end it. Any may be empty.
+struct Observer {
+  std::function<bool()> goes_on = {};                   ///< false: end, with a true answer
+  std::function<double()> left_s = {};                  ///< the seconds left for all of it
+  std::function<bool(const Progress&)> search = {};     ///< of the search; false: end
+  std::function<void(size_t)> cells = {}, leaves = {};  ///< of a survey; of a certificate
+  std::function<void(const Answer&)> found = {};        ///< what is known, after each step
+
+  bool is_to_go_on() const { return !goes_on || goes_on(); }
+  double time_left_s() const;  ///< infinite where there is no limit
+};
+
+/// Two meshes that the caller keeps. `prepared`: B on the device of the one solver, or null.
+struct AskedMeshes {
+  const Mesh& a;
+  const Mesh& b;
+  const PreparedMesh* prepared = nullptr;
+};
+
+/// The answer before anything is read: [0, infinity).
+Answer unread_answer(const Question& question);
+
+/// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound, which
+/// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal
+/// and both deltas. Throws UsageError for units that do not go together and for lengths that cannot
+/// be converted to the files' unit, and InputError where a share is asked of a mesh without area.
+double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer);
+
+/// The options for an interval as narrow as such an answer needs. `known` has its meshes.
+SolveOptions solve_options(const Question& question, const Answer& known);
+
+/// Solves what is asked of the distance: one direction or both, a part of A, over all solvers, or
+/// face by face. `answer` has its meshes. Throws what Solver throws, and UsageError for what cannot
+/// be asked together.
+void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
+           const Observer& observer, Answer& answer);
+
+/// Does what follows once the distance is enclosed: surveys A, and B in the reverse direction, and
+/// narrows the intervals by what they find; proves the upper bounds; checks the answer on the host.
+/// What the device or the host has no memory for is left out, with a note.
+void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
+            const Observer& observer, Answer& answer);
+
+/// Takes the reports of a pair that a stream solved, in place of solve(). `result` has no error.
+void take_reports(const Question& question, StreamResult&& result, Answer& answer);
+/// Whether a direction was ended by the caller.
+bool is_cancelled(const Answer& answer);
+
+/// Adds, after a run, notes on the memory that it took of `asked` bytes.
+void add_memory_notes(uint64_t asked, Answer& answer);
+
+/// The bytes of a certificate of an answer with proofs (docs/certificate-file.md). Throws
+/// OutputError if the run ended before there was one.
+std::string certificate_text(const Answer& answer, const AskedMeshes& meshes);
+
+}  // namespace vkh
