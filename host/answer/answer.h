@@ -11,7 +11,9 @@
 
 #include "host/answer/question.h"
 #include "host/base/length.h"
+#include "host/base/note.h"
 #include "host/base/sha256.h"
+#include "host/solve/frame.h"
 #include "host/solve/report.h"
 #include "host/survey/prover.h"
 #include "host/survey/survey.h"
@@ -26,9 +28,10 @@ struct Input {
   bool is_read = false;
   MeshCounts counts = {};
   MeshAccuracy place = {};
-  std::string sha256 = {};              ///< the file's hash in hexadecimal digits; empty: not known
-  std::vector<FileHash> files = {};     ///< the other files read (files_beneath), if known
-  std::vector<std::string> notes = {};  ///< the notes that people should know
+  std::string sha256 = {};           ///< the file's hash in hexadecimal digits; empty: not known
+  std::vector<FileHash> files = {};  ///< the other files read (files_beneath), if known
+  std::vector<Note> notes = {};      ///< the notes that people should know
+  std::optional<Box> box = {};       ///< of its corners
 };
 
 /// The limits and the outcome for a mesh whose faces have limits of their own.
@@ -64,7 +67,7 @@ struct Answer {
   std::vector<std::string> words;  ///< the words typed after the program's name
   std::string started, host;       ///< UTC in ISO 8601; the machine's name
   std::array<Input, 2> inputs;     ///< A, B
-  std::vector<std::string> notes;  ///< the notes on the pair
+  std::vector<Note> notes;         ///< the notes on the pair
   std::string unit;                ///< every length's; empty: the files' own, whatever it is
   Length tolerance;                ///< a fraction is of A's diagonal in both directions
   std::optional<Asked> max;
@@ -90,6 +93,9 @@ Enclosure share_within(const Answer& answer, bool back);
 /// One sentence for each status.
 const char* stop_reason(Status status);
 
+/// The notes on the pair, those that its verdict brings among them.
+std::vector<Note> notes_of(const Answer& answer);
+
 /// The answer's first line: the verdict, or what the interval means.
 std::string in_words(const Answer& answer);
 
@@ -107,9 +113,9 @@ std::string printable(const std::string& text);
 
 // servers.cpp defines this one.
 
-/// Picks the notes on the inputs' surfaces, which build servers get too: "A: polygons: ...".
-std::vector<std::string> surface_notes(const std::vector<std::string>& notes_a,
-                                       const std::vector<std::string>& notes_b);
+/// Picks the notes that build servers get too (is_for_servers): "size: ...", "A: polygons: ...".
+std::vector<std::string> server_notes(std::span<const Note> pair, std::span<const Note> a,
+                                      std::span<const Note> b);
 
 // json.cpp defines these.
 
@@ -147,7 +153,7 @@ struct JunitCase {
   std::string command, name, words;
   double seconds = 0;
   std::string element = {}, type = {};
-  std::vector<std::string> notes = {};  ///< see surface_notes
+  std::vector<std::string> notes = {};  ///< see server_notes
 };
 /// A test suite in JUnit's XML, as build servers read it. `started` empty: without it and the host.
 std::string to_junit(std::span<const JunitCase> cases, const std::string& host,

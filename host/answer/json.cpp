@@ -23,6 +23,10 @@ Json witness_json(const Report& r) {
           {"to", {{"face", r.witness_b.file_face}, {"point", vector_json(r.witness_b.point)}}}};
 }
 
+Json box_json(const Box& box) {
+  return {{"min", vector_json(box.lo)}, {"max", vector_json(box.hi)}};
+}
+
 // Writes null counts before a mesh is read. The delta is written so that it is read back as the
 // same double.
 Json input_json(const char* name, const Input& input) {
@@ -39,7 +43,7 @@ Json input_json(const char* name, const Input& input) {
   add("polygons", input.counts.polygons);
   json["delta"] = input.place.delta;
   json["unit"] = text_or_null(input.place.unit);
-  json["notes"] = input.notes;
+  json["notes"] = notes_json(input.notes, input.path);
   return json;
 }
 
@@ -206,7 +210,7 @@ std::string direction_json(const Answer& answer, const Report& r, bool back, Det
   return json.text();
 }
 
-constexpr const char* kSchema = "vkhausdorff.answer/1";
+constexpr const char* kSchema = "vkhausdorff.answer/2";
 
 }  // namespace
 
@@ -236,7 +240,10 @@ void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
   json.add_text("directions", "[" + directions + "]");
   json.add("inputs",
            Json::array({input_json("a", answer.inputs[0]), input_json("b", answer.inputs[1])}));
-  json.add("notes", answer.notes);
+  json.add("notes", notes_json(notes_of(answer), ""));
+  if (answer.inputs[0].box && answer.inputs[1].box)
+    json.add("boxes",
+             {{"a", box_json(*answer.inputs[0].box)}, {"b", box_json(*answer.inputs[1].box)}});
   json.add("tolerance", tolerance_json(answer));
   json.add("options", options_json(answer));
 }

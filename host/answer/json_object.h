@@ -40,6 +40,12 @@ inline Json text_or_null(const std::string& text) { return text.empty() ? Json()
 /// other files, which are null with it.
 void add_hashes(Json& json, const Input& input);
 
+/// Writes the notes as answers and records have them. `file`: the file of notes that name none.
+Json notes_json(std::span<const Note> notes, const std::string& file);
+/// Reads the notes of an answer or an input: objects, or texts that begin with a code, as they were
+/// before 0.3.0. Skips codes that are not known.
+std::vector<Note> notes_in(const Json& object);
+
 /// The lower or upper end `key` of an interval, from its hexadecimal digits, which give the double
 /// itself. Throws InputError where they are missing or malformed, negative or another double than
 /// the decimal beside them.

@@ -77,9 +77,8 @@ std::string reading_of(const Json& json) {
   std::string text;
   for (const Json& input : json.at("inputs")) {
     text += input.at("faces").dump();
-    for (const Json& note : input.at("notes")) {
-      const auto line = note.get<std::string>();
-      if (is_about_surface(line)) text += '\n' + line;
+    for (const Note& note : notes_in(input)) {
+      if (is_for_servers(note.code)) text += '\n' + line_of(note);
     }
     text += '\n';
   }
@@ -100,7 +99,7 @@ void check_counts(const Json& direction) {
 Part parsed(const WrittenAnswer& written) {
   const Json& json = written.json;
   try {
-    if (!is_part(json) || json.at("schema") != "vkhausdorff.answer/1")
+    if (!is_part(json) || json.at("schema") != "vkhausdorff.answer/2")
       throw InputError("no answer of a part");
     check_bounds(json);
     check_counts(json.at("directions").at(0));

@@ -65,6 +65,62 @@ void check_bounds(const Json& answer) {
   }
 }
 
+namespace {
+
+template <class T>
+T member_or(const Json& note, const char* key, T otherwise) {
+  const auto found = note.find(key);
+  return found == note.end() || found->is_null() ? otherwise : found->get<T>();
+}
+
+std::optional<Note> note_in(const Json& json) {
+  if (json.is_string()) {
+    const auto line = json.get<std::string>();
+    const size_t end = std::min(line.find(": "), line.size());
+    const std::optional<NoteCode> code = code_named(line.substr(0, end));
+    if (!code) return std::nullopt;
+    return note_of(*code, line.substr(std::min(end + 2, line.size())));
+  }
+  if (!json.is_object()) return std::nullopt;
+  const std::optional<NoteCode> code = code_named(member_or<std::string>(json, "code", ""));
+  if (!code) return std::nullopt;
+  Note note = note_of(*code, member_or<std::string>(json, "text", ""));
+  if (json.contains("value") && json["value"].is_number()) note.value = json["value"];
+  note.unit = member_or<std::string>(json, "unit", "");
+  note.file = member_or<std::string>(json, "file", "");
+  if (json.contains("face") && json["face"].is_number_unsigned()) note.face = json["face"];
+  return note;
+}
+
+}  // namespace
+
+std::vector<Note> notes_in(const Json& object) {
+  std::vector<Note> notes;
+  const auto found = object.is_object() ? object.find("notes") : object.end();
+  if (found == object.end() || !found->is_array()) return notes;
+  try {
+    for (const Json& json : *found) {
+      if (std::optional<Note> note = note_in(json)) notes.push_back(std::move(*note));
+    }
+  } catch (const Json::exception&) {
+    throw InputError("a note whose text, unit or file is no text");
+  }
+  return notes;
+}
+
+Json notes_json(std::span<const Note> notes, const std::string& file) {
+  Json rows = Json::array();
+  for (const Note& note : notes) {
+    rows.push_back({{"code", code_name(note.code)},
+                    {"text", note.text},
+                    {"value", note.value ? Json(*note.value) : Json()},
+                    {"unit", text_or_null(note.unit)},
+                    {"file", text_or_null(note.file.empty() ? file : note.file)},
+                    {"face", note.face ? Json(*note.face) : Json()}});
+  }
+  return rows;
+}
+
 uint64_t count_in(const Json& object, const std::string& key) {
   const auto found = object.find(key);
   if (found == object.end()) throw InputError("no " + key);

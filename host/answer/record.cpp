@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kPairSchema = "vkhausdorff.pair/1";
+constexpr const char* kPairSchema = "vkhausdorff.pair/2";
 constexpr const char* kRun = ",\"run\":{";
 
 void begin(JsonObject& json, const RecordName& name, ExitCode code) {
@@ -55,13 +55,6 @@ std::string text_in(const Json& json, const char* key) {
   const Json& value = member(json, key);
   return value.is_string() ? value.get<std::string>() : std::string();
 }
-std::vector<std::string> texts_in(const Json& json, const char* key) {
-  std::vector<std::string> texts;
-  for (const Json& value : member(json, key)) {
-    if (value.is_string()) texts.push_back(value.get<std::string>());
-  }
-  return texts;
-}
 double number_in(const Json& json, const char* key, double otherwise) {
   const Json& value = member(json, key);
   return value.is_number() ? value.get<double>() : otherwise;
@@ -79,7 +72,7 @@ Record::Side side_of(const Json& input) {
           .sha256 = text_in(input, "sha256"),
           .faces = member(input, "faces").is_null() ? 0 : count_in(input, "faces"),
           .names_files = input.is_object() && input.contains("files"),
-          .notes = texts_in(input, "notes")};
+          .notes = notes_in(input)};
 }
 
 void read_answer(const Json& json, Record& record) {
@@ -97,6 +90,7 @@ void read_answer(const Json& json, Record& record) {
   record.unit = text_in(interval, "unit");
   record.diagonal = number_in(member(json, "tolerance"), "diagonal", 0);
   record.words = text_in(json, "words");
+  record.notes = notes_in(json);
 }
 
 }  // namespace

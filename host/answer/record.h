@@ -51,10 +51,11 @@ struct Record {
     std::string path, sha256;
     uint64_t faces = 0;
     bool names_files = false;  ///< the line lists the other files read, as lines do since 0.2.0
-    std::vector<std::string> notes = {};
+    std::vector<Note> notes = {};
   };
   std::array<Side, 2> inputs;
-  std::string words;  ///< the answer's first line, or the error
+  std::vector<Note> notes;  ///< on the pair
+  std::string words;        ///< the answer's first line, or the error
   double total_ms = 0, gpu_ms = 0;
   std::string host, started;
 

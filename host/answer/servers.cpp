@@ -106,8 +106,8 @@ bool is_failed(const Answer& answer) {
   return answer.max && verdict_of(answer) == Verdict::kBeyond;
 }
 
-std::vector<std::string> surface_notes_of(const Answer& answer) {
-  return surface_notes(answer.inputs[0].notes, answer.inputs[1].notes);
+std::vector<std::string> server_notes_of(const Answer& answer) {
+  return server_notes(notes_of(answer), answer.inputs[0].notes, answer.inputs[1].notes);
 }
 
 std::string pair_name(const Answer& answer) {
@@ -139,7 +139,7 @@ JunitCase case_of(const Answer& answer) {
                 .name = pair_name(answer),
                 .words = in_words(answer),
                 .seconds = answer.waits.total / 1000};
-  one.notes = surface_notes_of(answer);
+  one.notes = server_notes_of(answer);
   if (is_failed(answer)) {
     one.element = "failure";
     one.type = "beyond the limit";
@@ -152,15 +152,18 @@ JunitCase case_of(const Answer& answer) {
 
 }  // namespace
 
-std::vector<std::string> surface_notes(const std::vector<std::string>& notes_a,
-                                       const std::vector<std::string>& notes_b) {
-  std::vector<std::string> told;
-  for (const auto* const notes : {&notes_a, &notes_b}) {
-    for (const std::string& note : *notes) {
-      if (is_about_surface(note)) told.push_back((notes == &notes_a ? "A: " : "B: ") + note);
+std::vector<std::string> server_notes(std::span<const Note> pair, std::span<const Note> a,
+                                      std::span<const Note> b) {
+  std::vector<std::string> lines;
+  const auto add = [&](std::span<const Note> notes, const char* of) {
+    for (const Note& note : notes) {
+      if (is_for_servers(note.code)) lines.push_back(of + line_of(note));
     }
-  }
-  return told;
+  };
+  add(pair, "");
+  add(a, "A: ");
+  add(b, "B: ");
+  return lines;
 }
 
 std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
@@ -202,7 +205,7 @@ std::string to_junit(const Failure& failure) {
 std::string github_annotation(const Answer& answer) {
   const char* level = is_failed(answer) ? "error" : is_undecided(answer) ? "warning" : "notice";
   std::string words = in_words(answer);
-  for (const std::string& note : surface_notes_of(answer)) words += "\n" + printable(note);
+  for (const std::string& note : server_notes_of(answer)) words += "\n" + printable(note);
   return std::string("::") + level + " file=" + github(printable(answer.inputs[0].path), true) +
          ",title=vkhausdorff " + answer.command + "::" + github(words, false) + "\n";
 }
@@ -231,8 +234,7 @@ std::string github_summary(const Answer& answer) {
           " |\n";
   if (!answer.a_to_b.device.name.empty())
     text += "| device | " + code(answer.a_to_b.device.name) + " |\n";
-  for (const std::string& note : surface_notes_of(answer))
-    text += "| note | " + code(note) + " |\n";
+  for (const std::string& note : server_notes_of(answer)) text += "| note | " + code(note) + " |\n";
   return text + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <limits>
 
+#include "host/answer/pair_notes.h"
 #include "host/base/error.h"
 #include "host/base/note.h"
 #include "host/base/rounding.h"
@@ -47,8 +48,8 @@ std::string unit_of(const Question& question, const Mesh& a, const Mesh& b) {
   return a.unit.empty() ? b.unit : "";
 }
 
-std::vector<std::string> pair_notes(const Question& question, const std::string& a,
-                                    const std::string& b) {
+std::vector<Note> notes_on_units(const Question& question, const std::string& a,
+                                 const std::string& b) {
   if (a == b || !question.unit.empty()) return {};
   if (!a.empty() && !b.empty())
     return {note_of(NoteCode::kUnitsDiffer,
@@ -106,12 +107,16 @@ double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answe
   check_units(question, a.unit, b.unit);
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
-  const Box box_a = bounding_box(a);
-  const double farthest = farthest_in(join(box_a, bounding_box(b)), add_up(a.delta, b.delta));
+  const Box box_a = bounding_box(a), box_b = bounding_box(b);
+  const double farthest = farthest_in(join(box_a, box_b), add_up(a.delta, b.delta));
   const double diagonal_a = diagonal(box_a);
   answer.inputs = {input_of(a), input_of(b)};
   answer.unit = unit_of(question, a, b);
-  answer.notes = pair_notes(question, a.unit, b.unit);
+  answer.notes = notes_on_units(question, a.unit, b.unit);
+  answer.inputs[0].box = box_a;
+  answer.inputs[1].box = box_b;
+  for (Note& note : notes_on_boxes(box_a, box_b, answer.unit))
+    answer.notes.push_back(std::move(note));
   for (Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (r == nullptr) continue;
     r->diagonal_a = diagonal_a;

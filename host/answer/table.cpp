@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "host/answer/answer.h"
+#include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
 
@@ -78,8 +79,8 @@ void print_input(std::ostream& out, const char* label, const Input& input) {
               "the surface is within " + decimal(input.place.delta, 3, Rounding::kUp) +
                   " of the exact one: the interval is wider by it");
   }
-  for (const std::string& note : input.notes)
-    print_row(out, "note", std::string(label) + ": " + printable(note));
+  for (const Note& note : input.notes)
+    print_row(out, "note", std::string(label) + ": " + printable(line_of(note)));
 }
 
 std::string unit_text(const Answer& answer) {
@@ -211,9 +212,29 @@ void print_part(std::ostream& out, const Answer& answer) {
   if (known > 0) print_row(out, "known", printed("%.9g ", known) + unit_text(answer));
 }
 
+/// Whether the note stands with the sizes, or in the first line.
+bool is_said_first(NoteCode code) {
+  return code == NoteCode::kUnits || code == NoteCode::kSize || code == NoteCode::kApart ||
+         code == NoteCode::kOneWay;
+}
+
+/// Prints the boxes' sizes, and what is odd about them.
+void print_sizes(std::ostream& out, const Answer& answer) {
+  if (!answer.inputs[0].box || !answer.inputs[1].box) return;
+  const std::string unit = answer.unit.empty() ? "" : " " + answer.unit;
+  print_row(out, "size",
+            "A " + size_text(*answer.inputs[0].box) + unit + ", B " +
+                size_text(*answer.inputs[1].box) + unit);
+  for (const Note& note : answer.notes) {
+    if (is_said_first(note.code) && note.code != NoteCode::kOneWay)
+      print_row(out, "note", printable(line_of(note)));
+  }
+}
+
 void print_summary(std::ostream& out, const Answer& answer) {
   const Report& r = answer.a_to_b;
   const CertifiedInterval whole = interval_of(answer);
+  print_sizes(out, answer);
   print_row(out, "interval",
             bounds(whole.lower, whole.upper, gap_as_printed(answer, whole.lower, whole.upper)) +
                 "  " + ending(whole.status));
@@ -229,7 +250,9 @@ void print_summary(std::ostream& out, const Answer& answer) {
   if (answer.part) print_part(out, answer);
   print_input(out, "A", answer.inputs[0]);
   print_input(out, "B", answer.inputs[1]);
-  for (const std::string& note : answer.notes) print_row(out, "note", printable(note));
+  for (const Note& note : answer.notes) {
+    if (!is_said_first(note.code)) print_row(out, "note", printable(line_of(note)));
+  }
   if (!r.device.name.empty()) print_row(out, "device", device_text(r.device));
   for (const DeviceDescription& device : r.more_devices) print_row(out, "and", device_text(device));
   if (r.preset != "default") print_row(out, "preset", r.preset);

@@ -29,13 +29,19 @@ std::string bound(double value, Rounding rounding) {
   return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
 }
 
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
+  return text;
+}
+
 std::string milliseconds(double ms) { return number_text(ms, std::chars_format::fixed, 3); }
 
 }  // namespace
 
 std::string csv_heading(bool with_run) {
   std::vector<std::string> cells{"id",   "code", "status", "verdict", "lower",   "upper", "gap",
-                                 "unit", "a",    "b",      "faces_a", "faces_b", "words"};
+                                 "unit", "a",    "b",      "faces_a", "faces_b", "words", "notes"};
   if (with_run) cells.insert(cells.end(), {"gpu_ms", "total_ms", "host", "started"});
   return row_of(cells);
 }
@@ -43,19 +49,21 @@ std::string csv_heading(bool with_run) {
 std::string csv_row(const Record& r, bool with_run) {
   const bool has_answer = !r.status.empty();
   const auto known = [&](const std::string& text) { return has_answer ? text : std::string(); };
-  std::vector<std::string> cells{r.name.id,
-                                 std::to_string(static_cast<int>(r.code)),
-                                 r.status,
-                                 r.verdict,
-                                 known(bound(r.lower, Rounding::kDown)),
-                                 known(bound(r.upper, Rounding::kUp)),
-                                 known(shortest_decimal(r.gap)),
-                                 r.unit,
-                                 r.inputs[0].path,
-                                 r.inputs[1].path,
-                                 known(std::to_string(r.inputs[0].faces)),
-                                 known(std::to_string(r.inputs[1].faces)),
-                                 r.words};
+  std::vector<std::string> cells{
+      r.name.id,
+      std::to_string(static_cast<int>(r.code)),
+      r.status,
+      r.verdict,
+      known(bound(r.lower, Rounding::kDown)),
+      known(bound(r.upper, Rounding::kUp)),
+      known(shortest_decimal(r.gap)),
+      r.unit,
+      r.inputs[0].path,
+      r.inputs[1].path,
+      known(std::to_string(r.inputs[0].faces)),
+      known(std::to_string(r.inputs[1].faces)),
+      r.words,
+      joined(server_notes(r.notes, r.inputs[0].notes, r.inputs[1].notes))};
   if (with_run)
     cells.insert(cells.end(),
                  {milliseconds(r.gpu_ms), milliseconds(r.total_ms), r.host, r.started});
@@ -67,7 +75,7 @@ JunitCase junit_case(const Record& r, bool with_run) {
                 .name = r.name.id,
                 .words = r.words,
                 .seconds = with_run ? r.total_ms / 1000 : 0};
-  one.notes = surface_notes(r.inputs[0].notes, r.inputs[1].notes);
+  one.notes = server_notes(r.notes, r.inputs[0].notes, r.inputs[1].notes);
   if (r.code == kExitBeyond) {
     one.element = "failure";
     one.type = "beyond the limit";

@@ -77,18 +77,33 @@ std::string interval_text(const Answer& answer, const CertifiedInterval& interva
                    answer);
 }
 
+/// The limit for people: "0.1 mm", "0.1 % of A's diagonal".
+std::string limit_text(const Answer& answer, const Length& length) {
+  const std::string& text = length.requested;
+  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
+  switch (length.of) {
+    case Length::Of::kUnit:
+      return digits + " " + length.unit;
+    case Length::Of::kFiles:
+      return with_unit(digits, answer);
+    case Length::Of::kDiagonal:
+      break;
+  }
+  return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
+}
+
 std::string failure_in_words(const Answer& answer, bool back) {
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
   const Limit& limit = faces ? faces->limit : answer.max->limit;
   // The text never rounds down to the limit itself.
   const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
-  const std::string far = length_down(answer, r.lower, margin);
   const std::string from = back ? "B" : "A", to = back ? "A" : "B";
-  const std::string where = r.has_witness ? point_text(r.witness_a) + " of " : "a point of ";
-  std::string text = "FAIL  " + where + from + " is at least " + far + " from " + to;
-  if (!faces) return text;
-  return text + ", and its face's limit is " +
+  std::string text = "FAIL  at least " + length_down(answer, r.lower, margin);
+  text +=
+      r.has_witness ? " at " + point_text(r.witness_a) + " of " + from : " at a point of " + from;
+  if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
+  return text + " from " + to + ", limit of its face " +
          with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
 }
 
@@ -118,7 +133,7 @@ std::string area_in_words(const Answer& answer) {
       answer.b_to_a && share_within(answer, true).lower < share_within(answer, false).lower;
   const Enclosure share = share_within(answer, back);
   const std::string of = std::string(" of ") + (back ? "B" : "A") + "'s area is within " +
-                         answer.max->length.requested + " of " + (back ? "A" : "B");
+                         limit_text(answer, answer.max->length) + " of " + (back ? "A" : "B");
   const std::string asked = " (" + answer.max->area_requested + " asked)";
   const Verdict verdict = verdict_of(answer);
   if (verdict == Verdict::kWithin)
@@ -134,7 +149,7 @@ std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const Asked& max = *answer.max;
   if (max.area) return area_in_words(answer);
-  const std::string asked = max.length.requested;
+  const std::string asked = limit_text(answer, max.length);
   const bool by_face = max.faces_a || max.faces_b;
   const Verdict verdict = verdict_of(answer);
   if (verdict == Verdict::kBeyond)
@@ -147,12 +162,21 @@ std::string gate_in_words(const Answer& answer) {
     return verdict == Verdict::kWithin ? "PASS  " + proven
                                        : "UNDECIDED  " + proven + hint(answer, whole.status);
   }
-  const std::string interval = interval_text(answer, whole);
   if (verdict == Verdict::kUndecided)
-    return "UNDECIDED  " + asked + " lies in " + interval + hint(answer, whole.status);
-  const char* h = answer.b_to_a ? "max(h(A,B), h(B,A))" : "h(A,B)";
-  return std::string("PASS  ") + h + " <= " + asked + ", proven: it is in " + interval;
+    return "UNDECIDED  the limit " + asked + " lies in " + interval_text(answer, whole) +
+           hint(answer, whole.status);
+  const double gap = gap_as_printed(answer, whole.lower, whole.upper);
+  return std::string("PASS  every point of A") + (answer.b_to_a ? " and of B" : "") +
+         " is within " + asked + " of " + (answer.b_to_a ? "the other" : "B") +
+         ", proven (largest deviation at most " + length_up(answer, whole.upper, gap) + ")";
 }
+
+/// A PASS in one direction, of all of A: half a part is within any limit of the whole.
+bool is_one_way_pass(const Answer& answer) {
+  return answer.max && !answer.b_to_a && !answer.part && verdict_of(answer) == Verdict::kWithin;
+}
+
+constexpr const char* kOneWay = "A to B only; --symmetric also asks what A lacks of B";
 
 }  // namespace
 
@@ -252,7 +276,14 @@ std::string printable(const std::string& text) {
 }
 
 std::string in_words(const Answer& answer) {
-  return answer.max ? gate_in_words(answer) : distance_in_words(answer);
+  if (!answer.max) return distance_in_words(answer);
+  return gate_in_words(answer) + (is_one_way_pass(answer) ? std::string(". ") + kOneWay : "");
+}
+
+std::vector<Note> notes_of(const Answer& answer) {
+  std::vector<Note> notes = answer.notes;
+  if (is_one_way_pass(answer)) notes.push_back(note_of(NoteCode::kOneWay, kOneWay));
+  return notes;
 }
 
 }  // namespace vkh

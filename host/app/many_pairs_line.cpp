@@ -35,10 +35,11 @@ void add_limits(CLI::App& command, Typed& typed) {
                   std::string("Ask whether each is within a limit: ") + kLengths)
       ->type_name("LENGTH");
   command
-      .add_option("--tol", typed.tolerance,
-                  std::string("Width of the intervals: ") + kLengths +
-                      ", or a number alone, which is a fraction of the diagonal [1e-6; with --max "
-                      "1e-7]")
+      .add_option(
+          "--tol", typed.tolerance,
+          std::string("Width of the intervals: ") + kLengths +
+              ", or a number alone up to 1e-3, a fraction of the diagonal [1e-6; with --max "
+              "1e-7]")
       ->type_name("LENGTH");
   add_symmetric(command, typed);
   add_unit_and_input(command, typed);

@@ -39,7 +39,7 @@ void add_survey_of(const Typed& typed, Question& question) {
   question.faces = !typed.field_tolerance.empty();
   if (question.faces)
     question.face_tolerance =
-        parse_length("--field-tol", typed.field_tolerance, PlainNumber::kFraction);
+        parse_length("--field-tol", typed.field_tolerance, PlainNumber::kSmallFraction);
   for (const std::string& band : typed.bands)
     question.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
   question.statistics = typed.statistics || !typed.bands.empty();
@@ -89,7 +89,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   question.file_b = typed.file_b;
   if (!typed.unit.empty()) check_unit("--unit", typed.unit);
   question.unit = typed.unit;
-  question.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kFraction);
+  question.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kSmallFraction);
   if (!typed.max.empty()) question.max = parse_length("--max", typed.max, PlainNumber::kRefused);
   question.face_max_a = typed.face_max_a;
   question.face_max_b = typed.face_max_b;
@@ -232,7 +232,7 @@ void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {
   command
       .add_option("--tol", typed.tolerance,
                   std::string("Width of the interval: ") + kLengths +
-                      ", or a number alone, which is a fraction of the diagonal")
+                      ", or a number alone up to 1e-3, which is a fraction of the diagonal")
       ->type_name("LENGTH")
       ->default_str(by_default);
 }

@@ -53,7 +53,7 @@ std::string proposal(const std::string& meant, const std::string& typed) {
 
 std::string expected_of(PlainNumber plain) {
   std::string text = "a positive length: ";
-  if (plain == PlainNumber::kFraction) text += "a fraction of diag(A) such as 1e-6, ";
+  if (plain != PlainNumber::kRefused) text += "a fraction of diag(A) such as 1e-6, ";
   return text +
          "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of diag(A) or "
          "1e-6diag";
@@ -71,7 +71,12 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
   unit.erase(0, unit.find_first_not_of(' '));
   const bool is_number =
       error == std::errc() && std::isfinite(length.number) && length.number >= kLeast;
-  const bool is_fraction = unit == "diag" || (unit.empty() && plain == PlainNumber::kFraction);
+  const bool is_fraction = unit == "diag" || (unit.empty() && plain != PlainNumber::kRefused);
+  constexpr double kSmall = 1e-3;
+  if (is_number && unit.empty() && plain == PlainNumber::kSmallFraction && length.number > kSmall)
+    throw UsageError(std::string(option) + " '" + text + "': write " + text + "diag for " + text +
+                     " of A's diagonal, or " + text + "mm or " + text +
+                     "abs, in the files' own unit, for a length");
   if (unit == "%") {
     length.number /= 100;
   } else if (unit == "abs") {

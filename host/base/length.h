@@ -29,8 +29,9 @@ double typed_length(const Limit& limit);
 /// example for a share of a diagonal, "about" and four digits.
 std::string length_in_words(const Limit& limit);
 
-/// Whether a number alone is a fraction of diag(A), or refused.
-enum class PlainNumber { kFraction, kRefused };
+/// Whether a number alone is a fraction of diag(A), or that only up to a thousandth, since 0.01 may
+/// be meant as a length, or refused.
+enum class PlainNumber { kFraction, kSmallFraction, kRefused };
 
 /// Throws UsageError that names `option`, the typed text and the expected form. A length is
 /// positive and finite.
@@ -40,10 +41,10 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
 void check_unit(const char* option, const std::string& unit);
 
 /// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
-/// arithmetic it is from `within` to `beyond`, which are 32 ulps apart, or both the number itself where that
-/// was given as a double in the files' unit. A share of a diagonal
-/// refers to the diagonal of the coordinates as they are read, whatever their delta. Throws
-/// UsageError, naming `option`, if a length in millimetres meets files of an unknown unit.
+/// arithmetic it is from `within` to `beyond`, which are 32 ulps apart, or both the number itself
+/// where that was given as a double in the files' unit. A share of a diagonal refers to the
+/// diagonal of the coordinates as they are read, whatever their delta. Throws UsageError, naming
+/// `option`, if a length in millimetres meets files of an unknown unit.
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
                double diagonal_a);
 

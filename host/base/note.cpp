@@ -3,34 +3,58 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 19> kCodeNames = {
-    "polygons", "bodies",     "short-faces",  "elements",     "surfaces",
-    "calls",    "unread",     "scene",        "rotations",    "positions",
-    "morph",    "animations", "unit-assumed", "units-differ", "tolerance",
-    "memory",   "devices",    "certificate",  "survey"};
+constexpr std::array<std::string_view, 23> kCodeNames = {
+    "polygons",  "bodies", "short-faces", "elements",    "surfaces",     "calls",
+    "unread",    "scene",  "rotations",   "positions",   "morph",        "animations",
+    "units",     "size",   "apart",       "one-way",     "unit-assumed", "units-differ",
+    "tolerance", "memory", "devices",     "certificate", "survey"};
 static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kSurvey) + 1);
 
 }  // namespace
 
 std::string_view code_name(NoteCode code) { return kCodeNames[static_cast<size_t>(code)]; }
 
-std::string note_of(NoteCode code, const std::string& text) {
-  return std::string(code_name(code)) + ": " + text;
+std::optional<NoteCode> code_named(std::string_view name) {
+  const auto* const known = std::find(kCodeNames.begin(), kCodeNames.end(), name);
+  if (known == kCodeNames.end()) return std::nullopt;
+  return static_cast<NoteCode>(known - kCodeNames.begin());
 }
 
-std::string_view code_of_note(std::string_view note) {
-  const std::string_view word = note.substr(0, std::min(note.find(": "), note.size()));
-  const auto* const known = std::find(kCodeNames.begin(), kCodeNames.end(), word);
-  return known == kCodeNames.end() ? std::string_view() : *known;
+Note note_of(NoteCode code, std::string text) { return {.code = code, .text = std::move(text)}; }
+
+Note note_of(NoteCode code, std::string text, const Figure& figure) {
+  return {.code = code, .text = std::move(text), .value = figure.value, .unit = figure.unit};
 }
 
-bool is_about_surface(std::string_view note) {
-  const std::string_view code = code_of_note(note);
-  return code == code_name(NoteCode::kPolygons) || code == code_name(NoteCode::kBodies);
+std::string line_of(const Note& note) {
+  return std::string(code_name(note.code)) + ": " + note.text;
+}
+
+std::vector<std::string> lines_of(std::span<const Note> notes) {
+  std::vector<std::string> lines;
+  lines.reserve(notes.size());
+  for (const Note& note : notes) lines.push_back(line_of(note));
+  return lines;
+}
+
+bool is_for_servers(NoteCode code) {
+  switch (code) {
+    case NoteCode::kPolygons:
+    case NoteCode::kBodies:
+    case NoteCode::kUnits:
+    case NoteCode::kSize:
+    case NoteCode::kApart:
+    case NoteCode::kUnitsDiffer:
+    case NoteCode::kUnitAssumed:
+      return true;
+    default:
+      return false;
+  }
 }
 
 }  // namespace vkh

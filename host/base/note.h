@@ -1,10 +1,13 @@
-// Notes that people should know about an answer or a file, one line each. A line begins with a
-// code, which programs may rely on: "polygons: 3 faces of more than three corners were
-// triangulated". docs/guide.md lists the codes.
+// Notes that people should know about an answer or a file. Each has a code, which programs may rely
+// on, and may have the figure that its text names. docs/guide.md lists the codes.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vkh {
 
@@ -23,6 +26,10 @@ enum class NoteCode {
   kMorph,       ///< morph targets of weight 0 were left out
   kAnimations,  ///< animations were left out
   // Notes on the pair.
+  kUnits,        ///< the boxes differ by a factor between units on every axis
+  kSize,         ///< A's box is much smaller or larger than B's on an axis
+  kApart,        ///< the boxes lie apart
+  kOneWay,       ///< what A lacks of B was not asked
   kUnitAssumed,  ///< one file does not say its unit, and the other does
   kUnitsDiffer,  ///< the files are in different units
   kTolerance,    ///< a tolerance of 0, which hardly any interval meets
@@ -34,14 +41,33 @@ enum class NoteCode {
 
 /// The code's name, such as "short-faces".
 std::string_view code_name(NoteCode code);
+/// The code of such a name, if it is known.
+std::optional<NoteCode> code_named(std::string_view name);
+
+struct Note {
+  NoteCode code;
+  std::string text;                   ///< for people, without the code
+  std::optional<double> value = {};   ///< the figure that the text names, if it is one
+  std::string unit = {};              ///< what the value is in or counts; empty: a ratio
+  std::string file = {};              ///< the file that it is about; empty: the pair
+  std::optional<uint64_t> face = {};  ///< the first face that it is about, as the file counts
+
+  bool operator==(const Note&) const = default;
+};
+
+/// A figure of a note: so many of what `unit` says, or a length in it.
+struct Figure {
+  double value;
+  std::string unit;
+};
+Note note_of(NoteCode code, std::string text);
+Note note_of(NoteCode code, std::string text, const Figure& figure);
 
 /// Joins the code's name and the text: "short-faces: ...".
-std::string note_of(NoteCode code, const std::string& text);
+std::string line_of(const Note& note);
+std::vector<std::string> lines_of(std::span<const Note> notes);
 
-/// The code that a note begins with; empty where it has none.
-std::string_view code_of_note(std::string_view note);
-
-/// Whether build servers get it too: the measured surface is not all that the file holds.
-bool is_about_surface(std::string_view note);
+/// Whether build servers get it too: what is measured may not be what the user meant.
+bool is_for_servers(NoteCode code);
 
 }  // namespace vkh

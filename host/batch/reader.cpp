@@ -105,7 +105,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
   const std::string tolerance =
       entry.tolerance.empty() && has_gate_tolerance ? "1e-7" : entry.tolerance;
   if (!tolerance.empty())
-    question.tolerance = parse_length("tol", tolerance, PlainNumber::kFraction);
+    question.tolerance = parse_length("tol", tolerance, PlainNumber::kSmallFraction);
   if (!entry.max.empty()) question.max = parse_length("max", entry.max, PlainNumber::kRefused);
   question.symmetric = entry.symmetric.value_or(question.symmetric);
   named.known = unread_answer(question);

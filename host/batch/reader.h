@@ -10,8 +10,8 @@
 
 #include "host/answer/input_hashes.h"
 #include "host/answer/record.h"
-#include "host/answer/stop.h"
 #include "host/answer/steps.h"
+#include "host/answer/stop.h"
 #include "host/batch/list.h"
 
 namespace vkh {

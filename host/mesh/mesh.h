@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/note.h"
 #include "host/mesh/file_faces.h"
 
 namespace vkh {
@@ -89,9 +90,9 @@ struct Mesh {
   /// by it.
   double delta = 0;
   bool has_all_bodies = false;  ///< every shape of a scene was read, printed or not
-  std::string unit = {};  ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
-  std::vector<std::string> notes;  ///< one line each, for people: "polygons: 3 faces of more than
-                                   ///< three corners were triangulated"
+  std::string unit = {};    ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
+  std::vector<Note> notes;  ///< such as polygons: 3 faces of more than three corners were
+                            ///< triangulated
 };
 
 /// The memory of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.

@@ -87,9 +87,25 @@ py::object survey_of(const Question& question, const Report& report,
       .attr("made")(field, statistics, report.upper, found->is_met, stats);
 }
 
-py::list notes_of(const Answer& answer) {
+py::dict note_dict(const Note& note) {
+  const auto text = [](const std::string& t) {
+    return t.empty() ? py::object(py::none()) : py::object(py::str(t));
+  };
+  return py::dict("code"_a = std::string(code_name(note.code)), "text"_a = note.text,
+                  "value"_a = note.value, "unit"_a = text(note.unit), "file"_a = text(note.file),
+                  "face"_a = note.face);
+}
+
+/// The notes on the pair, and then those on A's file and B's.
+py::list list_of_notes(const Answer& answer) {
   py::list notes;
-  for (const std::string& note : answer.notes) notes.append(note);
+  for (const Note& note : vkh::notes_of(answer)) notes.append(note_dict(note));
+  for (const Input& input : answer.inputs) {
+    for (Note note : input.notes) {
+      note.file = input.path;
+      notes.append(note_dict(note));
+    }
+  }
   return notes;
 }
 
@@ -142,7 +158,7 @@ Result result_of(const Question& question, const Answer& answer) {
   result.witness_b = r.witness_b;
   if (!is_forward) std::swap(result.witness_a, result.witness_b);
   result.stats = stats_of(answer, is_forward);
-  result.notes = notes_of(answer);
+  result.notes = list_of_notes(answer);
   add_limit(answer, result);
   result.survey = survey_of(question, answer.a_to_b, answer.survey_a);
   if (answer.b_to_a) result.survey_back = survey_of(question, *answer.b_to_a, answer.survey_b);

@@ -133,6 +133,14 @@ std::string Arguments::text(const char* name, const char* expected) const {
   return given == nullptr ? std::string() : text_from(name, expected, *given);
 }
 
+std::string Arguments::device(const char* expected) const {
+  const py::object* given = find("device");
+  if (given == nullptr || py::isinstance<py::str>(*given)) return text("device", expected);
+  const std::optional<uint64_t> index = whole("device", expected);
+  if (!index) refuse_type("device", expected, *given);
+  return std::to_string(*index);
+}
+
 std::vector<std::string> Arguments::texts(const char* name) const {
   constexpr const char* kExpected = "a list of names";
   const py::object* given = find(name);

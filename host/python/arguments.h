@@ -32,6 +32,8 @@ class Arguments {
   // Defaults if not given: false, "", none. `expected` is for messages.
   bool flag(const char* name) const;
   std::string text(const char* name, const char* expected) const;
+  /// A device: text, or its index.
+  std::string device(const char* expected) const;
   std::vector<std::string> texts(const char* name) const;
   // Returns nothing for None, or if not given. Never a NaN.
   std::optional<double> number(const char* name, const char* expected) const;

@@ -83,7 +83,7 @@ class Flow {
   bool is_over() const;
   std::optional<FlowResult> next_result();
 
-  const FlowQuestion asked_;
+  FlowQuestion asked_;
   mutable std::mutex mutex_;
   std::condition_variable jobs_changed_, results_changed_;
   std::deque<FlowPair> jobs_;

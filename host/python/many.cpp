@@ -45,10 +45,10 @@ size_t count_of(const Arguments& given, const char* name) {
 
 StreamOptions devices_of(const Arguments& given) {
   constexpr const char* kDevice =
-      "'', 'gpu', 'cpu', an index such as '0', part of a name, several of these between commas, or "
+      "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
       "'all'";
   StreamOptions devices;
-  const std::string text = given.text("device", kDevice);
+  const std::string text = given.device(kDevice);
   devices.together = count_of(given, "together");
   devices.lanes = count_of(given, "lanes");
   const WithoutGil outside;

@@ -231,12 +231,32 @@ py::object path_in(const Mesh& mesh) {
       mesh.name.data(), static_cast<py::ssize_t>(mesh.name.size())));
 }
 
+py::list notes_state(const Mesh& mesh) {
+  py::list states;
+  for (const Note& n : mesh.notes)
+    states.append(py::make_tuple(std::string(code_name(n.code)), n.text, n.value, n.unit, n.face));
+  return states;
+}
+
+std::vector<Note> notes_from(const py::list& states) {
+  std::vector<Note> notes;
+  for (const py::handle state : states) {
+    const auto [code, text, value, unit, face] =
+        py::cast<std::tuple<std::string, std::string, std::optional<double>, std::string,
+                            std::optional<uint64_t>>>(state);
+    const std::optional<NoteCode> known = code_named(code);
+    if (!known) throw py::value_error("this pickle has a note that is not known here");
+    notes.push_back({.code = *known, .text = text, .value = value, .unit = unit, .face = face});
+  }
+  return notes;
+}
+
 py::tuple state_of(const py::object& self) {
   const Mesh& mesh = mesh_in(self);
   return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
-                        mesh.unit, mesh.notes, mesh.counts.unreferenced, mesh.counts.polygons,
-                        runs_of(mesh.file_faces), polygons_state(mesh.polygons),
-                        mesh.has_all_bodies);
+                        mesh.unit, notes_state(mesh), mesh.counts.unreferenced,
+                        mesh.counts.polygons, runs_of(mesh.file_faces),
+                        polygons_state(mesh.polygons), mesh.has_all_bodies);
 }
 
 FileMesh mesh_from_state(const py::tuple& state) {
@@ -246,7 +266,7 @@ FileMesh mesh_from_state(const py::tuple& state) {
   mesh.name = py::cast<std::string>(state[0]);
   mesh.delta = py::cast<double>(state[3]);
   mesh.unit = py::cast<std::string>(state[4]);
-  mesh.notes = py::cast<std::vector<std::string>>(state[5]);
+  mesh.notes = notes_from(py::cast<py::list>(state[5]));
   mesh.counts.unreferenced = py::cast<uint64_t>(state[6]);
   mesh.counts.polygons = py::cast<uint64_t>(state[7]);
   mesh.file_faces = file_faces_from(state[8], mesh.faces.size());
@@ -302,7 +322,8 @@ void define_mesh(py::module_& m) {
                              of_mesh([](const Mesh& mesh) { return file_counts_of(mesh.counts); }),
                              "what was counted: vertices, faces, unreferenced, degenerate, "
                              "duplicate, polygons")
-      .def_property_readonly("notes", of_mesh([](const Mesh& mesh) { return mesh.notes; }),
+      .def_property_readonly("notes",
+                             of_mesh([](const Mesh& mesh) { return lines_of(mesh.notes); }),
                              "a line each, for people: what was left out, fanned or rounded")
       .def("__repr__", of_mesh([](const Mesh& mesh) {
              return "<vkhausdorff.Mesh " + py::cast<std::string>(py::repr(path_in(mesh))) + ", " +

@@ -4,6 +4,7 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/base/error.h"
+#include "host/gpu/device.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/many.h"
@@ -41,6 +42,30 @@ void define_distance(py::module_& m) {
       "certificate: a path that ends in .vhc: also write a proof of the interval, which vkh_check\n"
       "checks for files that have the arrays' faces, in their order. What it proves is in\n"
       "stats['certificate']; None, and no file, where the run ended before it had an upper bound.");
+}
+
+py::list devices() {
+  using py::literals::operator""_a;
+  const Call call;
+  std::vector<DeviceDescription> all;
+  {
+    const WithoutGil outside;
+    all = list_devices();
+  }
+  py::list devices;
+  for (const DeviceDescription& d : all)
+    devices.append(py::dict(
+        "index"_a = d.index, "name"_a = d.name, "type"_a = d.type, "driver"_a = d.driver,
+        "api_version"_a = d.api_version, "memory_bytes"_a = d.memory_bytes, "usable"_a = d.usable,
+        "reason"_a = d.reason.empty() ? py::object(py::none()) : py::object(py::str(d.reason))));
+  return devices;
+}
+
+void define_devices(py::module_& m) {
+  m.def("devices", devices,
+        "devices()\n--\n\n"
+        "The Vulkan devices here: a list of dicts of index, name, type, driver, api_version,\n"
+        "memory_bytes, usable, and reason, why it is not usable, or None.");
 }
 
 void define_gate(py::module_& m) {
@@ -113,6 +138,7 @@ PYBIND11_MODULE(_core, m) {
   quiet.disable_function_signatures();
   define_result(m);
   define_distance(m);
+  define_devices(m);
   define_gate(m);
   define_solver(m);
   define_mesh(m);

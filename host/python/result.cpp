@@ -29,6 +29,10 @@ py::tuple point_of(const SurfacePoint& p) {
   return py::make_tuple(p.point.x, p.point.y, p.point.z);
 }
 
+py::tuple barycentric_of(const SurfacePoint& p) {
+  return py::make_tuple(p.barycentric.x, p.barycentric.y, p.barycentric.z);
+}
+
 // Packs a point for pickles.
 py::tuple state_of(const SurfacePoint& p) {
   const auto xyz = [](const glm::dvec3& v) { return py::make_tuple(v.x, v.y, v.z); };
@@ -69,6 +73,7 @@ Result result_in(const py::tuple& state) {
   if (!state[9].is_none()) r.index = py::cast<size_t>(state[9]);
   r.id = state[10];
   r.error = state[11];
+  r.notes = py::cast<py::list>(state[12]);
   return r;
 }
 
@@ -153,7 +158,7 @@ py::dict dict_of_result(const Result& r) {
                   "witness_a"_a = point_of(r.witness_a), "witness_b"_a = point_of(r.witness_b),
                   "face_a"_a = r.witness_a.face, "face_b"_a = r.witness_b.face,
                   "survey"_a = plain(r.survey), "survey_back"_a = plain(r.survey_back),
-                  "stats"_a = r.stats);
+                  "notes"_a = r.notes, "stats"_a = r.stats);
 }
 
 py::dict dict_of(const py::object& self) {
@@ -220,7 +225,7 @@ void define_values(py::class_<Result>& result) {
       .def(py::pickle(
           [](const py::object& self) {
             const Result& r = made<Result>(self, "Result");
-            return py::tuple(proven(r) + py::make_tuple(r.stats, r.index, r.id, r.error));
+            return py::tuple(proven(r) + py::make_tuple(r.stats, r.index, r.id, r.error, r.notes));
           },
           [](const py::tuple& state) { return result_from_state(state); }));
 }
@@ -267,6 +272,14 @@ void define_result(py::module_& m) {
                              "row of fa with the witness")
       .def_property_readonly("face_b", of_result([](const Result& r) { return r.witness_b.face; }),
                              "row of fb with its partner")
+      .def_property_readonly("_barycentric_a",
+                             of_result([](const Result& r) { return barycentric_of(r.witness_a); }))
+      .def_property_readonly("_barycentric_b",
+                             of_result([](const Result& r) { return barycentric_of(r.witness_b); }))
+      .def_property_readonly(
+          "notes", of_result([](const Result& r) { return r.notes; }),
+          "what is odd about the pair or its files: a list of dicts of code, text,\n"
+          "value, unit, file and face")
       .def_property_readonly("stats", of_result([](const Result& r) { return r.stats; }),
                              "what the run was asked, did and cost");
   define_place(result);

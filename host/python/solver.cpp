@@ -15,7 +15,7 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as '0' or part of a name";
+constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as 0 or part of a name";
 
 // One session a device, kept between calls of distance(): making one takes longer than most runs.
 // It is never destroyed, but freed: see interpreter.cpp.
@@ -155,7 +155,7 @@ Result distance(const py::args& positional, const py::kwargs& named) {
   const Arguments arguments(*signature, all, named);
   return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")),
                    mesh_of("B", arguments.at("vb"), arguments.at("fb"))},
-                  session_for(arguments.text("device", kDevice)));
+                  session_for(arguments.device(kDevice)));
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
@@ -170,7 +170,7 @@ Result gate(const py::args& positional, const py::kwargs& named) {
   const Arguments arguments(*signature, positional, named);
   return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
                    mesh_of("b", "B", arguments.at("b"))},
-                  session_for(arguments.text("device", kDevice)));
+                  session_for(arguments.device(kDevice)));
 }
 
 void free_devices() { Session::free_all(); }
@@ -180,7 +180,7 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
   const Call call;
   const py::args all = spread(positional, named, {"vb", "fb"});
   const Arguments given(*signature, all, named);
-  const std::string device = given.text("device", kDevice);
+  const std::string device = given.device(kDevice);
   const MeshPointer b = mesh_of("B", given.at("vb"), given.at("fb"));
   session_ = std::make_shared<Session>(device);
   b_ = b;

@@ -197,13 +197,19 @@ void FileMeshBuilder::note_polygons(const Polygons& polygons) {
     if (limits_.any_triangulation) note += ", and the interval is wider by it";
   }
   notes.push_back(note_of(NoteCode::kPolygons, note));
+  if (polygons.ambiguity > 0) {
+    notes.back().value = polygons.ambiguity;
+    notes.back().face = polygons.ambiguous_face;
+  }
   if (polygons.fanned == 0) return;
-  notes.push_back(note_of(
-      NoteCode::kPolygons,
-      "fanned: " + counted(polygons.fanned, "face") + " without a triangulation of " +
-          (polygons.fanned == 1 ? "its" : "their") +
-          " outline; what is measured may leave it; at face " +
-          std::to_string(polygons.first_fanned) + " it " + what_is_odd(polygons.first_kind)));
+  notes.push_back(
+      note_of(NoteCode::kPolygons,
+              "fanned: " + counted(polygons.fanned, "face") + " without a triangulation of " +
+                  (polygons.fanned == 1 ? "its" : "their") +
+                  " outline; what is measured may leave it; at face " +
+                  std::to_string(polygons.first_fanned) + " it " + what_is_odd(polygons.first_kind),
+              {static_cast<double>(polygons.fanned), "faces"}));
+  notes.back().face = polygons.first_fanned;
 }
 
 void FileMeshBuilder::refuse_odd(const Polygons& polygons) const {
@@ -242,7 +248,8 @@ Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
   if (short_faces_ > 0) {
     mesh.notes.push_back(
         note_of(NoteCode::kShortFaces,
-                counted(short_faces_, "face") + " of fewer than three corners ignored"));
+                counted(short_faces_, "face") + " of fewer than three corners ignored",
+                {static_cast<double>(short_faces_), "faces"}));
   }
   return mesh;
 }

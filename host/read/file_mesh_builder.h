@@ -34,7 +34,7 @@ class FileMeshBuilder {
   /// A corner by its number, three a face.
   uint32_t& corner(size_t number) { return faces_[number / 3][static_cast<int>(number % 3)]; }
 
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
 
   /// Checks what a header announces against the limits before anything is allocated.
   void check_room(uint64_t vertex_count, uint64_t face_count) const;

@@ -28,7 +28,7 @@ class Scene {
   /// the order of the file.
   void for_each(const std::function<void(const Instance&)>& use) const;
   /// The notes for people about it.
-  const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<Note>& notes() const { return notes_; }
 
  private:
   struct Level {
@@ -53,7 +53,7 @@ class Scene {
   const MeshSource& source_;
   const Model& model_;
   Range roots_;
-  std::vector<std::string> notes_;
+  std::vector<Note> notes_;
 };
 
 }  // namespace vkh::gltf

@@ -226,7 +226,7 @@ std::vector<double> read_face_property(const std::filesystem::path& path, std::s
       without_byte_order_mark(source, head_of(source, kByteOrderMark.size())), name);
 }
 
-void note_rest(TextScanner& scanner, std::vector<std::string>& notes) {
+void note_rest(TextScanner& scanner, std::vector<Note>& notes) {
   std::string first;
   while (scanner.next_full_line()) {
     if (first.empty()) first = scanner.place();

@@ -286,7 +286,7 @@ class ObjReader {
   std::string greatest_place_;
 };
 
-void note_ignored(const Ignored& lines, std::vector<std::string>& notes) {
+void note_ignored(const Ignored& lines, std::vector<Note>& notes) {
   if (lines.elements > 0) {
     notes.push_back(note_of(NoteCode::kElements, counted(lines.elements, "line") +
                                                      " with points, polylines or curves ignored"));

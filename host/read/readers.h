@@ -43,7 +43,7 @@ bool is_exact_binary_stl(std::string_view head, uint64_t size);
 /// Reads what follows the last row that a text announced, and notes it. A line that begins with a
 /// number is a row more than announced and is refused: measuring only those counted would certify a
 /// part of the model.
-void note_rest(TextScanner& scanner, std::vector<std::string>& notes);
+void note_rest(TextScanner& scanner, std::vector<Note>& notes);
 
 /// A value of type T stored at `at` in the given byte order.
 template <class T, std::endian kOrder = std::endian::little>

@@ -50,11 +50,15 @@ std::string count_row(const PageText& page, const char* name, const char* key, b
   });
 }
 
+std::string line_of_json(const Json& note) {
+  return note["code"].get<std::string>() + ": " + note["text"].get<std::string>();
+}
+
 std::string input_notes(const Json& input) {
   std::string out;
   for (const Json& note : input["notes"]) {
     out += "<li>" + html_text(text_or(input["name"], "") == "a" ? "A: " : "B: ") +
-           html_text(note.get<std::string>()) + "</li>";
+           html_text(line_of_json(note)) + "</li>";
   }
   return out;
 }
@@ -189,7 +193,7 @@ std::string notes_html(const PageText& page) {
   for (const Json& input : page.json["inputs"]) count += input["notes"].size();
   std::string items;
   for (const Json& note : page.json["notes"]) {
-    items += "<li>" + html_text(note.get<std::string>()) + "</li>";
+    items += "<li>" + html_text(line_of_json(note)) + "</li>";
   }
   for (const Json& input : page.json["inputs"]) items += input_notes(input);
   if (const auto& max = page.answer.max; max && (max->faces_a || max->faces_b)) {

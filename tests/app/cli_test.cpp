@@ -126,7 +126,7 @@ TEST_CASE("bad input: exit code 4, one line that names the file") {
     const Outcome outcome = run({"distance", a, bad, "--json"});
     CHECK(outcome.exit_code == 4);
     const json failure = parse_only_line(outcome.out);
-    CHECK(failure["schema"] == "vkhausdorff.answer/1");
+    CHECK(failure["schema"] == "vkhausdorff.answer/2");
     CHECK(failure["error"]["code"] == 4);
     CHECK(failure["error"]["file"] == bad);
     CHECK("vkhausdorff: " + failure["error"]["message"].get<std::string>() + "\n" == outcome.err);
@@ -146,8 +146,11 @@ TEST_CASE("an A of one point is measured, and a note says what its diagonal is f
   const std::string point = write_file("point.obj", "v 0.5 0.5 2\nf 1 1 1\n");
   const json r = parse_only_line(run({"distance", point, square_b(), "--json"}).out);
   check_interval(r, 1.75);
-  REQUIRE(r.at("notes").size() == 1);
-  CHECK(r["notes"][0].get<std::string>().starts_with("tolerance: A is one point"));
+  const json& notes = r.at("notes");
+  const auto on_tolerance = std::find_if(notes.begin(), notes.end(),
+                                         [](const json& n) { return n["code"] == "tolerance"; });
+  REQUIRE(on_tolerance != notes.end());
+  CHECK((*on_tolerance)["text"].get<std::string>().starts_with("A is one point"));
   const Outcome table = run({"distance", point, square_b(), "--tol", "1e-6abs"});
   CHECK(table.exit_code == 0);
   CHECK(table.out.find("tolerance: ") == std::string::npos);
@@ -178,9 +181,10 @@ TEST_CASE("help and version are answers, not errors") {
   CHECK(version.out == std::string("vkhausdorff ") + vkh::program_version() + "\n");
 }
 
-const Words kAnswerKeys = sorted({"schema", "version", "words", "status", "stop_reason", "interval",
-                                  "directions", "inputs", "notes", "tolerance", "options", "device",
-                                  "driver", "times", "command", "arguments", "host", "started"});
+const Words kAnswerKeys =
+    sorted({"schema", "version", "words", "status", "stop_reason", "interval", "directions",
+            "inputs", "notes", "boxes", "tolerance", "options", "device", "driver", "times",
+            "command", "arguments", "host", "started"});
 const Words kDirectionKeys =
     sorted({"from", "to", "status", "stop_reason", "interval", "known_lower", "witness", "times",
             "counts", "stages", "culled", "wave_stats"});
@@ -197,7 +201,7 @@ TEST_CASE("distance --json: one object of the schema and nothing else on stdout"
     REQUIRE(outcome.exit_code == 0);
     const json r = parse_only_line(outcome.out);
     CHECK(keys(r) == kAnswerKeys);
-    CHECK(r["schema"] == "vkhausdorff.answer/1");
+    CHECK(r["schema"] == "vkhausdorff.answer/2");
     CHECK(r["version"] == vkh::program_version());
     CHECK(r["status"] == "closed");
     check_interval(r, 0.25);
@@ -337,7 +341,7 @@ TEST_CASE("--symmetric: the larger of two directions, and both of them") {
   const Outcome outcome = run({"distance", a, b, "--symmetric", "--json"});
   CHECK(outcome.exit_code == 0);
   const json r = parse_only_line(outcome.out);
-  CHECK(r["schema"] == "vkhausdorff.answer/1");
+  CHECK(r["schema"] == "vkhausdorff.answer/2");
   CHECK(r["status"] == "closed");
   check_interval(r, 1);
   CHECK(keys(r) == kAnswerKeys);  // one shape for both

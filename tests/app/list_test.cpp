@@ -166,7 +166,7 @@ TEST_CASE("a result's line is read back as what it says") {
   CHECK(failed.code == kExitBadInput);
   CHECK(failed.words == "a: bad");
   CHECK(!failed.is_final());
-  for (const char* text : {"", "{", "[]", "{}", R"({"schema":"vkhausdorff.pair/1"})"})
+  for (const char* text : {"", "{", "[]", "{}", R"({"schema":"vkhausdorff.pair/2"})"})
     CHECK_THROWS_AS(read_record(text), InputError);
 }
 

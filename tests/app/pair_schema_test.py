@@ -87,14 +87,15 @@ class Batch(unittest.TestCase):
                     validator.validate(line)
                     self.assertEqual("error" in line, line["code"] in (2, 4))
                     self.assertEqual("run" in line, has_run)
-                for spoilt in ({"stranger": 1}, {"code": 9}, {"id": ""}, {"key": "0"}, {"run": {}}, {"schema": "vkhausdorff.answer/1"}):
+                for spoilt in ({"stranger": 1}, {"code": 9}, {"id": ""}, {"key": "0"}, {"run": {}}, {"schema": "vkhausdorff.answer/2"}):
                     self.assertFalse(validator.is_valid(line | spoilt), f"{line['id']}: {spoilt} passes")
         merged = lines_of(self.folder / "all.jsonl")
         self.assertEqual([line["id"] for line in merged], sorted([*CODES, "late"], key=str.encode))
 
     def test_definitions_are_those_of_an_answer(self):
         ours, answers = schema_of("pair")["$defs"], schema_of("answer")["$defs"]
-        shared = {"interval", "unit", "status", "witness", "files", "input", "max", "face_limits", "tolerance", "options", "device"}
+        shared = {"interval", "unit", "status", "witness", "files", "input", "max", "face_limits", "tolerance", "options", "device",
+                  "note", "box", "boxes"}
         # A line has no times or waves of a direction, and names of its own in answers and failures.
         self.assertEqual(set(ours) & set(answers), shared | {"direction", "answer", "failure"})
         for name in shared:

@@ -51,7 +51,7 @@ void check_case(const Case& file) {
   try {
     const Mesh mesh = vkh::read_mesh(file.path);
     outcome = "A" + std::to_string(mesh.faces.size());
-    for (const std::string& note : mesh.notes) said += note + "\n";
+    for (const std::string& note : lines_of(mesh.notes)) said += note + "\n";
   } catch (const InputError& error) {
     said = error.what();
     check_error_line(said, file.path.string());

@@ -59,7 +59,7 @@ class Case:
         a = line["inputs"][0]
         if a["faces"] != len(expected.triangles):
             return f"{a['faces']} faces of {len(expected.triangles)}"
-        notes = [note for note in a["notes"] if note.startswith("bodies: ")]
+        notes = [f"{note['code']}: {note['text']}" for note in a["notes"] if note["code"] == "bodies"]
         if notes != [note for note in [expected.note()] if note is not None]:
             return f"{notes}, not {expected.note()}"
         files = {file["path"] for file in a["files"]}

@@ -53,7 +53,7 @@ void check_refused(const Document& document, const std::string& says) {
 }
 
 bool has_note(const Mesh& mesh, const std::string& says) {
-  for (const std::string& note : mesh.notes) {
+  for (const std::string& note : lines_of(mesh.notes)) {
     if (note.find(says) != std::string::npos) return true;
   }
   return false;

@@ -37,8 +37,9 @@ std::string error_of(const std::string& bytes, const std::string& name) {
 }
 
 bool has_note(const Mesh& mesh, const std::string& text) {
-  return std::any_of(mesh.notes.begin(), mesh.notes.end(),
-                     [&](const std::string& note) { return note.find(text) != std::string::npos; });
+  return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const vkh::Note& note) {
+    return line_of(note).find(text) != std::string::npos;
+  });
 }
 
 template <class T>
@@ -471,15 +472,15 @@ TEST_CASE("each note begins with its code") {
   const std::string tail = "f 1 2 3 4\nf 1 2\nl 1 2\nsurf 1\ncall x\n// x\n";
   const Mesh mesh = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + tail, "a.obj");
   CHECK(mesh.notes.size() == 6);
-  for (const std::string& note : mesh.notes) {
+  for (const std::string& note : lines_of(mesh.notes)) {
     CAPTURE(note);
-    CHECK(!vkh::code_of_note(note).empty());
+    CHECK(vkh::code_named(note.substr(0, note.find(": "))).has_value());
     CHECK(note.find_first_of("0123456789") != std::string::npos);
   }
-  CHECK(vkh::code_of_note("left out") == "");
-  CHECK(vkh::code_of_note("polygons") == "polygons");
-  CHECK(vkh::is_about_surface("bodies: left out: 1 modifier (12 faces)"));
-  CHECK(!vkh::is_about_surface("unread: 5 bytes after the last triangle ignored"));
+  CHECK(!vkh::code_named("left out"));
+  CHECK(vkh::code_named("polygons") == vkh::NoteCode::kPolygons);
+  CHECK(vkh::is_for_servers(vkh::NoteCode::kBodies));
+  CHECK(!vkh::is_for_servers(vkh::NoteCode::kUnread));
 }
 
 TEST_CASE("error lines stay one printable line") {

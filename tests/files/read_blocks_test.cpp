@@ -44,7 +44,7 @@ std::string outcome_of(const MeshSource& source) {
                                c.degenerate, c.duplicate, c.polygons};
     std::string all = "mesh " + bytes(mesh.vertices) + bytes(mesh.faces) + bytes(counts) +
                       bytes(mesh.file_faces.runs());
-    for (const std::string& note : mesh.notes) all += "\n" + note;
+    for (const std::string& note : lines_of(mesh.notes)) all += "\n" + note;
     return all;
   } catch (const InputError& error) {
     return error.what();

@@ -184,14 +184,16 @@ TEST_CASE("what is no body is left out, and counted by name") {
   const std::string two = kOne + object_of("2", kTriangleMesh, "type=\"support\"");
   const Mesh support = parse(package_of(model_of(two, item("1") + item("2"))));
   CHECK(support.faces.size() == 1);
-  CHECK(support.notes == std::vector<std::string>{"bodies: left out: 1 support object (1 face)"});
+  CHECK(lines_of(support.notes) ==
+        std::vector<std::string>{"bodies: left out: 1 support object (1 face)"});
   check_refused(package_of(model_of(two, item("2"))),
                 "it has no bodies, only 1 support object (1 face)");
   const Mesh printed = parse(package_of(model_of(
       kOne,
       item("1") + "<item objectid=\"1\" printable=\"0\" transform=\"1 0 0 0 1 0 0 0 1 9 9 9\"/>")));
   CHECK(printed.faces.size() == 1);
-  CHECK(printed.notes == std::vector<std::string>{"bodies: left out: 1 unprinted item (1 face)"});
+  CHECK(lines_of(printed.notes) ==
+        std::vector<std::string>{"bodies: left out: 1 unprinted item (1 face)"});
 }
 
 TEST_CASE("surfaces and other objects are no bodies") {
@@ -200,9 +202,9 @@ TEST_CASE("surfaces and other objects are no bodies") {
     const std::string both = package_of(model_of(two, item("1") + item("2")));
     const std::string list = "1 " + type + " object (1 face)";
     CHECK(parse(both).faces.size() == 1);
-    CHECK(parse(both).notes == std::vector<std::string>{"bodies: left out: " + list});
+    CHECK(lines_of(parse(both).notes) == std::vector<std::string>{"bodies: left out: " + list});
     CHECK(all_of(both).faces.size() == 2);
-    CHECK(all_of(both).notes == std::vector<std::string>{kIncluded + list});
+    CHECK(lines_of(all_of(both).notes) == std::vector<std::string>{kIncluded + list});
     check_refused(package_of(model_of(two, item("2"))), "it has no bodies, only " + list);
   }
 }
@@ -214,13 +216,14 @@ TEST_CASE("--bodies all measures what is no body, as it lies, and counts it by n
   const Mesh mesh = all_of(package_of(model_of(two, item("1") + item("2") + away)));
   REQUIRE(mesh.faces.size() == 3);
   CHECK(mesh.vertices[7] == glm::dvec3(10, 9, 9));
-  CHECK(mesh.notes == std::vector<std::string>{
-                          kIncluded + "1 support object (1 face), 1 unprinted item (1 face)"});
+  CHECK(
+      lines_of(mesh.notes) ==
+      std::vector<std::string>{kIncluded + "1 support object (1 face), 1 unprinted item (1 face)"});
   CHECK(all_of(package_of(model_of(two, item("2")))).faces.size() == 1);
   // Objects inside one that is no body are not counted again.
   const std::string three =
       two + object_of("3", components(component("2") + component("1")), "type=\"solidsupport\"");
-  CHECK(all_of(package_of(model_of(three, item("3")))).notes ==
+  CHECK(lines_of(all_of(package_of(model_of(three, item("3")))).notes) ==
         std::vector<std::string>{kIncluded + "1 support object (2 faces)"});
   // A shape that is not read is refused, whatever it is for.
   const std::string voxels = object_of("2", "<x:voxels xmlns:x=\"urn:x\"/>", "type=\"support\"");
@@ -240,8 +243,9 @@ TEST_CASE("uses of what is left out take neither time nor room") {
       package_of(model_of(objects + object_of("99", kTriangleMesh), item("99") + item("31")));
   const Mesh mesh = parse(bytes, {.max_input_bytes = bytes.size()});
   CHECK(mesh.faces.size() == 1);
-  CHECK(mesh.notes == std::vector<std::string>{
-                          "bodies: left out: 1073741824 support objects (1073741824 faces)"});
+  CHECK(
+      lines_of(mesh.notes) ==
+      std::vector<std::string>{"bodies: left out: 1073741824 support objects (1073741824 faces)"});
 }
 
 TEST_CASE("Cura's meshes for infill and supports are no bodies") {
@@ -251,11 +255,11 @@ TEST_CASE("Cura's meshes for infill and supports are no bodies") {
     return parse(package_of(
         model_of(kOne + object_of("2", settings + kTriangleMesh), item("1") + item("2"))));
   };
-  CHECK(with("infill_mesh", "True").notes ==
+  CHECK(lines_of(with("infill_mesh", "True").notes) ==
         std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
   CHECK(with("cutting_mesh", "True").faces.size() == 1);
   CHECK(with("support_mesh", "True").faces.size() == 1);
-  CHECK(with("anti_overhang_mesh", "True").notes ==
+  CHECK(lines_of(with("anti_overhang_mesh", "True").notes) ==
         std::vector<std::string>{"bodies: left out: 1 support blocker (1 face)"});
   CHECK(with("infill_mesh", "False").faces.size() == 2);
   CHECK(with("layer_height", "1").faces.size() == 2);
@@ -294,15 +298,16 @@ TEST_CASE("PrusaSlicer's modifiers are no bodies, and a negative volume is refus
                                                         {"SupportEnforcer", "support enforcer"}}) {
     const Mesh mesh = parse(type(name));
     CHECK(mesh.faces == std::vector<glm::uvec3>{{0, 1, 2}});
-    CHECK(mesh.notes == std::vector<std::string>{"bodies: left out: 1 " + says + " (1 face)"});
+    CHECK(lines_of(mesh.notes) ==
+          std::vector<std::string>{"bodies: left out: 1 " + says + " (1 face)"});
     CHECK(all_of(type(name)).faces == std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 0}});
-    CHECK(all_of(type(name)).notes ==
+    CHECK(lines_of(all_of(type(name)).notes) ==
           std::vector<std::string>{kIncluded + "1 " + says + " (1 face)"});
   }
   CHECK(parse(with_volume("<metadata key=\"modifier\" value=\"1\"/>")).faces.size() == 1);
   check_refused(type("NegativeVolume"), "object 1 has a negative volume");
   check_refused(type("NegativeVolume"), "or --bodies all, which measures everything as it lies");
-  CHECK(all_of(type("NegativeVolume")).notes ==
+  CHECK(lines_of(all_of(type("NegativeVolume")).notes) ==
         std::vector<std::string>{kIncluded + "1 negative volume (1 face)"});
   check_refused(type("Novelty"), "a volume of type 'Novelty'");
   check_refused(with_volume("", "\"0\" lastid=\"1\""), "volumes of object 1 overlap at face 0");
@@ -321,7 +326,7 @@ TEST_CASE("relatives of PrusaSlicer keep volumes in files of their own, or in al
   Parts configs;
   for (const char* program : {"Slic3r", "Slic3r_PE", "SuperSlicer"})
     configs.emplace_back("Metadata/" + std::string(program) + "_model.config", config);
-  CHECK(parse(package_of(model_of(object_of("1", mesh), item("1")), configs)).notes ==
+  CHECK(lines_of(parse(package_of(model_of(object_of("1", mesh), item("1")), configs)).notes) ==
         std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
 }
 
@@ -336,12 +341,12 @@ TEST_CASE("Bambu Studio's parts have their kinds beside the model") {
                             subtype + "\"/></object></config>"}});
   };
   CHECK(parse(with("normal_part")).faces.size() == 2);
-  CHECK(parse(with("modifier_part")).notes ==
+  CHECK(lines_of(parse(with("modifier_part")).notes) ==
         std::vector<std::string>{"bodies: left out: 1 modifier (1 face)"});
   CHECK(parse(with("support_blocker")).faces.size() == 1);
   check_refused(with("negative_part"), "object 2 has a negative volume");
   CHECK(all_of(with("negative_part")).vertices.size() == 6);
-  CHECK(all_of(with("negative_part")).notes ==
+  CHECK(lines_of(all_of(with("negative_part")).notes) ==
         std::vector<std::string>{kIncluded + "1 negative volume (1 face)"});
   check_refused(with("novel_part"), "a volume of type 'novel_part'");
 }

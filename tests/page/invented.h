@@ -104,7 +104,7 @@ struct Invented {
     answer.tolerance = {"1e-6diag", 1e-6};
     answer.inputs = {input("parts/bracket as scanned.ply", a, '3'),
                      input("parts/bracket.stl", b, 'b')};
-    answer.inputs[1].notes = {"3 polygons were fanned into triangles"};
+    answer.inputs[1].notes = {note_of(NoteCode::kPolygons, "3 faces were triangulated")};
     answer.a_to_b = report(a, field_a);
     answer.b_to_a = report(b, field_b);
     answer.b_to_a->tolerance = answer.a_to_b.tolerance;
@@ -154,12 +154,14 @@ struct Invented {
     const std::string odd =
         "</script><script>document.title='taken'</script>\" onload='x' \u2028\u202eexe.lp &amp; "
         "<b>\x01\x7f\xff.ply";
-    answer.inputs[0].path = answer.inputs[0].notes.emplace_back(odd);
+    answer.inputs[0].path = odd;
+    answer.inputs[0].notes.push_back(note_of(NoteCode::kUnread, odd));
     answer.words[1] = odd;
-    answer.notes = {odd, "<!-- <script>"};
+    answer.notes = {note_of(NoteCode::kDevices, odd), note_of(NoteCode::kSurvey, "<!-- <script>")};
     // The text is also longer than a sheet of paper holds.
     answer.inputs[1].path = std::string(400, 'x') + ".stl";
-    for (int i = 0; i < 20; ++i) answer.notes.emplace_back(600, 'n');
+    for (int i = 0; i < 20; ++i)
+      answer.notes.push_back(note_of(NoteCode::kMemory, std::string(600, 'n')));
     for (int i = 0; i < 40; ++i) statistics_a.bands.push_back({0.01 * i, {0.1, 0.9}});
     answer.host = odd;
     answer.a_to_b.device.name = odd;

@@ -19,7 +19,7 @@ def answers(pairs, heard):
         for symmetric in (False, True):
             r = vkh.distance(va, fa, vb, fb, symmetric=symmetric, progress=lambda *_: heard.append(libm.fegetround()))
             found.append((r.lower.hex(), r.upper.hex(), r.status, repr(r), r.stats["gap"].hex()))
-        r = vkh.distance(va, fa, vb, fb, field="1%", bands=("10%", 0.1), survey_time=None,
+        r = vkh.distance(va, fa, vb, fb, field="1%", bands=("0.1abs", 0.1), survey_time=None,
                          progress=lambda *_: heard.append(libm.fegetround()))
         found.append((r.lower.hex(), r.upper.hex(), repr(r.survey), r.field.lower.tobytes(), r.field.upper.tobytes(),
                       r.survey.bands and tuple(r.survey.bands.values())))

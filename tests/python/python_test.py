@@ -132,6 +132,59 @@ class Answers(unittest.TestCase):
         self.assertGreater(stats["hierarchy_ms"], 0)
 
 
+class Values(unittest.TestCase):
+    """What is made of a result's other values."""
+
+    def test_gap_interval_and_witness(self):
+        va, fa = grid(12)
+        vb, fb = grid(5)
+        for r in (vkh.distance(va, fa, vb, fb), vkh.distance(va, fa, vb, fb, symmetric=True),
+                  vkh.distance(vb, fb, va, fa, symmetric=True)):
+            self.assertEqual(r.interval, (r.lower, r.upper))
+            self.assertGreaterEqual(r.gap * np.linalg.norm(np.ptp(va, axis=0)), (r.upper - r.lower) * (1 - 1e-12))
+            mesh = {"a": (va, fa), "b": (vb, fb)} if len(fa) == r.stats.get("mesh_a", {"faces": len(fa)})["faces"] else {}
+            w = r.witness
+            self.assertAlmostEqual(sum(w.barycentric), 1.0, places=12)
+            if w.mesh in mesh and "direction" not in r.stats:
+                vertices, faces = mesh[w.mesh]
+                at = np.array(w.barycentric) @ vertices[faces[w.face]]
+                np.testing.assert_allclose(at, w.point, atol=1e-12)
+            self.assertEqual((w.point, w.nearest), (r.witness_a, r.witness_b) if w.mesh == "a" else (r.witness_b, r.witness_a))
+
+    def test_a_row_and_a_table(self):
+        r = vkh.gate((SQUARE, SQUARE_FACES), (SQUARE + [3, 0, 0], SQUARE_FACES), max=0.5, statistics=True)
+        html = r._repr_html_()
+        self.assertIn("<th>verdict</th><td>fail</td>", html)
+        self.assertIn("p95_upper", html)
+        self.assertEqual([note["code"] for note in r.notes], ["apart"])
+        self.assertEqual(r.notes[0]["value"], 3.0)
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            return
+        frame = r.to_frame()
+        self.assertEqual(len(frame), 1)
+        self.assertEqual(frame["lower"][0], r.lower)
+
+    def test_notes_say_what_a_pass_does_not_ask(self):
+        half = (SQUARE * [0.5, 1, 1], SQUARE_FACES)
+        whole = (SQUARE, SQUARE_FACES)
+        r = vkh.gate(half, whole, max=0.1)
+        self.assertEqual(r.verdict, "pass")
+        self.assertEqual([note["code"] for note in r.notes], ["size", "apart", "one-way"])
+        self.assertEqual(vkh.gate(half, whole, max=0.1, symmetric=True).verdict, "fail")
+        self.assertEqual(vkh.gate(whole, whole, max=0.1, symmetric=True).notes, [])
+
+    def test_devices(self):
+        found = vkh.devices()
+        self.assertTrue(found)
+        usable = next(d for d in found if d["usable"])
+        r = vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, device=usable["index"])
+        self.assertEqual(r.stats["device"]["name"], usable["name"])
+        with self.assertRaisesRegex(TypeError, "device: expected"):
+            vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, device=1.5)
+
+
 class Solvers(unittest.TestCase):
     def test_b_is_kept(self):
         vb, fb = grid(6)
@@ -250,7 +303,7 @@ class Refusals(unittest.TestCase):
             "time": ["5", True, [1], array, object()],
             "waves": [1.5, "3", True, array, float("nan")],
             "memory": [1.5, True, [1], array],
-            "device": [0, None, True, array, b"cpu"],
+            "device": [1.5, None, True, array, b"cpu"],
             "preset": [None, 1, array],
             "disable": ["u3", 3, None, [3], {"u3": 1}, array],
             "enable": ["u3", 3, None, [None]],

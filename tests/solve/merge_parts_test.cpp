@@ -41,7 +41,7 @@ Answer answer_of(uint64_t index, uint64_t count, double lower, double upper) {
   r.workspace_bytes = 7;
   r.culled = {{"exact", 3}, {"u1", 4}};
   r.device.name = "device " + std::to_string(index);
-  answer.notes = {"a note of all"};
+  answer.notes = {note_of(NoteCode::kDevices, "a note of all")};
   return answer;
 }
 
@@ -92,7 +92,8 @@ TEST_CASE("the largest lower with its witness, the largest upper, bit by bit") {
         "of A's diagonal)");
   CHECK(all["device"]["name"] == "device 0");
   CHECK(all["more_devices"].size() == 2);
-  CHECK(all["notes"] == Json({"a note of all"}));
+  REQUIRE(all["notes"].size() == 1);
+  CHECK(all["notes"][0]["text"] == "a note of all");
   CHECK(all["arguments"] == Json({"distance", "a.ply", "b.ply", "--json"}));
   CHECK(all["started"] == "2026-01-07T00:00:00Z");
   CHECK(merge_parts({written(answer_of(0, 1, 1, 1))}).find("\"parts\":1") != std::string::npos);
@@ -160,6 +161,9 @@ TEST_CASE("all parts, each once, of one question") {
   check_refused(spoilt("/inputs/0/faces", 7), "another choice of --bodies");
   check_refused(spoilt("/inputs/1/notes", {"bodies: left out: 1 modifier (12 faces)"}),
                 "another choice of --bodies");
+  check_refused(
+      spoilt("/inputs/1/notes", Json::array({{{"code", "bodies"}, {"text", "left out"}}})),
+      "another choice of --bodies");
   check_refused(spoilt("/tolerance/absolute", 0.5), "another tolerance");
   check_refused(spoilt("/tolerance/unit", nullptr), "another unit");
   check_refused(spoilt("/version", "9.9"), "another version");

@@ -50,6 +50,22 @@ TEST_CASE("what is no length is refused, and a limit is no number alone") {
   }
   CHECK_THROWS_AS(parsed("0.1", PlainNumber::kRefused), UsageError);
   CHECK_NOTHROW(parsed("0.1%", PlainNumber::kRefused));
+  CHECK(parsed("1e-3", PlainNumber::kSmallFraction).number == 1e-3);
+  CHECK(parsed("0.01diag", PlainNumber::kSmallFraction).number == 0.01);
+  CHECK(parsed("0.01").number == 0.01);
+  const auto refused = [](const char* text) {
+    try {
+      parsed(text, PlainNumber::kSmallFraction);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(
+      refused("0.01") ==
+      "--tol '0.01': write 0.01diag for 0.01 of A's diagonal, or 0.01mm or 0.01abs, in the files' "
+      "own unit, for a length");
+  CHECK(refused("1").find("write 1diag") != std::string::npos);
   CHECK_THROWS_WITH_AS(check_unit("--unit", "miles"),
                        "--unit 'miles': expected um, mm, cm, m, in or ft", UsageError);
 }

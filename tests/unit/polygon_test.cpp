@@ -275,7 +275,7 @@ TEST_CASE("a polygon without a triangulation is refused by its face, or fanned a
       {.name = "x.obj", .bytes = flat, .limits = {.odd_polygons = OddPolygons::kFanned}});
   CHECK(mesh.faces == Faces{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {0, 3, 2}});
   CHECK(mesh.polygons.fanned == 2);
-  CHECK(mesh.notes.back() ==
+  CHECK(line_of(mesh.notes.back()) ==
         "polygons: fanned: 2 faces without a triangulation of their outline; what is measured may "
         "leave it; at face 1 it encloses no area");
 }

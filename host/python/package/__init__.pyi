@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "__version__", "assert_within", "distance",
-    "distances", "gate", "read",
+    "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__", "assert_within", "devices",
+    "distance", "distances", "gate", "read",
 ]
 __version__: str
 
@@ -89,7 +89,25 @@ class Mesh:
     @property
     def counts(self) -> dict[str, int]: ...
     @property
+    def gap(self) -> float: ...
+    @property
+    def interval(self) -> Interval: ...
+    @property
+    def witness(self) -> Witness: ...
+    def to_frame(self) -> Any: ...
+    def _repr_html_(self) -> str | None: ...
+    @property
     def notes(self) -> list[str]: ...
+
+class Witness(NamedTuple):
+    """The point that proves lower, and the closest point that was found of the other mesh."""
+
+    mesh: Literal["a", "b"]
+    face: int
+    barycentric: tuple[float, float, float]
+    point: tuple[float, float, float]
+    nearest_face: int
+    nearest: tuple[float, float, float]
 
 class Result:
     """A certified interval and what proves its lower end."""
@@ -112,6 +130,16 @@ class Result:
     def face_a(self) -> int: ...
     @property
     def face_b(self) -> int: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def interval(self) -> Interval: ...
+    @property
+    def witness(self) -> Witness: ...
+    def to_frame(self) -> Any: ...
+    def _repr_html_(self) -> str | None: ...
+    @property
+    def notes(self) -> list[dict[str, Any]]: ...
     @property
     def stats(self) -> dict[str, Any]: ...
     @property
@@ -143,9 +171,9 @@ class Solver:
     """Mesh B on the device, its BVH built once, for many A's."""
 
     @overload
-    def __init__(self, b: _Mesh, /, *, device: str = "") -> None: ...
+    def __init__(self, b: _Mesh, /, *, device: str | SupportsIndex = "") -> None: ...
     @overload
-    def __init__(self, vb: npt.ArrayLike, fb: npt.ArrayLike, device: str = "") -> None: ...
+    def __init__(self, vb: npt.ArrayLike, fb: npt.ArrayLike, device: str | SupportsIndex = "") -> None: ...
     @overload
     def distance(
         self,
@@ -200,7 +228,7 @@ def distance(
     *,
     tol: _Number | str = 1e-6,
     symmetric: bool = False,
-    device: str = "",
+    device: str | SupportsIndex = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,
@@ -222,7 +250,7 @@ def distance(
     tol: _Number | str = 1e-6,
     symmetric: bool = False,
     *,
-    device: str = "",
+    device: str | SupportsIndex = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,
@@ -245,6 +273,7 @@ class _Results(Iterator[Result]):
         *error: type[BaseException] | BaseException | TracebackType | None,
     ) -> None: ...
 
+def devices() -> list[dict[str, Any]]: ...
 def distances(
     pairs: Iterable[tuple[_Mesh, _Mesh] | tuple[Any, _Mesh, _Mesh] | _Mesh | tuple[str | int, _Mesh]],
     *,
@@ -252,7 +281,7 @@ def distances(
     tol: _Number | str | None = None,
     symmetric: bool = False,
     max: _Number | str | None = None,
-    device: str = "",
+    device: str | SupportsIndex = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,
@@ -265,6 +294,10 @@ def distances(
     max_input: SupportsIndex | str | None = None,
     polygons: Literal["refuse", "fan", "any"] = "refuse",
     bodies: Literal["solid", "all"] = "solid",
+    field: bool | _Number | str = False,
+    statistics: bool = False,
+    bands: _Bands = (),
+    survey_time: _Number | None = 10.0,
 ) -> _Results: ...
 def gate(
     a: _Mesh,
@@ -273,7 +306,7 @@ def gate(
     *,
     tol: _Number | str = 1e-7,
     symmetric: bool = False,
-    device: str = "",
+    device: str | SupportsIndex = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,

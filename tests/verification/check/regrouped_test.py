@@ -46,7 +46,7 @@ def distance(a, b, tolerance, *words, **environment):
     way = answer["directions"][0]
     bounds = [float.fromhex(way["interval"][name]) for name in ("lower_hex", "upper_hex")]
     proven = float.fromhex(way["certificate"]["upper_hex"]) if "certificate" in way else None
-    return *bounds, proven, " ".join(answer["notes"])
+    return *bounds, proven, " ".join(note["text"] for note in answer["notes"])
 
 
 class Tally:

@@ -84,9 +84,9 @@ void require_valid(const Mesh& mesh) {
   for (const glm::dvec3& p : mesh.vertices) {
     require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "finite coordinates");
   }
-  for (const std::string& note : mesh.notes) {
+  for (const std::string& note : lines_of(mesh.notes)) {
     require(note.find('\n') == std::string::npos, "a note is one line");
-    require(!code_of_note(note).empty(), "a note begins with its code");
+    require(code_named(note.substr(0, note.find(": "))).has_value(), "a note begins with its code");
   }
 }
 

@@ -123,7 +123,7 @@ for what, environment, in_host in (
     done = demo(little, **environment)
     answer = answer_of(done)
     different = [key for key in SAME if answer.get(key) != expected[key]]
-    noted = any("from the host's, slowly" in note for note in answer.get("notes", ()))
+    noted = any("from the host's, slowly" in note["text"] for note in answer.get("notes", ()))
     if different or done.stderr or noted != in_host:
         fail(f"{what}: {different}, noted: {noted}", done)
 # If the search's memory is not given, it is cut, and grows into the rest.
@@ -136,7 +136,7 @@ for what, environment in {
     answer = answer_of(done)
     parts = answer.get("directions", [])
     good = [part["status"] == "closed" and all(part["verified"].values()) for part in parts]
-    noted = any("from the host's, slowly" in note for note in answer.get("notes", ()))
+    noted = any("from the host's, slowly" in note["text"] for note in answer.get("notes", ()))
     if done.stderr or good != [True, True] or not noted:
         fail(f"{what}, cut: {good}, noted: {noted}", done)
 # Without addresses the refusal states the size that it would hold.

@@ -1,0 +1,122 @@
+#include "host/answer/pair_notes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "host/base/decimal.h"
+
+namespace vkh {
+namespace {
+
+constexpr double kNoExtent = 1e-3;  // of the larger diagonal
+constexpr double kSmaller = 0.8, kLarger = 1.25;
+constexpr double kUnitError = 0.02;
+constexpr double kApart = 0.1;  // of B's diagonal
+
+std::string number(double value) { return number_text(value, std::chars_format::general, 4); }
+
+std::string with_unit(double value, const std::string& unit) {
+  return number(value) + (unit.empty() ? "" : " " + unit);
+}
+
+/// A's extent over B's on each axis that counts.
+struct Ratio {
+  char axis;
+  double of_extents;
+};
+
+std::vector<Ratio> ratios(const Box& a, const Box& b) {
+  const double least = kNoExtent * std::max(diagonal(a), diagonal(b));
+  std::vector<Ratio> all;
+  for (int i = 0; i < 3; ++i) {
+    const double from_a = a.hi[i] - a.lo[i], from_b = b.hi[i] - b.lo[i];
+    if (std::max(from_a, from_b) > least) all.push_back({"xyz"[i], from_a / from_b});
+  }
+  return all;
+}
+
+/// The factor between two units that all ratios are; none if they are not one.
+std::optional<double> unit_factor(const std::vector<Ratio>& all) {
+  for (const double factor : {25.4, 10.0, 100.0, 1000.0}) {
+    for (const double ratio : {factor, 1 / factor}) {
+      const bool are_alike = std::all_of(all.begin(), all.end(), [&](const Ratio& r) {
+        return std::abs(r.of_extents / ratio - 1) <= kUnitError;
+      });
+      if (are_alike && !all.empty()) return ratio;
+    }
+  }
+  return std::nullopt;
+}
+
+Note note_on_units(double factor) {
+  const bool is_larger = factor > 1;
+  const double times = is_larger ? factor : 1 / factor;
+  const char* units = times == 25.4    ? "inches and millimetres"
+                      : times == 10.0  ? "centimetres and millimetres"
+                      : times == 100.0 ? "metres and centimetres"
+                                       : "metres and millimetres";
+  return note_of(NoteCode::kUnits,
+                 "A is " + number(times) + " times " + (is_larger ? "larger" : "smaller") +
+                     " than B, as " + units + " are: are both in one unit?",
+                 {factor, ""});
+}
+
+std::optional<Note> note_on_size(const std::vector<Ratio>& all) {
+  const Ratio* worst = nullptr;
+  const auto how_odd = [](const Ratio& r) { return std::abs(std::log(r.of_extents)); };
+  for (const Ratio& r : all) {
+    const bool is_odd = r.of_extents < kSmaller || r.of_extents > kLarger;
+    if (is_odd && (worst == nullptr || how_odd(r) > how_odd(*worst))) worst = &r;
+  }
+  if (worst == nullptr) return std::nullopt;
+  const std::string text =
+      std::isfinite(worst->of_extents)
+          ? "A's extent in " + std::string(1, worst->axis) + " is " +
+                number(100 * worst->of_extents) + " % of B's"
+          : "A has an extent in " + std::string(1, worst->axis) + ", and B has none";
+  Note note = note_of(NoteCode::kSize, text + ": is one a part of the other?");
+  if (std::isfinite(worst->of_extents)) note.value = worst->of_extents;
+  return note;
+}
+
+bool are_disjoint(const Box& a, const Box& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (a.lo[i] > b.hi[i] || b.lo[i] > a.hi[i]) return true;
+  }
+  return false;
+}
+
+std::optional<Note> note_on_place(const Box& a, const Box& b, const std::string& unit) {
+  const double centres = glm::distance(0.5 * a.lo + 0.5 * a.hi, 0.5 * b.lo + 0.5 * b.hi);
+  const bool apart = are_disjoint(a, b);
+  if (!apart && !(centres > kApart * diagonal(b))) return std::nullopt;
+  return note_of(NoteCode::kApart,
+                 std::string(apart ? "the boxes of A and B do not meet: their" : "the boxes'") +
+                     " centres are " + with_unit(centres, unit) +
+                     " apart: does A lie where B does?",
+                 {centres, unit});
+}
+
+}  // namespace
+
+std::vector<Note> notes_on_boxes(const Box& a, const Box& b, const std::string& unit) {
+  std::vector<Note> notes;
+  const std::vector<Ratio> all = ratios(a, b);
+  if (const std::optional<double> factor = unit_factor(all)) {
+    notes.push_back(note_on_units(*factor));
+  } else if (std::optional<Note> note = note_on_size(all)) {
+    notes.push_back(std::move(*note));
+  }
+  if (std::optional<Note> note = note_on_place(a, b, unit)) notes.push_back(std::move(*note));
+  return notes;
+}
+
+std::string size_text(const Box& box) {
+  const glm::dvec3 size = box.hi - box.lo;
+  return number(size.x) + " x " + number(size.y) + " x " + number(size.z);
+}
+
+}  // namespace vkh
