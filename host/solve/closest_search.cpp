@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "host/base/decimal.h"
 #include "host/base/error.h"
@@ -58,6 +59,32 @@ void check_points(std::span<const DVec3> points) {
   }
 }
 
+// The Morton code of a point, ten bits an axis; what lies outside of the frame is clamped to it.
+uint32_t morton_code(const StoredPoint& point) {
+  uint32_t code = 0;
+  for (int bit = 9; bit >= 0; --bit) {
+    for (const float high : point.high) {
+      const float place = std::clamp(512.0f * (1.0f + high), 0.0f, 1023.0f);
+      code = 2 * code + ((static_cast<uint32_t>(place) >> bit) & 1u);
+    }
+  }
+  return code;
+}
+
+// Sorts the points along a Morton curve through the frame: invocations that run together then take
+// the same way through B's BVH.
+void sort_along_curve(const Frame& frame, std::span<const DVec3> points,
+                      std::vector<size_t>& numbers) {
+  std::vector<std::pair<uint32_t, size_t>> keys(numbers.size());
+  for_each_block(numbers.size(), [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      keys[i] = {morton_code(store_point(frame, points[numbers[i]])), numbers[i]};
+  });
+  std::sort(keys.begin(), keys.end());
+  std::transform(keys.begin(), keys.end(), numbers.begin(),
+                 [](const auto& key) { return key.second; });
+}
+
 class ClosestSearch {
  public:
   ClosestSearch(Runner& runner, const Mesh& mesh, const ClosestQuestion& question)
@@ -68,7 +95,9 @@ class ClosestSearch {
   }
 
   /// Finds the closest points of those with these numbers, which B's frame serves.
-  void find(const FramedB& b, std::span<const size_t> numbers) {
+  void find(const FramedB& b, std::vector<size_t> all) {
+    sort_along_curve(b.frame, question_.points, all);
+    std::span<const size_t> numbers = all;
     while (!numbers.empty()) {
       if (done_ > 0 && question_.goes_on && !question_.goes_on(done_))
         throw Interrupted("the search for closest points was called off");
@@ -192,9 +221,10 @@ ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
                                   const ClosestQuestion& question) {
   check_points(question.points);
   ClosestSearch search(runner, b.mesh, question);
-  for (const auto& [number, numbers] : by_frame(b, question.points)) {
+  std::map<int, std::vector<size_t>> groups = by_frame(b, question.points);
+  for (auto& [number, numbers] : groups) {
     if (number == 0) {
-      search.find(b, numbers);
+      search.find(b, std::move(numbers));
       continue;
     }
     const StoragePlan stored = store_in(frame_of(b, number), b.mesh);
@@ -204,7 +234,7 @@ ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
                  .displacement = stored.displacement,
                  .has_low = stored.has_low,
                  .resident = resident},
-                numbers);
+                std::move(numbers));
   }
   return search.take();
 }

@@ -45,16 +45,18 @@ struct Bounds {
   float lower;    // of the triangles examined, and of what else may be closest
   float upper;    // of the closest one
   uint triangle;  // that one
+  uint close;     // triangles that were not surely farther
 };
 
-// Bounds the distance of triangle i from both sides. Its lower end is precise only if it may be the
-// closest, and `sharp`.
-Bounds examined(Bounds b, View from, uint i, bool sharp) {
+// Bounds the distance of triangle i from both sides: to 48 bits if it may be the closest, unless
+// there were too many such.
+Bounds examined(Bounds b, View from, uint i) {
   Surface s = load_surface(i, from);
   Closest c = closest_point(kHere, s.at);
-  float lower = distance_down(s, c, choose(sharp, b.upper, -3.0e38));
+  float lower = distance_down(s, c, choose(b.close < kClosestSharp, b.upper, -3.0e38));
   b.lower = min(b.lower, lower);
   if (lower >= b.upper) return b;
+  ++b.close;
   float upper = distance_to_up(two(kHere), s, c);
   bool closer = upper < b.upper || (upper == b.upper && i < b.triangle);
   b.upper = choose(closer, upper, b.upper);
@@ -72,14 +74,14 @@ Bounds with_boxes(Bounds b, View from, float reach2, inout uint to_go) {
   return b;
 }
 
-// Examines all within `within`, a distance that a triangle is known to have at most. Bounds from
+// Examines all within `within`, a distance that triangle `nearest` has at most. Bounds from
 // below need all of them, and drivers may end a loop early (docs/certificate.md, 'Loops that a
 // driver ends'): the loops' work is counted, and not by the variable that ends them, which
 // compilers take as known behind them. The first traversal's early end ends these loops, too.
-Bounds bounds_within(View from, float within) {
+Bounds bounds_within(View from, float within, uint nearest) {
   float reach2 = reach2_of(from, within);
   // What is beyond the reach is no closer than `within`.
-  Bounds b = Bounds(lowered(within - from.base), 3.0e38, kNone);
+  Bounds b = Bounds(lowered(within - from.base), raised(within - from.base), nearest, 0u);
   uint not_leaves = 0u;
   uint found_count = 0u;
   uint looked_at = 0u;
@@ -94,7 +96,7 @@ Bounds bounds_within(View from, float within) {
     uint last = first + ((traversal_at >> 28) & 7u);
     found_count += last - first + 1u;
     for (uint i = first; i <= last; ++i) {
-      b = examined(b, from, i, looked_at < kClosestSharp);
+      b = examined(b, from, i);
       ++looked_at;
     }
     traversal_at = pop(reach2);
@@ -113,11 +115,7 @@ ClosestFace closest_of(Two3 p) {
   float within = surface_distance_up(two(kHere), load_surface(nearest, coarse));
   // The base is next to the distance; any is right.
   float base = min(root(near.distance2), within);  // uncertified: steers
-  Bounds b = bounds_within(view_from(p, base), within);
-  if (b.triangle == kNone) {  // a driver has ended a loop before the first leaf
-    b.triangle = nearest;
-    b.upper = raised(within - base);
-  }
+  Bounds b = bounds_within(view_from(p, base), within, nearest);
   return ClosestFace(base, b.lower, b.upper, triangles[kTriangleWords * b.triangle].w);
 }
 
