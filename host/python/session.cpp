@@ -131,8 +131,8 @@ void Session::distance(const std::function<void(const ToPrepared&)>& work) {
   });
 }
 
-void Session::with_prepared(const std::function<void(Solver&, const Mesh&)>& work) {
-  use([&](Solver& solver) { work(solver, parts_->b->mesh()); });
+void Session::with_prepared(const std::function<void(Solver&, const PreparedMesh&)>& work) {
+  use([&](Solver& solver) { work(solver, *parts_->b); });
 }
 
 void Session::close() {

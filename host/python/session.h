@@ -36,7 +36,7 @@ class Session {
   /// Does the same, with a function to the prepared mesh.
   void distance(const std::function<void(const ToPrepared&)>& work);
   /// Does the same, and passes the mesh that was prepared.
-  void with_prepared(const std::function<void(Solver&, const Mesh&)>& work);
+  void with_prepared(const std::function<void(Solver&, const PreparedMesh&)>& work);
 
   /// Waits for the run of another thread. In a callback of its own run it waits for nothing: that
   /// run goes on, and is the last.

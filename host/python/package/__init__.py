@@ -1,12 +1,13 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
 from vkhausdorff import _core
-from vkhausdorff._core import DeviceError, Mesh, Result, Solver, __version__, distance, read
+from vkhausdorff._closest import Closest
+from vkhausdorff._core import DeviceError, Mesh, Result, Solver, __version__, closest, distance, read
 from vkhausdorff._many import distances
 from vkhausdorff._survey import Field, Interval, Survey
 
-__all__ = ["DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "__version__", "assert_within",
-           "distance", "distances", "gate", "read"]
+__all__ = ["Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "__version__",
+           "assert_within", "closest", "distance", "distances", "gate", "read"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
