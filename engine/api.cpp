@@ -36,6 +36,11 @@ static_assert(sizeof(VkhCellBounds) == sizeof(gpu::CellBounds));
 static_assert(offsetof(VkhCellBounds, squareUpper) == offsetof(gpu::CellBounds, square_upper));
 static_assert(offsetof(VkhCellBounds, faceB) == offsetof(gpu::CellBounds, face));
 static_assert(offsetof(VkhCellBounds, start) == offsetof(gpu::CellBounds, triangle));
+static_assert(sizeof(VkhPoint) == sizeof(gpu::Vertex));
+static_assert(offsetof(VkhPoint, low) == offsetof(gpu::Vertex, lo));
+static_assert(sizeof(VkhClosestFace) == sizeof(gpu::ClosestFace));
+static_assert(offsetof(VkhClosestFace, face) == offsetof(gpu::ClosestFace, face));
+static_assert(VKH_SWITCH_CLOSEST == gpu::kUseClosest);
 static_assert(VKH_SWITCH_UNCERTIFIED == gpu::kUseUncertified);
 static_assert(VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords && VKH_MAX_CULLS == gpu::kMostCulls);
 static_assert(gpu::kCullCount <= gpu::kMostCulls);
@@ -96,14 +101,18 @@ bool counts_fit(uint32_t vertex_count, uint32_t face_count) {
 // Returns 0 for NaN, too: a run does more work then, and its interval still holds.
 float not_negative(float x) { return x > 0 ? x : 0; }
 
+// Leaves a B that was not built without counts.
+Hierarchy view_built(const VkhContext_T& context, VkhHierarchy b) {
+  if (!counts_fit(b.vertexCount, b.faceCount)) b.vertexCount = b.faceCount = 0;
+  return view_hierarchy(b, context.limits);
+}
+
 // Replaces counts that no mesh has by those of a mesh of one face, or of a B that was not built:
 // such a run records only a report of VKH_STATUS_INPUT.
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   check_problem(context, p);
   const bool has_a = counts_fit(p.a.vertexCount, p.a.faceCount);
   const uint32_t vertex_count = has_a ? p.a.vertexCount : 1, face_count = has_a ? p.a.faceCount : 1;
-  VkhHierarchy b = p.b;
-  if (!counts_fit(b.vertexCount, b.faceCount)) b.vertexCount = b.faceCount = 0;
   const Workspace ws = view_workspace(p.workspace, context.limits, vertex_count, face_count);
   // Without this a run would wait forever for more room than the device's limits allow.
   const bool can_grow = ws.capacity < largest_capacity(context.limits);
@@ -121,7 +130,7 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
           .pauses = can_grow && p.pauseWhenFull != VK_FALSE,
           .has_a = has_a,
           .input_fault = layout_fault(p.a),
-          .b = view_hierarchy(b, context.limits),
+          .b = view_built(context, p.b),
           .ws = ws,
           .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * face_count}};
 }
@@ -368,6 +377,21 @@ void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const V
                      .first = cells->first,
                      .count = cells->count,
                      .has_run = vkh::is_built(p)});
+}
+
+void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer, const VkhHierarchy* b,
+                       const VkhClosestQuery* query, VkhProfile* profile) {
+  vkh::check_closest(*context, *b, *query);
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  const bool has_kernel = vkh::gpu::finds_closest(context->limits.switches, context->limits.wide);
+  if (!has_kernel || query->count == 0) return;
+  vkh::record_closest(rec, vkh::view_built(*context, *b),
+                      {.asked = {query->pointBuffer, query->pointOffset,
+                                 VkDeviceSize{query->count} * sizeof(VkhPoint)},
+                       .found = {query->closestBuffer, query->closestOffset,
+                                 VkDeviceSize{query->count} * sizeof(VkhClosestFace)},
+                       .count = query->count,
+                       .two_float = query->twoFloat != VK_FALSE});
 }
 
 void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,

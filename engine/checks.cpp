@@ -127,6 +127,20 @@ void check_cells(const VkhContext_T& context, const VkhProblem& p, const VkhCell
            cells.cellOffset % 256 == 0 && cells.boundsOffset % 256 == 0);
 }
 
+void check_closest(const VkhContext_T& context, const VkhHierarchy& b,
+                   const VkhClosestQuery& query) {
+  VKH_RULE("vkhCmdFindClosest: a context of VKH_SWITCH_CLOSEST",
+           gpu::finds_closest(context.limits.switches, context.limits.wide));
+  VKH_RULE("vkhCmdFindClosest: a hierarchy that was built",
+           is_count(b.faceCount) && is_count(b.vertexCount));
+  check_ranges(b, hierarchy_size(context.limits, b.vertexCount, b.faceCount));
+  VKH_RULE("VkhClosestQuery::count: at least 1", query.count >= 1);
+  VKH_RULE("VkhClosestQuery::pointBuffer, closestBuffer: not null",
+           query.pointBuffer != VK_NULL_HANDLE && query.closestBuffer != VK_NULL_HANDLE);
+  VKH_RULE("VkhClosestQuery::pointOffset, closestOffset: multiples of 256 bytes",
+           query.pointOffset % 256 == 0 && query.closestOffset % 256 == 0);
+}
+
 void check_profile(const VkhProfile* profile) {
   if (profile == nullptr) return;
   VKH_RULE("VkhProfile::names: not null", profile->names != nullptr);

@@ -13,6 +13,7 @@ inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
 inline void check_move(const VkhProblem&, const VkhMemory&) {}
 inline void check_report(VkBuffer, VkDeviceSize) {}
 inline void check_cells(const VkhContext_T&, const VkhProblem&, const VkhCells&) {}
+inline void check_closest(const VkhContext_T&, const VkhHierarchy&, const VkhClosestQuery&) {}
 inline void check_profile(const VkhProfile*) {}
 #else
 // `scratch`: null for a refit, whose BVH has been built.
@@ -25,6 +26,8 @@ void check_problem(const VkhContext_T& context, const VkhProblem& problem);
 void check_move(const VkhProblem& problem, const VkhMemory& to);
 void check_report(VkBuffer buffer, VkDeviceSize offset);
 void check_cells(const VkhContext_T& context, const VkhProblem& problem, const VkhCells& cells);
+void check_closest(const VkhContext_T& context, const VkhHierarchy& b,
+                   const VkhClosestQuery& query);
 void check_profile(const VkhProfile* profile);
 #endif
 

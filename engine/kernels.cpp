@@ -158,6 +158,7 @@ StageLines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
   see(kIndexOfMeshCheck, gpu::checks_input(switches, wide));
   see(kIndexOfReportOpen, gpu::covers_area(switches, wide));
   see(kIndexOfCellBounds, gpu::bounds_cells(switches, wide));
+  see(kIndexOfClosestFaces, gpu::finds_closest(switches, wide));
   return lines;
 }
 

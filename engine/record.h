@@ -108,6 +108,14 @@ struct AskedCells {
   bool has_run = true;  // false: there are no distances, and bounds are NaN
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
+// The points whose closest faces of B are to be found.
+struct AskedPoints {
+  Slice<gpu::Vertex> asked;
+  Slice<gpu::ClosestFace> found;
+  uint32_t count = 0;
+  bool two_float = false;  // B has low parts
+};
+void record_closest(Recorder& rec, const Hierarchy& b, const AskedPoints& points);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 // Reports only that A or B is no mesh, where nothing was built.
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);

@@ -15,6 +15,7 @@
  *               whenever B moves:   vkhCmdRefitHierarchy, or build again
  *               once a pair:        vkhGetWorkspaceRequirements, vkhCmdBegin
  *               then as you like:   vkhCmdAdvance (n waves), vkhCmdWriteReport
+ *               points alone:       vkhCmdFindClosest, which needs B and no pair
  *               many pairs at once: vkhCmdRunTasks, which builds, begins, advances and reports
  * All of it may stand in one command buffer, or be spread over many: two waves a frame and a report
  * after each. Reports of one run nest: lower never falls and upper never rises, but for rounding.
@@ -122,6 +123,7 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_SPLIT_TWICE = 65536,
   VKH_SWITCH_FIELD = 131072,    /* no part of the method: vkhCmdBoundCells can be recorded */
   VKH_SWITCH_SUBROOTS = 262144, /* no part: edges are halved 40 times, not 20 (tight tolerances) */
+  VKH_SWITCH_CLOSEST = 1048576, /* no part: vkhCmdFindClosest can be recorded */
   VKH_SWITCH_NONE = 1 << 30,    /* switches nothing: the empty set, which 0 is not */
   /* The meaning of 0 for each kind of device. Fewer candidates are worth a query on a CPU; on a
    * GPU, a chain of short steps, more candidates at once are cheaper than another step. */
@@ -484,6 +486,40 @@ typedef struct VkhCells {
  * STORAGE_BUFFER, offsets multiples of 256 bytes; read and written in COMPUTE_SHADER. */
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhCells* cells, VkhProfile* profile);
+
+/* A point as an exact sum of two float32 a coordinate, the second at most half an ulp of the first:
+ * 48 bits. Coordinates are finite and up to 2^15. */
+typedef struct VkhPoint {
+  float high[3], low[3];
+} VkhPoint;
+
+/* d, the distance of a point from B, in the coordinates' units: certified, as VkhReport::lower is,
+ * base + lowerAbove <= d <= base + upperAbove, the sums taken exactly (in double). lowerAbove may
+ * be less than -base: d is never under 0; it is -3e38 where a driver ended the loops of the search
+ * early (lavapipe does after 65,535 turns), which leaves an upper end that is true but may be wide.
+ * As a rule the width is 48 bits of the point, and of what of B is as near. Where more than 1024
+ * triangles of B are equally near in float32, the lower end is off by about 1e-6 of d and of their
+ * size; where more than 65,536 are, by their size. */
+typedef struct VkhClosestFace {
+  float base, lowerAbove, upperAbove;
+  uint32_t face; /* of B: a point of it is no farther than the upper end */
+} VkhClosestFace;
+
+typedef struct VkhClosestQuery {
+  VkBuffer pointBuffer; /* VkhPoint[count] */
+  VkDeviceSize pointOffset;
+  uint32_t count;         /* at least 1; a range is at most maxStorageBufferRange */
+  VkBool32 twoFloat;      /* B was built with low parts: use them */
+  VkBuffer closestBuffer; /* VkhClosestFace[count] */
+  VkDeviceSize closestOffset;
+} VkhClosestQuery;
+
+/* Finds the face of B that is closest to each of some points. Needs a context of
+ * VKH_SWITCH_CLOSEST, and no run: B alone. A point's result does not depend on the others. If B is
+ * no mesh, ends are NaN and faces 0xffffffff. Buffers: usage STORAGE_BUFFER, offsets multiples of
+ * 256 bytes; read and written in COMPUTE_SHADER. */
+void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer, const VkhHierarchy* b,
+                       const VkhClosestQuery* query, VkhProfile* profile);
 
 /* The work for one pair, in the order of the members; each part may be left out. */
 typedef struct VkhTask {

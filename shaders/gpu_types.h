@@ -101,6 +101,8 @@ VKH_CONST uint kUseField = 1u << 17;
 VKH_CONST uint kUseSubroots = 1u << 18;
 // Meshes are checked on the device (bvh/mesh_check.comp).
 VKH_CONST uint kUseInputCheck = 1u << 19;
+// Points can be asked for their closest faces (report/closest_faces.comp).
+VKH_CONST uint kUseClosest = 1u << 20;
 // The most subroots: a quarter of the frontier's capacity, and no more than this. Most runs have
 // tens.
 VKH_CONST uint kMostSubroots = 1u << 14;
@@ -206,6 +208,12 @@ VKH_CONST uint kMaxWaveRecords = 64u;
 
 // cell_bounds: triangles of B that are examined for one cell before boxes stand for the rest.
 VKH_CONST uint kCellTriangles = 128u;
+// closest_faces: triangles of B that are examined for one point before boxes stand for the rest,
+// and how many of them to 48 bits.
+VKH_CONST uint kClosestTriangles = 1u << 16;
+VKH_CONST uint kClosestSharp = 1u << 10;
+// ClosestFace::lower_above where a driver ended the search early: nothing is known from below.
+VKH_CONST float kSearchEnded = -3.0e38f;
 
 // A mesh's fault is kNone, the least face of it that is no triangle, or this: its VkhMesh describes
 // none, which is known at recording.
@@ -432,6 +440,12 @@ struct CellBounds {
   uint triangle;                // the same in the BVH's order
 };
 
+// The face of B closest to a point, and d(point, B): base + lower_above <= d <= base + upper_above.
+struct ClosestFace {
+  float base, lower_above, upper_above;
+  uint face;  // as given
+};
+
 // A part of a face of A as a 64-bit integer: 2^40 is the whole.
 struct Area {
   uint lo, hi;
@@ -570,6 +584,13 @@ struct CellPush {
   uint first;           // the first of these
   uint face_count;      // of A
   uint triangle_count;  // of B
+};
+
+// closest_faces
+struct ClosestPush {
+  uint count;           // of points
+  uint triangle_count;  // of B; 0: it was not built
+  uint two_float;       // B has low parts
 };
 
 // query: the points. If these are A's vertices, `warm` adds the present witness behind them: the

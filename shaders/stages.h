@@ -37,6 +37,7 @@ VKH_PREDICATE(asks_centroids, (kSwitches & kUseCentroid) != 0u)
 VKH_PREDICATE(covers_area, (kSwitches & kUseCoverage) != 0u)
 VKH_PREDICATE(bounds_cells, (kSwitches & kUseField) != 0u)
 VKH_PREDICATE(has_subroots, (kSwitches & kUseSubroots) != 0u)
+VKH_PREDICATE(finds_closest, (kSwitches & kUseClosest) != 0u)
 VKH_PREDICATE(checks_input, (kSwitches & kUseInputCheck) != 0u)
 // Whether a whole workgroup may traverse for one query.
 VKH_PREDICATE(traverses_by_group, kWide && (kSwitches & kUseGroupWalk) != 0u)

@@ -61,10 +61,15 @@ std::vector<glm::dvec3> floats_from(const py::array& given) {
   return vertices;
 }
 
-// Takes integers that float64 has exactly: others would be rounded, and the certified mesh would
-// not be the given one.
+// An array of points, by the words for it in messages.
+struct PointsName {
+  std::string what, row;
+};
+
+// Takes integers that float64 has exactly: others would be rounded, and the certified points would
+// not be the given ones.
 template <class Integer>
-std::vector<glm::dvec3> integers_from(const std::string& what, const py::array& given) {
+std::vector<glm::dvec3> integers_from(const PointsName& name, const py::array& given) {
   constexpr Integer kMost = Integer{1} << 53;
   const std::vector<std::array<Integer, 3>> rows = rows_of<Integer>(given);
   std::vector<glm::dvec3> vertices(rows.size());
@@ -73,7 +78,7 @@ std::vector<glm::dvec3> integers_from(const std::string& what, const py::array& 
       const Integer value = rows[v][static_cast<size_t>(axis)];
       const bool is_small = value <= kMost && (std::is_unsigned_v<Integer> || value >= -kMost);
       if (!is_small)
-        refuse(what, "vertex " + std::to_string(v) + " has " + std::to_string(value),
+        refuse(name.what, name.row + " " + std::to_string(v) + " has " + std::to_string(value),
                "integers of at most 2^53, which float64 has exactly");
       vertices[v][axis] = static_cast<double>(value);
     }
@@ -81,17 +86,16 @@ std::vector<glm::dvec3> integers_from(const std::string& what, const py::array& 
   return vertices;
 }
 
-std::vector<glm::dvec3> vertices_from(const std::string& name, const py::object& object) {
-  const std::string what = name + "'s vertices";
+std::vector<glm::dvec3> named_points_from(const PointsName& name, const py::object& object) {
   const std::string expected = "an array of shape (n, 3) of float32, float64 or integers";
-  const py::array given = array_from(what, object, expected);
+  const py::array given = array_from(name.what, object, expected);
   const char kind = given.dtype().kind();
-  if (kind == 'i') return integers_from<int64_t>(what, given);
-  if (kind == 'u') return integers_from<uint64_t>(what, given);
+  if (kind == 'i') return integers_from<int64_t>(name, given);
+  if (kind == 'u') return integers_from<uint64_t>(name, given);
   // Wider floats would be rounded, too.
   const bool is_float =
       kind == 'f' && (given.dtype().itemsize() == 4 || given.dtype().itemsize() == 8);
-  if (!is_float) refuse(what, "an array of " + in_words(given.dtype()), expected);
+  if (!is_float) refuse(name.what, "an array of " + in_words(given.dtype()), expected);
   return floats_from(given);
 }
 
@@ -126,10 +130,15 @@ std::vector<glm::uvec3> faces_from(const std::string& name, const py::object& ob
 
 }  // namespace
 
+std::vector<DVec3> points_from(const py::object& points) {
+  const FloatEnvironment ours;
+  return named_points_from({"points", "row"}, points);
+}
+
 RawMesh raw_mesh_from(const std::string& name, const py::object& vertices,
                       const py::object& faces) {
   const FloatEnvironment ours;  // float32 to float64, too, may flush
-  std::vector<glm::dvec3> points = vertices_from(name, vertices);
+  std::vector<glm::dvec3> points = named_points_from({name + "'s vertices", "vertex"}, vertices);
   if (points.size() >= std::numeric_limits<uint32_t>::max())
     refuse(name + "'s vertices", std::to_string(points.size()) + " of them", "fewer than 2^32 - 1");
   std::vector<glm::uvec3> corners = faces_from(name, faces, points.size());

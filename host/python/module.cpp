@@ -77,6 +77,17 @@ void define_gate(py::module_& m) {
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
+void define_closest(py::module_& m) {
+  m.def(
+      "closest", closest,
+      "closest(b, points, *, device='')\n--\n\n"
+      "The point of mesh B closest to each point, and its distance in a certified interval.\n\n"
+      "b: a mesh, as distance() takes it; points: (n, 3) float32, float64 or integers up to 2^53,\n"
+      "in B's coordinates. Returns a Closest with arrays lower, upper, points and faces; also\n"
+      "distances, points, faces = closest(b, points), the distances being upper. ValueError that\n"
+      "names the row if a point is not finite. For many calls with one B: Solver(b).closest.");
+}
+
 void define_solver(py::module_& m) {
   py::class_<PythonSolver>(m, "Solver",
                            "Mesh B on the device, its hierarchy built once, for many A's:\n"
@@ -93,6 +104,12 @@ void define_solver(py::module_& m) {
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
           "         bands=(), survey_time=10.0, certificate=None)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
+      .def(
+          "closest",
+          [](const py::object& self, const py::args& positional, const py::kwargs& named) {
+            return made<PythonSolver>(self, "Solver").closest(positional, named);
+          },
+          "closest(self, points)\n--\n\nAs vkhausdorff.closest, of the Solver's B.")
       .def(
           "close", [](const py::object& self) { made<PythonSolver>(self, "Solver").close(); },
           "close(self)\n--\n\n"
@@ -140,6 +157,7 @@ PYBIND11_MODULE(_core, m) {
   define_distance(m);
   define_devices(m);
   define_gate(m);
+  define_closest(m);
   define_solver(m);
   define_mesh(m);
   define_many(m);

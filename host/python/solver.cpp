@@ -140,7 +140,40 @@ Result answered(Given given, Session& session) {
   return result;
 }
 
+// A row-major copy: (n,), or (n, 3) of points.
+template <class T, class Row>
+py::array array_of(const std::vector<Row>& rows) {
+  const auto count = static_cast<py::ssize_t>(rows.size());
+  const auto* first = reinterpret_cast<const T*>(rows.data());
+  if constexpr (sizeof(Row) == sizeof(T)) return py::array_t<T>(count, first);
+  return py::array_t<T>({count, py::ssize_t{sizeof(Row) / sizeof(T)}}, first);
+}
+
+py::object closest_of(const ClosestPoints& found) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  return py::module_::import("vkhausdorff._closest")
+      .attr("Closest")(array_of<double>(found.lower), array_of<double>(found.upper),
+                       array_of<double>(found.points), array_of<uint32_t>(found.faces));
+}
+
+bool goes_on(size_t) {
+  hear_signals();
+  return true;
+}
+
 }  // namespace
+
+py::object closest(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{"closest", {"b", "points", "device"}, 2, 2};
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  const std::string device = given.device(kDevice);
+  const MeshPointer b = mesh_of("b", "B", given.at("b"));
+  const std::vector<DVec3> points = points_from(given.at("points"));
+  ClosestPoints found;
+  session_for(device).use([&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
+  return closest_of(found);
+}
 
 Result distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
@@ -201,6 +234,20 @@ Result PythonSolver::distance(const py::args& positional, const py::kwargs& name
   const Arguments arguments(*signature, all, named);
   return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")), b_},
                   *session);
+}
+
+py::object PythonSolver::closest(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{"Solver.closest", {"points"}, 1, 1};
+  const Call call;
+  const std::shared_ptr<Session> session = session_;
+  if (session == nullptr) throw py::value_error("this Solver is closed");
+  const Arguments given(*signature, positional, named);
+  const std::vector<DVec3> points = points_from(given.at("points"));
+  ClosestPoints found;
+  session->use([&](Solver& solver, const PreparedMesh* b) {
+    found = solver.closest(*b, points, goes_on);
+  });
+  return closest_of(found);
 }
 
 void PythonSolver::close() {

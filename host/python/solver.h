@@ -1,4 +1,4 @@
-// The functions that Python calls: distance(), gate(), and the Solver that keeps B.
+// The functions that Python calls: distance(), gate(), closest(), and the Solver that keeps B.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,8 @@ namespace vkh::python {
 Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Does the same with a limit: the result has a verdict.
 Result gate(const pybind11::args& positional, const pybind11::kwargs& named);
+/// Returns a Closest of the package's.
+pybind11::object closest(const pybind11::args& positional, const pybind11::kwargs& named);
 
 /// Frees the devices that distance() keeps, and those of all Solvers.
 void free_devices();
@@ -25,6 +27,7 @@ class PythonSolver {
   PythonSolver& operator=(const PythonSolver&) = delete;
 
   Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
+  pybind11::object closest(const pybind11::args& positional, const pybind11::kwargs& named);
   void close();
 
  private:

@@ -1,4 +1,4 @@
-// The cells of A that a run's device bounds: the question of a survey and its answer.
+// What a device bounds beside a run: cells of A, the question of a survey, and single points.
 #pragma once
 
 #include <span>
@@ -15,6 +15,13 @@ struct CellBatch {
   std::span<const gpu::Cell> cells;
   uint32_t first = 0;
   std::span<gpu::CellBounds> bounds;  ///< in the frame, of the stored meshes
+};
+
+/// Points in B's frame, and the faces of B that are closest to them: one submission.
+struct PointBatch {
+  std::span<const gpu::Vertex> points;
+  std::span<gpu::ClosestFace> found;  ///< as many
+  bool has_low = false;               ///< B's vertices have low parts
 };
 
 /// A pair whose run has ended, while it still lies on the device.

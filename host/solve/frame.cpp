@@ -234,6 +234,21 @@ void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, fl
   });
 }
 
+StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {
+  const Scale scale(frame.exponent);
+  StoredPoint stored;
+  double sum = 0;  // no less than the Euclidean norm, as in store_range
+  for (int i = 0; i < 3; ++i) {
+    bool has_low = false;
+    sum += displaced(point[i], frame.centre[i], scale, has_low);
+    const Halves halves = halves_of(scale(point[i] - frame.centre[i]));
+    stored.high[i] = halves.high;
+    stored.low[i] = halves.low;
+  }
+  stored.displacement = sum * (1 + 0x1p-50);
+  return stored;
+}
+
 FramedPair frame_pair(const Mesh& a, const Mesh& b) {
   const Box joint = join(bounding_box(a), bounding_box(b));
   if (may_keep_origin(joint)) {

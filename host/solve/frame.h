@@ -2,6 +2,7 @@
 // storing coordinates in it causes.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 
 #include "host/mesh/mesh.h"
@@ -56,6 +57,13 @@ struct StoragePlan {
 StoragePlan store_in(const Frame& frame, const Mesh& mesh);
 /// Writes three floats per vertex and reads none of them. Writes `low` only if has_low.
 void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low);
+
+/// One point, stored as a mesh's vertices are.
+struct StoredPoint {
+  std::array<float, 3> high{}, low{};
+  double displacement = 0;  ///< in frame units, rounded up
+};
+StoredPoint store_point(const Frame& frame, const glm::dvec3& point);
 
 struct FramedPair {
   Frame frame;

@@ -106,6 +106,13 @@ VkhHierarchy HierarchyMemory::view() const {
   return hierarchy;
 }
 
+VkhHierarchy ResidentMesh::view() const {
+  VkhHierarchy hierarchy = memory.view();
+  hierarchy.faceCount = face_count;
+  hierarchy.vertexCount = vertex_count;
+  return hierarchy;
+}
+
 bool fits_bindings(VkhContext context, const RunInput& in) {
   return (in.a.mesh == nullptr || takes_as_a(context, counts_of(*in.a.mesh))) &&
          (in.b.mesh == nullptr || takes_as_b(context, counts_of(*in.b.mesh)));
@@ -156,9 +163,7 @@ void PairBuffers::write_meshes(const MeshData& a, const MeshData& b) {
 void PairBuffers::place_b(const VkhHierarchyRequirements& needed, const RunInput& in,
                           MemoryPolicy policy) {
   if (in.resident != nullptr) {
-    problem_.b = in.resident->memory.view();
-    problem_.b.faceCount = in.resident->face_count;
-    problem_.b.vertexCount = in.resident->vertex_count;
+    problem_.b = in.resident->view();
     return;
   }
   hierarchy_.grow(device_, needed, policy);
@@ -355,6 +360,23 @@ VkhCells PairBuffers::take_cells(const CellBatch& batch) {
 
 void PairBuffers::read_bounds(const CellBatch& batch) const {
   std::memcpy(batch.bounds.data(), bounds_.mapped(), batch.bounds.size_bytes());
+}
+
+VkhClosestQuery PairBuffers::take_points(const PointBatch& batch) {
+  const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  grow(bounds_, device_, roomy(batch.found.size_bytes()), usage, Placement::kReadback);
+  grow(cells_, device_, roomy(batch.points.size_bytes()), usage, Placement::kUpload);
+  std::memcpy(cells_.mapped(), batch.points.data(), batch.points.size_bytes());
+  return {.pointBuffer = cells_.handle(),
+          .pointOffset = 0,
+          .count = static_cast<uint32_t>(batch.points.size()),
+          .twoFloat = batch.has_low ? VK_TRUE : VK_FALSE,
+          .closestBuffer = bounds_.handle(),
+          .closestOffset = 0};
+}
+
+void PairBuffers::read_closest(const PointBatch& batch) const {
+  std::memcpy(batch.found.data(), bounds_.mapped(), batch.found.size_bytes());
 }
 
 }  // namespace vkh

@@ -48,6 +48,7 @@ class HierarchyMemory {
 struct ResidentMesh {
   HierarchyMemory memory;
   uint32_t vertex_count = 0, face_count = 0;
+  VkhHierarchy view() const;  ///< with the counts
 };
 
 struct RunInput {
@@ -123,6 +124,9 @@ class PairBuffers {
   /// the cells' bounds.
   VkhCells take_cells(const CellBatch& batch);
   void read_bounds(const CellBatch& batch) const;
+  /// The same for points and their closest faces.
+  VkhClosestQuery take_points(const PointBatch& batch);
+  void read_closest(const PointBatch& batch) const;
   /// Reads the results of the last submission.
   void read(RunOutput& output) const;
 
@@ -143,7 +147,7 @@ class PairBuffers {
   const Device& device_;
   HierarchyMemory hierarchy_;
   Buffer staging_, meshes_, workspace_, report_, readback_, areas_, areas_readback_;
-  Buffer cells_, bounds_;  // for a survey
+  Buffer cells_, bounds_;  // for a survey, and for points and their closest faces
   Buffer building_;        // scratch, unless it is the workspace
   // A run that paused goes on in `larger_`, if there was memory for it. If it pauses again and gets
   // more, `left_` is the `larger_` that it leaves, kept until that has been copied.

@@ -276,6 +276,21 @@ void Runner::bound_cells(PairBuffers& buffers, const CellBatch& batch) {
   buffers.read_bounds(batch);
 }
 
+void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch) {
+  const SerialGuard::Hold hold(guard_);
+  std::array<RunInput, 1> alone;
+  alone[0].b.mesh = &mesh;
+  context_ = context_for(default_switches(device_) | VKH_SWITCH_CLOSEST, alone);
+  VkhClosestQuery query{};
+  buffers(1, [&](MemoryPolicy) { query = buffers_[0]->take_points(batch); });
+  const VkhHierarchy hierarchy = b.view();
+  const VkCommandBuffer commands = begin();
+  vkhCmdFindClosest(context_, commands, &hierarchy, &query, nullptr);
+  full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+  submit_and_wait(commands);
+  buffers_[0]->read_closest(batch);
+}
+
 std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   std::vector<RunOutput> outputs(inputs.size());
   if (inputs.empty()) return outputs;

@@ -25,6 +25,8 @@ class Runner {
   /// switches, `multiwave` and `stage_times`. Several runs have one stage, "solve", for all of them
   /// and their BVHs.
   std::vector<RunOutput> run(std::span<const RunInput> inputs);
+  /// Finds the faces of B that are closest to points; `mesh` is B.
+  void find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch);
 
  private:
   struct Submission;

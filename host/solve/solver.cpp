@@ -11,6 +11,7 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
+#include "host/solve/closest_search.h"
 #include "host/solve/coverage.h"
 #include "host/solve/frame.h"
 #include "host/solve/pair.h"
@@ -175,6 +176,11 @@ SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
     return ours.outside([&] { return listen(progress); });
   };
   return options;
+}
+
+ClosestGoesOn heard_outside(const ClosestGoesOn& goes_on, FloatEnvironment& ours) {
+  if (!goes_on) return {};
+  return [&ours, goes_on](size_t done) { return ours.outside([&] { return goes_on(done); }); };
 }
 
 }  // namespace
@@ -348,6 +354,34 @@ PreparedMesh Solver::prepare(Mesh b) {
   kept->has_low = framed.stored.has_low;
   kept->resident = impl_->runner.build({&kept->mesh, &framed.stored});
   return PreparedMesh(std::move(kept));
+}
+
+ClosestPoints Solver::closest(const PreparedMesh& b, std::span<const DVec3> points,
+                              const ClosestGoesOn& goes_on) {
+  FloatEnvironment ours;
+  const PreparedMesh::Impl& kept = *b.impl_;
+  return find_closest_points(impl_->runner,
+                             {.mesh = kept.mesh,
+                              .frame = kept.frame,
+                              .displacement = kept.displacement,
+                              .has_low = kept.has_low,
+                              .resident = kept.resident},
+                             {points, heard_outside(goes_on, ours)});
+}
+
+ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
+                              const ClosestGoesOn& goes_on) {
+  FloatEnvironment ours;
+  check_mesh(b);
+  const FramedMesh framed = frame_mesh(b);
+  const ResidentMesh resident = impl_->runner.build({&b, &framed.stored});
+  return find_closest_points(impl_->runner,
+                             {.mesh = b,
+                              .frame = framed.frame,
+                              .displacement = framed.stored.displacement,
+                              .has_low = framed.stored.has_low,
+                              .resident = resident},
+                             {points, heard_outside(goes_on, ours)});
 }
 
 // B's frame is B's alone, so that the answer does not depend on the A's before. B fills it; an A

@@ -8,6 +8,7 @@
 
 #include "host/gpu/device.h"
 #include "host/mesh/mesh.h"
+#include "host/solve/closest_points.h"
 #include "host/solve/report.h"
 #include "host/solve/solve_options.h"
 
@@ -80,6 +81,16 @@ class Solver {
   PreparedMesh prepare(Mesh b);
   /// Encloses h(a, b). The answer depends on a and b alone, not on the A's before.
   Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
+
+  /// Finds the point of B closest to each of `points`, which are in B's coordinates, and encloses
+  /// its distance. The points go to the device in batches of about 0.1 s, `goes_on` is asked
+  /// between these, and Interrupted is thrown where it says no. Throws InputError that names the
+  /// row if a point is not finite. A point's answer depends on b and the point alone. Where a point
+  /// is farther from B than 2^14 times B's size, B is built once more in a frame for such points.
+  ClosestPoints closest(const PreparedMesh& b, std::span<const DVec3> points,
+                        const ClosestGoesOn& goes_on = {});
+  ClosestPoints closest(const Mesh& b, std::span<const DVec3> points,
+                        const ClosestGoesOn& goes_on = {});
 
   /// Encloses max(h(a, b), h(b, a)). The reverse direction has the forward direction's tolerance
   /// and what is left of the time, half of it at least, and is pruned by the forward direction's

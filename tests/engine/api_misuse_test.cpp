@@ -122,6 +122,13 @@ TEST_CASE("a rule that is broken is named") {
   });
   CHECK(cells.signal == SIGABRT);
   CHECK(cells.said.find("vkhCmdBoundCells: a context of VKH_SWITCH_FIELD") != std::string::npos);
+  const Ended closest = ended([&] {
+    const VkhClosestQuery asked{pair.report_buffer(), 0, 1, VK_FALSE, pair.report_buffer(), 0};
+    vkhCmdFindClosest(pair.context(), VK_NULL_HANDLE, &pair.problem().b, &asked, nullptr);
+  });
+  CHECK(closest.signal == SIGABRT);
+  CHECK(closest.said.find("vkhCmdFindClosest: a context of VKH_SWITCH_CLOSEST") !=
+        std::string::npos);
   const Ended report = ended([&] {
     vkhCmdWriteReport(pair.context(), VK_NULL_HANDLE, &pair.problem(), pair.report_buffer(), 4,
                       nullptr);

@@ -46,7 +46,11 @@ vkh.distance(mesh, (v, f), tol=1e-3, field=True)
 vkh.Solver(mesh, device="cpu").distance(mesh)
 area: bool = vkh.gate((v, f), (v, f), 0.1, area="99%", survey_time=None).survey_met is True
 vkh.distance(v, f, v, f, certificate=pathlib.Path("out.vhc"))
+distances, points, rows = vkh.closest((v, f), v, device="cpu")
+with vkh.Solver(mesh) as solver:
+    low: float = float(solver.closest([[0, 0, 1]]).lower[0])
 vkh.distance(v, f, v, f, field=[1])  # wrong
+vkh.closest((v, f))  # wrong
 vkh.gate((v, f), (v, f), 0.1, certificate=1)  # wrong
 vkh.gate(v, 1, 0.1)  # wrong
 vkh.distance(v, f, v)  # wrong
@@ -79,7 +83,7 @@ def is_property(node: ast.AST) -> bool:
 
 
 # The names that every class of pybind11 has.
-COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__", "__contains__", "__len__"}
+COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__", "__contains__", "__len__", "__iter__"}
 
 
 class Types(unittest.TestCase):
@@ -88,7 +92,7 @@ class Types(unittest.TestCase):
         core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
         said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
         self.assertEqual(said, public)
-        in_python = {"Field", "Interval", "Survey", "assert_within", "distances"}
+        in_python = {"Closest", "Field", "Interval", "Survey", "assert_within", "distances"}
         self.assertEqual(core | in_python, public, "the package does not pass on what the module has")
         self.assertEqual(set(vkh.__all__), public | {"__version__"})
 
@@ -118,7 +122,7 @@ class Types(unittest.TestCase):
         """The signatures are texts: the parser's own list is in what it says to a stranger."""
         with vkh.Solver(*SQUARE) as solver:
             for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance),
-                                   (vkh.read, vkh.read)):
+                                   (vkh.closest, vkh.closest), (solver.closest, solver.closest), (vkh.read, vkh.read)):
                 with self.assertRaises(TypeError) as refused:
                     function(stranger=1)
                 taken = re.search(r"it takes (.*)$", str(refused.exception))[1].split(", ")

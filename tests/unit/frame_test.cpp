@@ -73,6 +73,16 @@ struct Written {
   }
 };
 
+/// A single point is stored as a vertex at its place is, with its own displacement.
+void check_point(const Frame& frame, const glm::dvec3& given, double most, Tally& tally) {
+  const StoredPoint point = store_point(frame, given);
+  const Rational squared = squared_displacement(frame, given, point.high.data(), point.low.data());
+  const auto describe = [&] { return hex(given) + " displacement " + hex(point.displacement); };
+  tally.require(is_upper_bound(point.displacement, squared), "a point's displacement", describe);
+  tally.require(point.displacement <= most, "a point's displacement is not above the mesh's",
+                describe);
+}
+
 void check_stored(const Frame& frame, const Mesh& mesh, const StoragePlan& stored_mesh,
                   Tally& tally) {
   const double displacement = stored_mesh.displacement;
@@ -88,6 +98,7 @@ void check_stored(const Frame& frame, const Mesh& mesh, const StoragePlan& store
     };
     tally.require(is_upper_bound(displacement, squared), "displaced by at most the displacement",
                   describe);
+    check_point(frame, mesh.vertices[v], displacement, tally);
     exact = exact && squared == 0;
     float largest = 0;
     for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(high[i]) + std::abs(low[i]));

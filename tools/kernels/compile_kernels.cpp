@@ -38,7 +38,8 @@ constexpr std::array kKernels{
 };
 
 // The switches that bring in the kernels that others leave out; VKH_SWITCH_NONE: the rest is off.
-constexpr uint32_t kRest = VKH_SWITCH_COVERAGE | VKH_SWITCH_FIELD | VKH_SWITCH_SUBROOTS;
+constexpr uint32_t kRest =
+    VKH_SWITCH_COVERAGE | VKH_SWITCH_FIELD | VKH_SWITCH_SUBROOTS | VKH_SWITCH_CLOSEST;
 constexpr uint32_t kPaper = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4 | VKH_SWITCH_SORT |
                             VKH_SWITCH_PACKET | VKH_SWITCH_THIN | VKH_SWITCH_DEFER;
 constexpr std::array kSwitchSets{uint32_t{VKH_SWITCH_DEFAULT_WIDE}, VKH_SWITCH_DEFAULT_WIDE | kRest,

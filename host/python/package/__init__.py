@@ -1,13 +1,14 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
 from vkhausdorff import _core
-from vkhausdorff._core import DeviceError, Mesh, Result, Solver, __version__, devices, distance, read
+from vkhausdorff._closest import Closest
+from vkhausdorff._core import DeviceError, Mesh, Result, Solver, __version__, closest, devices, distance, read
 from vkhausdorff._many import distances
 from vkhausdorff._result import Witness
 from vkhausdorff._survey import Field, Interval, Survey
 
-__all__ = ["DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__", "assert_within",
-           "devices", "distance", "distances", "gate", "read"]
+__all__ = ["Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__",
+           "assert_within", "closest", "devices", "distance", "distances", "gate", "read"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__", "assert_within", "devices",
-    "distance", "distances", "gate", "read",
+    "Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__",
+    "assert_within", "closest", "devices", "distance", "distances", "gate", "read",
 ]
 __version__: str
 
@@ -54,6 +54,16 @@ class Field:
     upper: npt.NDArray[np.float64]
     def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike) -> None: ...
     def __len__(self) -> int: ...
+
+class Closest:
+    """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper]."""
+
+    lower: npt.NDArray[np.float64]
+    upper: npt.NDArray[np.float64]
+    points: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.uint32]
+    def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, points: npt.ArrayLike, faces: npt.ArrayLike) -> None: ...
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]: ...
 
 class Survey:
     """The known bounds of the distances of all of a mesh from the other one."""
@@ -213,6 +223,7 @@ class Solver:
         survey_time: _Number | None = 10.0,
         certificate: _Path | None = None,
     ) -> Result: ...
+    def closest(self, points: npt.ArrayLike) -> Closest: ...
     def close(self) -> None: ...
     def __enter__(self) -> Solver: ...
     def __exit__(
@@ -264,6 +275,7 @@ def distance(
     survey_time: _Number | None = 10.0,
     certificate: _Path | None = None,
 ) -> Result: ...
+def closest(b: _Mesh, points: npt.ArrayLike, *, device: str = "") -> Closest: ...
 class _Results(Iterator[Result]):
     def __next__(self) -> Result: ...
     def close(self) -> None: ...

@@ -1,0 +1,38 @@
+"""The result of closest(), as Python shows it. vkhausdorff._core makes it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Closest:
+    """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper].
+
+    lower, upper: float64 arrays of shape (n,), in the coordinates' unit, rounded outward. points: (n, 3), float64, each a
+    point of the mesh but for rounding to float64, whose distance lies in [lower, upper], too. faces: (n,), uint32, the rows
+    of the mesh's faces that they lie on. All are read-only. It unpacks as distances, points, faces; distances are upper.
+    """
+
+    lower: Any
+    upper: Any
+    points: Any
+    faces: Any
+
+    def __init__(self, lower, upper, points, faces):
+        of_kind = (("lower", lower, np.float64), ("upper", upper, np.float64), ("points", points, np.float64),
+                   ("faces", faces, np.uint32))
+        for name, values, kind in of_kind:
+            own = np.array(values, dtype=kind)
+            own.setflags(write=False)
+            object.__setattr__(self, name, own)
+
+    def __reduce__(self):  # unpickled arrays could be written to
+        return Closest, (self.lower, self.upper, self.points, self.faces)
+
+    def __iter__(self):
+        return iter((self.upper, self.points, self.faces))
+
+    def __repr__(self):
+        return f"<vkhausdorff.Closest of {len(self.lower)} points>"

@@ -1,0 +1,30 @@
+// The search for closest points of a mesh that lies on a device.
+#pragma once
+
+#include <span>
+
+#include "host/solve/closest_points.h"
+#include "host/solve/frame.h"
+#include "host/solve/run.h"
+
+namespace vkh {
+
+/// B in its own frame, on the device.
+struct FramedB {
+  const Mesh& mesh;
+  Frame frame;
+  double displacement;  ///< by storing it, in the frame, rounded up
+  bool has_low;         ///< its vertices have low parts
+  const ResidentMesh& resident;
+};
+
+struct ClosestQuestion {
+  std::span<const DVec3> points;
+  ClosestGoesOn goes_on;
+};
+
+/// Throws as Solver::closest does.
+ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
+                                  const ClosestQuestion& question);
+
+}  // namespace vkh

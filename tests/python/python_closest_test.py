@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Closest points in the Python module, against exact fractions and brute force."""
+import copy
+import os
+import pathlib
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+from fractions import Fraction
+
+import numpy as np
+import vkhausdorff as vkh
+
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
+CUBE_FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+                       [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+
+
+def cube_distance2(p):
+    """The exact square of a point's distance from the cube's surface."""
+    p = [Fraction(float(x)) for x in p]
+    if all(0 <= x <= 1 for x in p):
+        return min(min(x, 1 - x) for x in p) ** 2
+    return sum(max(-x, x - 1, 0) ** 2 for x in p)
+
+
+def squared(x):
+    return Fraction(float(x)) ** 2
+
+
+class ClosestPoints(unittest.TestCase):
+    def test_a_cube_in_exact_fractions(self):
+        points = np.random.default_rng(1).uniform(-2, 3, (2000, 3))
+        r = vkh.closest((CUBE, CUBE_FACES), points)
+        self.assertEqual((r.lower.dtype, r.upper.shape, r.points.shape, r.faces.shape),
+                         (np.float64, (2000,), (2000, 3), (2000,)))
+        for i, p in enumerate(points):
+            self.assertTrue(squared(r.lower[i]) <= cube_distance2(p) <= squared(r.upper[i]), p)
+            to_point = sum((Fraction(a) - Fraction(b)) ** 2 for a, b in zip(p.tolist(), r.points[i].tolist()))
+            self.assertTrue(squared(r.lower[i]) <= to_point <= squared(r.upper[i]), p)
+            self.assertLess(cube_distance2(r.points[i]), Fraction(2) ** -90)
+        self.assertLess((r.upper - r.lower).max(), 1e-10)
+
+    def test_a_point_lies_on_its_face(self):
+        points = np.random.default_rng(2).uniform(-2, 3, (500, 3))
+        r = vkh.closest((CUBE, CUBE_FACES), points)
+        corners = CUBE[CUBE_FACES[r.faces]]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        self.assertLess(np.abs(((r.points - corners[:, 0]) * normal).sum(1)).max(), 1e-14)
+        low, high = corners.min(1), corners.max(1)
+        self.assertTrue(((low - 1e-14 <= r.points) & (r.points <= high + 1e-14)).all())
+
+    def test_it_unpacks_copies_and_pickles(self):
+        r = vkh.closest((CUBE, CUBE_FACES), [[2, 0.5, 0.5], [0.5, 0.25, 0.5]])
+        distances, points, faces = r
+        self.assertIs(distances, r.upper)
+        self.assertIs(points, r.points)
+        self.assertIs(faces, r.faces)
+        np.testing.assert_allclose(distances, [1, 0.25], rtol=1e-12)
+        np.testing.assert_allclose(points, [[1, 0.5, 0.5], [0.5, 0, 0.5]], atol=1e-15)
+        for other in (copy.copy(r), copy.deepcopy(r), pickle.loads(pickle.dumps(r))):
+            for mine, theirs in zip((r.lower, *r), (other.lower, *other)):
+                np.testing.assert_array_equal(mine, theirs)
+                self.assertFalse(theirs.flags.writeable)
+        self.assertEqual(repr(r), "<vkhausdorff.Closest of 2 points>")
+
+    def test_a_solver_gives_the_same_bits(self):
+        points = np.random.default_rng(3).uniform(-2, 3, (300, 3))
+        r = vkh.closest((CUBE, CUBE_FACES), points)
+        with vkh.Solver(CUBE, CUBE_FACES) as solver:
+            for part in (points, points[:7].astype(object).astype(float)):
+                again = solver.closest(part)
+                np.testing.assert_array_equal(again.upper, r.upper[:len(part)])
+                np.testing.assert_array_equal(again.lower, r.lower[:len(part)])
+        with self.assertRaisesRegex(ValueError, "closed"):
+            solver.closest(points)
+
+    def test_every_kind_of_points(self):
+        rows = [[2, 0, 0], [0, -3, 1]]
+        expected = vkh.closest((CUBE, CUBE_FACES), rows)
+        np.testing.assert_allclose(expected.upper, [1, 3], rtol=1e-14)
+        for kind in (np.float32, np.int16, np.int64, ">f8"):
+            given = np.asfortranarray(np.array(rows, dtype=kind))
+            np.testing.assert_array_equal(vkh.closest((CUBE, CUBE_FACES), given).upper, expected.upper)
+        none = vkh.closest((CUBE, CUBE_FACES), np.empty((0, 3)))
+        self.assertEqual((none.upper.shape, none.points.shape), ((0,), (0, 3)))
+
+    def test_wrong_points_are_named(self):
+        for points, wrong in (([[0, 0]], r"points: an array of shape \(1, 2\)"), (["a"], "points: "),
+                              ([[0, 0, 0], [0, np.nan, 0]], "points: row 1: .* not finite"),
+                              ([[2**53 + 2, 0, 0]], "points: row 0 has 9007199254740994")):
+            with self.assertRaisesRegex(ValueError, wrong):
+                vkh.closest((CUBE, CUBE_FACES), points)
+        with self.assertRaises(TypeError):
+            vkh.closest((CUBE, CUBE_FACES))
+        with self.assertRaises(TypeError):
+            vkh.closest((CUBE, CUBE_FACES), [[0, 0, 0]], "")
+
+    def test_the_guides_example(self):
+        example = pathlib.Path(__file__).parent.parent / "package" / "closest_example.py"
+        done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, timeout=120)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("[0.5 1. ]", done.stdout)
+
+    def test_ctrl_c_ends_a_search(self):
+        points = np.random.default_rng(4).uniform(-2, 3, (2_000_000, 3))
+        started = time.monotonic()
+        killer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        killer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            while time.monotonic() - started < 60:
+                vkh.closest((CUBE, CUBE_FACES), points)
+        killer.join()
+        np.testing.assert_array_equal(vkh.closest((CUBE, CUBE_FACES), [[2, 0, 0]]).faces.shape, (1,))
+
+
+if __name__ == "__main__":
+    unittest.main()
