@@ -11,7 +11,6 @@
 namespace vkh {
 namespace {
 
-constexpr double kSeconds = 10;       // unless --time gives more, or less
 constexpr double kPartOfTime = 0.85;  // adding up and the outputs need the rest
 
 Limit resolved(const Length& length, const char* option, const Answer& answer) {
@@ -42,9 +41,9 @@ SurveyOptions options_of(const SurveyJob& job, const Answer& answer, size_t left
   if (!wish.statistics) options.percentiles.clear();
   if (!wish.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
   const double time = job.left_s();
-  options.time_limit_s = std::isfinite(time)
-                             ? kPartOfTime * std::max(time, 0.0) / static_cast<double>(left)
-                             : kSeconds;
+  if (std::isfinite(time))
+    options.time_limit_s = kPartOfTime * std::max(time, 0.0) / static_cast<double>(left);
+  if (wish.effort) options.effort = *wish.effort;
   options.goes_on = [&job](size_t cells) {
     job.show(cells);
     return job.goes_on();
@@ -102,10 +101,14 @@ void survey_all(const SurveyJob& job, Solver& solver, const SolveOptions& option
     SurveyResult result;
     try {
       result = survey_one(job, side, asked, solver, options);
+      if (result.ended == SurveyEnd::kCancelled && job.left_s() <= 0)
+        result.ended = SurveyEnd::kTime;
     } catch (const std::bad_alloc&) {
+      result.ended = SurveyEnd::kMemory;
       answer.notes.push_back(
           note_of(NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name));
     } catch (const MemoryError&) {
+      result.ended = SurveyEnd::kMemory;
       answer.notes.push_back(note_of(
           NoteCode::kSurvey, std::string("the device had no memory to survey ") + side.name));
     }

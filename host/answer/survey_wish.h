@@ -16,8 +16,9 @@ struct SurveyWish {
   std::optional<Length> face_tolerance;
   bool statistics = false;
   std::vector<Length> bands;
-  std::optional<double> area;  ///< gate: the share of A's area that is to be within the limit
-  std::string area_requested;  ///< the share as the user typed it
+  std::optional<double> area;      ///< gate: the share of A's area that is to be within the limit
+  std::string area_requested;      ///< the share as the user typed it
+  std::optional<uint64_t> effort;  ///< SurveyOptions::effort
 
   bool is_any() const { return faces || statistics || area; }
 };

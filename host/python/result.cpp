@@ -190,8 +190,8 @@ void define_surveys(py::class_<Answer>& result) {
           "A number, in the coordinates' unit: narrow at one of bands, true at any. Or a string\n"
           "that was one of bands. ValueError without statistics or bands.")
       .def_property_readonly("survey_met", of_result(survey_met),
-                             "whether all became as narrow as was asked, before survey_time "
-                             "ended;\nNone if nothing was")
+                             "whether all became as narrow as was asked; otherwise "
+                             "survey.ended\ntells why not. None if nothing was")
       .def_property_readonly("survey", of_result([](const Answer& r) { return r.survey; }),
                              "the Survey of A, which has all of these; None if nothing was asked")
       .def_property_readonly("survey_back",

@@ -147,13 +147,13 @@ Answer solve_by_face(const Given& given, const std::vector<Limit>& limits) {
 }  // namespace
 
 Answer distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distance",
-                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
-                     "memory", "disable", "progress", "enable", "preset", "field", "statistics",
-                     "bands", "survey_time", "certificate"},
-                    4,
-                    6};
+  static const auto* signature = new Signature{
+      "distance",
+      {"va",    "fa",         "vb",     "fb",      "tol",         "symmetric",  "device",
+       "time",  "waves",      "memory", "disable", "progress",    "enable",     "preset",
+       "field", "statistics", "bands",  "effort",  "survey_time", "certificate"},
+      4,
+      6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments given(*signature, all, named);
@@ -163,13 +163,13 @@ Answer distance(const py::args& positional, const py::kwargs& named) {
 }
 
 Answer gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"gate",
-                    {"a", "b", "max", "tol", "symmetric", "device", "time", "waves", "memory",
-                     "disable", "progress", "enable", "preset", "field", "statistics", "bands",
-                     "area", "survey_time", "certificate"},
-                    3,
-                    3};
+  static const auto* signature = new Signature{
+      "gate",
+      {"a",          "b",      "max",     "tol",      "symmetric",   "device",     "time",
+       "waves",      "memory", "disable", "progress", "enable",      "preset",     "field",
+       "statistics", "bands",  "area",    "effort",   "survey_time", "certificate"},
+      3,
+      3};
   constexpr double kTolerance = 1e-7;
   const Call call;
   const Arguments arguments(*signature, positional, named);
@@ -201,12 +201,12 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
 }
 
 Answer PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"Solver.distance",
-                    {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable",
-                     "preset", "field", "statistics", "bands", "survey_time", "certificate"},
-                    2,
-                    3};
+  static const auto* signature = new Signature{
+      "Solver.distance",
+      {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable", "preset",
+       "field", "statistics", "bands", "effort", "survey_time", "certificate"},
+      2,
+      3};
   const Call call;
   const std::shared_ptr<Session> session = session_;
   if (session == nullptr) throw py::value_error("this Solver is closed");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host/base/error.h"
 #include "host/python/session.h"
@@ -102,18 +101,18 @@ Length length_from(const char* name, const char* expected, py::handle given, Pla
 
 SurveyAsked read_survey(const Arguments& given, const Mesh& a) {
   constexpr const char* kTime = "a number of seconds, 0 or more, or None";
+  constexpr const char* kEffort = "a whole number of cells, 0 or more, or None";
   const FloatEnvironment ours;
   const double diagonal_a = diagonal(bounding_box(a));
   SurveyAsked asked;
   read_field(given, diagonal_a, asked.options);
   read_bands(given, diagonal_a, asked);
   asked.options.statistics = given.flag("statistics") || !asked.bands.empty();
-  if (const py::object* time = given.find("survey_time")) {
-    const double seconds =
-        given.number("survey_time", kTime).value_or(std::numeric_limits<double>::infinity());
-    if (seconds < 0) refuse_value("survey_time", kTime, *time);
-    asked.options.time_limit_s = seconds;
+  if (const std::optional<double> seconds = given.number("survey_time", kTime)) {
+    if (*seconds < 0) refuse_value("survey_time", kTime, given.at("survey_time"));
+    asked.options.time_limit_s = *seconds;
   }
+  asked.options.effort = given.whole("effort", kEffort);
   asked.is_any = asked.options.faces || asked.options.statistics;
   return asked;
 }
@@ -221,9 +220,9 @@ py::object object_of(const SurveyAsked& asked, const Surveyed& found) {
     field = py::make_tuple(array_of(survey.field.lower), array_of(survey.field.upper));
   if (survey.statistics) statistics = statistics_of(asked, *survey.statistics);
   const py::dict stats("cells"_a = survey.cells, "bounded"_a = survey.bounded,
-                       "wall_ms"_a = survey.ms);
+                       "effort"_a = survey.effort, "wall_ms"_a = survey.ms);
   return py::module_::import("vkhausdorff._survey")
-      .attr("made")(field, statistics, found.upper, survey.is_met, stats);
+      .attr("made")(field, statistics, found.upper, survey_end_name(survey.ended), stats);
 }
 
 // The limit's band is the last. Its share from below is for the limit rounded down, its share from

@@ -35,8 +35,8 @@ struct SurveyAsked {
   std::optional<double> area;
 };
 
-/// Reads the keywords field, statistics, bands and survey_time, in terms of A's own diagonal, as
-/// `tol` is.
+/// Reads the keywords field, statistics, bands, effort and survey_time, in terms of A's own
+/// diagonal, as `tol` is.
 SurveyAsked read_survey(const Arguments& given, const Mesh& a);
 /// Reads those of gate(), whose limit is `max`: it is a band, too, of the text it was given as.
 void read_area(const Arguments& given, const Limit& limit, SurveyAsked& asked);

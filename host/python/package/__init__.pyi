@@ -67,6 +67,7 @@ class Survey:
     bands: dict[float | str, Interval] | None
     curve: list[tuple[float, Interval]] | None
     met: bool
+    ended: Literal["met", "effort", "bits", "time", "cancelled", "memory"]
     stats: dict[str, Any]
     def area_within(self, distance: _Number | str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -163,7 +164,8 @@ class Solver:
         field: bool | _Number | str = False,
         statistics: bool = False,
         bands: _Bands = (),
-        survey_time: _Number | None = 10.0,
+        effort: SupportsIndex | None = None,
+        survey_time: _Number | None = None,
     ) -> Result: ...
     @overload
     def distance(
@@ -182,7 +184,8 @@ class Solver:
         field: bool | _Number | str = False,
         statistics: bool = False,
         bands: _Bands = (),
-        survey_time: _Number | None = 10.0,
+        effort: SupportsIndex | None = None,
+        survey_time: _Number | None = None,
         certificate: _Path | None = None,
     ) -> Result: ...
     def close(self) -> None: ...
@@ -211,7 +214,8 @@ def distance(
     field: bool | _Number | str = False,
     statistics: bool = False,
     bands: _Bands = (),
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
 ) -> Result: ...
 @overload
 def distance(
@@ -233,7 +237,8 @@ def distance(
     field: bool | _Number | str = False,
     statistics: bool = False,
     bands: _Bands = (),
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
     certificate: _Path | None = None,
 ) -> Result: ...
 class _Results(Iterator[Result]):
@@ -285,7 +290,8 @@ def gate(
     statistics: bool = False,
     bands: _Bands = (),
     area: _Number | str | None = None,
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
     certificate: _Path | None = None,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
