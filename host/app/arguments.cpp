@@ -202,6 +202,10 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
   line.job.survey.faces = line.job.survey.faces || line.outputs.pictures.of_cells();
   line.job.survey.statistics =
       line.job.survey.statistics || line.outputs.pictures.report.has_value();
+  if (line.job.survey.effort && !line.job.survey.is_any())
+    throw UsageError(
+        "--effort: is of figures and faces' bounds: ask for --stats, --bands, --area, --field-tol, "
+        "--field, --image or --report");
   return line;
 }
 

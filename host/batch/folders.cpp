@@ -56,7 +56,8 @@ BatchFolders::BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& 
 }
 
 std::string BatchFolders::key_of(const RecordName& name) const {
-  return name.key + "\n" + text_of(asked_.look);
+  const std::string effort = asked_.effort ? "\neffort " + std::to_string(*asked_.effort) : "";
+  return name.key + "\n" + text_of(asked_.look) + effort;
 }
 
 bool BatchFolders::has(const RecordName& name, bool symmetric) const {
@@ -86,6 +87,7 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   SurveyWish wish;
   wish.faces = true;
   wish.statistics = reports_.has_value();
+  wish.effort = asked_.effort;
   survey_all({.wish = wish,
               .a = *pair.meshes.a,
               .b = *pair.meshes.b,
