@@ -103,7 +103,7 @@ TEST_CASE("a sphere's facets under the sphere") {
   const Mesh a = icosphere(1.0, 1), b = icosphere(1.0, 6);
   SurveyOptions options = all_of_it();
   options.mean_tolerance = 0.01;
-  options.effort = 150000;
+  options.effort = 400000;
   const SurveyResult r = surveyed(a, b, options);
   REQUIRE(r.statistics);
   const double truth = mean_from_sphere(a);
