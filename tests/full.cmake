@@ -16,7 +16,7 @@ if(NOT VKH_SANITIZE)
   # Each takes over ten seconds, and checks the same as others do with more cases, on another device or driver, or in
   # processes that are ended. The faults, the proofs and the spoilt certificates guard what seldom changes.
   vkh_label(full compile_amd fallbacks barriers workspace_test api_address_test api_limit_test api_move_test presets_test
-                 long_walk_test face_limits_test see schema embed_shaders two_drivers driver_lavapipe128
+                 long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
                  kernel_query_by_address kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons batch batch_folders
@@ -47,7 +47,7 @@ vkh_label(full ${all})
 # Each took a minute or more in the sanitizer tree: starts of the program by the dozen, whose code is
 # also run by tests of one start, and searches of the same kernels with more cases.
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
-                  vkh_check certificates attack certificate_polygons batch batch_folders see recipes completion python_life
+                  vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate)
 # The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)

@@ -15,7 +15,6 @@
 namespace vkh {
 namespace {
 
-constexpr double kSeconds = 10;       // unless --time gives more, or less
 constexpr double kPartOfTime = 0.85;  // adding up and the outputs need the rest
 
 Limit resolved(const Length& length, const char* option, const Answer& answer) {
@@ -45,7 +44,7 @@ struct Finishing {
 double survey_time(const Finishing& at, size_t left) {
   if (at.question.survey_time_s) return *at.question.survey_time_s;
   const double time = at.observer.time_left_s();
-  if (!std::isfinite(time)) return kSeconds;
+  if (!std::isfinite(time)) return time;
   return kPartOfTime * std::max(time, 0.0) / static_cast<double>(left);
 }
 
@@ -65,6 +64,7 @@ SurveyOptions survey_options(const Finishing& at, size_t left) {
   if (!question.statistics) options.percentiles.clear();
   if (!question.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
   options.time_limit_s = survey_time(at, left);
+  if (question.effort) options.effort = *question.effort;
   options.goes_on = [&observer = at.observer](size_t cells) {
     if (observer.cells) observer.cells(cells);
     return observer.is_to_go_on();
@@ -108,6 +108,7 @@ void note(const Finishing& at, NoteCode code, const std::string& text) {
 
 SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOptions& options) {
   SurveyResult result;
+  result.ended = SurveyEnd::kCancelled;
   if (!at.observer.is_to_go_on()) return result;
   SolveOptions run = at.options;
   run.progress = [&](const Progress&) { return at.observer.is_to_go_on(); };
@@ -115,8 +116,10 @@ SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOption
     at.solver.with_cells({.a = side.from, .b = side.to, .prepared = side.prepared}, run,
                          survey_with(options, result));
   } catch (const std::bad_alloc&) {
+    result.ended = SurveyEnd::kMemory;
     note(at, NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name);
   } catch (const MemoryError&) {
+    result.ended = SurveyEnd::kMemory;
     note(at, NoteCode::kSurvey, std::string("the device had no memory to survey ") + side.name);
   }
   return result;
@@ -126,6 +129,8 @@ SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   SurveyOptions options = survey_options(at, left);
   options.upper = side.report.upper;
   SurveyResult result = survey_of(at, side, options);
+  if (result.ended == SurveyEnd::kCancelled && at.observer.time_left_s() <= 0)
+    result.ended = SurveyEnd::kTime;
   join(side.report, result, side.from.faces.size());
   if (options.statistics && !result.statistics)
     note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);

@@ -94,6 +94,16 @@ uint32_t parse_waves(const std::string& text) {
   return waves;
 }
 
+uint64_t parse_effort(const std::string& text) {
+  constexpr uint64_t kMost = 1'000'000'000'000;
+  uint64_t cells = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, cells);
+  if (result.ec != std::errc() || result.ptr != end || cells > kMost)
+    refuse("--effort", text, "a whole number of cells, 0 or more, such as 1000000");
+  return cells;
+}
+
 double parse_time(const std::string& text) {
   constexpr const char* kExpected =
       "a time above zero such as 10s, 250ms, 2min, 1h or a number of seconds";

@@ -17,6 +17,9 @@ uint64_t parse_memory(const std::string& text);
 /// A whole number from 0 to 2^32 - 1.
 uint32_t parse_waves(const std::string& text);
 
+/// A whole number of cells, from 0 to 10^12.
+uint64_t parse_effort(const std::string& text);
+
 /// Seconds: "10s", "250ms", "2min", "1h", or a plain number of seconds; more than zero.
 double parse_time(const std::string& text);
 

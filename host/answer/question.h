@@ -49,7 +49,8 @@ struct Question {
   std::optional<Length> face_tolerance;  ///< the width of those
   bool statistics = false;
   std::vector<Length> bands;            ///< shares of A's area within these distances
-  std::optional<double> survey_time_s;  ///< the time of each survey, besides that of all
+  std::optional<uint64_t> effort;       ///< SurveyOptions::effort
+  std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
   bool certificate = false;             ///< Answer::proof_a is wanted
   bool verify = false;                  ///< the host checks the answer
 

@@ -61,7 +61,9 @@ Json faces_json(const Field& field, const Answer& answer) {
 }  // namespace
 
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer) {
-  json.add("survey", {{"met", survey.is_met},
+  json.add("survey", {{"met", survey.is_met()},
+                      {"effort", survey.effort},
+                      {"ended", survey_end_name(survey.ended)},
                       {"cells", survey.cells},
                       {"bounded", survey.bounded},
                       {"wall_ms", survey.ms}});

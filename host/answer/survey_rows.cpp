@@ -47,6 +47,26 @@ std::string percentiles_text(const std::vector<Percentile>& percentiles, const s
   return text;
 }
 
+const char* reason_of(SurveyEnd end) {
+  switch (end) {
+    case SurveyEnd::kEffort:
+      return "its effort was used";
+    case SurveyEnd::kTime:
+      return "its time ended";
+    case SurveyEnd::kCancelled:
+      return "it was interrupted";
+    case SurveyEnd::kMemory:
+      return "there was no memory for it";
+    default:
+      return "no split narrows it more";
+  }
+}
+
+std::string end_text(const SurveyResult& survey) {
+  return std::string(": ") + reason_of(survey.ended) +
+         " before all that was asked was met, and all is true as it is";
+}
+
 }  // namespace
 
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey) {
@@ -66,7 +86,7 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
   }
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
-  if (!survey.is_met) work += ": not all that was asked is met, and all is true as it is";
+  if (!survey.is_met()) work += end_text(survey);
   rows.push_back({"survey", work});
   return rows;
 }

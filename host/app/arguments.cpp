@@ -201,6 +201,10 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
                          line.outputs.pictures.report || line.question.certificate;
   line.question.faces = line.question.faces || line.outputs.pictures.of_cells();
   line.question.statistics = line.question.statistics || line.outputs.pictures.report.has_value();
+  if (line.question.effort && !line.question.asks_for_survey())
+    throw UsageError(
+        "--effort: is of figures and faces' bounds: ask for --stats, --bands, --area, --field-tol, "
+        "--field, --image or --report");
   return line;
 }
 

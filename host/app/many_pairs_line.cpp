@@ -74,6 +74,7 @@ void add_batch(CLI::App& command, TypedMany& typed) {
                    "End with the first pair that is beyond its limit or has no answer");
   add_limits(command, typed.of_pairs);
   add_folder_options(command, typed.of_pairs.pictures);
+  add_effort_option(command, typed.of_pairs);
   command.add_option("--device", typed.of_pairs.device,
                      "Devices, between commas, as 'doctor' names them; all: every GPU [the best]");
   command.add_option("--together", typed.together,
@@ -126,6 +127,9 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
       of_pairs.time ? parse_time(*of_pairs.time) : std::numeric_limits<double>::infinity();
   batch.tables = tables_of(typed);
   batch.folders = folders_of(of_pairs.pictures);
+  if (line.job.survey.effort && !batch.folders.any())
+    throw UsageError("--effort: is of what is drawn: ask for --image-dir or --report-dir");
+  batch.folders.effort = line.job.survey.effort;
   return line;
 }
 

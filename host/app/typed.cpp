@@ -45,6 +45,7 @@ void add_survey_of(const Typed& typed, Question& question) {
   question.statistics = typed.statistics || !typed.bands.empty();
   if (!typed.area.empty()) question.area = parse_share("--area", typed.area);
   question.area_requested = typed.area;
+  if (typed.effort) question.effort = parse_effort(*typed.effort);
 }
 
 void check_together(const Typed& typed) {
@@ -196,6 +197,17 @@ void add_survey_options(CLI::App& command, Typed& typed) {
       .add_option("--field-tol", typed.field_tolerance,
                   "Bound the largest distance on each face of A, to so much [1 % of the largest]")
       ->type_name("LENGTH");
+  add_effort_option(command, typed);
+}
+
+void add_effort_option(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--effort", typed.effort,
+                  "Cells to bound at most for figures and faces' bounds, besides each face once; "
+                  "the same number gives the same bits on a device [" +
+                      std::to_string(default_effort(false)) + " on a GPU, " +
+                      std::to_string(default_effort(true)) + " on a CPU]")
+      ->type_name("N");
 }
 
 void add_pair(CLI::App& command, Typed& typed) {

@@ -18,7 +18,7 @@ namespace vkh {
 struct Typed {
   std::string file_a, file_b;
   std::string tolerance, max, face_max_a, face_max_b, unit, device;
-  std::optional<std::string> memory, time, waves, max_input, part, known_lower;
+  std::optional<std::string> memory, time, waves, effort, max_input, part, known_lower;
   std::vector<std::string> enabled, disabled;
   std::string preset, polygons, bodies;
   std::string json, junit, area, field_tolerance;
@@ -42,6 +42,7 @@ void add_time_option(CLI::App& command, Typed& typed);
 void add_engine_options(CLI::App& command, Typed& typed);  ///< memory, waves, switches, cache
 void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and engine options
 void add_survey_options(CLI::App& command, Typed& typed);
+void add_effort_option(CLI::App& command, Typed& typed);
 void add_output_options(CLI::App& command, Typed& typed);
 
 /// Turn the typed options into questions. Throw UsageError.

@@ -13,10 +13,20 @@
 
 namespace vkh {
 
+namespace {
+
+std::atomic<size_t> thread_limit = 0;
+
+}  // namespace
+
 size_t thread_count() {
   constexpr size_t kMostThreads = 64;
-  return std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+  const size_t limit = thread_limit;
+  const size_t cores = std::thread::hardware_concurrency();
+  return std::clamp<size_t>(limit != 0 ? limit : cores, 1, kMostThreads);
 }
+
+void limit_threads(size_t threads) { thread_limit = threads; }
 
 size_t threads_for(uint64_t bytes) {
   constexpr uint64_t kEach = uint64_t{4} << 20;

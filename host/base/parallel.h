@@ -7,8 +7,11 @@
 
 namespace vkh {
 
-/// The number of cores, within reason.
+/// The number of cores, within reason, or what limit_threads() set.
 size_t thread_count();
+/// Sets thread_count() for the whole process, from 1 to 64, for a program that shares its cores; 0:
+/// the number of cores. It may be called at any time: work that has begun keeps its threads.
+void limit_threads(size_t threads);
 
 /// The number of threads worth starting to write so many bytes: starting one costs as much as
 /// writing some of them, and more if all cores are busy.

@@ -56,7 +56,8 @@ BatchFolders::BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& 
 }
 
 std::string BatchFolders::key_of(const RecordName& name) const {
-  return name.key + "\n" + text_of(asked_.look);
+  const std::string effort = asked_.effort ? "\neffort " + std::to_string(*asked_.effort) : "";
+  return name.key + "\n" + text_of(asked_.look) + effort;
 }
 
 bool BatchFolders::has(const RecordName& name, bool symmetric) const {
@@ -86,6 +87,7 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   Question question = entry.question;
   question.faces = true;
   question.statistics = reports_.has_value();
+  question.effort = asked_.effort;
   const Observer observer{.goes_on = pair.goes_on,
                           .left_s = [&] { return question.options.time_limit_s; }};
   finish(question, pair.solver, {*pair.meshes.a, *pair.meshes.b}, observer, answer);

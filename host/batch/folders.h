@@ -17,6 +17,7 @@ namespace vkh {
 struct FoldersAsked {
   std::optional<std::string> images = {}, reports = {};
   PictureStyle look;
+  std::optional<uint64_t> effort = {};  ///< SurveyOptions::effort
   bool any() const { return images || reports; }
 };
 

@@ -82,9 +82,9 @@ py::object survey_of(const Question& question, const Report& report,
     field = py::make_tuple(array_of(found->field.lower), array_of(found->field.upper));
   if (found->statistics) statistics = statistics_of(question, *found->statistics);
   const py::dict stats("cells"_a = found->cells, "bounded"_a = found->bounded,
-                       "wall_ms"_a = found->ms);
+                       "effort"_a = found->effort, "wall_ms"_a = found->ms);
   return py::module_::import("vkhausdorff._survey")
-      .attr("made")(field, statistics, report.upper, found->is_met, stats);
+      .attr("made")(field, statistics, report.upper, survey_end_name(found->ended), stats);
 }
 
 py::dict note_dict(const Note& note) {

@@ -164,17 +164,14 @@ void read_bands(const Arguments& given, Question& question) {
 
 void read_survey(const Arguments& given, Question& question) {
   constexpr const char* kTime = "a number of seconds, 0 or more, or None";
-  constexpr double kSeconds = 10;
+  constexpr const char* kEffort = "a whole number of cells, 0 or more, or None";
   read_field(given, question);
   read_bands(given, question);
   question.statistics = given.flag("statistics") || !question.bands.empty();
-  question.survey_time_s = kSeconds;
-  const py::object* time = given.find("survey_time");
-  if (time == nullptr) return;
-  const double seconds =
+  question.effort = given.whole("effort", kEffort);
+  question.survey_time_s =
       given.number("survey_time", kTime).value_or(std::numeric_limits<double>::infinity());
-  if (seconds < 0) refuse_value("survey_time", kTime, *time);
-  question.survey_time_s = seconds;
+  if (*question.survey_time_s < 0) refuse_value("survey_time", kTime, given.at("survey_time"));
 }
 
 void check_together(const Question& question) {

@@ -171,18 +171,19 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
   const MeshPointer b = mesh_of("b", "B", given.at("b"));
   const std::vector<DVec3> points = points_from(given.at("points"));
   ClosestPoints found;
-  session_for(device).use([&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
+  session_for(device).use(
+      [&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
   return closest_of(found);
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distance",
-                    {"va", "fa", "vb", "fb", "tol", "symmetric", "device", "time", "waves",
-                     "memory", "disable", "progress", "enable", "preset", "field", "statistics",
-                     "bands", "survey_time", "certificate"},
-                    4,
-                    6};
+  static const auto* signature = new Signature{
+      "distance",
+      {"va",    "fa",         "vb",     "fb",      "tol",         "symmetric",  "device",
+       "time",  "waves",      "memory", "disable", "progress",    "enable",     "preset",
+       "field", "statistics", "bands",  "effort",  "survey_time", "certificate"},
+      4,
+      6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments arguments(*signature, all, named);
@@ -192,13 +193,13 @@ Result distance(const py::args& positional, const py::kwargs& named) {
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"gate",
-                    {"a", "b", "max", "tol", "symmetric", "device", "time", "waves", "memory",
-                     "disable", "progress", "enable", "preset", "field", "statistics", "bands",
-                     "area", "survey_time", "certificate"},
-                    3,
-                    3};
+  static const auto* signature = new Signature{
+      "gate",
+      {"a",          "b",      "max",     "tol",      "symmetric",   "device",     "time",
+       "waves",      "memory", "disable", "progress", "enable",      "preset",     "field",
+       "statistics", "bands",  "area",    "effort",   "survey_time", "certificate"},
+      3,
+      3};
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
@@ -221,12 +222,12 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
 }
 
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"Solver.distance",
-                    {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable",
-                     "preset", "field", "statistics", "bands", "survey_time", "certificate"},
-                    2,
-                    3};
+  static const auto* signature = new Signature{
+      "Solver.distance",
+      {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable", "preset",
+       "field", "statistics", "bands", "effort", "survey_time", "certificate"},
+      2,
+      3};
   const Call call;
   const std::shared_ptr<Session> session = session_;  // it may be closed meanwhile
   if (session == nullptr) throw py::value_error("this Solver is closed");
@@ -244,9 +245,8 @@ py::object PythonSolver::closest(const py::args& positional, const py::kwargs& n
   const Arguments given(*signature, positional, named);
   const std::vector<DVec3> points = points_from(given.at("points"));
   ClosestPoints found;
-  session->use([&](Solver& solver, const PreparedMesh* b) {
-    found = solver.closest(*b, points, goes_on);
-  });
+  session->use(
+      [&](Solver& solver, const PreparedMesh* b) { found = solver.closest(*b, points, goes_on); });
   return closest_of(found);
 }
 

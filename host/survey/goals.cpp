@@ -3,17 +3,39 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "host/base/parallel.h"
 
 namespace vkh {
 namespace {
 
-template <class F>
-void each_cell(const CellStore& store, const F& work) {
-  for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) work(i);
+// Scores all cells that can be split. `score` of a cell returns nothing if the cell is not in the
+// goal's way, and 0 if it is and a split would gain nothing.
+template <class Score>
+Scores scored(const CellStore& store, const Score& score) {
+  struct Block {
+    std::vector<Scored> cells;
+    bool is_met = true;
+  };
+  std::vector<Block> blocks(block_count(store.count()));
+  for_each_block(store.count(), [&](size_t block, size_t begin, size_t end) {
+    Block mine;
+    for (size_t i = begin; i < end; ++i) {
+      const std::optional<double> of_cell = score(i);
+      if (!of_cell) continue;
+      mine.is_met = false;
+      if (*of_cell > 0 && store.can_split(i)) mine.cells.push_back({*of_cell, i});
+    }
+    blocks[block] = std::move(mine);
   });
+  Scores all{{}, true};
+  for (const Block& block : blocks) {
+    all.cells.insert(all.cells.end(), block.cells.begin(), block.cells.end());
+    all.is_met = all.is_met && block.is_met;
+  }
+  return all;
 }
 
 // A width in the frame: what plain floats leave of a cell's bounds, a few times over. Splits gain
@@ -47,57 +69,50 @@ Scores score_faces(const CellStore& store, const Asked& asked) {
                             ? asked.frame.to_frame(options.field_tolerance)
                             : options.face_tolerance * static_cast<double>(store.reached());
   const double tolerance = wanted - 2 * asked.displacement;
-  Scores scores{{}, true};
-  for (size_t i = 0; i < store.count(); ++i) {
+  return scored(store, [&](size_t i) -> std::optional<double> {
     const double above = static_cast<double>(store.bounds(i).highest) -
                          static_cast<double>(store.reached(store.face(i)));
-    if (above <= tolerance) continue;
-    scores.is_met = false;
-    if (above > kFloor) scores.cells.push_back({above, i});
-  }
-  return scores;
+    if (above <= tolerance) return std::nullopt;
+    return above > kFloor ? above : 0;
+  });
 }
 
 // A cell scores if it is too far for the limit, on a face that is not known to be beyond it.
 Scores score_verdicts(const CellStore& store, const Asked& asked) {
   const double within = in_frame(asked, asked.options.limit.within).down;
   const double beyond = in_frame(asked, asked.options.limit.beyond).up;
-  Scores scores{{}, true};
-  for (size_t i = 0; i < store.count(); ++i) {
+  return scored(store, [&](size_t i) -> std::optional<double> {
     const gpu::CellBounds& b = store.bounds(i);
     const double above = static_cast<double>(b.highest) - within;
     const auto reached = static_cast<double>(store.reached(store.face(i)));
-    if (above <= 0 || reached > beyond) continue;
-    scores.is_met = false;
-    if (spread(b) > kFloor) scores.cells.push_back({above, i});
-  }
-  return scores;
+    if (above <= 0 || reached > beyond) return std::nullopt;
+    return spread(b) > kFloor ? above : 0;
+  });
 }
 
 double area_of(const CellStore& store, const Areas& areas, size_t i) {
   return store.share(i) * areas.of_face[store.face(i)];
 }
 
-// Adds the part of a cell's area that is not known to be within a distance, or beyond it.
-void score_undecided(const CellStore& store, const Areas& areas, const Threshold& at,
-                     std::vector<double>& scores) {
-  each_cell(store, [&](size_t i) {
-    const gpu::CellBounds& b = store.bounds(i);
-    const double perhaps = share_within(b.lower_a, b.lower_b, b.lower_c, at.up);
-    const double surely = at.down >= static_cast<double>(b.highest)
-                              ? 1.0
-                              : share_within(b.upper_a, b.upper_b, b.upper_c, at.down);
-    if (perhaps > surely && spread(b) > kFloor)
-      scores[i] += (perhaps - surely) * area_of(store, areas, i);
-  });
+// The share of a cell's area that is not known to be within a distance, or beyond it.
+double undecided_share(const gpu::CellBounds& b, const Threshold& at) {
+  const double perhaps = share_within(b.lower_a, b.lower_b, b.lower_c, at.up);
+  const double surely = at.down >= static_cast<double>(b.highest)
+                            ? 1.0
+                            : share_within(b.upper_a, b.upper_b, b.upper_c, at.down);
+  return std::max(perhaps - surely, 0.0);
 }
 
-std::vector<Scored> positive(const std::vector<double>& scores) {
-  std::vector<Scored> scored;
-  for (size_t i = 0; i < scores.size(); ++i) {
-    if (scores[i] > 0) scored.push_back({scores[i], i});
-  }
-  return scored;
+// Scores a cell by its undecided area, added up over some distances.
+Scores score_undecided(const CellStore& store, const Areas& areas,
+                       const std::vector<Threshold>& distances) {
+  return scored(store, [&](size_t i) -> std::optional<double> {
+    const gpu::CellBounds& b = store.bounds(i);
+    if (spread(b) <= kFloor) return 0;
+    double share = 0;
+    for (const Threshold& at : distances) share += undecided_share(b, at);
+    return share * area_of(store, areas, i);
+  });
 }
 
 std::vector<Threshold> bands_of(const Asked& asked) {
@@ -113,24 +128,23 @@ bool is_enough(const Enclosure& share, const SurveyOptions& options) {
 
 // A percentile's own width differs from its distribution's: at both ends of it there may be area
 // that is undecided.
-Scores score_distribution(const CellStore& store, const Areas& areas, const Asked& asked) {
-  const auto reached = static_cast<double>(store.reached());
+Scores score_distribution(const CellStore& store, const Areas& areas, const Asked& asked,
+                          std::vector<Enclosure>& known) {
+  const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
   const std::vector<Threshold> bands = bands_of(asked);
   const std::vector<Enclosure> shares = shares_within(store, areas, bands);
-  std::vector<double> scores(store.count(), 0.0);
-  bool is_met = true;
+  std::vector<Threshold> open;
   for (size_t i = 0; i < bands.size(); ++i) {
-    if (is_enough(shares[i], asked.options)) continue;
-    is_met = false;
-    score_undecided(store, areas, bands[i], scores);
+    if (!is_enough(shares[i], asked.options)) open.push_back(bands[i]);
   }
-  for (const Enclosure& p : percentiles(store, areas, asked.options.percentiles)) {
-    if (width(p) <= asked.options.mean_tolerance * reached) continue;
-    is_met = false;
-    score_undecided(store, areas, {p.lower, p.lower}, scores);
-    score_undecided(store, areas, {p.upper, p.upper}, scores);
+  known = percentiles(store, areas, {asked.options.percentiles, tolerance / 16, known});
+  for (const Enclosure& p : known) {
+    if (width(p) <= tolerance) continue;
+    open.push_back({p.lower, p.lower});
+    open.push_back({p.upper, p.upper});
   }
-  return {positive(scores), is_met};
+  if (open.empty()) return {{}, true};
+  return score_undecided(store, areas, open);
 }
 
 // Scores a cell by its part of the width of the mean, and then of its square's.
@@ -139,14 +153,13 @@ Scores score_moments(const CellStore& store, const Areas& areas, const Asked& as
   const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
   const bool by_mean = width(moments.mean) > tolerance;
   if (!by_mean && width(moments.rms) <= tolerance) return {{}, true};
-  std::vector<double> scores(store.count());
-  each_cell(store, [&](size_t i) {
+  return scored(store, [&](size_t i) -> std::optional<double> {
     const gpu::CellBounds& b = store.bounds(i);
+    if (spread(b) <= kFloor) return 0;
     const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
     const double squares = static_cast<double>(b.square_upper) - down * down;
-    if (spread(b) > kFloor) scores[i] = area_of(store, areas, i) * (by_mean ? up - down : squares);
+    return area_of(store, areas, i) * (by_mean ? up - down : squares);
   });
-  return {positive(scores), false};
 }
 
 }  // namespace
@@ -158,7 +171,7 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
 }
 
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
-                           const Areas& areas) {
+                           const Areas& areas, std::vector<Enclosure>& known) {
   std::vector<Goal> goals;
   const Asked asked{options, pair.displacement, pair.frame};
   if (options.faces && options.limit.within > 0)
@@ -168,8 +181,9 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
   if (!options.statistics || !areas.is_positive()) return goals;
   goals.emplace_back(
       [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
-  goals.emplace_back(
-      [&areas, asked](const CellStore& store) { return score_distribution(store, areas, asked); });
+  goals.emplace_back([&areas, &known, asked](const CellStore& store) {
+    return score_distribution(store, areas, asked, known);
+  });
   return goals;
 }
 
@@ -201,8 +215,9 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
 
 }  // namespace
 
-std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
-                                        const SurveyedPair& pair, const SurveyOptions& options) {
+std::optional<Statistics> statistics_of(const SurveyedArea& surface, const SurveyedPair& pair,
+                                        const SurveyOptions& options) {
+  const auto& [store, areas, known] = surface;
   if (!areas.is_positive()) return std::nullopt;
   const double last = largest_upper(store, pair);
   const double area = areas.unit.length_up(areas.unit.length_up(areas.whole));
@@ -214,7 +229,9 @@ std::optional<Statistics> statistics_of(const CellStore& store, const Areas& are
   s.mean = in_files(pair, moments.mean);
   s.rms = in_files(pair, moments.rms);
   s.bands = within(store, areas, asked, options.bands);
-  const std::vector<Enclosure> at = percentiles(store, areas, options.percentiles);
+  const double resolution = 0x1p-17 * static_cast<double>(store.reached());
+  const std::vector<Enclosure> at =
+      percentiles(store, areas, {options.percentiles, resolution, known});
   for (size_t i = 0; i < at.size(); ++i)
     s.percentiles.push_back({options.percentiles[i], in_files(pair, at[i])});
   std::vector<double> steps;

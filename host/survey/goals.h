@@ -18,7 +18,7 @@ struct Scored {
     return score > other.score || (score == other.score && cell < other.cell);
   }
 };
-/// The cells to split; none if the goal is met, or no split would bring it nearer.
+/// The cells to split, by their numbers; none if no split would bring the goal nearer.
 struct Scores {
   std::vector<Scored> cells;
   bool is_met = false;
@@ -29,12 +29,19 @@ using Goal = std::function<Scores(const CellStore&)>;
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
 
 /// The goals one after the other: faces, then the mean and the root mean square, then the
-/// distribution.
+/// distribution. They keep in `known` what is known of the percentiles, in the frame, and start
+/// from it. All arguments must outlive them.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
-                           const Areas& areas);
+                           const Areas& areas, std::vector<Enclosure>& known);
 
+/// The surface that figures are of.
+struct SurveyedArea {
+  const CellStore& store;
+  const Areas& areas;
+  const std::vector<Enclosure>& known;  ///< what goals_of() kept
+};
 /// Returns nothing if A has no area.
-std::optional<Statistics> statistics_of(const CellStore& store, const Areas& areas,
-                                        const SurveyedPair& pair, const SurveyOptions& options);
+std::optional<Statistics> statistics_of(const SurveyedArea& surface, const SurveyedPair& pair,
+                                        const SurveyOptions& options);
 
 }  // namespace vkh

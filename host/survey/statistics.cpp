@@ -1,7 +1,6 @@
 #include "host/survey/statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,8 +15,9 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;  // a rounding, relative
 
-// A sum of numbers that are not negative, off by less than 4 kUnit of itself: what each addition
-// loses is added up, too (Neumaier 1974). Sums are of blocks, and of these: 8.
+// A sum of numbers that are not negative: what each addition loses is added up, too (Neumaier
+// 1974). With n numbers it is off by less than kUnit + (n kUnit)^2 of itself, which is under 1.01
+// kUnit for 2^22 of them. Here sums are of sums, up to four deep: 5.
 class Sum {
  public:
   void add(double x) {
@@ -113,20 +113,32 @@ struct Within {
   std::vector<Sum> surely, perhaps;
 };
 
+// An affine function over a cell by its values at the corners: at t, the part of the cell on which
+// it is at most t is within, and from `most` on the whole cell is.
+struct Slope {
+  float a, b, c, most;
+  double least() const { return static_cast<double>(std::min({a, b, c})); }
+  double share(double t) const { return share_within(a, b, c, t); }
+};
+Slope surely_within(const gpu::CellBounds& b) {
+  return {b.upper_a, b.upper_b, b.upper_c, b.highest};
+}
+Slope perhaps_within(const gpu::CellBounds& b) {
+  return {b.lower_a, b.lower_b, b.lower_c, std::max({b.lower_a, b.lower_b, b.lower_c})};
+}
+
 // Adds a part to what is within each: nothing, a share of it, or all of it from some distance on.
 class Adder {
  public:
   Adder(std::span<const double> at, std::vector<Sum>& sums)
       : at_(at), sums_(sums), whole_(at.size() + 1) {}
 
-  // `at_corners`: values of an affine function. From `most` on, the whole part is within.
-  void add(double area, const std::array<float, 3>& at_corners, float most) {
-    const auto [a, b, c] = at_corners;
-    const auto least = static_cast<double>(std::min({a, b, c}));
-    auto k = std::lower_bound(at_.begin(), at_.end(), least) - at_.begin();
-    for (; k < std::ssize(at_) && at_[static_cast<size_t>(k)] < static_cast<double>(most); ++k) {
+  void add(double area, const Slope& slope) {
+    auto k = std::lower_bound(at_.begin(), at_.end(), slope.least()) - at_.begin();
+    const auto most = static_cast<double>(slope.most);
+    for (; k < std::ssize(at_) && at_[static_cast<size_t>(k)] < most; ++k) {
       const auto i = static_cast<size_t>(k);
-      sums_[i].add(area * share_within(a, b, c, at_[i]));
+      sums_[i].add(area * slope.share(at_[i]));
     }
     whole_[static_cast<size_t>(k)].add(area);
   }
@@ -156,9 +168,8 @@ Within block_within(const CellStore& cells, const Areas& areas, const Thresholds
   for (size_t i = begin; i < end; ++i) {
     const gpu::CellBounds& b = cells.bounds(i);
     const double area = part_of(cells, areas, i);
-    const float most = std::max({b.lower_a, b.lower_b, b.lower_c});
-    from_below.add(area, {b.upper_a, b.upper_b, b.upper_c}, b.highest);
-    from_above.add(area, {b.lower_a, b.lower_b, b.lower_c}, most);
+    from_below.add(area, surely_within(b));
+    from_above.add(area, perhaps_within(b));
   }
   from_below.finish();
   from_above.finish();
@@ -234,69 +245,194 @@ std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
 
 namespace {
 
-constexpr size_t kSections = 32;
-constexpr int kPasses = 4;
+// For a cell that a bracket cuts each section of a pass costs two divisions: 8 of them twice are
+// fewer than 64 once. All cells are looked at for the first ones.
+constexpr size_t kFirstSections = 32, kSections = 8;
 
-// The bracket of a reached share: `perhaps` at `down`, `surely` at `up`; each bracket gets
+// The bracket of a reached share: `perhaps` at `low`, `surely` at `high`; each bracket gets
 // narrower.
 struct Bracket {
   double low, high;
-  std::vector<double> cuts() const {
+
+  // The ends of sections, without the bracket's own; they ascend.
+  std::vector<double> cuts(size_t sections) const {
     std::vector<double> at;
-    for (size_t k = 1; k < kSections; ++k)
-      at.push_back(low + (high - low) * static_cast<double>(k) / kSections);
+    for (size_t k = 1; k < sections; ++k)
+      at.push_back(low + (high - low) * static_cast<double>(k) / static_cast<double>(sections));
     return at;
+  }
+
+  // Narrows to the section in which `reaches(sum)` becomes true.
+  template <class Reaches>
+  void narrow(const std::vector<double>& at, const std::vector<Sum>& sums, const Reaches& reaches) {
+    const double first = low, last = high;
+    for (size_t k = 0; k < at.size(); ++k) {
+      if (!(at[k] > first) || !(at[k] < last)) continue;
+      double& end = reaches(sums[k].value()) ? high : low;
+      end = reaches(sums[k].value()) ? std::min(high, at[k]) : std::max(low, at[k]);
+    }
   }
 };
 
-// Narrows each bracket to the section in which `reaches(sum)` becomes true.
-template <class Reaches>
-void narrow(std::vector<Bracket>& brackets, const std::vector<Sum>& sums,
-            const std::vector<double>& at, const Reaches& reaches) {
-  for (size_t b = 0; b < brackets.size(); ++b) {
-    Bracket& bracket = brackets[b];
-    const double low = bracket.low, high = bracket.high;
-    for (size_t k = 0; k < at.size(); ++k) {
-      if (!(at[k] > low) || !(at[k] < high)) continue;
-      if (reaches(b, sums[k].value())) {
-        bracket.high = std::min(bracket.high, at[k]);
-      } else {
-        bracket.low = std::max(bracket.low, at[k]);
+// The area within the cuts of some brackets. Cells that are to one side of a bracket, which only
+// gets narrower, are looked at once for it. `slope_of`: surely_within or perhaps_within.
+template <Slope (*slope_of)(const gpu::CellBounds&)>
+class BracketSums {
+ public:
+  BracketSums(const CellStore& cells, const Areas& areas)
+      : cells_(cells), areas_(areas), blocks_(block_count(cells.count())) {}
+
+  // The sums at each bracket's cuts: the brackets are as many as before, and within those.
+  std::vector<std::vector<Sum>> at(const std::vector<Bracket>& brackets) {
+    std::vector<std::vector<std::vector<Sum>>> sums(blocks_.size());
+    for_each_block(cells_.count(), [&](size_t block, size_t begin, size_t end) {
+      std::vector<Part>& parts = blocks_[block];
+      if (parts.empty()) look_at_all(parts, brackets, begin, end);
+      for (size_t b = 0; b < brackets.size(); ++b)
+        sums[block].push_back(sums_of(parts[b], brackets[b], begin));
+    });
+    std::vector<std::vector<Sum>> all(brackets.size(), std::vector<Sum>(kSections - 1));
+    for (const auto& block : sums) {
+      for (size_t b = 0; b < all.size(); ++b) {
+        for (size_t k = 0; k < all[b].size(); ++k) all[b][k].add(block[b][k].value());
       }
+    }
+    return all;
+  }
+
+ private:
+  // A block's cells as a bracket sees them.
+  struct Part {
+    Sum whole;                   // area of the cells that are all within `low`
+    std::vector<uint16_t> open;  // offsets in the block of the cells that the bracket cuts
+  };
+  static_assert(kBlock <= size_t{1} << 16);
+
+  // Returns whether the bracket cuts the cell; otherwise it is done with.
+  static bool is_open(const Slope& slope, double area, const Bracket& bracket, Sum& whole) {
+    if (slope.least() >= bracket.high) return false;
+    if (static_cast<double>(slope.most) > bracket.low) return true;
+    whole.add(area);
+    return false;
+  }
+
+  void look_at_all(std::vector<Part>& parts, const std::vector<Bracket>& brackets, size_t begin,
+                   size_t end) const {
+    parts.resize(brackets.size());
+    for (size_t i = begin; i < end; ++i) {
+      const Slope slope = slope_of(cells_.bounds(i));
+      const double area = part_of(cells_, areas_, i);
+      for (size_t b = 0; b < parts.size(); ++b) {
+        if (is_open(slope, area, brackets[b], parts[b].whole))
+          parts[b].open.push_back(static_cast<uint16_t>(i - begin));
+      }
+    }
+  }
+
+  std::vector<Sum> sums_of(Part& part, const Bracket& bracket, size_t begin) const {
+    const std::vector<double> cuts = bracket.cuts(kSections);
+    std::vector<Sum> sums(cuts.size());
+    std::erase_if(part.open, [&](uint16_t offset) {
+      const Slope slope = slope_of(cells_.bounds(begin + offset));
+      const double area = part_of(cells_, areas_, begin + offset);
+      if (!is_open(slope, area, bracket, part.whole)) return true;
+      add(slope, area, cuts, sums);
+      return false;
+    });
+    for (Sum& sum : sums) sum.add(part.whole.value());
+    return sums;
+  }
+
+  static void add(const Slope& slope, double area, const std::vector<double>& cuts,
+                  std::vector<Sum>& sums) {
+    for (size_t k = 0; k < cuts.size(); ++k) {
+      if (cuts[k] < slope.least()) continue;
+      sums[k].add(cuts[k] < static_cast<double>(slope.most) ? area * slope.share(cuts[k]) : area);
+    }
+  }
+
+  const CellStore& cells_;
+  const Areas& areas_;
+  std::vector<std::vector<Part>> blocks_;
+};
+
+constexpr int kMostPasses = 20;  // 60 bits
+
+// Narrows each bracket to a section of the given width. `reaches(b, area)`: whether the share of
+// bracket b is reached.
+template <class Sums, class Reaches>
+void narrow(std::vector<Bracket>& brackets, double to, Sums sums, const Reaches& reaches) {
+  const auto is_wide = [&](const Bracket& bracket) { return bracket.high - bracket.low > to; };
+  for (int pass = 0; pass < kMostPasses && std::ranges::any_of(brackets, is_wide); ++pass) {
+    const std::vector<std::vector<Sum>> at = sums.at(brackets);
+    for (size_t b = 0; b < brackets.size(); ++b) {
+      brackets[b].narrow(brackets[b].cuts(kSections), at[b],
+                         [&](double area) { return reaches(b, area); });
     }
   }
 }
 
-std::vector<double> cuts_of(const std::vector<Bracket>& brackets) {
-  std::vector<double> at;
-  for (const Bracket& b : brackets) {
-    const std::vector<double> cuts = b.cuts();
-    at.insert(at.end(), cuts.begin(), cuts.end());
+}  // namespace
+
+namespace {
+
+// The brackets of percentiles: of the bounds from below, and from above.
+struct Brackets {
+  std::vector<Bracket> lower, upper;
+};
+
+// A share is not reached below `low` of a bracket: so much that may be within is too little. At
+// `high` it is: so much is surely within.
+class Reached {
+ public:
+  Reached(const Areas& areas, std::span<const double> shares) : areas_(areas), shares_(shares) {}
+  bool perhaps(size_t b, double area) const { return area >= shares_[b] * areas_.whole - slack_; }
+  bool surely(size_t b, double area) const { return area >= shares_[b] * areas_.whole + slack_; }
+
+ private:
+  const Areas& areas_;
+  const std::span<const double> shares_;
+  const double slack_ = 2 * areas_.error;
+};
+
+// All cells are looked at once for all shares.
+Brackets first_brackets(const CellStore& cells, const Areas& areas, const Reached& reached,
+                        size_t count) {
+  const Extremes e = extremes_of(cells);
+  const std::vector<Bracket> whole(count, {e.lowest, e.highest});
+  const std::vector<double> cuts = whole[0].cuts(kFirstSections);
+  const Within within = areas_within(cells, areas, {cuts, cuts});
+  Brackets all{whole, whole};
+  for (size_t b = 0; b < count; ++b) {
+    all.lower[b].narrow(cuts, within.perhaps,
+                        [&](double area) { return reached.perhaps(b, area); });
+    all.upper[b].narrow(cuts, within.surely, [&](double area) { return reached.surely(b, area); });
   }
-  std::sort(at.begin(), at.end());
-  return at;
+  return all;
+}
+
+Brackets brackets_of(std::span<const Enclosure> known) {
+  Brackets all;
+  for (const Enclosure& e : known) all.lower.push_back({e.lower, e.upper});
+  all.upper = all.lower;
+  return all;
 }
 
 }  // namespace
 
-// A share is not reached below `low` of a bracket: so much that may be within is too little. At
-// `high` it is: so much is surely within.
 std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
-                                   std::span<const double> shares) {
-  const Extremes e = extremes_of(cells);
-  std::vector<Bracket> lower(shares.size(), {e.lowest, e.highest});
-  std::vector<Bracket> upper = lower;
-  const double slack = 2 * areas.error;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<double> below = cuts_of(lower), above = cuts_of(upper);
-    const Within within = areas_within(cells, areas, {above, below});
-    narrow(lower, within.perhaps, below,
-           [&](size_t b, double area) { return area >= shares[b] * areas.whole - slack; });
-    narrow(upper, within.surely, above,
-           [&](size_t b, double area) { return area >= shares[b] * areas.whole + slack; });
-  }
+                                   const PercentileSearch& search) {
+  const auto& [shares, resolution, known] = search;
+  if (shares.empty()) return {};
+  const Reached reached(areas, shares);
+  Brackets at =
+      known.empty() ? first_brackets(cells, areas, reached, shares.size()) : brackets_of(known);
+  narrow(at.lower, resolution, BracketSums<perhaps_within>(cells, areas),
+         [&](size_t b, double area) { return reached.perhaps(b, area); });
+  narrow(at.upper, resolution, BracketSums<surely_within>(cells, areas),
+         [&](size_t b, double area) { return reached.surely(b, area); });
   std::vector<Enclosure> all;
-  for (size_t i = 0; i < shares.size(); ++i) all.push_back({lower[i].low, upper[i].high});
+  for (size_t b = 0; b < shares.size(); ++b) all.push_back({at.lower[b].low, at.upper[b].high});
   return all;
 }
 

@@ -35,9 +35,18 @@ struct Threshold {
 std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
                                      std::span<const Threshold> thresholds);
 
+/// The wish for percentiles: lengths are in the frame.
+struct PercentileSearch {
+  std::span<const double> shares;
+  double resolution;  ///< bounds are to be so close to the best that the cells say
+  /// What is known of the same shares, such as the result for the cells before some of them were
+  /// split; the result is within it. Empty: nothing is.
+  std::span<const Enclosure> known = {};
+};
+
 /// The least distance that each share of A's area is within, in the frame.
 std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
-                                   std::span<const double> shares);
+                                   const PercentileSearch& search);
 
 /// The mean of d(x, B) over the cell, from below.
 double mean_lower(const gpu::CellBounds& bounds);

@@ -16,14 +16,15 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// A submission takes about so long, so that Ctrl-C takes effect.
-constexpr double kSubmissionMs = 50;
-
-// Bounds cells in batches, until the budget ends.
+// Bounds cells in batches, until time or the caller ends it. How large batches are decides neither
+// the cells' numbers nor their bounds.
 class Bounding {
  public:
   Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
-      : bound_(bound), options_(options), batch_(pair.on_cpu ? 1024 : 65536) {}
+      : bound_(bound),
+        options_(options),
+        effort_(options.effort.value_or(default_effort(pair.on_cpu))),
+        batch_(pair.on_cpu ? 1024 : 65536) {}
 
   // Bounds whole faces.
   void faces(CellStore& store) {
@@ -36,30 +37,42 @@ class Bounding {
   }
 
   // Halves cells, and bounds both halves: none is left that is split and not bounded.
-  void halves(CellStore& store, std::span<const Scored> which) {
+  void halves(CellStore& store, std::span<const size_t> which) {
     std::vector<gpu::Cell> asked;
     std::vector<size_t> parents;
     all(2 * which.size(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
       parents.clear();
       which_.clear();
       for (size_t i = first / 2; i < (first + bounds.size()) / 2; ++i) {
-        which_.push_back(which[i].cell);
+        which_.push_back(which[i]);
         which_.push_back(store.count() + parents.size());
-        parents.push_back(which[i].cell);
+        parents.push_back(which[i]);
       }
       store.split(parents);
       asked.clear();
       for (const size_t i : which_) asked.push_back(store.cell(i));
       bound({.cells = asked, .first = 0, .bounds = bounds});
       store.narrow(which_, bounds);
+      spent_ += bounds.size();
     });
   }
 
+  // The number of cells that may still be split.
+  size_t splits_left() const { return (effort_ - spent_) / 2; }
+  size_t effort() const { return effort_; }
+
+  // Asks the caller first: a survey that was cancelled is none that time ended.
   bool goes_on() {
-    ended_ = ended_ || ms() > 1000 * options_.time_limit_s ||
-             (options_.goes_on && !options_.goes_on(bounded_));
-    return !ended_;
+    if (ended_ != SurveyEnd::kMet) return false;
+    if (options_.goes_on && !options_.goes_on(bounded_)) {
+      ended_ = SurveyEnd::kCancelled;
+    } else if (ms() > 1000 * options_.time_limit_s) {
+      ended_ = SurveyEnd::kTime;
+    }
+    return ended_ == SurveyEnd::kMet;
   }
+  // The reason why `goes_on` was false; before it was, kMet.
+  SurveyEnd ended() const { return ended_; }
   double ms() const { return ms_since(start_); }
   size_t bounded() const { return bounded_; }
   double device_ms() const { return device_ms_; }
@@ -80,7 +93,7 @@ class Bounding {
       first += bounds.size();
       bounded_ += bounds.size();
       const double per_cell = ms_since(start) / static_cast<double>(bounds.size());
-      const auto fits = static_cast<size_t>(kSubmissionMs / per_cell) / 2 * 2;
+      const auto fits = static_cast<size_t>(options_.submission_ms / per_cell) / 2 * 2;
       batch_ = std::clamp(fits, kLeastBatch, std::min(4 * batch_, kMostBatch));
     }
   }
@@ -90,46 +103,76 @@ class Bounding {
   const BoundCells& bound_;
   const SurveyOptions& options_;
   const Clock::time_point start_ = Clock::now();
+  const size_t effort_;
+  size_t spent_ = 0;
   size_t batch_;
   size_t bounded_ = 0;
   double device_ms_ = 0;
   std::vector<size_t> which_;  // cells of a batch
-  bool ended_ = false;
+  SurveyEnd ended_ = SurveyEnd::kMet;
 };
 
 constexpr size_t kFewestSplits = 2048;  // for a pass: the host looks at all cells between two
-// The chosen cells have nearly all of the score: a few that are wide often matter more than all
-// others together.
-constexpr double kNearlyAll = 0.9;
 
-// Keeps the cells that matter most, `most` of them at most.
-void choose_some(const CellStore& store, std::vector<Scored>& scored, size_t most) {
-  std::erase_if(scored, [&](const Scored& s) { return !store.can_split(s.cell); });
-  double whole = 0, chosen = 0;
-  for (const Scored& s : scored) whole += s.score;
-  size_t count = 0;
-  for (size_t next = kFewestSplits; count < std::min(most, scored.size()); next *= 2) {
-    const size_t end = std::min({next, most, scored.size()});
-    const auto at = [&](size_t i) { return scored.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(count), at(end - 1), scored.end());
-    for (size_t i = count; i < end; ++i) chosen += scored[i].score;
-    count = end;
-    if (chosen >= kNearlyAll * whole) break;
-  }
-  scored.resize(count);
+// A score as an integer up to 2^31, so that the sum of 2^32 of them is the same in any order.
+uint64_t weight(double score, double largest) {
+  return static_cast<uint64_t>(score / largest * 0x1p31);
 }
 
-// Refines until the goal is met, or cannot be; returns whether it was met.
-bool refine(CellStore& store, Bounding& bounding, const SurveyOptions& options, const Goal& goal) {
+// Whether some cells have nearly all of the score, nine tenths: a few that are wide often matter
+// more than all others together.
+bool is_nearly_all(uint64_t chosen, uint64_t whole) { return chosen / 9 >= whole / 10; }
+
+// Moves the cells that matter most to the front, and returns how many they are: `most` at most.
+// Which they are follows from scores and numbers of cells alone, which are a total order.
+size_t count_that_matter(std::vector<Scored>& scored, size_t most) {
+  double largest = 0;
+  for (const Scored& s : scored) largest = std::max(largest, s.score);
+  uint64_t whole = 0, chosen = 0;
+  for (const Scored& s : scored) whole += weight(s.score, largest);
+  most = std::min(most, scored.size());
+  size_t count = 0;
+  for (size_t next = kFewestSplits; count < most && !is_nearly_all(chosen, whole); next *= 2) {
+    const size_t end = std::min(next, most);
+    const auto at = [&](size_t i) { return scored.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(count), at(end - 1), scored.end());
+    for (; count < end; ++count) chosen += weight(scored[count].score, largest);
+  }
+  return count;
+}
+
+// The cells to split, by their numbers: the halves' numbers follow from this order.
+std::vector<size_t> chosen_cells(const CellStore& store, std::vector<Scored>& scored, size_t most) {
+  const size_t count = count_that_matter(scored, most);
+  std::vector<bool> is_chosen(store.count());
+  for (size_t i = 0; i < count; ++i) is_chosen[scored[i].cell] = true;
+  std::vector<size_t> cells;
+  cells.reserve(count);
+  for (size_t i = 0; i < store.count(); ++i) {
+    if (is_chosen[i]) cells.push_back(i);
+  }
+  return cells;
+}
+
+// Refines until the goal is met, or cannot be.
+SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal) {
   for (;;) {
     Scores scores = goal(store);
-    std::vector<Scored>& scored = scores.cells;
-    if (scored.empty() || scores.is_met) return scores.is_met;
-    const size_t room = options.cell_limit - std::min(options.cell_limit, store.count());
-    choose_some(store, scored, std::min(std::max(store.count() / 2, kFewestSplits), room));
-    if (scored.empty() || !bounding.goes_on()) return false;
-    bounding.halves(store, scored);
+    if (scores.is_met) return SurveyEnd::kMet;
+    if (scores.cells.empty()) return SurveyEnd::kBits;
+    const size_t most =
+        std::min(std::max(store.count() / 2, kFewestSplits), bounding.splits_left());
+    if (most == 0) return SurveyEnd::kEffort;
+    if (!bounding.goes_on()) return bounding.ended();
+    bounding.halves(store, chosen_cells(store, scores.cells, most));
   }
+}
+
+// Refines for one goal after the other.
+SurveyEnd refine_all(CellStore& store, Bounding& bounding, const std::vector<Goal>& goals) {
+  SurveyEnd ended = bounding.ended();  // before all faces are bounded, perhaps
+  for (const Goal& goal : goals) ended = std::max(ended, refine(store, bounding, goal));
+  return ended;
 }
 
 Field field_of(const CellStore& store, const SurveyedPair& pair) {
@@ -145,6 +188,26 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
 }
 
 }  // namespace
+
+const char* survey_end_name(SurveyEnd end) {
+  switch (end) {
+    case SurveyEnd::kMet:
+      return "met";
+    case SurveyEnd::kBits:
+      return "bits";
+    case SurveyEnd::kEffort:
+      return "effort";
+    case SurveyEnd::kTime:
+      return "time";
+    case SurveyEnd::kCancelled:
+      return "cancelled";
+    case SurveyEnd::kMemory:
+      return "memory";
+  }
+  return "";
+}
+
+size_t default_effort(bool on_cpu) { return on_cpu ? 4'000'000 : 10'000'000; }
 
 FieldSummary summary_of(const Field& field, const Limit& limit) {
   FieldSummary summary;
@@ -173,14 +236,15 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     Bounding bounding(pair, bound, options);
     bounding.faces(store);
     const Areas areas = areas_of(pair.a);
-    bool is_met = bounding.goes_on();
-    for (const Goal& goal : goals_of(options, pair, areas)) {
-      if (!refine(store, bounding, options, goal)) is_met = false;
-    }
+    std::vector<Enclosure> percentiles;
+    result.ended = refine_all(store, bounding, goals_of(options, pair, areas, percentiles));
     result.field = field_of(store, pair);
     result.faces = options.faces;
-    if (options.statistics) result.statistics = statistics_of(store, areas, pair, options);
-    result.is_met = is_met && options.statistics == result.statistics.has_value();
+    if (options.statistics)
+      result.statistics = statistics_of({store, areas, percentiles}, pair, options);
+    if (options.statistics && !result.statistics)
+      result.ended = std::max(result.ended, SurveyEnd::kBits);
+    result.effort = bounding.effort();
     result.cells = store.count();
     result.bounded = bounding.bounded();
     result.device_ms = bounding.device_ms();

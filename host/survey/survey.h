@@ -1,5 +1,6 @@
 // A survey of A: cells are bounded, and the ones that matter most are split, until the goals are
-// met or the budget ends. Its results are true whenever it ends.
+// met or the effort is used. Its results are true whenever it ends, and the same to the last bit on
+// the same device, unless time or the caller ended it.
 #pragma once
 
 #include <functional>
@@ -11,6 +12,22 @@
 #include "host/survey/field.h"
 
 namespace vkh {
+
+/// The reason why a survey ended; of several, the last one here.
+enum class SurveyEnd {
+  kMet,        ///< all goals are met
+  kBits,       ///< no split brings a goal nearer: 20 bits are used up, or A has no area
+  kEffort,     ///< SurveyOptions::effort is used
+  kTime,       ///< the time limit was over: another run may get further
+  kCancelled,  ///< `goes_on` said so, or the run that it follows was cancelled
+  kMemory,     ///< there was no memory for it
+};
+/// The word for it in JSON and in Python: "met", "bits", "effort", "time", "cancelled", "memory".
+const char* survey_end_name(SurveyEnd end);
+
+/// The effort of a survey that names none. On a CPU device that is about ten seconds on two cores,
+/// on a GPU what the goals of all but a few of the public pairs need (docs/log/measurements.md).
+size_t default_effort(bool on_cpu);
 
 struct SurveyOptions {
   bool faces = false;  ///< each face's bounds are to be narrow; otherwise it is bounded once
@@ -32,8 +49,14 @@ struct SurveyOptions {
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
   /// No distance is above it, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
-  double time_limit_s = 10;  ///< for the survey alone
-  size_t cell_limit = size_t{1} << 23;
+  /// The number of cells that the device may bound besides each face once: two for each split.
+  /// Unset: default_effort(). The host needs 120 bytes for each two of them.
+  std::optional<size_t> effort = {};
+  /// The limit for the survey alone. A survey that it ends differs from run to run.
+  double time_limit_s = std::numeric_limits<double>::infinity();
+  /// Cells are sent in submissions that take about so long each, for `goes_on` to be asked between
+  /// them. No result depends on it.
+  double submission_ms = 50;
   /// Asked between submissions, with how many cells have been bounded; false ends the survey.
   std::function<bool(size_t)> goes_on;
 };
@@ -42,7 +65,9 @@ struct SurveyResult {
   Field field;
   bool faces = false;  ///< SurveyOptions::faces
   std::optional<Statistics> statistics;
-  bool is_met = false;  ///< the goals are; otherwise the budget ended, or the cells' bits
+  SurveyEnd ended = SurveyEnd::kCancelled;
+  bool is_met() const { return ended == SurveyEnd::kMet; }
+  size_t effort = 0;  ///< SurveyOptions::effort, or the default
   size_t cells = 0;
   size_t bounded = 0;  ///< cells that the device bounded, including those that were split later
   double ms = 0;

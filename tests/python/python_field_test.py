@@ -114,6 +114,20 @@ class Fields(unittest.TestCase):
             self.assertTrue((r.field.upper <= r.survey.upper).all() or r.survey.upper <= r.field.upper.max())
             self.assertGreaterEqual(r.field.upper.max(), exact.lower)
 
+    def test_an_effort_gives_the_same_each_time(self):
+        pair = (*wavy(40, 0.1), *wavy(30, 0))
+        runs = [vkh.distance(*pair, field=1e-9, statistics=True, effort=20001) for _ in range(2)]
+        for r in runs:
+            self.assertEqual((r.survey.ended, r.survey.met, r.survey.stats["effort"]), ("effort", False, 20001))
+            self.assertEqual((r.survey.stats["bounded"], r.survey.stats["cells"]), (3200 + 20000, 3200 + 10000))
+        plain = [r.survey.to_dict() for r in runs]
+        for one in plain:
+            del one["stats"]
+        self.assertEqual(*plain)
+        self.assertEqual(vkh.distance(*pair, field=1e-9, effort=0).survey.stats["bounded"], 3200)
+        self.assertEqual(vkh.distance(*LIFTED, *FLOOR, field=True).survey.ended, "met")
+        self.assertEqual(vkh.distance(*pair, field=1e-9, survey_time=0).survey.ended, "time")
+
     def test_keyboard_interrupt(self):
         pair = (*wavy(40, 0.1), *wavy(30, 0))
         vkh.distance(*pair, field=True, survey_time=0)  # pipelines
@@ -245,8 +259,8 @@ class Refusals(unittest.TestCase):
     def test_arguments(self):
         values = {"field": [0, -1.0, float("nan"), float("inf"), "0.1mm", "x", ""],
                   "bands": [[0], [-1], [float("nan")], ["0.1"], ["0.1mm"], [10**400], (0.1, "x")],
-                  "survey_time": [-1, float("nan")]}
-        types = {"field": [None, [1], 1j, b"1"], "statistics": [1, None, "yes"], "survey_time": ["5", True, [1]],
+                  "survey_time": [-1, float("nan")], "effort": [-1]}
+        types = {"field": [None, [1], 1j, b"1"], "statistics": [1, None, "yes"], "survey_time": ["5", True, [1]], "effort": ["5", 0.5, [1]],
                  "bands": [None, 0.1, "0.1abs", {0.1}, [None], [True], [[0.1]], np.zeros((2, 2)), object()]}
         with vkh.Solver(*FLOOR) as solver:
             for kind, cases in ((ValueError, values), (TypeError, types)):

@@ -1,12 +1,19 @@
 // Surveys: closed forms lie in the certified intervals, faces meet the tests' own solver, random
-// points agree, and a survey that ends early is true.
+// points agree, a survey that ends early is true, and one that does not is the same each time.
 #include "host/survey/survey.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <functional>
+#include <vector>
 
+#include "host/base/parallel.h"
+#include "host/survey/cell_corners.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
 
@@ -28,7 +35,6 @@ SurveyOptions all_of_it(std::vector<double> bands = {}) {
   options.faces = options.statistics = true;
   options.mean_tolerance = options.face_tolerance = 0.002;
   options.bands = std::move(bands);
-  options.time_limit_s = 20;
   return options;
 }
 
@@ -43,7 +49,7 @@ TEST_CASE("a lifted plane: one distance everywhere") {
       surveyed(square_patch(4, 0.25), square_patch(3, 0.0), all_of_it({0.2, 0.2499, 0.2501}));
   REQUIRE(r.statistics);
   const Statistics& s = *r.statistics;
-  CHECK(r.is_met);
+  CHECK(r.is_met());
   check_encloses(s.mean, 0.25, 1e-3);
   check_encloses(s.rms, 0.25, 1e-3);
   for (const Percentile& p : s.percentiles) check_encloses(p.distance, 0.25, 1e-3);
@@ -63,7 +69,7 @@ TEST_CASE("a wedge: distances from 0 to a quarter, evenly") {
   const SurveyResult r = surveyed(a, b, all_of_it({0.05, 0.125, 0.2}));
   REQUIRE(r.statistics);
   const Statistics& s = *r.statistics;
-  CHECK(r.is_met);
+  CHECK(r.is_met());
   check_encloses(s.mean, 0.125, 1e-3);
   check_encloses(s.rms, 0.25 / std::sqrt(3.0), 1e-3);
   for (const AreaWithin& band : s.bands) check_encloses(band.share, band.distance * 4, 1e-3);
@@ -97,6 +103,7 @@ TEST_CASE("a sphere's facets under the sphere") {
   const Mesh a = icosphere(1.0, 1), b = icosphere(1.0, 6);
   SurveyOptions options = all_of_it();
   options.mean_tolerance = 0.01;
+  options.effort = 400000;
   const SurveyResult r = surveyed(a, b, options);
   REQUIRE(r.statistics);
   const double truth = mean_from_sphere(a);
@@ -171,10 +178,10 @@ Mesh face_of(const Mesh& mesh, size_t face) {
 }
 
 TEST_CASE("every face's bounds meet the double-precision solver's") {
-  const auto check = [](const Mesh& a, const Mesh& b, double time) {
+  const auto check = [](const Mesh& a, const Mesh& b, bool is_whole) {
     SurveyOptions options;
     options.faces = true;
-    options.time_limit_s = time;
+    if (!is_whole) options.effort = 0;  // the first bounds of all faces, and no more
     const SurveyResult r = surveyed(a, b, options);
     const double largest = *std::max_element(r.field.upper.begin(), r.field.upper.end());
     for (size_t f = 0; f < a.faces.size(); ++f) {
@@ -182,14 +189,14 @@ TEST_CASE("every face's bounds meet the double-precision solver's") {
       CHECK(r.field.lower[f] <= truth.upper);
       CHECK(r.field.upper[f] >= truth.lower);
       CHECK(r.field.lower[f] <= r.field.upper[f]);
-      if (time > 1) CHECK(r.field.upper[f] - r.field.lower[f] <= 0.0101 * largest);
+      if (is_whole) CHECK(r.field.upper[f] - r.field.lower[f] <= 0.0101 * largest);
     }
-    if (time > 1) CHECK(r.is_met);
+    CHECK(r.ended == (is_whole ? SurveyEnd::kMet : SurveyEnd::kEffort));
   };
-  check(icosphere(1, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}), 20);
-  check(soup(1, 60), soup(2, 90), 20);
-  check(height_field(12, 1), height_field(12, 3), 20);
-  check(soup(3, 200), soup(4, 90), 1e-9);  // the first bounds of all faces, and no more
+  check(icosphere(1, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}), true);
+  check(soup(1, 60), soup(2, 90), true);
+  check(height_field(12, 1), height_field(12, 3), true);
+  check(soup(3, 200), soup(4, 90), false);
 }
 
 TEST_CASE("hard pairs: the field holds h, and every percentile is in order") {
@@ -198,7 +205,7 @@ TEST_CASE("hard pairs: the field holds h, and every percentile is in order") {
     CAPTURE(family_names()[i]);
     const HardPair hard = hard_pair(i, 300 + i);
     SurveyOptions options = all_of_it();
-    options.time_limit_s = 0.3;
+    options.effort = 30000;
     SurveyResult r;
     SolveOptions solve;
     solve.survey = survey_with(options, r);
@@ -229,7 +236,7 @@ TEST_CASE("faces are only told apart by a limit, where there is one") {
   options.limit = {0.2, 0.2};
   options.face_tolerance = 1;  // no more than the verdicts
   const SurveyResult r = surveyed(a, b, options);
-  CHECK(r.is_met);
+  CHECK(r.is_met());
   size_t within = 0, beyond = 0;
   for (size_t f = 0; f < a.faces.size(); ++f) {
     const Verdict verdict = verdict_of(r.field, f, options.limit);
@@ -246,6 +253,217 @@ TEST_CASE("without area there are bounds of faces, and no statistics") {
   const SurveyResult r = surveyed(a, square_patch(2, 0.0, 4.0), all_of_it({2.0}));
   CHECK(!r.statistics);
   CHECK(r.field.face_count() == 1);
+}
+
+/// A device of double arithmetic for a B that is the plane z = 0 and an A that is wholly above it,
+/// or below: the distance is |z|. Bounds are as wide as a cell's corners are apart, times `doubt`,
+/// so that there are always cells to split, and many scores are equal.
+class PlaneDevice {
+ public:
+  PlaneDevice(const Mesh& a, double doubt) : a_(a), doubt_(doubt) {}
+
+  void operator()(const CellBatch& batch) {
+    ++submissions;
+    most = std::max(most, batch.bounds.size());
+    for (size_t i = 0; i < batch.bounds.size(); ++i) {
+      gpu::Cell cell{};
+      if (batch.cells.empty()) {
+        set_corners(cell, lib::whole_root());
+        cell.face = batch.first + static_cast<uint32_t>(i);
+      } else {
+        cell = batch.cells[i];
+        asked.push_back(cell);
+      }
+      batch.bounds[i] = bounds_of(cell);
+    }
+  }
+
+  std::vector<gpu::Cell> asked;  ///< all halves, in the order in which they were asked about
+  size_t submissions = 0, most = 0;
+
+ private:
+  gpu::CellBounds bounds_of(const gpu::Cell& cell) const {
+    const lib::Bary3 t = corners_of(cell);
+    const std::array<double, 3> z{height(cell.face, t.a), height(cell.face, t.b),
+                                  height(cell.face, t.c)};
+    const glm::dvec2 side = (glm::dvec2(t.b) - glm::dvec2(t.a)) * 0x1p-20;
+    const double off = doubt_ * glm::length(side);
+    const auto low = [&](size_t k) {
+      return static_cast<float>(std::max(z[k] - off, 0.0) * 0.999);
+    };
+    const auto high = [&](size_t k) { return static_cast<float>((z[k] + off) * 1.001); };
+    gpu::CellBounds b{};
+    b.lower_a = low(0), b.lower_b = low(1), b.lower_c = low(2);
+    b.upper_a = high(0), b.upper_b = high(1), b.upper_c = high(2);
+    b.highest = std::max({b.upper_a, b.upper_b, b.upper_c});
+    b.reached = std::max({b.lower_a, b.lower_b, b.lower_c});
+    b.mean_upper = (b.upper_a + b.upper_b + b.upper_c) / 3 * 1.001f;
+    b.square_upper = b.highest * b.highest * 1.001f;
+    return b;
+  }
+
+  double height(uint32_t face, const glm::uvec2& at) const {
+    const glm::uvec3 f = a_.faces[face];
+    const double x = at.x * 0x1p-20, y = at.y * 0x1p-20;
+    return std::abs((1 - x - y) * a_.vertices[f.x].z + x * a_.vertices[f.y].z +
+                    y * a_.vertices[f.z].z);
+  }
+
+  const Mesh& a_;
+  const double doubt_;
+};
+
+struct OnPlane {
+  SurveyResult result;
+  std::vector<gpu::Cell> asked;
+  size_t submissions = 0, most = 0;
+};
+
+/// Surveys on the device above, in place of a driver's.
+OnPlane on_plane(const Mesh& a, const SurveyOptions& options) {
+  const Mesh b = square_patch(2, 0.0);
+  OnPlane out;
+  PlaneDevice device(a, 0.05);
+  const SurveyedPair pair{
+      .a = a, .b = b, .frame = {}, .displacement = 0, .farthest = 10, .on_cpu = true};
+  survey_with(options, out.result)(pair, std::ref(device));
+  out.asked = device.asked;
+  out.submissions = device.submissions;
+  out.most = device.most;
+  return out;
+}
+
+/// Compares to the last bit.
+bool same(double x, double y) { return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y); }
+bool same(const Enclosure& x, const Enclosure& y) {
+  return same(x.lower, y.lower) && same(x.upper, y.upper);
+}
+
+void check_same(const Statistics& x, const Statistics& y) {
+  CHECK(same(x.area, y.area));
+  CHECK(same(x.mean, y.mean));
+  CHECK(same(x.rms, y.rms));
+  const auto is_same = [](const auto& one, const auto& other) {
+    REQUIRE(one.size() == other.size());
+    for (size_t i = 0; i < one.size(); ++i) {
+      if constexpr (requires { one[i].distance.lower; }) {
+        CHECK(same(one[i].distance, other[i].distance));
+      } else {
+        CHECK(same(one[i].distance, other[i].distance));
+        CHECK(same(one[i].share, other[i].share));
+      }
+    }
+  };
+  is_same(x.bands, y.bands);
+  is_same(x.percentiles, y.percentiles);
+  is_same(x.curve, y.curve);
+}
+
+void check_same(const SurveyResult& x, const SurveyResult& y) {
+  CHECK(x.ended == y.ended);
+  CHECK(x.cells == y.cells);
+  CHECK(x.bounded == y.bounded);
+  REQUIRE(x.field.face_count() == y.field.face_count());
+  size_t others = 0;
+  for (size_t f = 0; f < x.field.face_count(); ++f) others += !same(x.field.of(f), y.field.of(f));
+  CHECK(others == 0);
+  REQUIRE(x.statistics.has_value() == y.statistics.has_value());
+  if (x.statistics) check_same(*x.statistics, *y.statistics);
+}
+
+/// The number of threads, until the end of a scope.
+struct Threads {
+  explicit Threads(size_t count) { limit_threads(count); }
+  ~Threads() { limit_threads(0); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+};
+
+bool same_cell(const gpu::Cell& x, const gpu::Cell& y) {
+  return std::memcmp(&x, &y, sizeof(x)) == 0;
+}
+
+// Its two halves are mirrored, so that many cells have the same score: which of them are split must
+// follow from their numbers.
+Mesh lifted_roof() {
+  Mesh a = square_patch(24, 0.0);
+  for (glm::dvec3& v : a.vertices) v.z = 0.125 + 0.25 * std::abs(v.x - 0.5);
+  return a;
+}
+
+TEST_CASE("threads and the sizes of batches change no bit, and no cell that is asked about") {
+  const Mesh a = lifted_roof();
+  SurveyOptions options = all_of_it({0.14, 0.2});
+  options.face_tolerance = options.mean_tolerance = 1e-4;
+  options.effort = 200000;  // some blocks of cells
+  const OnPlane first = on_plane(a, options);
+  CHECK(first.result.ended == SurveyEnd::kEffort);
+  CHECK(first.asked.size() == 200000);
+  CHECK(first.result.cells > 3 * kBlock);
+  size_t sizes = 0;
+  for (const size_t threads : {1, 2, 7}) {
+    const Threads limit(threads);
+    for (const double submission_ms : {1e-9, 0.05, 1e9}) {
+      CAPTURE(threads);
+      CAPTURE(submission_ms);
+      options.submission_ms = submission_ms;
+      const OnPlane other = on_plane(a, options);
+      check_same(first.result, other.result);
+      REQUIRE(other.asked.size() == first.asked.size());
+      CHECK(std::equal(first.asked.begin(), first.asked.end(), other.asked.begin(), same_cell));
+      sizes += other.most != first.most;
+    }
+  }
+  CHECK(sizes > 0);
+}
+
+TEST_CASE("a device's survey is the same with other threads and other batches") {
+  const Mesh a = height_field(40, 1), b = height_field(40, 3);
+  SurveyOptions options = all_of_it({0.1});
+  options.effort = 70000;
+  const Threads one(1);
+  const SurveyResult first = surveyed(a, b, options);
+  CHECK(first.ended == SurveyEnd::kEffort);
+  CHECK(first.cells > kBlock);
+  for (const size_t threads : {2, 7}) {
+    const Threads limit(threads);
+    options.submission_ms = threads == 2 ? 1 : 1000;
+    check_same(first, surveyed(a, b, options));
+  }
+}
+
+TEST_CASE("the effort is what is bounded besides the faces, or one less") {
+  const Mesh a = lifted_roof();
+  SurveyOptions options = all_of_it();
+  options.face_tolerance = options.mean_tolerance = 1e-6;
+  for (const size_t effort : {0, 1, 2, 999, 1000, 20001}) {
+    CAPTURE(effort);
+    options.effort = effort;
+    const OnPlane r = on_plane(a, options);
+    CHECK(r.result.ended == SurveyEnd::kEffort);
+    CHECK(r.result.effort == effort);
+    CHECK(r.result.bounded == a.faces.size() + effort / 2 * 2);
+    CHECK(r.result.cells == a.faces.size() + effort / 2);
+    CHECK(r.asked.size() == effort / 2 * 2);
+  }
+}
+
+TEST_CASE("a survey says why it ended") {
+  const Mesh a = lifted_roof();
+  SurveyOptions options = all_of_it();
+  options.face_tolerance = options.mean_tolerance = 1e-6;
+  options.time_limit_s = 0;
+  CHECK(on_plane(a, options).result.ended == SurveyEnd::kTime);
+  options.goes_on = [](size_t) { return false; };
+  CHECK(on_plane(a, options).result.ended == SurveyEnd::kCancelled);
+  options = all_of_it();
+  options.face_tolerance = options.mean_tolerance = 0.1;
+  CHECK(on_plane(a, options).result.ended == SurveyEnd::kMet);
+  CHECK(!options.effort);
+  CHECK(on_plane(a, options).result.effort == default_effort(true));
+  const Mesh segment = make_mesh("a segment", {{0, 0, 1}, {1, 0, 1}}, {{0, 1, 1}});
+  options.faces = false;
+  CHECK(on_plane(segment, options).result.ended == SurveyEnd::kBits);
 }
 
 }  // namespace

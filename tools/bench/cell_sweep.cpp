@@ -88,7 +88,7 @@ void sweep_pair(Solver& solver, const Arguments& args, uint64_t i, Totals& total
   totals.cells.add(tally);
   totals.faces += result.field.face_count();
   totals.wrong_faces += faces;
-  totals.unmet += !result.is_met;
+  totals.unmet += !result.is_met();
   if (faces == 0 && tally.wrong() == 0) return;
   ++totals.pairs_wrong;
   std::printf(

@@ -2,7 +2,7 @@
 // run.
 //
 //   vkh_field_bench MANIFEST.csv [--filter TEXT] [--max-faces N] [--device D] [--time SECONDS]
-//                   [--field-tol FRACTION] [--statistics] [--cells N] [--points N] [--faces N]
+//                   [--field-tol FRACTION] [--statistics] [--effort N] [--points N] [--faces N]
 //
 // field_width: the widest face's bounds, over h. mean_width, rms_width, p99_width: over h.
 // area_width: the widest of the shares of area within h/4, h/2, 3h/4. met_...: 1 where mean and
@@ -58,7 +58,7 @@ double widest(const Field& field) {
 void print_row(const std::string& name, const Report& plain, const SurveyResult& r) {
   const double h = plain.upper;
   std::printf("%s,%zu,%.6g,%.3f,%.3f,%.3f,%zu,%zu,%d,%.3g", name.c_str(), r.field.face_count(), h,
-              plain.times.wall_ms, r.ms, r.device_ms, r.cells, r.bounded, r.is_met ? 1 : 0,
+              plain.times.wall_ms, r.ms, r.device_ms, r.cells, r.bounded, r.is_met() ? 1 : 0,
               widest(r.field) / h);
   if (r.statistics) {
     const Statistics& s = *r.statistics;
@@ -199,7 +199,7 @@ int run(int argc, char** argv) {
   app.add_option("--device", arguments.device);
   app.add_option("--time", arguments.survey.time_limit_s);
   app.add_option("--field-tol", arguments.field_tolerance);
-  app.add_option("--cells", arguments.survey.cell_limit);
+  app.add_option("--effort", arguments.survey.effort);
   app.add_flag("--statistics", arguments.survey.statistics);
   app.add_option("--points", arguments.points);
   app.add_option("--faces", arguments.faces);

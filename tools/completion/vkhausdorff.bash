@@ -5,7 +5,7 @@ _vkhausdorff() {
   local engine="--memory --waves --preset --enable --disable --no-cache --help" search tables="--out --csv --junit"
   search="--device --time $engine"
   local look="--view --up --size --map --range --steps"
-  local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol --field --image --report $look"
+  local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol --effort --field --image --report $look"
   local options="--help --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
@@ -22,7 +22,7 @@ _vkhausdorff() {
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-      --area | --bands | --field-tol | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
+      --area | --bands | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
       --part | --known-lower) return ;;
   esac
   case $command in
@@ -30,7 +30,7 @@ _vkhausdorff() {
     gate) options="$search $outputs --unit --max-input --polygons --bodies --certificate --max --area --face-max --face-max-b --junit --github" ;;
     batch)
       options="$search $tables --against --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons --bodies"
-      options+=" --image-dir --report-dir $look --together --lanes --read-ahead" ;;
+      options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help" ;;

@@ -77,6 +77,7 @@ class Survey:
     bands: dict[float | str, Interval] | None
     curve: list[tuple[float, Interval]] | None
     met: bool
+    ended: Literal["met", "effort", "bits", "time", "cancelled", "memory"]
     stats: dict[str, Any]
     def area_within(self, distance: _Number | str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -201,7 +202,8 @@ class Solver:
         field: bool | _Number | str = False,
         statistics: bool = False,
         bands: _Bands = (),
-        survey_time: _Number | None = 10.0,
+        effort: SupportsIndex | None = None,
+        survey_time: _Number | None = None,
     ) -> Result: ...
     @overload
     def distance(
@@ -220,7 +222,8 @@ class Solver:
         field: bool | _Number | str = False,
         statistics: bool = False,
         bands: _Bands = (),
-        survey_time: _Number | None = 10.0,
+        effort: SupportsIndex | None = None,
+        survey_time: _Number | None = None,
         certificate: _Path | None = None,
     ) -> Result: ...
     def closest(self, points: npt.ArrayLike) -> Closest: ...
@@ -250,7 +253,8 @@ def distance(
     field: bool | _Number | str = False,
     statistics: bool = False,
     bands: _Bands = (),
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
 ) -> Result: ...
 @overload
 def distance(
@@ -272,10 +276,11 @@ def distance(
     field: bool | _Number | str = False,
     statistics: bool = False,
     bands: _Bands = (),
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
     certificate: _Path | None = None,
 ) -> Result: ...
-def closest(b: _Mesh, points: npt.ArrayLike, *, device: str = "") -> Closest: ...
+def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex = "") -> Closest: ...
 class _Results(Iterator[Result]):
     def __next__(self) -> Result: ...
     def close(self) -> None: ...
@@ -309,7 +314,8 @@ def distances(
     field: bool | _Number | str = False,
     statistics: bool = False,
     bands: _Bands = (),
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
 ) -> _Results: ...
 def gate(
     a: _Mesh,
@@ -330,7 +336,8 @@ def gate(
     statistics: bool = False,
     bands: _Bands = (),
     area: _Number | str | None = None,
-    survey_time: _Number | None = 10.0,
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
     certificate: _Path | None = None,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...

@@ -58,7 +58,9 @@ class Survey:
     upper: no distance is above it. field: a Field, or None. Statistics, or None: area, of the mesh, to nearest; mean
     and rms, weighted by area, Intervals; percentiles, {share: Interval} of the least distance that so much of the area is
     within; bands, {distance as it was given: Interval} of the share of the area within it; curve, [(distance, Interval)],
-    the same for distances that ascend from 0 to the largest. met: whether all is as narrow as was asked. stats: its cost.
+    the same for distances that ascend from 0 to the largest. met: whether all is as narrow as was asked. ended: why the
+    survey ended, 'met', 'effort' (that many cells were bounded), 'bits' (no split would narrow more), 'time' (survey_time
+    ended it early: the next run may differ), 'cancelled' or 'memory'. stats: its effort and cost.
     """
 
     upper: float
@@ -70,6 +72,7 @@ class Survey:
     bands: Any
     curve: Any
     met: bool
+    ended: str
     stats: Any = _member(compare=False)
 
     __hash__ = None
@@ -107,7 +110,8 @@ class Survey:
 
     def to_dict(self):
         """All of it as plain values, which json.dumps takes."""
-        plain = {"upper": self.upper, "met": self.met, "field": None, "statistics": None, "stats": dict(self.stats)}
+        plain = {"upper": self.upper, "met": self.met, "ended": self.ended, "field": None, "statistics": None,
+                 "stats": dict(self.stats)}
         if self.field is not None:
             plain["field"] = {"lower": self.field.lower.tolist(), "upper": self.field.upper.tolist()}
         if self.bands is not None:
@@ -128,14 +132,15 @@ for _cls in (Interval, Field, Survey):
     _cls.__module__ = "vkhausdorff"  # the package's names, for pickles too
 
 
-def made(field, statistics, upper, met, stats):
+def made(field, statistics, upper, ended, stats):
     """Makes a Survey from the results of C++."""
     field = Field(*field) if field is not None else None
+    met = ended == "met"
     if statistics is None:
-        return Survey(upper, field, None, None, None, None, None, None, met, stats)
+        return Survey(upper, field, None, None, None, None, None, None, met, ended, stats)
 
     def pairs(name):
         return [(key, Interval(*bounds)) for key, bounds in statistics[name]]
 
     return Survey(upper, field, statistics["area"], Interval(*statistics["mean"]), Interval(*statistics["rms"]),
-                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, stats)
+                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, ended, stats)

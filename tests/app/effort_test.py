@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""--effort: the same answer from every run, whatever else the machine does; and why a survey ended.
+
+usage: effort_test.py PROGRAM
+"""
+
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = sys.argv.pop(1)
+BUSY = "while True: pass"
+LONG = ("demo", "--tol", "1e-2", "--field-tol", "3e-6", "--effort", "1000000000000")
+
+
+def wavy(cells, height):
+    """An OBJ of a wavy sheet."""
+    rows = []
+    for i in range(cells + 1):
+        for j in range(cells + 1):
+            x, y = 2 * i / cells - 1, 2 * j / cells - 1
+            rows.append(f"v {x!r} {y!r} {0.1 * math.sin(5 * x) * math.cos(4 * y) + height!r}")
+    for i in range(cells):
+        for j in range(cells):
+            corner = i * (cells + 1) + j + 1
+            right, above = corner + 1, corner + cells + 1
+            rows += [f"f {corner} {right} {above}", f"f {right} {above + 1} {above}"]
+    return "\n".join(rows) + "\n"
+
+
+def without_times(value):
+    """Leaves out what is of one run: times, and the workspace, which the memory that is free decides."""
+    if isinstance(value, list):
+        return [without_times(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    return {key: without_times(item) for key, item in value.items()
+            if not key.endswith("_ms") and key not in ("times", "started", "workspace_bytes")}
+
+
+class Effort(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        folder = pathlib.Path(cls.folder.name)
+        cls.a, cls.b = folder / "a.obj", folder / "b.obj"
+        cls.a.write_text(wavy(60, 0.1))
+        cls.b.write_text(wavy(40, 0))
+
+    def run_program(self, *options):
+        return subprocess.run([PROGRAM, *options], capture_output=True, text=True)
+
+    def answer_of(self, *words):
+        done = self.run_program(*words, "--json")
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        return json.loads(done.stdout)
+
+    def survey(self, *options):
+        return self.answer_of("distance", str(self.a), str(self.b), *options)["directions"][0]["survey"]
+
+    def test_two_runs_are_the_same_beside_a_busy_machine(self):
+        sheets = ("distance", str(self.a), str(self.b), "--symmetric", "--field-tol", "1e-5", "--effort", "20001")
+        wanted = [(*sheets, "--stats", "--bands", "0.05abs,0.1abs"),
+                  ("demo", "--stats", "--bands", "0.01mm", "--effort", "150001")]
+        first = [self.answer_of(*words) for words in wanted]
+        busy = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range((os.cpu_count() or 1) + 1)]
+        try:
+            second = [self.answer_of(*words) for words in wanted]
+        finally:
+            for one in busy:
+                one.kill()
+                one.wait()
+        for answer, faces, effort in zip(first, (7200, 30268), (20001, 150001)):
+            survey = answer["directions"][0]["survey"]
+            self.assertEqual((survey["ended"], survey["effort"], survey["met"]), ("effort", effort, False))
+            self.assertEqual(survey["bounded"], faces + effort - 1)
+        self.assertEqual(without_times(first), without_times(second))
+
+    def test_why_it_ended(self):
+        met = self.survey("--stats")
+        self.assertEqual((met["ended"], met["met"]), ("met", True))
+        self.assertGreaterEqual(met["effort"], 10**6)
+        none = self.survey("--field-tol", "1e-6", "--effort", "0")
+        self.assertEqual((none["ended"], none["bounded"], none["cells"]), ("effort", 7200, 7200))
+        bits = self.survey("--field-tol", "1e-12", "--effort", "1000000000")  # under what floats can tell
+        self.assertEqual((bits["ended"], bits["met"]), ("bits", False))
+        late = self.answer_of(*LONG, "--time", "10s")["directions"][0]["survey"]
+        self.assertEqual((late["ended"], late["met"]), ("time", False))
+        table = self.run_program("distance", str(self.a), str(self.b), "--field-tol", "1e-6", "--effort", "10")
+        self.assertIn("its effort was used before all that was asked was met", table.stdout)
+
+    @unittest.skipIf(os.name == "nt", "no SIGINT for one process")
+    def test_an_interrupt_is_no_end_of_time(self):
+        with subprocess.Popen([PROGRAM, *LONG, "--json"], stdout=subprocess.PIPE, text=True) as program:
+            time.sleep(5)
+            program.send_signal(signal.SIGINT)
+            out = program.communicate()[0]
+        survey = json.loads(out)["directions"][0].get("survey")
+        if survey is not None:  # a slow machine was still opening the device
+            self.assertEqual(survey["ended"], "cancelled")
+
+    def test_refusals(self):
+        pair = (str(self.a), str(self.b))
+        for options, said in (((*pair, "--stats", "--effort", "-1"), "--effort '-1': expected a whole number"),
+                              ((*pair, "--stats", "--effort", "1e6"), "--effort '1e6': expected a whole number"),
+                              ((*pair, "--stats", "--effort", ""), "--effort"),
+                              ((*pair, "--effort", "5"), "--effort: is of figures and faces' bounds")):
+            done = self.run_program("distance", *options)
+            self.assertEqual(done.returncode, 2, options)
+            self.assertIn(said, done.stderr)
+
+    def test_pictures_of_another_effort_are_drawn_again(self):
+        folder = pathlib.Path(self.folder.name)
+        (folder / "list.csv").write_text("id,a,b\nsheet,a.obj,b.obj\n")
+        reports = folder / "reports"
+
+        def batch(*options):
+            done = self.run_program("batch", str(folder / "list.csv"), "--out", str(folder / "results.jsonl"), "--resume",
+                                    *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return (reports / "sheet.html").stat().st_mtime_ns
+
+        drawn = batch("--report-dir", str(reports), "--effort", "1000")
+        self.assertEqual(batch("--report-dir", str(reports), "--effort", "1000"), drawn)
+        self.assertGreater(batch("--report-dir", str(reports), "--effort", "2000"), drawn)
+        done = self.run_program("batch", str(folder / "list.csv"), "--out", str(folder / "other.jsonl"), "--effort", "5")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--effort: is of what is drawn", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
