@@ -127,9 +127,9 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
       of_pairs.time ? parse_time(*of_pairs.time) : std::numeric_limits<double>::infinity();
   batch.tables = tables_of(typed);
   batch.folders = folders_of(of_pairs.pictures);
-  if (line.job.survey.effort && !batch.folders.any())
+  if (line.question.effort && !batch.folders.any())
     throw UsageError("--effort: is of what is drawn: ask for --image-dir or --report-dir");
-  batch.folders.effort = line.job.survey.effort;
+  batch.folders.effort = line.question.effort;
   return line;
 }
 
