@@ -11,7 +11,7 @@
 namespace vkh {
 namespace {
 
-constexpr double kNoExtent = 1e-3;  // of the larger diagonal
+constexpr double kNoExtent = 1e-3;  // of the smaller diagonal
 constexpr double kSmaller = 0.8, kLarger = 1.25;
 constexpr double kUnitError = 0.02;
 constexpr double kApart = 0.1;  // of B's diagonal
@@ -29,7 +29,7 @@ struct Ratio {
 };
 
 std::vector<Ratio> ratios(const Box& a, const Box& b) {
-  const double least = kNoExtent * std::max(diagonal(a), diagonal(b));
+  const double least = kNoExtent * std::min(diagonal(a), diagonal(b));
   std::vector<Ratio> all;
   for (int i = 0; i < 3; ++i) {
     const double from_a = a.hi[i] - a.lo[i], from_b = b.hi[i] - b.lo[i];

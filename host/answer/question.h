@@ -40,9 +40,10 @@ struct Question {
   // A limit.
   std::optional<Length> max;
   std::string face_max_a, face_max_b;  ///< files with limits per face; empty: none
-  std::vector<Limit> face_limits_a;    ///< limits of A's faces; empty: those of the file
-  std::optional<double> area;          ///< the share of A's area that is to be within `max`
-  std::string area_requested;          ///< the share as the user typed it
+  std::optional<std::vector<Limit>>
+      face_limits_a;           ///< limits of A's faces; none: those of the file
+  std::optional<double> area;  ///< the share of A's area that is to be within `max`
+  std::string area_requested;  ///< the share as the user typed it
 
   // What is wanted of all of A besides.
   bool faces = false;                    ///< bounds of each face: for a picture, or a file
@@ -59,9 +60,7 @@ struct Question {
   bool several_devices = false;  ///< allows several, see open_session()
   bool caches = true;            ///< keeps compiled pipelines in the user's folder
 
-  bool is_by_face() const {
-    return !face_max_a.empty() || !face_max_b.empty() || !face_limits_a.empty();
-  }
+  bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
   bool asks_for_survey() const { return faces || statistics || !bands.empty() || area; }
   std::string option(const char* name) const { return std::string(dashes) + name; }
   bool asks_for_cells() const { return certificate || asks_for_survey(); }

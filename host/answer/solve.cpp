@@ -29,7 +29,7 @@ SolveOptions heard_options(const Question& question, const Observer& observer,
 /// A direction whose faces may have limits of their own: in a file, or given.
 struct GatedSide {
   const std::string& file;
-  std::span<const Limit> given;
+  const std::optional<std::vector<Limit>>& given;
   const Mesh& from;
   const Mesh& to;
   std::optional<FaceLimits>& limits;
@@ -37,8 +37,8 @@ struct GatedSide {
 
 Report gate(const GatedSide& side, const SolveOptions& options, Solver& solver,
             const Answer& answer) {
-  if (side.file.empty() && side.given.empty()) return solver.distance(side.from, side.to, options);
-  std::vector<Limit> limits(side.given.begin(), side.given.end());
+  if (side.file.empty() && !side.given) return solver.distance(side.from, side.to, options);
+  std::vector<Limit> limits = side.given.value_or(std::vector<Limit>());
   if (!side.file.empty())
     limits = read_face_limits(side.file, side.from, answer.max->limit, answer.unit,
                               answer.a_to_b.diagonal_a);
@@ -68,8 +68,8 @@ void solve_by_face(const Question& question, const AskedMeshes& meshes, Solver& 
     progress.back = true;
     return !observer.search || observer.search(progress);
   };
-  answer.b_to_a = gate({question.face_max_b, {}, meshes.b, meshes.a, answer.max->faces_b}, options,
-                       solver, answer);
+  answer.b_to_a = gate({question.face_max_b, std::nullopt, meshes.b, meshes.a, answer.max->faces_b},
+                       options, solver, answer);
 }
 
 void note_left_out(std::span<Solver* const> solvers, Answer& answer) {

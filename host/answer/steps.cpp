@@ -103,6 +103,18 @@ void check_area(const Question& question, const Mesh& mesh) {
 
 }  // namespace
 
+namespace {
+
+// Corners that are off a plane by less than a tenth of the tolerance, as decimals of a slanted
+// plane are, make no difference. The interval says so itself where it is wider by them.
+void drop_small_ambiguities(double tolerance, Input& input) {
+  std::erase_if(input.notes, [&](const Note& note) {
+    return note.code == NoteCode::kAmbiguity && *note.value <= 0.1 * tolerance;
+  });
+}
+
+}  // namespace
+
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
   check_units(question, a.unit, b.unit);
   check_area(question, a);
@@ -125,6 +137,7 @@ double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answe
         in_files(question.tolerance, question.option("tol").c_str(), answer.unit, diagonal_a)
             .within;
   }
+  for (Input& input : answer.inputs) drop_small_ambiguities(answer.a_to_b.tolerance, input);
   // A run with a limit may end by that, whatever its tolerance is.
   const bool is_share = question.tolerance.of == Length::Of::kDiagonal;
   if (is_share && diagonal_a == 0 && !question.max)

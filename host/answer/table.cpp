@@ -76,8 +76,8 @@ void print_input(std::ostream& out, const char* label, const Input& input) {
   print_row(out, label, text);
   if (input.place.delta > 0) {
     print_row(out, "",
-              "the surface is within " + decimal(input.place.delta, 3, Rounding::kUp) +
-                  " of the exact one: the interval is wider by it");
+              "the surface is known to within " + decimal(input.place.delta, 3, Rounding::kUp) +
+                  ": the interval is wider by it");
   }
   for (const Note& note : input.notes)
     print_row(out, "note", std::string(label) + ": " + printable(line_of(note)));

@@ -8,11 +8,11 @@
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 23> kCodeNames = {
-    "polygons",  "bodies", "short-faces", "elements",    "surfaces",     "calls",
-    "unread",    "scene",  "rotations",   "positions",   "morph",        "animations",
-    "units",     "size",   "apart",       "one-way",     "unit-assumed", "units-differ",
-    "tolerance", "memory", "devices",     "certificate", "survey"};
+constexpr std::array<std::string_view, 24> kCodeNames = {
+    "polygons",     "ambiguity", "bodies", "short-faces", "elements",    "surfaces",
+    "calls",        "unread",    "scene",  "rotations",   "positions",   "morph",
+    "animations",   "units",     "size",   "apart",       "one-way",     "unit-assumed",
+    "units-differ", "tolerance", "memory", "devices",     "certificate", "survey"};
 static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kSurvey) + 1);
 
 }  // namespace
@@ -45,6 +45,7 @@ std::vector<std::string> lines_of(std::span<const Note> notes) {
 bool is_for_servers(NoteCode code) {
   switch (code) {
     case NoteCode::kPolygons:
+    case NoteCode::kAmbiguity:
     case NoteCode::kBodies:
     case NoteCode::kUnits:
     case NoteCode::kSize:

@@ -14,6 +14,7 @@ namespace vkh {
 enum class NoteCode {
   // Notes on a file.
   kPolygons,    ///< faces of more than three corners became triangles
+  kAmbiguity,   ///< their corners lie in no plane, so that other triangulations are as right
   kBodies,      ///< a file holds other things than bodies, left out or included
   kShortFaces,  ///< faces of fewer than three corners were left out
   kElements,    ///< points, lines and curves were left out

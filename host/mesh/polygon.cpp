@@ -411,16 +411,33 @@ bool is_surely_convex_quad(const Corners& corners, int axis) {
          sure_turn(ring[3], ring[0], ring[1]) == side;
 }
 
+// The outline along one axis; nothing if it encloses no area there.
+std::optional<Outline> outline_along(const Corners& corners, int axis) {
+  const Shape shape = shape_of(projected(corners, axis));
+  if (shape == Shape::kConvex) return Outline{PolygonKind::kFan, {}, axis};
+  if (shape == Shape::kWindsOften) return Outline{PolygonKind::kCrossing, {}, axis};
+  Ring ring = projected(corners, axis);
+  const int sign = area_sign(ring);
+  if (sign == 0) return std::nullopt;
+  return clipped(std::move(ring), axis, sign);
+}
+
+// Corners off a plane may cross along the axis that the polygon faces most, and not along another
+// that it nearly faces as much: that one then says the surface and its ambiguity. Along an axis
+// that it hardly faces, a bow tie may look like a simple sliver.
 Outline outline_of(const Corners& corners, const glm::dvec3& normal) {
+  constexpr double kFaces = 0.5;  // of the largest component
   const std::array<int, 3> axes = axes_by_size(normal);
   if (is_surely_convex_quad(corners, axes[0])) return {PolygonKind::kFan, {}, axes[0]};
+  std::optional<Outline> refused;
   for (const int axis : axes) {
-    const Shape shape = shape_of(projected(corners, axis));
-    if (shape == Shape::kConvex) return {PolygonKind::kFan, {}, axis};
-    if (shape == Shape::kWindsOften) return {PolygonKind::kCrossing, {}, axis};
-    Ring ring = projected(corners, axis);
-    if (const int sign = area_sign(ring); sign != 0) return clipped(std::move(ring), axis, sign);
+    if (refused && std::abs(normal[axis]) < kFaces * std::abs(normal[axes[0]])) break;
+    std::optional<Outline> outline = outline_along(corners, axis);
+    if (!outline) continue;
+    if (!has_only_fan(outline->kind)) return std::move(*outline);
+    if (!refused) refused = std::move(outline);
   }
+  if (refused) return std::move(*refused);
   return {are_on_a_line(corners) ? PolygonKind::kFan : PolygonKind::kNoArea, {}, axes[0]};
 }
 

@@ -85,8 +85,9 @@ void read_face_limits(const py::object& max, const char* expected, Question& que
   if (!numbers) PyErr_Clear();
   if (!numbers) refuse_type("max", expected, max);
   double largest = 0;
+  question.face_limits_a.emplace();
   for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
-    question.face_limits_a.push_back({numbers.at(i), numbers.at(i)});
+    question.face_limits_a->push_back({numbers.at(i), numbers.at(i)});
     largest = std::max(largest, numbers.at(i));
   }
   question.max = Length{.requested = "limits of A's faces",
@@ -175,7 +176,7 @@ void read_survey(const Arguments& given, Question& question) {
 }
 
 void check_together(const Question& question) {
-  if (question.face_limits_a.empty()) return;
+  if (!question.face_limits_a) return;
   if (question.symmetric)
     throw UsageError("max: limits of A's faces say nothing of B's; ask for each direction apart");
   if (question.area) throw UsageError("area: faces with limits of their own are asked about whole");

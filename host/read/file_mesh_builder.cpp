@@ -190,15 +190,13 @@ void FileMeshBuilder::note_polygons(const Polygons& polygons) {
   std::string note = counted(polygons_, "face") + " of more than three corners " +
                      (polygons_ == 1 ? "was" : "were") + " triangulated";
   if (polygons.clipped > 0) note += ", " + std::to_string(polygons.clipped) + " of them not convex";
+  notes.push_back(note_of(NoteCode::kPolygons, note, {static_cast<double>(polygons_), "faces"}));
   if (polygons.ambiguity > 0) {
-    note += "; corners off a plane leave the surface open by up to " +
-            decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
-            std::to_string(polygons.ambiguous_face);
+    note = "corners off a plane leave the surface open by up to " +
+           decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
+           std::to_string(polygons.ambiguous_face);
     if (limits_.any_triangulation) note += ", and the interval is wider by it";
-  }
-  notes.push_back(note_of(NoteCode::kPolygons, note));
-  if (polygons.ambiguity > 0) {
-    notes.back().value = polygons.ambiguity;
+    notes.push_back(note_of(NoteCode::kAmbiguity, note, {polygons.ambiguity, ""}));
     notes.back().face = polygons.ambiguous_face;
   }
   if (polygons.fanned == 0) return;

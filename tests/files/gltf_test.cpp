@@ -530,6 +530,5 @@ TEST_CASE("the answer carries delta and unit") {
   CHECK(r["inputs"][0]["unit"] == "m");
   CHECK(r["inputs"][1]["delta"].get<double>() > 0);
   CHECK(r["inputs"][1]["delta"].get<double>() < 1e-14);
-  CHECK(run({"distance", a, b}).out.find(" of the exact one: the interval is wider by it") !=
-        std::string::npos);
+  CHECK(run({"distance", a, b}).out.find(": the interval is wider by it") != std::string::npos);
 }

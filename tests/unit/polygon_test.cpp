@@ -220,6 +220,23 @@ TEST_CASE("what crosses itself or has no area is said") {
   }
 }
 
+TEST_CASE("what crosses along the axis that it faces most may be simple along another") {
+  // A face of OpenSubdiv's catmark_square_hedit1: convex along z, and a bow tie along x and y.
+  const Points bent = {{0, -0.333333135, 1},
+                       {0.0208333209, -0.333333135, 0.928894043},
+                       {0.0208333209, -0.312499821, 0.932861328},
+                       {0, -0.312499821, 0.928894043}};
+  const Made made = made_of(bent);
+  CHECK(made.result.kind == PolygonKind::kFan);
+  CHECK(made.result.axis == 2);
+  CHECK(made.faces == fan_of(4));
+  CHECK(made.result.ambiguity > 0.03);  // the diagonals' middles are 0.034 apart along z
+  CHECK(made.result.ambiguity < 0.08);
+  // Seen from its edge this one is a simple sliver, too, and crosses itself nevertheless.
+  const Points bow = {{0, 0, 0}, {1, 1, 0.01}, {1, 0, 0}, {0, 1.2, 0.02}};
+  CHECK(made_of(bow).result.kind == PolygonKind::kCrossing);
+}
+
 TEST_CASE("the ambiguity holds both diagonals of a quad, and is 0 in a plane of the axes") {
   CHECK(made_of({{0, 0, 3}, {1, 0, 3}, {1, 1, 3}, {0, 1, 3}}).result.ambiguity == 0);
   // The diagonals' middles are 1/2 apart.
