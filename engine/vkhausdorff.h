@@ -499,7 +499,7 @@ typedef struct VkhPoint {
  * early (lavapipe does after 65,535 turns), which leaves an upper end that is true but may be wide.
  * As a rule the width is 48 bits of the point, and of what of B is as near. Where more than 1024
  * triangles of B are equally near in float32, the lower end is off by about 1e-6 of d and of their
- * size; where more than 65,536 are, by their size. */
+ * size; where more than 65,536 are, as from the centre of a fine sphere, it may be far below d. */
 typedef struct VkhClosestFace {
   float base, lowerAbove, upperAbove;
   uint32_t face; /* of B: a point of it is no farther than the upper end */
