@@ -133,7 +133,7 @@ class Drawn(Folders):
         index = self.index()
         self.assertEqual([row["cells"][:2] for row in index.rows[1:]],
                          [[index.rows[1]["cells"][0], "FAIL"], ["open", "CLOSED"], [index.rows[3]["cells"][0], "PASS"]])
-        self.assertTrue(index.rows[1]["cells"][0].startswith("fails("), "the witness is told")
+        self.assertTrue(index.rows[1]["cells"][0].startswith("failsat least "), "the distance is told")
         self.assertTrue(index.rows[1]["cells"][3].startswith("at least "))
         self.assertEqual(index.rows[1]["links"], ["fails.html", "fails.png"])
         self.assertEqual(index.rows[3]["links"], ["passes.html", "passes.png", "passes-b.png"])

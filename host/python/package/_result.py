@@ -42,11 +42,11 @@ def _row(r: Result) -> dict[str, Any]:
     return row
 
 
-def _to_frame(r: Result) -> Any:
+def _to_frame(self):
     """A pandas.DataFrame of one row: lower, upper, gap, status, verdict, the witness, mean, rms, percentiles and notes."""
     import pandas
 
-    return pandas.DataFrame([_row(r)])
+    return pandas.DataFrame([_row(self)])
 
 
 def _repr_html(r: Result) -> str | None:
