@@ -54,7 +54,8 @@ Report gate(const GatedSide& side, const SolveOptions& options, Solver& solver,
 
 /// Solves both directions on their own: limits of faces bound nothing in the reverse direction.
 void solve_by_face(const Question& question, const AskedMeshes& meshes, Solver& solver,
-                   SolveOptions options, const Observer& observer, Answer& answer) {
+                   const Observer& observer, Answer& answer) {
+  SolveOptions options = heard_options(question, observer, answer);
   options.tolerance = answer.a_to_b.tolerance;
   options.tolerance_is_absolute = true;
   SolveOptions there = options;
@@ -106,7 +107,7 @@ void solve(const Question& question, std::span<Solver* const> solvers, const Ask
            const Observer& observer, Answer& answer) {
   const SolveOptions options = heard_options(question, observer, answer);
   if (question.is_by_face()) {
-    solve_by_face(question, meshes, *solvers.front(), options, observer, answer);
+    solve_by_face(question, meshes, *solvers.front(), observer, answer);
   } else if (question.symmetric) {
     if (solvers.size() > 1)
       throw UsageError("--symmetric: over several devices ask for each direction by itself");

@@ -27,7 +27,7 @@ glm::dvec3 scaled(const glm::dvec3& v, int exponent) {
 // and v + w <= 1 hold exactly, so that the exact point lies in the triangle whatever rounding did
 // to v and w.
 struct Weights {
-  int base = 0, end = 1, third = 2;
+  size_t base = 0, end = 1, third = 2;
   double v = 0, w = 0;
   double distance2 = kInfinity;  // steers
 };
@@ -38,7 +38,7 @@ constexpr double kLeastSquare = 1e-290;
 double ratio(double a, double b) { return b > kLeastSquare ? a / b : 0; }
 
 // The origin is the point asked.
-Weights on_edge(const FaceCorners& t, int base, int end) {
+Weights on_edge(const FaceCorners& t, size_t base, size_t end) {
   const glm::dvec3 edge = t[end] - t[base];
   const double v = std::clamp(ratio(-glm::dot(t[base], edge), glm::dot(edge, edge)), 0.0, 1.0);
   const glm::dvec3 at = t[base] + v * edge;

@@ -145,8 +145,11 @@ template <class T, class Row>
 py::array array_of(const std::vector<Row>& rows) {
   const auto count = static_cast<py::ssize_t>(rows.size());
   const auto* first = reinterpret_cast<const T*>(rows.data());
-  if constexpr (sizeof(Row) == sizeof(T)) return py::array_t<T>(count, first);
-  return py::array_t<T>({count, py::ssize_t{sizeof(Row) / sizeof(T)}}, first);
+  if constexpr (sizeof(Row) == sizeof(T)) {
+    return py::array_t<T>(count, first);
+  } else {
+    return py::array_t<T>({count, py::ssize_t{sizeof(Row) / sizeof(T)}}, first);
+  }
 }
 
 py::object closest_of(const ClosestPoints& found) {

@@ -242,8 +242,8 @@ StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {
     bool has_low = false;
     sum += displaced(point[i], frame.centre[i], scale, has_low);
     const Halves halves = halves_of(scale(point[i] - frame.centre[i]));
-    stored.high[i] = halves.high;
-    stored.low[i] = halves.low;
+    stored.high[static_cast<size_t>(i)] = halves.high;
+    stored.low[static_cast<size_t>(i)] = halves.low;
   }
   stored.displacement = sum * (1 + 0x1p-50);
   return stored;

@@ -98,7 +98,7 @@ class Many(unittest.TestCase):
                 (dict(tol=0), ValueError, "^tol: expected"), (dict(max=-1), ValueError, "^max: expected"),
                 (dict(max=[1.0]), TypeError, "^max: expected"), (dict(max="0.1mm"), ValueError, "^max: expected"),
                 (dict(ahead=0), ValueError, "^ahead: expected a whole number"), (dict(lanes="x"), TypeError, "^lanes: expected"),
-                (dict(together=1.5), TypeError, "^together"), (dict(device=3), TypeError, "^device: expected"),
+                (dict(together=1.5), TypeError, "^together"), (dict(device=3.5), TypeError, "^device: expected"),
                 (dict(device="0,,1"), ValueError, "^device: expected names between commas"),
                 (dict(against=5), TypeError, "^against: expected .vertices, faces."), (dict(symmetric=1), TypeError, "^symmetric"),
                 (dict(against="/nonesuch.ply"), FileNotFoundError, "nonesuch"), (dict(stranger=1), TypeError, "stranger")):
