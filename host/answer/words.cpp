@@ -98,12 +98,12 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const Limit& limit = faces ? faces->limit : answer.max->limit;
   // The text never rounds down to the limit itself.
   const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
-  const std::string from = back ? "B" : "A", to = back ? "A" : "B";
+  const std::string from = back ? "B" : "A";
   std::string text = "FAIL  at least " + length_down(answer, r.lower, margin);
   text +=
       r.has_witness ? " at " + point_text(r.witness_a) + " of " + from : " at a point of " + from;
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
-  return text + " from " + to + ", limit of its face " +
+  return text + ", limit of its face " +
          with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("--face-max: each face its own limit") {
     CHECK(r["max"]["faces_a"]["sha256"] ==
           "a1e3546c2f757b8cffc9b41f001918f8653eb46bd5ba7805d02356f3de430d75");
   CHECK(r["directions"][0]["witness"]["from"]["face"] == 1);
-  CHECK(r["words"].get<std::string>().find("face's limit is 0.2") != std::string::npos);
+  CHECK(r["words"].get<std::string>().find(" of A, limit of its face 0.2") != std::string::npos);
   CHECK(ask("0,8mm\n1,7mm\n", "1mm", {"--unit", "in"}).exit_code == 0);
   // The file starts with the mark of spreadsheets.
   CHECK(ask("\xef\xbb\xbf"
@@ -100,7 +100,8 @@ TEST_CASE("--face-max: each face its own limit") {
   CHECK(ask("1,0.3\n", "0.3abs", {"--symmetric"}).exit_code == 0);
   CHECK(ask("1,0.3\n", "0.2abs", {"--symmetric"}).exit_code == 1);
   const Words back = {"--symmetric", "--face-max-b", write_file("back.csv", "0,0.1\n")};
-  CHECK(gate("0.3abs", back).out.find(" of B is at least 0.2") != std::string::npos);
+  CHECK(gate("0.3abs", back).out.starts_with("FAIL  at least 0.2"));
+  CHECK(gate("0.3abs", back).out.find(" of B, limit of its face ") != std::string::npos);
   for (const char* wrong : {"2,0.3\n", "-1,0.3\n", "0\n", "0,\n", "0,0\n", "0,-1\n", "0,0.3,1\n",
                             "0,0.3\n0,0.3\n", "x,0.3\n", "0,0.3mm\n"}) {
     CAPTURE(wrong);
@@ -117,7 +118,8 @@ TEST_CASE("--face-max: each face its own limit") {
 TEST_CASE("faces have the file's own numbers, before polygons are fanned") {
   const Outcome fail = run({"gate", mixed(), square_b(), "--max", "1abs"});
   CHECK(fail.exit_code == 1);
-  CHECK(fail.out.find(") on face 3 of A is at least 1.") != std::string::npos);
+  CHECK(fail.out.starts_with("FAIL  at least 1."));
+  CHECK(fail.out.find(") on face 3 of A, limit ") != std::string::npos);
   CHECK(fail.out.find("  witness    A face 3 at (") != std::string::npos);
   const auto face = [](const char* end, Words words) {
     words.emplace_back("--json");
