@@ -32,7 +32,7 @@ std::vector<Limit> bands_of(const Question& question, const Answer& answer) {
   return bands;
 }
 
-/// What the steps of one answer share.
+/// The state that the steps of one answer share.
 struct Finishing {
   const Question& question;
   Solver& solver;

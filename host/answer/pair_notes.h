@@ -1,4 +1,4 @@
-// What is odd about a pair of meshes, by their boxes alone.
+// Notes on a pair of meshes whose boxes are odd.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is asked about a pair of meshes, before any file or device is touched. The command line, a
+// The question about a pair of meshes, before any file or device is touched. The command line, a
 // row of a list and Python fill it in; host/answer/steps.h turns it into an answer.
 #pragma once
 
@@ -45,7 +45,7 @@ struct Question {
   std::optional<double> area;  ///< the share of A's area that is to be within `max`
   std::string area_requested;  ///< the share as the user typed it
 
-  // What is wanted of all of A besides.
+  // Results about all of A, besides its distance.
   bool faces = false;                    ///< bounds of each face: for a picture, or a file
   std::optional<Length> face_tolerance;  ///< the width of those
   bool statistics = false;

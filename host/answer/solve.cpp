@@ -105,21 +105,21 @@ Report distance_of_one_part(std::span<Solver* const> solvers, const AskedMeshes&
 
 void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
            const Observer& observer, Answer& answer) {
-  const SolveOptions options = heard_options(question, observer, answer);
+  const auto options = [&] { return heard_options(question, observer, answer); };
   if (question.is_by_face()) {
     solve_by_face(question, meshes, *solvers.front(), observer, answer);
   } else if (question.symmetric) {
     if (solvers.size() > 1)
       throw UsageError("--symmetric: over several devices ask for each direction by itself");
-    SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options);
+    SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options());
     answer.a_to_b = std::move(both.a_to_b);
     answer.b_to_a = std::move(both.b_to_a);
   } else {
-    answer.a_to_b = question.part ? distance_of_one_part(solvers, meshes, *question.part, options)
-                                  : distance_of(solvers, meshes, options);
+    answer.a_to_b = question.part ? distance_of_one_part(solvers, meshes, *question.part, options())
+                                  : distance_of(solvers, meshes, options());
     note_left_out(solvers, answer);
   }
-  add_memory_notes(options.memory_bytes, answer);
+  add_memory_notes(question.options.memory_bytes, answer);
   if (observer.found) observer.found(answer);
 }
 

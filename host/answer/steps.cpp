@@ -116,10 +116,16 @@ void drop_small_ambiguities(double tolerance, Input& input) {
 }  // namespace
 
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
+  return take_meshes(question, {a, bounding_box(a)}, {b, bounding_box(b)}, answer);
+}
+
+double take_meshes(const Question& question, const BoxedMesh& boxed_a, const BoxedMesh& boxed_b,
+                   Answer& answer) {
+  const auto& [a, box_a] = boxed_a;
+  const auto& [b, box_b] = boxed_b;
   check_units(question, a.unit, b.unit);
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
-  const Box box_a = bounding_box(a), box_b = bounding_box(b);
   const double farthest = farthest_in(join(box_a, box_b), add_up(a.delta, b.delta));
   const double diagonal_a = diagonal(box_a);
   answer.inputs = {input_of(a), input_of(b)};

@@ -31,6 +31,12 @@ struct AskedMeshes {
   const PreparedMesh* prepared = nullptr;
 };
 
+/// A mesh and its bounding box, which a caller keeps for a mesh of many pairs.
+struct BoxedMesh {
+  const Mesh& mesh;
+  Box box;
+};
+
 /// The answer before anything is read: [0, infinity).
 Answer unread_answer(const Question& question);
 
@@ -38,6 +44,9 @@ Answer unread_answer(const Question& question);
 /// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal
 /// and both deltas. Throws UsageError for units that do not go together and for lengths that cannot
 /// be converted to the files' unit, and InputError where a share is asked of a mesh without area.
+double take_meshes(const Question& question, const BoxedMesh& a, const BoxedMesh& b,
+                   Answer& answer);
+/// Does the same, and finds the boxes.
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer);
 
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.
@@ -51,7 +60,7 @@ void solve(const Question& question, std::span<Solver* const> solvers, const Ask
 
 /// Does what follows once the distance is enclosed: surveys A, and B in the reverse direction, and
 /// narrows the intervals by what they find; proves the upper bounds; checks the answer on the host.
-/// What the device or the host has no memory for is left out, with a note.
+/// A survey or a certificate is left out, with a note, where the device or the host lacks memory.
 void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
             const Observer& observer, Answer& answer);
 

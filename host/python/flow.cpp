@@ -108,9 +108,12 @@ void Flow::solve(FlowPair pair) {
   limits.keep_going = [this] { return !is_over(); };
   const auto running = std::make_shared<Running>();
   running->a = made_mesh(std::move(pair.a), limits);
-  running->b = asked_.against ? asked_.against : made_mesh(std::move(pair.b), limits);
+  const MeshPointer& against = asked_.against.mesh;
+  running->b = against ? against : made_mesh(std::move(pair.b), limits);
   running->answer = unread_answer(question);
-  take_meshes(question, *running->a, *running->b, running->answer);
+  const Box box_b = against ? asked_.against.box : bounding_box(*running->b);
+  take_meshes(question, {*running->a, bounding_box(*running->a)}, {*running->b, box_b},
+              running->answer);
   push(pair.number, running);
 }
 
@@ -119,12 +122,12 @@ void Flow::push(size_t number, const std::shared_ptr<Running>& running) {
   StreamPair whole{.number = number,
                    .a = running->a,
                    .b = running->b,
-                   .shares_b = asked_.against != nullptr,
+                   .shares_b = asked_.against.mesh != nullptr,
                    .symmetric = question.symmetric,
                    .options = solve_options(question, running->answer)};
   if (question.asks_for_cells()) {
     whole.beside = [this, running](Solver& solver, StreamResult& result) {
-      take_reports(asked_.question, StreamResult(result), running->answer);
+      take_reports(asked_.question, std::move(result), running->answer);
       finish(asked_.question, solver, {*running->a, *running->b},
              {.goes_on = [this] { return !is_over(); }}, running->answer);
     };

@@ -17,10 +17,10 @@
 
 namespace vkh::python {
 
-/// What is asked of every pair, and on which devices.
+/// The question about every pair, and its devices.
 struct FlowQuestion {
-  Question question;    ///< its `limits` are for files
-  MeshPointer against;  ///< the B of all; null: each has its own
+  Question question;  ///< its `limits` are for files
+  KeptMesh against;   ///< the B of all; null: each has its own
   StreamOptions devices;
   size_t ahead = 0;  ///< most pairs that are put and not taken; 0: twice what devices hold
 

@@ -72,7 +72,7 @@ FlowQuestion asked_from(const Arguments& given) {
   asked.ahead = count_of(given, "ahead");
   asked.devices = devices_of(given);
   if (is_given(given, "against"))
-    asked.against = mesh_of("against", "B", given.at("against"), asked.question.limits);
+    asked.against = kept(mesh_of("against", "B", given.at("against"), asked.question.limits));
   return asked;
 }
 

@@ -425,4 +425,10 @@ MeshPointer mesh_of(const std::string& name, const py::object& vertices, const p
   return std::make_shared<const Mesh>(mesh_from(name, vertices, faces));
 }
 
+KeptMesh kept(MeshPointer mesh) {
+  const FloatEnvironment ours;
+  const Box box = bounding_box(*mesh);
+  return {std::move(mesh), box};
+}
+
 }  // namespace vkh::python

@@ -10,10 +10,19 @@
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
 #include "host/read/read_limits.h"
+#include "host/solve/frame.h"
 
 namespace vkh::python {
 
 using MeshPointer = std::shared_ptr<const Mesh>;
+
+/// A mesh of many pairs, with its bounding box.
+struct KeptMesh {
+  MeshPointer mesh;
+  Box box;
+};
+
+KeptMesh kept(MeshPointer mesh);
 
 /// Defines the class Mesh, and read().
 void define_mesh(pybind11::module_& m);

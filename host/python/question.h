@@ -1,4 +1,4 @@
-// What a call from Python asks: its keywords as a Question.
+// Reads the keywords of a call from Python as a Question.
 #pragma once
 
 #include <optional>

@@ -59,13 +59,15 @@ struct Given {
   py::object progress;
   std::unique_ptr<OutputFile> certificate;
   MeshPointer a, b;
+  Box box_b;
 
-  Given(const char* command, const Arguments& given, MeshPointer mesh_a, MeshPointer mesh_b)
+  Given(const char* command, const Arguments& given, MeshPointer mesh_a, KeptMesh mesh_b)
       : question(question_of(command, given)),
         progress(progress_of(given)),
         certificate(certificate_file(given)),
         a(std::move(mesh_a)),
-        b(std::move(mesh_b)) {
+        b(std::move(mesh_b.mesh)),
+        box_b(mesh_b.box) {
     question.certificate = certificate != nullptr;
     if (question.certificate && (question.area || question.is_by_face()))
       throw UsageError(
@@ -124,7 +126,8 @@ Result answered(Given given, Session& session) {
   Answer answer = unread_answer(given.question);
   {
     const FloatEnvironment ours;
-    take_meshes(given.question, *given.a, *given.b, answer);
+    take_meshes(given.question, {*given.a, bounding_box(*given.a)}, {*given.b, given.box_b},
+                answer);
   }
   session.use([&](Solver& solver, const PreparedMesh* prepared) {
     Listener listener(given);
@@ -191,7 +194,7 @@ Result distance(const py::args& positional, const py::kwargs& named) {
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments arguments(*signature, all, named);
   return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")),
-                   mesh_of("B", arguments.at("vb"), arguments.at("fb"))},
+                   kept(mesh_of("B", arguments.at("vb"), arguments.at("fb")))},
                   session_for(arguments.device(kDevice)));
 }
 
@@ -206,7 +209,7 @@ Result gate(const py::args& positional, const py::kwargs& named) {
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
-                   mesh_of("b", "B", arguments.at("b"))},
+                   kept(mesh_of("b", "B", arguments.at("b")))},
                   session_for(arguments.device(kDevice)));
 }
 
@@ -220,7 +223,7 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
   const std::string device = given.device(kDevice);
   const MeshPointer b = mesh_of("B", given.at("vb"), given.at("fb"));
   session_ = std::make_shared<Session>(device);
-  b_ = b;
+  b_ = kept(b);
   session_->prepare(*b);
 }
 

@@ -31,7 +31,7 @@ class PythonSolver {
   void close();
 
  private:
-  MeshPointer b_;
+  KeptMesh b_;
   std::shared_ptr<Session> session_;  // shared with the calls in flight on other threads
 };
 

@@ -1,4 +1,4 @@
-// What a device bounds beside a run: cells of A, the question of a survey, and single points.
+// Cells of A, for surveys, and single points: a device bounds them beside a run.
 #pragma once
 
 #include <span>

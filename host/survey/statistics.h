@@ -39,8 +39,8 @@ std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
 struct PercentileSearch {
   std::span<const double> shares;
   double resolution;  ///< bounds are to be so close to the best that the cells say
-  /// What is known of the same shares, such as the result for the cells before some of them were
-  /// split; the result is within it. Empty: nothing is.
+  /// Enclosures of the same shares that are known, such as the result for the cells before some of
+  /// them were split; the result is within them. Empty: none.
   std::span<const Enclosure> known = {};
 };
 

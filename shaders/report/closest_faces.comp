@@ -80,7 +80,7 @@ Bounds with_boxes(Bounds b, View from, float reach2, inout uint to_go) {
 // compilers take as known behind them. The first traversal's early end ends these loops, too.
 Bounds bounds_within(View from, float within, uint nearest) {
   float reach2 = reach2_of(from, within);
-  // What is beyond the reach is no closer than `within`.
+  // Triangles beyond the reach are no closer than `within`.
   Bounds b = Bounds(lowered(within - from.base), raised(within - from.base), nearest, 0u);
   uint not_leaves = 0u;
   uint found_count = 0u;

@@ -64,8 +64,8 @@ Rational near(const Case& c) {
   return Rational(largest) * Rational(0x1p-46) + Rational(0x1p-1060);
 }
 
-/// What the lower bound may be under the distance: a direction that is off by an ulp of the
-/// coordinates leaves the root of that.
+/// The most that the lower bound may be under the distance: a direction that is off by an ulp of
+/// the coordinates leaves the root of that.
 Rational spread(const Case& c) { return Rational(0x1p23) * near(c); }
 
 }  // namespace
