@@ -29,11 +29,19 @@ struct Triangulation {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< corners by their place
 };
 
+/// Where a mesh was put: x at matrix (numerator / denominator x).
+struct Placement {
+  double numerator = 1, denominator = 1;  ///< whole numbers, at least 1
+  bool has_matrix = false;
+  std::array<std::array<double, 4>, 3> matrix{};  ///< rows
+};
+
 /// The way from the file's contents to corners.
 struct Description {
   bool has_all_bodies = false;  ///< of a scene every shape, whether it is printed or not
   double ambiguity = 0;         ///< error of another triangulation: stated, not proven
   uint64_t ambiguous_face = 0;
+  Placement placement;
   std::vector<Triangulation> polygons;  ///< in the order of their faces
 };
 
@@ -85,9 +93,14 @@ class Bytes {
   }
   void skip(uint64_t count) { at_ += count; }
   uint32_t word() { return static_cast<uint32_t>(take(4)); }
-  double real() {
+  double signed_real() {
     const auto value = std::bit_cast<double>(take(8));
-    expect(std::isfinite(value) && !std::signbit(value), "a negative number, or none");
+    expect(std::isfinite(value) && (value != 0 || !std::signbit(value)), "not a number, or -0");
+    return value;
+  }
+  double real() {
+    const double value = signed_real();
+    expect(!std::signbit(value), "a negative number");
     return value;
   }
   std::string hash() {
@@ -221,6 +234,23 @@ inline Triangulation read_triangulation(Bytes& bytes, uint64_t next) {
   return out;
 }
 
+inline Placement read_placement(Bytes& bytes) {
+  Placement out;
+  for (double* number : {&out.numerator, &out.denominator}) {
+    *number = bytes.real();
+    bytes.expect(*number >= 1 && *number <= 0x1p53 && *number == std::floor(*number),
+                 "a unit that is no quotient of whole numbers");
+  }
+  const uint64_t matrices = bytes.take(8);
+  bytes.expect(matrices <= 1, "a matrix of no kind");
+  out.has_matrix = matrices == 1;
+  if (!out.has_matrix) return out;
+  for (auto& row : out.matrix) {
+    for (double& entry : row) entry = bytes.signed_real();
+  }
+  return out;
+}
+
 inline Description read_description(Bytes& bytes) {
   Description out;
   bytes.expect(bytes.word() == 0, "not read as a surface");
@@ -230,9 +260,7 @@ inline Description read_description(Bytes& bytes) {
   out.ambiguity = bytes.real();
   out.ambiguous_face = bytes.take(8);
   bytes.expect(out.ambiguity > 0 || out.ambiguous_face == 0, "a face of no ambiguity");
-  const double numerator = bytes.real(), denominator = bytes.real();
-  bytes.expect(numerator == 1 && denominator == 1, "in another unit");
-  bytes.expect(bytes.take(8) == 0, "placed by a matrix");
+  out.placement = read_placement(bytes);
   const uint64_t count = bytes.take(8);
   bytes.expect(count <= bytes.left(), "more polygons than bytes");
   for (uint64_t i = 0, next = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 
 #include "check/certificate.h"
 #include "check/exact.h"
+#include "check/placing.h"
 #include "host/base/parallel.h"
 #include "host/mesh/mesh.h"
 
@@ -16,21 +17,24 @@ struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The inputs for the proof of a direction, from X to Y. All coordinates are integers times 2^unit.
+/// The inputs for the proof of a direction, from X to Y. All coordinates are integers times
+/// 2^unit / scale, where `scale` is the product of both meshes' denominators.
 struct Question {
   const std::vector<unsigned char>& file;
   const Direction& claim;
-  const Mesh &x, &y;
+  const PlacedMesh &x, &y;
   int unit;
+  const Z& scale;
   size_t threads;
   std::function<void()> face_done;  ///< called by all threads
-};
 
-inline std::array<Point, 3> corners(const Mesh& mesh, uint64_t face, int unit) {
-  const glm::uvec3 f = mesh.faces[face];
-  return {point(mesh.vertices[f.x], unit), point(mesh.vertices[f.y], unit),
-          point(mesh.vertices[f.z], unit)};
-}
+  std::array<Point, 3> corners_of_x(uint64_t face) const {
+    return x.corners(face, unit, y.denominator());
+  }
+  std::array<Point, 3> corners_of_y(uint64_t face) const {
+    return y.corners(face, unit, x.denominator());
+  }
+};
 
 /// A part of a face. Its corners are multiplied by 2^depth, so that they stay integers.
 struct Part {
@@ -48,7 +52,7 @@ class Leaves {
   void face(uint64_t face) {
     q_.face_done();
     face_ = face, leaf_ = 0;
-    parts_ = {{corners(q_.x, face, q_.unit), 0}};
+    parts_ = {{q_.corners_of_x(face), 0}};
   }
 
   /// Visits, with m the middle of j and k, first the part of i, j, m and then that of i, m, k.
@@ -86,7 +90,7 @@ class Leaves {
 
  private:
   void check(const Point& point, unsigned depth, uint32_t number) {
-    if (number != number_) triangle_ = Triangle(corners(q_.y, number, q_.unit));
+    if (number != number_) triangle_ = Triangle(q_.corners_of_y(number));
     number_ = number;
     Fraction square = triangle_.squared_distance(point, depth);
     if (!(largest < square)) return;
@@ -118,34 +122,25 @@ inline bool is_beyond(const std::array<Point, 3>& triangle, const Point& point, 
   return false;
 }
 
-/// The largest e such that all coordinates of both are integers times 2^e.
-inline int common_exponent(const Mesh& a, const Mesh& b) {
-  int out = INT_MAX;
-  for (const Mesh* mesh : {&a, &b}) {
-    for (const glm::dvec3& v : mesh->vertices)
-      out = std::min({out, exponent_of(v.x), exponent_of(v.y), exponent_of(v.z)});
-  }
-  return out == INT_MAX ? 0 : out;
-}
-
-/// claim + side * (delta of A + delta of B), which has to be at least 0, squared, in 4^unit.
+/// claim + side * (delta of A + delta of B), which has to be at least 0, squared, in
+/// 4^unit / scale^2.
 inline Fraction squared_claim(double claim, int side, const std::array<double, 2>& delta,
-                              int unit) {
+                              const Question& question) {
   const int e = std::min({exponent_of(claim), exponent_of(delta[0]), exponent_of(delta[1]), 0});
   const Z sum = integer(claim, e) + side * (integer(delta[0], e) + integer(delta[1], e));
   if (sum < 0) throw Refused("upper is less than both deltas");
-  return scaled({sum * sum, 1}, e - unit);
+  return scaled({sum * sum * question.scale * question.scale, 1}, e - question.unit);
 }
 
 /// Throws Refused if a corner of a leaf is farther from its triangle than `limit`. Returns the
-/// largest of their distances; both are squares, in 4^unit.
+/// largest of their distances; both are squares, in 4^unit / scale^2.
 inline Fraction largest_of_leaves(const Question& question, const Fraction& limit) {
   const std::vector<Direction::Block>& blocks = question.claim.blocks;
   std::mutex one_at_a_time;
   Fraction largest;
   const auto one_block = [&](size_t i) {
     Leaves leaves(question, limit);
-    walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i], question.y.faces.size(),
+    walk(Bytes(question.file, blocks[i].begin, blocks[i].end), blocks[i], question.y.faces(),
          question.claim.cut_bits, leaves);
     const std::lock_guard lock(one_at_a_time);
     largest = std::max(largest, leaves.largest);
@@ -157,7 +152,7 @@ inline Fraction largest_of_leaves(const Question& question, const Fraction& limi
 /// The witness's distance from Y, also squared, and the nearest triangle.
 inline Fraction distance_of_witness(const Question& question, uint64_t& nearest) {
   const Direction& claim = question.claim;
-  const std::array<Point, 3> face = corners(question.x, claim.witness, question.unit);
+  const std::array<Point, 3> face = question.corners_of_x(claim.witness);
   const Z i = integer((uint64_t{1} << claim.e) - claim.j - claim.k), j = integer(claim.j),
           k = integer(claim.k);
   const auto weighted = [&](Z Point::*axis) {
@@ -169,8 +164,8 @@ inline Fraction distance_of_witness(const Question& question, uint64_t& nearest)
   const Point about{witness.x >> claim.e, witness.y >> claim.e, witness.z >> claim.e};
   Fraction least;
   Z reach;
-  for (uint64_t f = 0; f < question.y.faces.size(); ++f) {
-    const std::array<Point, 3> triangle = corners(question.y, f, question.unit);
+  for (uint64_t f = 0; f < question.y.faces(); ++f) {
+    const std::array<Point, 3> triangle = question.corners_of_y(f);
     if (f > 0 && is_beyond(triangle, about, reach)) continue;
     Fraction square = Triangle(triangle).squared_distance(witness, claim.e);
     if (f > 0 && !(square < least)) continue;

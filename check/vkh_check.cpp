@@ -3,6 +3,7 @@
 //   exact.h        squared distances of points to triangles, as fractions of integers
 //   certificate.h  the file's bytes: faces of X, halved to leaves, and a triangle of Y for each
 //   polygons.h     how the corners came from the file, where it has polygons
+//   placing.h      where the corners were put: another unit, a matrix
 //   proof.h        upper: every corner of a leaf is near enough; lower: the witness is far enough
 //   this file      whether the meshes are those of the certificate; what is printed
 #include <CLI/CLI.hpp>
@@ -41,6 +42,16 @@ std::vector<unsigned char> read_file(const std::string& name) {
   return out;
 }
 
+/// Whether the reader's delta, as long as it is where the mesh was put, is within the
+/// certificate's.
+bool is_as_exact(const Certificate& certificate, size_t which, const Mesh& mesh) {
+  const double delta = certificate.delta[which];
+  const int e = std::min({exponent_of(mesh.delta), exponent_of(delta), 0});
+  const Z is = integer(mesh.delta, e), allowed = integer(delta, e);
+  const Fraction growth = PlacedMesh(mesh, certificate.read[which].placement).squared_growth();
+  return is * is * growth.numerator <= allowed * allowed * growth.denominator;
+}
+
 /// Reads the mesh, if it is the certificate's.
 Mesh read(const Certificate& certificate, size_t which, const std::string& name) {
   const auto expect = [&](bool is_so, const char* otherwise) {
@@ -70,7 +81,7 @@ Mesh read(const Certificate& certificate, size_t which, const std::string& name)
   expect(mesh.faces.size() == certificate.faces[which], ": has another number of faces");
   expect_file();
   expect(sha256_of_corners(mesh) == certificate.corners[which], ": has other corners (SHA-256)");
-  expect(mesh.delta <= certificate.delta[which], ": is read less exactly than delta says");
+  expect(is_as_exact(certificate, which, mesh), ": is read less exactly than delta says");
   return mesh;
 }
 
@@ -115,13 +126,19 @@ std::string root(Fraction square, bool is_up) {
   return digits.insert(1, digits.size() > 1 ? "." : "") + "e" + std::to_string(exponent);
 }
 
+/// A squared distance in the answer's unit.
+Fraction length(Fraction square, const Question& question) {
+  square.denominator *= question.scale * question.scale;
+  return scaled(std::move(square), question.unit);
+}
+
 /// Throws Refused, or returns what was proven: the answer, and how.
 std::array<std::string, 2> check_direction(const Question& question,
                                            const std::array<double, 2>& delta,
                                            const std::string& name) {
   const Direction& claim = question.claim;
-  const Fraction most = squared_claim(claim.upper, -1, delta, question.unit);
-  const Fraction least = squared_claim(claim.lower, 1, delta, question.unit);
+  const Fraction most = squared_claim(claim.upper, -1, delta, question);
+  const Fraction least = squared_claim(claim.lower, 1, delta, question);
   const Fraction upper = largest_of_leaves(question, most);
   Fraction lower;
   if (claim.lower > 0) {
@@ -130,17 +147,30 @@ std::array<std::string, 2> check_direction(const Question& question,
     if (lower < least)
       throw Refused("the witness is nearer than lower to triangle " + std::to_string(nearest));
   }
-  std::string how =
-      "  at best, of the corners as given: " + root(scaled(lower, question.unit), false) +
-      " <= " + name + " <= " + root(scaled(upper, question.unit), true) + "\n";
-  how += "  " + std::to_string(question.x.faces.size()) + " faces, " +
-         std::to_string(claim.leaves) + " leaves, " + std::to_string(claim.cut) + " of them cut\n";
+  std::string how = "  at best, of the corners as given: " + root(length(lower, question), false) +
+                    " <= " + name + " <= " + root(length(upper, question), true) + "\n";
+  how += "  " + std::to_string(question.x.faces()) + " faces, " + std::to_string(claim.leaves) +
+         " leaves, " + std::to_string(claim.cut) + " of them cut\n";
   return {"proven: " + decimal(claim.lower, kJsonDigits, Rounding::kDown) + " <= " + name +
               " <= " + decimal(claim.upper, kJsonDigits, Rounding::kUp) + "\n",
           how};
 }
 
-/// Prints for people how a mesh was read: bodies, polygons, ambiguity.
+/// Prints for people where a mesh was put. The matrix is part of what is proven.
+std::string described(const std::string& name, const Placement& placement) {
+  std::string out;
+  if (placement.numerator != placement.denominator)
+    out += name + "in another unit, times " + shortest_decimal(placement.numerator) + "/" +
+           shortest_decimal(placement.denominator) + "\n";
+  for (size_t i = 0; i < 3 && placement.has_matrix; ++i) {
+    out += name + "by the matrix's row";
+    for (const double entry : placement.matrix[i]) out += " " + shortest_decimal(entry);
+    out += "\n";
+  }
+  return out;
+}
+
+/// Prints for people how a mesh was read: placement, bodies, polygons, ambiguity.
 std::string described(const Certificate& certificate, size_t which) {
   const Description& read = certificate.read[which];
   const auto fans = static_cast<size_t>(
@@ -148,6 +178,7 @@ std::string described(const Certificate& certificate, size_t which) {
                     [](const Triangulation& t) { return t.axis == Triangulation::kOnlyFan; }));
   const std::string name = which == 0 ? "  A: " : "  B: ";
   std::string out;
+  out += described(name, read.placement);
   if (read.has_all_bodies) out += name + "all shapes of a scene, whether they are printed or not\n";
   if (read.polygons.size() > fans)
     out += name + counted(read.polygons.size() - fans, "polygon") + ", tiled by triangles\n";
@@ -167,15 +198,22 @@ void check_all(const Arguments& arguments) {
   const Certificate certificate = read_certificate(file);
   const Mesh mesh[] = {read(certificate, 0, arguments.mesh[0]),
                        read(certificate, 1, arguments.mesh[1])};
-  const int unit = common_exponent(mesh[0], mesh[1]);
+  const PlacedMesh placed[] = {{mesh[0], certificate.read[0].placement},
+                               {mesh[1], certificate.read[1].placement}};
+  const int unit = std::min(placed[0].exponent(), placed[1].exponent());
+  const Z scale = placed[0].denominator() * placed[1].denominator();
   std::string answer, how;
   for (size_t x = 0; x < certificate.directions.size(); ++x) {
     const std::string name = x == 0 ? "h(A,B)" : "h(B,A)";
     Progress progress(certificate.faces[x], arguments.is_quiet);
-    const Question question{
-        file, certificate.directions[x], mesh[x], mesh[1 - x], unit, arguments.threads, [&] {
-          progress.face_done();
-        }};
+    const Question question{file,
+                            certificate.directions[x],
+                            placed[x],
+                            placed[1 - x],
+                            unit,
+                            scale,
+                            arguments.threads,
+                            [&] { progress.face_done(); }};
     try {
       const auto proven = check_direction(question, certificate.delta, name);
       answer += proven[0];

@@ -145,6 +145,20 @@ def read_mesh(path, given):
     return faces, max((x.denominator for x in corners), default=1), hashlib.sha256(data).digest(), hashlib.sha256(flat).digest()
 
 
+def placed(mesh, place):
+    """A mesh's faces where a certificate puts them, x at M (p / q x), and a common denominator of their coordinates."""
+    faces, denominator = mesh[:2]
+    if place in (None, (1, None)):
+        return faces, denominator
+    factor, rows = place
+    rows = [list(map(Fraction, row)) for row in rows or ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))]
+    def put(p):
+        x = [factor * Fraction(c) for c in p]
+        return tuple(row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] for row in rows)
+    faces = [tuple(map(put, face)) for face in faces]
+    return faces, math.lcm(*{c.denominator for face in faces for p in face for c in p})
+
+
 def minus(a, b):
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
@@ -192,13 +206,14 @@ class Certificate:
         self.need(self.cut_bits and directions in (1, 2) and zero == 0 and all(1 <= n <= 1 << 28 for n in self.faces)
                   and all(0 <= d < math.inf and math.copysign(1, d) == 1 for d in deltas), "the header")
         self.delta = sum(map(Fraction, deltas))
-        given = [self.description() if self.cut_bits == 16 else None for _ in paths]
+        given, places = zip(*[self.description() if self.cut_bits == 16 else (None, None) for _ in paths])
         fans = [sum(axis == 3 for _, axis, _ in (one or {}).values()) for one in given]
         meshes = [self.read(reader, path, one) for path, one in zip(paths, given)]
         for (faces, _, of_file, of_corners), count, file_hash, corner_hash in zip(meshes, self.faces, hashes, hashes[2:]):
             self.hold(len(faces) == count and corner_hash == of_corners and file_hash in (bytes(32), of_file), "it is of another mesh")
-        self.scale = max(denominator for _, denominator, _, _ in meshes) << DEEPEST + 16  # all points become integers
-        self.scaled = [[[tuple(int(Fraction(x) * self.scale) for x in p) for p in face] for face in mesh[0]] for mesh in meshes]
+        meshes = [placed(mesh, place) for mesh, place in zip(meshes, places)]
+        self.scale = math.lcm(*(denominator for _, denominator in meshes)) << DEEPEST + 16  # all points become integers
+        self.scaled = [[[tuple(int(Fraction(x) * self.scale) for x in p) for p in face] for face in faces] for faces, _ in meshes]
         for x in range(directions):
             self.direction(x, 1 - x)
         self.need(self.at == len(data), "bytes after the end")
@@ -218,10 +233,13 @@ class Certificate:
 
     def description(self):
         """The reading of a mesh: the triangles of its polygons, by their faces."""
-        points, bodies, ambiguity, at, over, under, matrix, count = self.take("<IIdQddQQ")
-        self.need(points == matrix == 0 and bodies < 2 and over == under == 1, "points, bodies of no kind, a unit or a matrix")
+        points, bodies, ambiguity, at, over, under, matrix = self.take("<IIdQddQ")
+        self.need(points == 0 and matrix < 2 and bodies < 2, "points, bodies or a matrix of no kind")
+        self.need(all(1 <= n <= 1 << 53 and n == int(n) for n in (over, under)), "a unit")
         self.need(0 <= ambiguity < math.inf and math.copysign(1, ambiguity) == 1 and (ambiguity or not at), "an ambiguity")
-        given, face = {}, -1
+        rows = [self.take("<4d") for _ in range(3)] if matrix else None
+        self.need(all(math.isfinite(x) and (x or math.copysign(1, x) == 1) for row in rows or () for x in row), "a matrix")
+        given, face, (count,) = {}, -1, self.take("<Q")
         for _ in range(count):
             face += 1 + self.count()
             corners, axis = self.count(), self.count()
@@ -230,7 +248,7 @@ class Certificate:
             places = [] if axis == 3 else [self.count() for _ in range(3 * (corners - 2))]
             self.need(all(i < corners for i in places), "a corner that is not there")
             given[face] = corners, axis, list(zip(places[0::3], places[1::3], places[2::3]))
-        return given
+        return given, (Fraction(over) / Fraction(under), rows)
 
     def read(self, reader, path, given):
         try:

@@ -34,6 +34,14 @@ struct Input {
   std::optional<Box> box = {};       ///< of its corners
 };
 
+/// Where a user put A, and by what.
+struct PlacedInput {
+  MeshTransform by;
+  std::string from;         ///< the unit that A's file was in; empty: unknown
+  std::string file = {};    ///< the matrix's; empty: it came in no file
+  std::string sha256 = {};  ///< that file's hash, if known
+};
+
 /// The limits and the outcome for a mesh whose faces have limits of their own.
 struct FaceLimits {
   std::string path;                ///< the file that holds the limits
@@ -63,13 +71,14 @@ struct Waits {
 
 /// The question about a pair of meshes, and its answer.
 struct Answer {
-  std::string command;             ///< "distance", "gate" or "demo"
-  std::vector<std::string> words;  ///< the words typed after the program's name
-  std::string started, host;       ///< UTC in ISO 8601; the machine's name
-  std::array<Input, 2> inputs;     ///< A, B
-  std::vector<Note> notes;         ///< the notes on the pair
-  std::string unit;                ///< every length's; empty: the files' own, whatever it is
-  Length tolerance;                ///< a fraction is of A's diagonal in both directions
+  std::string command;                     ///< "distance", "gate" or "demo"
+  std::vector<std::string> words;          ///< the words typed after the program's name
+  std::string started, host;               ///< UTC in ISO 8601; the machine's name
+  std::array<Input, 2> inputs;             ///< A, B
+  std::optional<PlacedInput> placed = {};  ///< A is elsewhere than its file has it
+  std::vector<Note> notes;                 ///< the notes on the pair
+  std::string unit;  ///< every length's; empty: the files' own, whatever it is
+  Length tolerance;  ///< a fraction is of A's diagonal in both directions
   std::optional<Asked> max;
   std::optional<PartOf> part;  ///< a_to_b covers that part alone
   Report a_to_b;

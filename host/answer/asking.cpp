@@ -119,6 +119,7 @@ MeshPair read_pair(const std::shared_ptr<Asking>& at) {
   auto b = begin_now([file_b, limits] { return read_mesh(path_of(file_b), limits); });
   MeshPair pair{read_mesh(path_of(file_a), limits), {}};
   pair.b = b.get();
+  place_a(at->question, pair.a, pair.b);
   return pair;
 }
 
@@ -132,6 +133,7 @@ class Hashes {
       digests_.push_back(begin_hash(file));
     for (const std::string& file : {at->question.face_max_a, at->question.face_max_b})
       limits_.push_back(begin_hash(file));
+    matrix_ = begin_hash(at->question.transform_file);
   }
 
   /// Begins with the files beneath both. Call it once both are read: parsing a file for their names
@@ -161,6 +163,7 @@ class Hashes {
       answer.inputs[i].sha256 = digests_[i].get();
       answer.inputs[i].files = std::move(*beneath);
     }
+    if (is_wanted_ && answer.placed) answer.placed->sha256 = matrix_.get();
     if (!is_wanted_ || !answer.max) return;
     for (size_t i = 0; i < limits_.size(); ++i) {
       auto& faces = i == 0 ? answer.max->faces_a : answer.max->faces_b;
@@ -181,6 +184,7 @@ class Hashes {
   std::shared_ptr<Asking> at_;
   bool is_wanted_;
   std::vector<std::future<std::string>> digests_, limits_;
+  std::future<std::string> matrix_;
   std::vector<std::future<Beneath>> beneath_;
 };
 

@@ -47,6 +47,22 @@ Json input_json(const char* name, const Input& input) {
   return json;
 }
 
+// The matrix has all four rows, as its file has.
+Json transform_json(const Answer& answer) {
+  const PlacedInput& placed = *answer.placed;
+  Json json = {{"from_unit", text_or_null(placed.from)},
+               {"unit", text_or_null(answer.unit)},
+               {"factor", Json::array({placed.by.numerator, placed.by.denominator})},
+               {"matrix", nullptr},
+               {"path", text_or_null(placed.file)},
+               {"sha256", text_or_null(placed.sha256)}};
+  if (!placed.by.matrix) return json;
+  json["matrix"] = Json::array();
+  for (const auto& row : *placed.by.matrix) json["matrix"].push_back(row);
+  json["matrix"].push_back(Json::array({0.0, 0.0, 0.0, 1.0}));
+  return json;
+}
+
 Json device_json(const DeviceDescription& d) {
   if (d.name.empty()) return nullptr;  // no device was opened yet
   return {{"index", d.index},
@@ -244,6 +260,7 @@ void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
   if (answer.inputs[0].box && answer.inputs[1].box)
     json.add("boxes",
              {{"a", box_json(*answer.inputs[0].box)}, {"b", box_json(*answer.inputs[1].box)}});
+  if (answer.placed) json.add("transform", transform_json(answer));
   json.add("tolerance", tolerance_json(answer));
   json.add("options", options_json(answer));
 }

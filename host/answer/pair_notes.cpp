@@ -51,17 +51,30 @@ std::optional<double> unit_factor(const std::vector<Ratio>& all) {
   return std::nullopt;
 }
 
-Note note_on_units(double factor) {
+/// The units that differ by such a factor, the larger one first.
+struct UnitPair {
+  const char *larger, *smaller;  ///< as options name them
+  const char *in_words_larger, *in_words_smaller;
+};
+
+UnitPair units_by(double times) {
+  if (times == 25.4) return {"in", "mm", "inches", "millimetres"};
+  if (times == 10) return {"cm", "mm", "centimetres", "millimetres"};
+  if (times == 100) return {"m", "cm", "metres", "centimetres"};
+  return {"m", "mm", "metres", "millimetres"};
+}
+
+/// A's numbers are the smaller ones where its unit is the larger.
+Note note_on_units(double factor, const std::string& option) {
   const bool is_larger = factor > 1;
   const double times = is_larger ? factor : 1 / factor;
-  const char* units = times == 25.4    ? "inches and millimetres"
-                      : times == 10.0  ? "centimetres and millimetres"
-                      : times == 100.0 ? "metres and centimetres"
-                                       : "metres and millimetres";
-  return note_of(NoteCode::kUnits,
-                 "A is " + number(times) + " times " + (is_larger ? "larger" : "smaller") +
-                     " than B, as " + units + " are: are both in one unit?",
-                 {factor, ""});
+  const UnitPair units = units_by(times);
+  const std::string text =
+      "A is " + number(times) + " times " + (is_larger ? "larger" : "smaller") + " than B, as " +
+      units.in_words_larger + " and " + units.in_words_smaller + " are: are both in one unit? " +
+      option + "-a " + (is_larger ? units.smaller : units.larger) + " with " + option + "-b " +
+      (is_larger ? units.larger : units.smaller) + " converts A";
+  return note_of(NoteCode::kUnits, text, {factor, ""});
 }
 
 std::optional<Note> note_on_size(const std::vector<Ratio>& all) {
@@ -102,11 +115,12 @@ std::optional<Note> note_on_place(const Box& a, const Box& b, const std::string&
 
 }  // namespace
 
-std::vector<Note> notes_on_boxes(const Box& a, const Box& b, const std::string& unit) {
+std::vector<Note> notes_on_boxes(const Box& a, const Box& b, const std::string& unit,
+                                 const std::string& unit_option) {
   std::vector<Note> notes;
   const std::vector<Ratio> all = ratios(a, b);
   if (const std::optional<double> factor = unit_factor(all)) {
-    notes.push_back(note_on_units(*factor));
+    notes.push_back(note_on_units(*factor, unit_option));
   } else if (std::optional<Note> note = note_on_size(all)) {
     notes.push_back(std::move(*note));
   }

@@ -13,8 +13,10 @@ namespace vkh {
 /// by 25.4, 10, 100 or 1000 to within 2 % on every axis; otherwise `size`, it is under 0.8 or over
 /// 1.25 times B's on an axis; and `apart`, the boxes are disjoint, or their centres a tenth of B's
 /// diagonal apart. Axes on which both are under a thousandth of the smaller diagonal do not count.
-/// `unit` is the coordinates'; empty: unknown.
-std::vector<Note> notes_on_boxes(const Box& a, const Box& b, const std::string& unit);
+/// `unit` is the coordinates'; empty: unknown. `unit_option` begins the names of the options that
+/// convert A.
+std::vector<Note> notes_on_boxes(const Box& a, const Box& b, const std::string& unit,
+                                 const std::string& unit_option = "--unit");
 
 /// "100 x 80 x 20": the extents of a box, to four digits.
 std::string size_text(const Box& box);

@@ -8,6 +8,7 @@
 
 #include "host/base/length.h"
 #include "host/base/limit.h"
+#include "host/mesh/mesh_transform.h"
 #include "host/read/read_limits.h"
 #include "host/solve/solve_options.h"
 
@@ -26,8 +27,12 @@ struct Question {
   // The meshes.
   std::string file_a, file_b;  ///< both empty: the built-in pair
   std::string unit;            ///< the unit of files that do not name one; empty: unknown
-  ReadLimits limits;           ///< all but the callbacks
-  bool hashes = false;         ///< Input::sha256 is wanted
+  std::string unit_a, unit_b;  ///< the same for one of them, in place of `unit`
+  std::string transform_file;  ///< a file with the matrix by which A is placed; empty: none
+  std::optional<MatrixRows> transform;  ///< the matrix itself, if it was read before
+  bool may_stretch = false;             ///< the matrix may be any that does not mirror
+  ReadLimits limits;                    ///< all but the callbacks
+  bool hashes = false;                  ///< Input::sha256 is wanted
 
   // The distance.
   Length tolerance;
@@ -44,6 +49,7 @@ struct Question {
       face_limits_a;           ///< limits of A's faces; none: those of the file
   std::optional<double> area;  ///< the share of A's area that is to be within `max`
   std::string area_requested;  ///< the share as the user typed it
+  bool worst = false;          ///< a limit that is failed goes on to the worst point
 
   // Results about all of A, besides its distance.
   bool faces = false;                    ///< bounds of each face: for a picture, or a file

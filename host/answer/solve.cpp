@@ -101,6 +101,46 @@ Report distance_of_one_part(std::span<Solver* const> solvers, const AskedMeshes&
                           meshes.b, options);
 }
 
+constexpr uint32_t kWorstWaves = 60;  // an ordinary pair closes in under 30
+
+/// Takes the bounds and the witness of a search without a limit. The first search's status stays:
+/// the limit was decided.
+void narrow(Report& report, Report&& worst) {
+  report.upper = std::min(report.upper, worst.upper);
+  report.waves += worst.waves;
+  report.candidates += worst.candidates;
+  report.queries += worst.queries;
+  report.peak_frontier = std::max(report.peak_frontier, worst.peak_frontier);
+  report.times.solve_ms += worst.times.solve_ms;
+  report.times.wall_ms += worst.times.wall_ms;
+  if (!worst.has_witness || worst.lower < report.lower) return;
+  report.lower = worst.lower;
+  report.has_witness = true;
+  report.witness_a = worst.witness_a;
+  report.witness_b = worst.witness_b;
+}
+
+/// Searches on for the farthest point, to a thousandth of the distance that is known, since that
+/// is for people to read.
+void find_worst(const Question& question, std::span<Solver* const> solvers,
+                const AskedMeshes& meshes, const Observer& observer, Answer& answer) {
+  SolveOptions options = heard_options(question, observer, answer);
+  options.limit = {};
+  options.wave_limit = std::min(options.wave_limit, kWorstWaves);
+  options.tolerance = std::max(answer.a_to_b.tolerance, 1e-3 * interval_of(answer).lower);
+  options.tolerance_is_absolute = true;
+  if (!answer.b_to_a) return narrow(answer.a_to_b, distance_of(solvers, meshes, options));
+  SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options);
+  narrow(answer.a_to_b, std::move(both.a_to_b));
+  narrow(*answer.b_to_a, std::move(both.b_to_a));
+}
+
+bool goes_on_to_worst(const Question& question, const Observer& observer, const Answer& answer) {
+  return question.worst && question.max && !question.area && !question.is_by_face() &&
+         !question.part && verdict_of(answer) == Verdict::kBeyond && observer.is_to_go_on() &&
+         observer.time_left_s() > 0;
+}
+
 }  // namespace
 
 void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
@@ -119,6 +159,9 @@ void solve(const Question& question, std::span<Solver* const> solvers, const Ask
                                   : distance_of(solvers, meshes, options());
     note_left_out(solvers, answer);
   }
+  if (observer.found) observer.found(answer);
+  if (goes_on_to_worst(question, observer, answer))
+    find_worst(question, solvers, meshes, observer, answer);
   add_memory_notes(question.options.memory_bytes, answer);
   if (observer.found) observer.found(answer);
 }

@@ -1,14 +1,18 @@
 #include "host/answer/steps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "host/answer/pair_notes.h"
+#include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/note.h"
 #include "host/base/rounding.h"
 #include "host/base/system.h"
+#include "host/read/place.h"
 #include "host/solve/frame.h"
 #include "host/survey/statistics.h"
 
@@ -37,34 +41,38 @@ Input input_of(const Mesh& mesh) {
           .notes = mesh.notes};
 }
 
-/// The unit of a pair's lengths: the files' own, else the one in the request.
-std::string unit_of(const Question& question, const Mesh& a, const Mesh& b) {
-  for (const Mesh* mesh : {&a, &b}) {
-    if (!question.unit.empty() && !mesh->unit.empty() && mesh->unit != question.unit)
-      throw UsageError("--unit " + question.unit + ": " + mesh->name + " is in " + mesh->unit);
-  }
-  if (!question.unit.empty()) return question.unit;
-  if (a.unit == b.unit || b.unit.empty()) return a.unit;
-  return a.unit.empty() ? b.unit : "";
+/// The unit of a mesh: its file's own, else the one in the request; empty if it is unknown.
+std::string unit_of(const Question& question, const Mesh& mesh, bool is_b) {
+  if (mesh.placed) return mesh.unit;
+  const std::string& own = is_b ? question.unit_b : question.unit_a;
+  const std::string& requested = own.empty() ? question.unit : own;
+  if (!mesh.unit.empty() && !requested.empty() && mesh.unit != requested)
+    throw UsageError(question.option(own.empty() ? "unit"
+                                     : is_b      ? "unit-b"
+                                                 : "unit-a") +
+                     " " + requested + ": " + mesh.name + " is in " + mesh.unit);
+  return mesh.unit.empty() ? requested : mesh.unit;
 }
 
-std::vector<Note> notes_on_units(const Question& question, const std::string& a,
-                                 const std::string& b) {
-  if (a == b || !question.unit.empty()) return {};
-  if (!a.empty() && !b.empty())
-    return {note_of(NoteCode::kUnitsDiffer,
-                    "A is in " + a + " and B in " + b + ": neither was converted")};
-  const bool a_says = !a.empty();
+struct Units {
+  std::string a, b;
+  bool differ() const { return !a.empty() && !b.empty() && a != b; }
+};
+
+Units units_of(const Question& question, const Mesh& a, const Mesh& b) {
+  return {unit_of(question, a, false), unit_of(question, b, true)};
+}
+
+std::vector<Note> notes_on_units(const Mesh& a, const Units& units) {
+  if (a.placed && a.placed->from != a.unit)
+    return {note_of(NoteCode::kConverted, "A was converted from " + a.placed->from + " to " +
+                                              a.unit + ", in which B is")};
+  if (units.a == units.b) return {};
+  const bool a_says = !units.a.empty();
   return {note_of(NoteCode::kUnitAssumed, std::string(a_says ? "B" : "A") +
                                               "'s file does not say what it is in: taken as " +
-                                              (a_says ? a : b) + ", as " + (a_says ? "A" : "B") +
-                                              " is")};
-}
-
-/// Refuses a verdict on lengths of unknown units, which would be none.
-void check_units(const Question& question, const std::string& a, const std::string& b) {
-  if (question.max && !a.empty() && !b.empty() && a != b)
-    throw UsageError("gate: A is in " + a + " and B in " + b + ": convert one of them");
+                                              (a_says ? units.a : units.b) + ", as " +
+                                              (a_says ? "A" : "B") + " is")};
 }
 
 }  // namespace
@@ -115,6 +123,56 @@ void drop_small_ambiguities(double tolerance, Input& input) {
 
 }  // namespace
 
+namespace {
+
+std::optional<PlacedInput> placed_of(const Question& question, const Mesh& a) {
+  if (!a.placed) return std::nullopt;
+  return PlacedInput{.by = a.placed->by, .from = a.placed->from, .file = question.transform_file};
+}
+
+/// A matrix that stretches by s moves points by s times their distance from the origin. That counts
+/// from a tenth of the tolerance on.
+void add_note_on_stretch(const Box& box, Answer& answer) {
+  if (!answer.placed || !answer.placed->by.matrix) return;
+  const double stretch = 1.5 * stretch_of(*answer.placed->by.matrix);
+  glm::dvec3 farthest;
+  for (int i = 0; i < 3; ++i) farthest[i] = std::max(std::abs(box.lo[i]), std::abs(box.hi[i]));
+  const double moved = stretch * glm::length(farthest);
+  if (!(moved > 0.1 * answer.a_to_b.tolerance)) return;
+  answer.notes.push_back(note_of(
+      NoteCode::kStretch,
+      "the matrix is no exact rotation: it stretches A by up to " +
+          decimal(100 * stretch, 3, Rounding::kUp) + " %, which moves its points by up to " +
+          decimal(moved, 3, Rounding::kUp) + (answer.unit.empty() ? "" : " " + answer.unit),
+      {moved, answer.unit}));
+}
+
+}  // namespace
+
+bool is_placed(const Question& question, const Mesh& a, const Mesh& b) {
+  return question.transform || !question.transform_file.empty() ||
+         units_of(question, a, b).differ();
+}
+
+void place_a(const Question& question, Mesh& a, const Mesh& b) {
+  if (a.placed || !is_placed(question, a, b)) return;
+  MeshTransform placement{.matrix = question.transform};
+  std::string name = question.option("transform");
+  if (!question.transform_file.empty()) {
+    name = question.transform_file;
+    if (!placement.matrix) placement.matrix = read_matrix(path_of(name));
+  }
+  if (placement.matrix) check_matrix(name, *placement.matrix, question.may_stretch);
+  const Units units = units_of(question, a, b);
+  if (units.differ()) {
+    const UnitRatio ratio = unit_ratio(units.a, units.b);
+    placement.numerator = ratio.numerator;
+    placement.denominator = ratio.denominator;
+  }
+  a.unit = units.a;
+  place(a, placement, units.differ() ? units.b : units.a, question.certificate);
+}
+
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
   return take_meshes(question, {a, bounding_box(a)}, {b, bounding_box(b)}, answer);
 }
@@ -123,17 +181,20 @@ double take_meshes(const Question& question, const BoxedMesh& boxed_a, const Box
                    Answer& answer) {
   const auto& [a, box_a] = boxed_a;
   const auto& [b, box_b] = boxed_b;
-  check_units(question, a.unit, b.unit);
+  const Units units = units_of(question, a, b);
+  if (units.differ())
+    throw UsageError("A is in " + units.a + " and B in " + units.b + ": convert one of them");
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
   const double farthest = farthest_in(join(box_a, box_b), add_up(a.delta, b.delta));
   const double diagonal_a = diagonal(box_a);
   answer.inputs = {input_of(a), input_of(b)};
-  answer.unit = unit_of(question, a, b);
-  answer.notes = notes_on_units(question, a.unit, b.unit);
+  answer.unit = units.b.empty() ? units.a : units.b;
+  answer.notes = notes_on_units(a, units);
+  answer.placed = placed_of(question, a);
   answer.inputs[0].box = box_a;
   answer.inputs[1].box = box_b;
-  for (Note& note : notes_on_boxes(box_a, box_b, answer.unit))
+  for (Note& note : notes_on_boxes(box_a, box_b, answer.unit, question.option("unit")))
     answer.notes.push_back(std::move(note));
   for (Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (r == nullptr) continue;
@@ -143,6 +204,7 @@ double take_meshes(const Question& question, const BoxedMesh& boxed_a, const Box
         in_files(question.tolerance, question.option("tol").c_str(), answer.unit, diagonal_a)
             .within;
   }
+  add_note_on_stretch(box_a, answer);
   for (Input& input : answer.inputs) drop_small_ambiguities(answer.a_to_b.tolerance, input);
   // A run with a limit may end by that, whatever its tolerance is.
   const bool is_share = question.tolerance.of == Length::Of::kDiagonal;

@@ -40,6 +40,13 @@ struct BoxedMesh {
 /// The answer before anything is read: [0, infinity).
 Answer unread_answer(const Question& question);
 
+/// Puts A where the question says: in B's unit, where both units are known and differ, and by the
+/// matrix. Call it before take_meshes(). Throws UsageError for a unit that contradicts a file's
+/// own, and InputError for a matrix that cannot be read or is no rotation.
+void place_a(const Question& question, Mesh& a, const Mesh& b);
+/// Whether place_a() would change A.
+bool is_placed(const Question& question, const Mesh& a, const Mesh& b);
+
 /// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound, which
 /// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal
 /// and both deltas. Throws UsageError for units that do not go together and for lengths that cannot

@@ -83,6 +83,24 @@ void print_input(std::ostream& out, const char* label, const Input& input) {
     print_row(out, "note", std::string(label) + ": " + printable(line_of(note)));
 }
 
+std::string entry(double number) { return number_text(number, std::chars_format::general, 6); }
+
+void print_placed(std::ostream& out, const Answer& answer) {
+  if (!answer.placed) return;
+  const MeshTransform& by = answer.placed->by;
+  std::string text;
+  if (by.numerator != by.denominator)
+    text = "from " + answer.placed->from + " to " + answer.unit + ": times " +
+           entry(by.numerator / by.denominator);
+  if (by.matrix && !text.empty()) text += "; ";
+  if (by.matrix)
+    text += "by a matrix" +
+            (answer.placed->file.empty() ? "" : ", " + printable(answer.placed->file)) +
+            ", that moves the origin to (" + entry((*by.matrix)[0][3]) + ", " +
+            entry((*by.matrix)[1][3]) + ", " + entry((*by.matrix)[2][3]) + ")";
+  print_row(out, "A placed", text);
+}
+
 std::string unit_text(const Answer& answer) {
   return answer.unit.empty() ? "in the files' unit" : answer.unit;
 }
@@ -231,25 +249,49 @@ void print_sizes(std::ostream& out, const Answer& answer) {
   }
 }
 
-void print_summary(std::ostream& out, const Answer& answer) {
-  const Report& r = answer.a_to_b;
+/// After a FAIL the upper end was not sought, and would mislead: it is in JSON.
+bool is_upper_sought(const Answer& answer, double lower, double upper) {
+  return !answer.max || verdict_of(answer) != Verdict::kBeyond ||
+         width_up(lower, upper) <= 2e-3 * lower;
+}
+
+std::string enclosed(const Answer& answer, double lower, double upper, Status status) {
+  const double gap = gap_as_printed(answer, lower, upper);
+  return (is_upper_sought(answer, lower, upper) ? bounds(lower, upper, gap)
+                                                : "at least " + length_down(answer, lower, gap)) +
+         "  " + ending(status);
+}
+
+std::string direction_text(const Answer& answer, const Report& r) {
+  return enclosed(answer, r.lower, r.upper, r.status);
+}
+
+void print_interval(std::ostream& out, const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
-  print_sizes(out, answer);
-  print_row(out, "interval",
-            bounds(whole.lower, whole.upper, gap_as_printed(answer, whole.lower, whole.upper)) +
-                "  " + ending(whole.status));
+  const bool is_sought = is_upper_sought(answer, whole.lower, whole.upper);
+  print_row(out, is_sought ? "interval" : "distance",
+            enclosed(answer, whole.lower, whole.upper, whole.status) +
+                (is_sought ? "" : "; --worst goes on to the farthest point"));
+  if (!is_sought) return;
   print_row(out, "width",
             decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " +
                 unit_text(answer) +
                 (answer.a_to_b.diagonal_a > 0
                      ? ", " + decimal(whole.gap, 3, Rounding::kUp) + " of diag(A)"
                      : ""));
+}
+
+void print_summary(std::ostream& out, const Answer& answer) {
+  const Report& r = answer.a_to_b;
+  print_sizes(out, answer);
+  print_interval(out, answer);
   if (answer.max)
     print_row(out, "max", length_text(answer, answer.max->length, answer.max->limit.within));
   print_row(out, "tolerance", length_text(answer, answer.tolerance, r.tolerance));
   if (answer.part) print_part(out, answer);
   print_input(out, "A", answer.inputs[0]);
   print_input(out, "B", answer.inputs[1]);
+  print_placed(out, answer);
   for (const Note& note : answer.notes) {
     if (!is_said_first(note.code)) print_row(out, "note", printable(line_of(note)));
   }
@@ -265,19 +307,14 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   out << in_words(answer) << '\n';
   print_summary(out, answer);
   if (verbose) print_names(out, "off", r.switched_off);
-  if (answer.b_to_a)
-    print_row(out, "h(A,B)",
-              bounds(r.lower, r.upper, gap_as_printed(answer, r.lower, r.upper)) + "  " +
-                  ending(r.status));
+  if (answer.b_to_a) print_row(out, "h(A,B)", direction_text(answer, r));
   print_direction(out, r, "A", "B");
   print_survey(out, answer, answer.survey_a);
   print_proof(out, answer.proof_a);
   if (verbose) print_details(out, r);
   if (answer.b_to_a) {
     const Report& back = *answer.b_to_a;
-    print_row(out, "h(B,A)",
-              bounds(back.lower, back.upper, gap_as_printed(answer, back.lower, back.upper)) +
-                  "  " + ending(back.status));
+    print_row(out, "h(B,A)", direction_text(answer, back));
     print_direction(out, back, "B", "A");
     print_survey(out, answer, answer.survey_b);
     print_proof(out, answer.proof_b);

@@ -92,6 +92,9 @@ std::string limit_text(const Answer& answer, const Length& length) {
   return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
 }
 
+/// Whether the farthest point is known, as by --worst, to what people read: a thousandth.
+bool is_worst_known(const Report& r) { return r.lower > 0 && r.upper - r.lower <= 2e-3 * r.lower; }
+
 std::string failure_in_words(const Answer& answer, bool back) {
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
@@ -99,7 +102,12 @@ std::string failure_in_words(const Answer& answer, bool back) {
   // The text never rounds down to the limit itself.
   const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
   const std::string from = back ? "B" : "A";
-  std::string text = "FAIL  at least " + length_down(answer, r.lower, margin);
+  // Four digits where the farthest point is known, or more where the limit is nearer.
+  const double shown = is_worst_known(r)
+                           ? std::min(r.lower - limit.beyond, std::max(margin, 2e-3 * r.lower))
+                           : margin;
+  std::string text = is_worst_known(r) ? "FAIL  " : "FAIL  at least ";
+  text += length_down(answer, r.lower, shown);
   text +=
       r.has_witness ? " at " + point_text(r.witness_a) + " of " + from : " at a point of " + from;
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);

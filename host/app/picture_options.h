@@ -27,6 +27,7 @@ struct TypedPictures {
   bool any() const {
     return !field.empty() || !image.empty() || !report.empty() || !certificate.empty();
   }
+  bool shows_cells() const { return !field.empty() || !image.empty() || !report.empty(); }
   bool is_of_triangles() const { return !report.empty() || report_folder || !certificate.empty(); }
 };
 void add_picture_options(CLI::App& command, TypedPictures& typed);

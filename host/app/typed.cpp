@@ -48,6 +48,21 @@ void add_survey_of(const Typed& typed, Question& question) {
   if (typed.effort) question.effort = parse_effort(*typed.effort);
 }
 
+void add_placement_of(const Typed& typed, Question& question) {
+  for (const auto& [option, unit] : {std::pair{"--unit", &typed.unit},
+                                     {"--unit-a", &typed.unit_a},
+                                     {"--unit-b", &typed.unit_b}}) {
+    if (!unit->empty()) check_unit(option, *unit);
+  }
+  if (typed.may_stretch && typed.transform.empty())
+    throw UsageError("--scale: allows a --transform to stretch A; there is none");
+  question.unit = typed.unit;
+  question.unit_a = typed.unit_a;
+  question.unit_b = typed.unit_b;
+  question.transform_file = typed.transform;
+  question.may_stretch = typed.may_stretch;
+}
+
 void check_together(const Typed& typed) {
   const bool by_face = !typed.face_max_a.empty() || !typed.face_max_b.empty();
   if (!typed.face_max_b.empty() && !typed.symmetric)
@@ -88,8 +103,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   question.words = words;
   question.file_a = typed.file_a;
   question.file_b = typed.file_b;
-  if (!typed.unit.empty()) check_unit("--unit", typed.unit);
-  question.unit = typed.unit;
+  add_placement_of(typed, question);
   question.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kSmallFraction);
   if (!typed.max.empty()) question.max = parse_length("--max", typed.max, PlainNumber::kRefused);
   question.face_max_a = typed.face_max_a;
@@ -102,6 +116,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
     question.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
   question.several_devices = question.command == "distance";
   question.symmetric = typed.symmetric;
+  question.worst = typed.worst || typed.pictures.shows_cells();
   add_survey_of(typed, question);
   question.verify = typed.verify;
   question.device = typed.device;
@@ -222,6 +237,7 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
       .add_option("--unit", typed.unit,
                   "What the files are in, where they do not say: um, mm, cm, m, in or ft")
       ->type_name("UNIT");
+  add_placement(command, typed);
   command.add_option(
       "--max-input", typed.max_input,
       "Refuse a file of more bytes, or with a mesh that takes more, such as 100M or 2GiB; reading "
@@ -237,6 +253,23 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
                   "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
                   "as it lies, such as modifiers, negative volumes and hidden nodes [solid]")
       ->type_name("solid|all");
+}
+
+void add_placement(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--unit-a", typed.unit_a,
+                  "What A's file is in; where B is in another unit, A is converted to that")
+      ->type_name("UNIT");
+  command.add_option("--unit-b", typed.unit_b, "What B's file, and so the answer, is in")
+      ->type_name("UNIT");
+  command
+      .add_option(
+          "--transform", typed.transform,
+          "Place A by a matrix: a text file of four rows of four numbers, the last 0 0 0 1; "
+          "lengths in B's unit")
+      ->type_name("FILE");
+  command.add_flag("--scale", typed.may_stretch,
+                   "Allow a --transform that stretches A by more than 1e-6");
 }
 
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {

@@ -17,13 +17,15 @@ namespace vkh {
 /// The options as the user typed them.
 struct Typed {
   std::string file_a, file_b;
-  std::string tolerance, max, face_max_a, face_max_b, unit, device;
+  std::string tolerance, max, face_max_a, face_max_b, unit, unit_a, unit_b, transform, device;
   std::optional<std::string> memory, time, waves, effort, max_input, part, known_lower;
   std::vector<std::string> enabled, disabled;
   std::string preset, polygons, bodies;
   std::string json, junit, area, field_tolerance;
   TypedPictures pictures;
   std::vector<std::string> bands;
+  bool may_stretch = false;  ///< --scale
+  bool worst = false;
   bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
        statistics = false;
 };
@@ -34,6 +36,7 @@ extern const char* const kLengths;
 // Adds options that commands share. `typed` must outlive `command`.
 void add_pair(CLI::App& command, Typed& typed);
 void add_unit_and_input(CLI::App& command, Typed& typed);
+void add_placement(CLI::App& command, Typed& typed);  ///< units of each side, and a matrix
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default);
 void add_symmetric(CLI::App& command, Typed& typed);
 void add_part(CLI::App& command, Typed& typed);

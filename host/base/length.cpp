@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 
 #include "host/base/decimal.h"
 #include "host/base/error.h"
@@ -97,6 +98,13 @@ void check_unit(const char* option, const std::string& unit) {
   if (find_unit(unit) == nullptr)
     throw UsageError(std::string(option) + " '" + unit + "': " + proposal(unit_meant(unit), unit) +
                      "expected " + kUnitNames);
+}
+
+UnitRatio unit_ratio(const std::string& from, const std::string& to) {
+  const auto a = static_cast<uint64_t>(find_unit(from)->tenths_of_micrometres);
+  const auto b = static_cast<uint64_t>(find_unit(to)->tenths_of_micrometres);
+  const uint64_t common = std::gcd(a, b);
+  return {static_cast<double>(a / common), static_cast<double>(b / common)};
 }
 
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,

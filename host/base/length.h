@@ -40,6 +40,13 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
 /// Accepts "um", "mm", "cm", "m", "in" or "ft"; throws UsageError that names `option`.
 void check_unit(const char* option, const std::string& unit);
 
+/// A quotient of positive whole numbers, in lowest terms.
+struct UnitRatio {
+  double numerator = 1, denominator = 1;
+};
+/// The exact factor from a length in the unit `from` to the same length in `to`, both known units.
+UnitRatio unit_ratio(const std::string& from, const std::string& to);
+
 /// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
 /// arithmetic it is from `within` to `beyond`, which are 32 ulps apart, or both the number itself
 /// where that was given as a double in the files' unit. A share of a diagonal refers to the

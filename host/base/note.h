@@ -32,7 +32,8 @@ enum class NoteCode {
   kApart,        ///< the boxes lie apart
   kOneWay,       ///< what A lacks of B was not asked
   kUnitAssumed,  ///< one file does not say its unit, and the other does
-  kUnitsDiffer,  ///< the files are in different units
+  kConverted,    ///< A was converted to B's unit
+  kStretch,      ///< the matrix that places A is no exact rotation
   kTolerance,    ///< a tolerance of 0, which hardly any interval meets
   kMemory,       ///< memory that the device or --memory lacks
   kDevices,      ///< devices that were lost

@@ -18,7 +18,8 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kExpected = "id, a, b and perhaps tol, max, unit, symmetric";
+constexpr const char* kExpected =
+    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, symmetric";
 
 std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -36,9 +37,11 @@ bool truth_of(const std::string& text) {
 
 /// Returns false for a member that a batch does not know.
 bool put(Entry& entry, const std::string& name, const std::string& text) {
-  constexpr std::array kNames{"id", "a", "b", "tol", "max", "unit"};
-  const std::array<std::string*, 6> places{&entry.id,        &entry.a,   &entry.b,
-                                           &entry.tolerance, &entry.max, &entry.unit};
+  constexpr std::array kNames{"id",   "a",      "b",      "tol",      "max",
+                              "unit", "unit_a", "unit_b", "transform"};
+  const std::array<std::string*, 9> places{&entry.id,        &entry.a,      &entry.b,
+                                           &entry.tolerance, &entry.max,    &entry.unit,
+                                           &entry.unit_a,    &entry.unit_b, &entry.transform};
   for (size_t i = 0; i < kNames.size(); ++i) {
     if (name == kNames[i]) return *places[i] = text, true;
   }
@@ -81,6 +84,7 @@ class Collected {
       refuse(line, "the id '" + entry.id + "' is that of line " + std::to_string(known->second));
     entry.file_a = name_of(folder_ / path_of(entry.a));
     entry.file_b = name_of(folder_ / path_of(entry.b));
+    if (!entry.transform.empty()) entry.transform = name_of(folder_ / path_of(entry.transform));
     list.entries.push_back(std::move(entry));
   }
   void note_stranger(const std::string& name) {
@@ -194,15 +198,9 @@ PairList list_against(const std::string& b, const std::vector<std::string>& part
     if (!ids.insert(part).second) throw UsageError("'" + part + "' is named twice");
     if (!is_utf8(part))
       throw UsageError("'" + part + "' is no UTF-8, as an id must be: name it in a list");
-    list.entries.push_back({.id = part,
-                            .a = part,
-                            .b = b,
-                            .file_a = part,
-                            .file_b = b,
-                            .tolerance = {},
-                            .max = {},
-                            .unit = {},
-                            .symmetric = {}});
+    Entry& entry = list.entries.emplace_back();
+    entry.id = entry.a = entry.file_a = part;
+    entry.b = entry.file_b = b;
   }
   return list;
 }

@@ -13,7 +13,8 @@ struct Entry {
   std::string id;
   std::string a, b;            ///< the names in the list, for people
   std::string file_a, file_b;  ///< the paths that open from here
-  std::string tolerance, max, unit;
+  std::string tolerance, max, unit, unit_a, unit_b;
+  std::string transform;  ///< a matrix's path that opens from here
   std::optional<bool> symmetric;
 };
 
@@ -22,10 +23,10 @@ struct PairList {
   std::vector<std::string> notes;  ///< members and columns that a batch does not use
 };
 
-/// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit` and `symmetric`. Relative names start
-/// at the list's folder, or at the current one if the list is a pipe. A list is CSV if its name
-/// ends in .csv. Throws InputError with file, line and the expected form; also for an id that
-/// occurs twice.
+/// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform` and
+/// `symmetric`. Relative names, of matrices too, start at the list's folder, or at the current one
+/// if the list is a pipe. A list is CSV if its name ends in .csv. Throws InputError with file, line
+/// and the expected form; also for an id that occurs twice.
 PairList read_list(const std::string& path);
 
 /// Pairs each of `parts` with one B; its id is its name as the user typed it.

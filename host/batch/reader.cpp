@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
+#include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/sha256.h"
 #include "host/base/system.h"
 #include "host/read/mesh_io.h"
+#include "host/read/place.h"
 
 namespace vkh {
 namespace {
@@ -33,6 +36,31 @@ std::string hashes_in_text(const Input& input) {
   return text;
 }
 
+// A question without these has the key that it always had.
+void add_placement(const Question& question, std::string& text) {
+  if (!question.unit_a.empty()) text += "\nunit a " + question.unit_a;
+  if (!question.unit_b.empty()) text += "\nunit b " + question.unit_b;
+  if (!question.transform) return;
+  text += question.may_stretch ? "\nscale" : "\nplace";
+  for (const auto& row : *question.transform) {
+    for (const double entry : row) text += ' ' + shortest_decimal(entry);
+  }
+}
+
+// Takes the units and the matrix of an entry, and reads the matrix, which is in the key.
+void place_by(const Entry& entry, Question& question) {
+  for (const auto& [name, unit, to] : {std::tuple{"unit", &entry.unit, &question.unit},
+                                       {"unit_a", &entry.unit_a, &question.unit_a},
+                                       {"unit_b", &entry.unit_b, &question.unit_b}}) {
+    if (unit->empty()) continue;
+    check_unit(name, *unit);
+    *to = *unit;
+  }
+  if (!entry.transform.empty()) question.transform_file = entry.transform;
+  if (!question.transform_file.empty())
+    question.transform = read_matrix(path_of(question.transform_file));
+}
+
 // Hashes all that an answer depends on, except for the device, and --max-input, which may decide a
 // refusal.
 std::string key_of(const Question& question, const Answer& known, bool shares_b) {
@@ -43,6 +71,7 @@ std::string key_of(const Question& question, const Answer& known, bool shares_b)
   add(question.tolerance.requested);
   add(question.max ? question.max->requested : "");
   add(question.unit);
+  add_placement(question, text);
   if (question.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
   if (question.limits.any_triangulation) add("polygons any");
   if (question.limits.bodies == Bodies::kAll) add("bodies all");
@@ -99,8 +128,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
   Question& question = named.question = base_;
   question.file_a = entry.file_a;
   question.file_b = entry.file_b;
-  if (!entry.unit.empty()) check_unit("unit", entry.unit);
-  if (!entry.unit.empty()) question.unit = entry.unit;
+  place_by(entry, question);
   const bool has_gate_tolerance = !base_.tolerance_is_typed && !entry.max.empty();
   const std::string tolerance =
       entry.tolerance.empty() && has_gate_tolerance ? "1e-7" : entry.tolerance;
@@ -123,13 +151,13 @@ NamedEntry EntryReader::name(const Entry& entry) {
   return named;
 }
 
-EntryReader::MeshPointer EntryReader::mesh_of(const std::string& file,
-                                              const ReadLimits& limits) const {
+std::shared_ptr<Mesh> EntryReader::mesh_of(const std::string& file,
+                                           const ReadLimits& limits) const {
   constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones are read one per thread
   ReadLimits of_this = limits;
   of_this.keep_going = keep_going_;
   of_this.threads = size_of(file) < kLarge ? 1 : 0;
-  return std::make_shared<const Mesh>(read_mesh(path_of(file), of_this));
+  return std::make_shared<Mesh>(read_mesh(path_of(file), of_this));
 }
 
 // Keeps those used last, so that a list that goes back and forth between two B's reads each once.
@@ -175,9 +203,11 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   const auto start = Clock::now();
   EntryMeshes meshes;
   meshes.shares_b = shared_.count(entry.question.file_b) > 0;
-  meshes.a = mesh_of(entry.question.file_a, entry.question.limits);
+  const std::shared_ptr<Mesh> a = mesh_of(entry.question.file_a, entry.question.limits);
   meshes.b = meshes.shares_b ? shared_mesh_of(entry.question.file_b, entry.question.limits)
                              : mesh_of(entry.question.file_b, entry.question.limits);
+  place_a(entry.question, *a, *meshes.b);
+  meshes.a = a;
   Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
   take_meshes(entry.question, *meshes.a, *meshes.b, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {

@@ -57,7 +57,7 @@ class EntryReader {
     uint64_t last_use = 0, bytes = 0;
   };
   InputHashes hashes_of(const std::string& file, bool is_shared);
-  MeshPointer mesh_of(const std::string& file, const ReadLimits& limits) const;
+  std::shared_ptr<Mesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
   MeshPointer shared_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();
 

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/base/note.h"
 #include "host/mesh/file_faces.h"
+#include "host/mesh/mesh_transform.h"
 
 namespace vkh {
 
@@ -89,7 +91,8 @@ struct Mesh {
   /// triangulation add their ambiguity. h is 1-Lipschitz in it, and the certified interval is wider
   /// by it.
   double delta = 0;
-  bool has_all_bodies = false;  ///< every shape of a scene was read, printed or not
+  std::optional<PlacedFrom> placed = {};  ///< a user put it elsewhere than its file has it: place()
+  bool has_all_bodies = false;            ///< every shape of a scene was read, printed or not
   std::string unit = {};    ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
   std::vector<Note> notes;  ///< such as polygons: 3 faces of more than three corners were
                             ///< triangulated

@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/base/decimal.h"
 #include "host/mesh/exact_sum.h"
 #include "host/mesh/make_mesh.h"
 
@@ -455,6 +456,16 @@ PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<gl
   for (const Triangle& t : outline.triangles) result.triangles.emplace_back(t[0], t[1], t[2]);
   place_triangles(result.triangles, fan);
   return result;
+}
+
+Note note_on_ambiguity(const Polygons& polygons) {
+  std::string text = "corners off a plane leave the surface open by up to " +
+                     decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
+                     std::to_string(polygons.ambiguous_face);
+  if (polygons.any_triangulation) text += ", and the interval is wider by it";
+  Note note = note_of(NoteCode::kAmbiguity, std::move(text), {polygons.ambiguity, ""});
+  note.face = polygons.ambiguous_face;
+  return note;
 }
 
 void place_triangles(std::span<const UVec3> triangles, std::span<glm::uvec3> fan) {

@@ -23,6 +23,9 @@ struct PolygonResult {
 /// and so on of finite corners, two at least. A convex polygon keeps its fan bit for bit.
 PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<glm::uvec3> fan);
 
+/// The note on corners off a plane: `polygons` has an ambiguity.
+Note note_on_ambiguity(const Polygons& polygons);
+
 /// Replaces a fan by triangles of its corners that are named by their place, as many as it has.
 void place_triangles(std::span<const UVec3> triangles, std::span<glm::uvec3> fan);
 

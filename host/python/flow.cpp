@@ -110,6 +110,7 @@ void Flow::solve(FlowPair pair) {
   running->a = made_mesh(std::move(pair.a), limits);
   const MeshPointer& against = asked_.against.mesh;
   running->b = against ? against : made_mesh(std::move(pair.b), limits);
+  running->a = placed(question, running->a, *running->b);
   running->answer = unread_answer(question);
   const Box box_b = against ? asked_.against.box : bounding_box(*running->b);
   take_meshes(question, {*running->a, bounding_box(*running->a)}, {*running->b, box_b},

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <future>
 
+#include "host/answer/steps.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
@@ -391,6 +392,18 @@ MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
   RawMesh& raw = given.arrays;
   return std::make_shared<const Mesh>(
       make_mesh(raw.name, std::move(raw.vertices), std::move(raw.faces)));
+}
+
+MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b) {
+  if (!is_placed(question, *a, b)) return a;
+  auto moved = std::make_shared<Mesh>(*a);
+  place_a(question, *moved, b);
+  return moved;
+}
+
+std::optional<std::string> path_from(const char* argument, const py::object& given) {
+  if (!is_path(given)) return std::nullopt;
+  return file_from(argument, given);
 }
 
 MeshPointer mesh_of(const char* argument, const std::string& name, const py::object& object,

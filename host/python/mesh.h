@@ -5,8 +5,10 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "host/answer/question.h"
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
 #include "host/read/read_limits.h"
@@ -50,6 +52,13 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const pybind
 ReadLimits limits_of(const Arguments& given);
 /// Makes the mesh on any thread. Throws FileFault, what read_mesh and make_mesh throw.
 MeshPointer made_mesh(MeshGiven given, ReadLimits limits);
+
+/// A where the question puts it: A itself, or a copy.
+MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b);
+
+/// The path that a str or an os.PathLike names; none for other objects. Throws ValueError that
+/// names `argument` for a path of no file.
+std::optional<std::string> path_from(const char* argument, const pybind11::object& given);
 
 /// Makes the mesh of such an argument now, within a Call. Ctrl-C works while a file is read.
 MeshPointer mesh_of(const char* argument, const std::string& name, const pybind11::object& object,

@@ -20,8 +20,8 @@ void define_distance(py::module_& m) {
       "distance", distance,
       "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
-      "         statistics=False, bands=(), effort=None, survey_time=None, "
-      "certificate=None)\n--\n\n"
+      "         statistics=False, bands=(), effort=None, survey_time=None, certificate=None,\n"
+      "         unit_a=None, unit_b=None, transform=None, scale=False)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
@@ -44,7 +44,14 @@ void define_distance(py::module_& m) {
       "limit.\n\n"
       "certificate: a path that ends in .vhc: also write a proof of the interval, which vkh_check\n"
       "checks for files that have the arrays' faces, in their order. What it proves is in\n"
-      "stats['certificate']; None, and no file, where the run ended before it had an upper bound.");
+      "stats['certificate']; None, and no file, where the run ended before it had an upper "
+      "bound.\n\n"
+      "unit_a, unit_b: what A and B are in, 'um', 'mm', 'cm', 'm', 'in' or 'ft'; where they "
+      "differ, A\n"
+      "is converted to B's unit. transform: a matrix that then places A, four rows of four "
+      "numbers,\n"
+      "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
+      "stretches by more than 1e-6. The rounding of both widens the interval.");
 }
 
 py::list devices() {
@@ -76,7 +83,7 @@ void define_gate(py::module_& m) {
         "gate(a, b, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
         "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
         "     field=False, statistics=False, bands=(), area=None, effort=None, survey_time=None,\n"
-        "     certificate=None)\n--\n\n"
+        "     certificate=None, unit_a=None, unit_b=None, transform=None, scale=False)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
@@ -105,7 +112,8 @@ void define_solver(py::module_& m) {
           },
           "distance(self, va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
-          "         bands=(), effort=None, survey_time=None, certificate=None)\n--\n\n"
+          "         bands=(), effort=None, survey_time=None, certificate=None, unit_a=None,\n"
+          "         unit_b=None, transform=None, scale=False)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "closest",

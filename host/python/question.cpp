@@ -10,6 +10,10 @@
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "host/base/length.h"
+#include "host/base/system.h"
+#include "host/python/mesh.h"
+#include "host/read/place.h"
 
 namespace vkh::python {
 namespace {
@@ -175,6 +179,51 @@ void read_survey(const Arguments& given, Question& question) {
   if (*question.survey_time_s < 0) refuse_value("survey_time", kTime, given.at("survey_time"));
 }
 
+std::string unit_from(const Arguments& given, const char* name) {
+  constexpr const char* kExpected = "'um', 'mm', 'cm', 'm', 'in' or 'ft', or None";
+  const py::object* unit = given.find(name);
+  if (unit == nullptr || unit->is_none()) return "";
+  const std::string text = text_from(name, kExpected, *unit);
+  try {
+    check_unit(name, text);
+  } catch (const UsageError&) {
+    refuse_value(name, kExpected, *unit);
+  }
+  return text;
+}
+
+MatrixRows matrix_from(const py::object& given) {
+  constexpr const char* kExpected =
+      "an array of four rows of four numbers, the last 0 0 0 1, the path of such a file, or None";
+  const auto numbers =
+      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+  if (!numbers) PyErr_Clear();
+  if (!numbers || numbers.ndim() != 2) refuse_type("transform", kExpected, given);
+  const bool is_square = numbers.shape(0) == 4 && numbers.shape(1) == 4;
+  if (!is_square) refuse_value("transform", kExpected, given);
+  const double* entry = numbers.data();
+  if (entry[12] != 0 || entry[13] != 0 || entry[14] != 0 || entry[15] != 1)
+    refuse_value("transform", kExpected, given);
+  MatrixRows rows;
+  for (size_t i = 0; i < 12; ++i) rows[i / 4][i % 4] = entry[i];
+  return rows;
+}
+
+/// Reads the units of each side, and the matrix by which A is placed.
+void read_placement(const Arguments& given, Question& question) {
+  question.unit_a = unit_from(given, "unit_a");
+  question.unit_b = unit_from(given, "unit_b");
+  question.may_stretch = given.flag("scale");
+  const py::object* transform = given.find("transform");
+  if (transform == nullptr || transform->is_none()) return;
+  if (const std::optional<std::string> file = path_from("transform", *transform)) {
+    question.transform_file = *file;
+    question.transform = read_matrix(path_of(*file));
+  } else {
+    question.transform = matrix_from(*transform);
+  }
+}
+
 void check_together(const Question& question) {
   if (!question.face_limits_a) return;
   if (question.symmetric)
@@ -208,6 +257,7 @@ Question question_of(const char* command, const Arguments& given) {
   question.symmetric = given.flag("symmetric");
   read_area(given, question);
   read_survey(given, question);
+  read_placement(given, question);
   check_together(question);
   return question;
 }

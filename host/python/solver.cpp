@@ -126,6 +126,7 @@ Result answered(Given given, Session& session) {
   Answer answer = unread_answer(given.question);
   {
     const FloatEnvironment ours;
+    given.a = placed(given.question, given.a, *given.b);
     take_meshes(given.question, {*given.a, bounding_box(*given.a)}, {*given.b, given.box_b},
                 answer);
   }
@@ -183,13 +184,14 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "distance",
-      {"va",    "fa",         "vb",     "fb",      "tol",         "symmetric",  "device",
-       "time",  "waves",      "memory", "disable", "progress",    "enable",     "preset",
-       "field", "statistics", "bands",  "effort",  "survey_time", "certificate"},
-      4,
-      6};
+  static const auto* signature =
+      new Signature{"distance",
+                    {"va",          "fa",          "vb",     "fb",         "tol",       "symmetric",
+                     "device",      "time",        "waves",  "memory",     "disable",   "progress",
+                     "enable",      "preset",      "field",  "statistics", "bands",     "effort",
+                     "survey_time", "certificate", "unit_a", "unit_b",     "transform", "scale"},
+                    4,
+                    6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments arguments(*signature, all, named);
@@ -199,13 +201,14 @@ Result distance(const py::args& positional, const py::kwargs& named) {
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "gate",
-      {"a",          "b",      "max",     "tol",      "symmetric",   "device",     "time",
-       "waves",      "memory", "disable", "progress", "enable",      "preset",     "field",
-       "statistics", "bands",  "area",    "effort",   "survey_time", "certificate"},
-      3,
-      3};
+  static const auto* signature =
+      new Signature{"gate",
+                    {"a",           "b",           "max",        "tol",     "symmetric", "device",
+                     "time",        "waves",       "memory",     "disable", "progress",  "enable",
+                     "preset",      "field",       "statistics", "bands",   "area",      "effort",
+                     "survey_time", "certificate", "unit_a",     "unit_b",  "transform", "scale"},
+                    3,
+                    3};
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
@@ -230,8 +233,9 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "Solver.distance",
-      {"va", "fa", "tol", "time", "waves", "memory", "disable", "progress", "enable", "preset",
-       "field", "statistics", "bands", "effort", "survey_time", "certificate"},
+      {"va",          "fa",          "tol",    "time",   "waves",      "memory", "disable",
+       "progress",    "enable",      "preset", "field",  "statistics", "bands",  "effort",
+       "survey_time", "certificate", "unit_a", "unit_b", "transform",  "scale"},
       2,
       3};
   const Call call;

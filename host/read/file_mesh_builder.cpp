@@ -192,12 +192,7 @@ void FileMeshBuilder::note_polygons(const Polygons& polygons) {
   if (polygons.clipped > 0) note += ", " + std::to_string(polygons.clipped) + " of them not convex";
   notes.push_back(note_of(NoteCode::kPolygons, note, {static_cast<double>(polygons_), "faces"}));
   if (polygons.ambiguity > 0) {
-    note = "corners off a plane leave the surface open by up to " +
-           decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
-           std::to_string(polygons.ambiguous_face);
-    if (limits_.any_triangulation) note += ", and the interval is wider by it";
-    notes.push_back(note_of(NoteCode::kAmbiguity, note, {polygons.ambiguity, ""}));
-    notes.back().face = polygons.ambiguous_face;
+    notes.push_back(note_on_ambiguity(polygons));
   }
   if (polygons.fanned == 0) return;
   notes.push_back(
@@ -238,9 +233,9 @@ Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
   Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_), pool, positions);
   mesh.file_faces = std::move(file_faces_);
   mesh.counts.polygons = polygons_;
+  polygons.any_triangulation = limits_.any_triangulation;
   if (polygons_ > 0) note_polygons(polygons);
   mesh.polygons = std::move(polygons);
-  mesh.polygons.any_triangulation = limits_.any_triangulation;
   if (limits_.any_triangulation) mesh.delta = mesh.polygons.ambiguity;
   mesh.notes = std::move(notes);
   if (short_faces_ > 0) {

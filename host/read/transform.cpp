@@ -118,6 +118,20 @@ std::optional<Affine> affine_of(const Placing& placing) {
   return map;
 }
 
+// A quotient of integers of 53 bits is off by 2^-113 of itself in Float128.
+Affine scaling(double numerator, double denominator) {
+  const Float128 quotient = float128(numerator) / float128(denominator);
+  const bool is_exact = quotient * float128(denominator) == float128(numerator) &&
+                        float128(static_cast<double>(quotient)) == quotient;
+  const Entry entry = rounded(quotient, is_exact ? float128(0) : quotient * float128(0x1p-112));
+  Affine map;
+  for (size_t i = 0; i < 3; ++i) {
+    map.m[i][i] = entry.value;
+    map.off[i][i] = entry.off;
+  }
+  return map;
+}
+
 // exact = (o + do) (i + di): off by |do| |i| + (|o| + |do|) |di|, and by what rounding took.
 Affine compose(const Affine& outer, const Affine& inner) {
   if (is_identity(outer)) return inner;

@@ -27,6 +27,9 @@ std::optional<Affine> affine_of(const Placing& placing);
 /// |q|^2, which shows one that is no rotation by more than its rounding.
 double squared_length(const std::array<double, 4>& rotation);
 
+/// Multiplies each coordinate by the quotient of two positive whole numbers.
+Affine scaling(double numerator, double denominator);
+
 /// Applies outer after inner. Each entry is rounded once, from Float128; what that took off is
 /// exact.
 Affine compose(const Affine& outer, const Affine& inner);

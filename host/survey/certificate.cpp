@@ -30,8 +30,9 @@ class Bytes {
   }
 };
 
+// The hash is of the corners as the file has them, wherever the mesh was placed.
 std::string corners_digest(const Mesh& mesh) {
-  std::string digits = sha256_of_corners(mesh);
+  std::string digits = mesh.placed ? mesh.placed->corners : sha256_of_corners(mesh);
   if (digits.empty()) throw OutputError("--certificate: this build cannot make SHA-256 hashes");
   return digits;
 }
@@ -62,16 +63,27 @@ void add_triangulations(Bytes& out, const std::vector<Triangulation>& triangulat
   }
 }
 
-// Writes how the file was read: what follows is fixed until points, units and transforms can be
-// asked for.
+// A checker places the corners exactly, so that no rounding there counts.
+double delta_of(const Mesh& mesh) { return mesh.placed ? mesh.placed->delta : mesh.delta; }
+
+void add_placement(Bytes& out, const MeshTransform& placement) {
+  out.number(placement.numerator);
+  out.number(placement.denominator);
+  out.unsigned_number(placement.matrix ? 1 : 0, 8);
+  if (!placement.matrix) return;
+  for (const auto& row : *placement.matrix) {
+    for (const double entry : row) out.number(entry);
+  }
+}
+
+// Writes how the file was read, and where it was put. Points are kept for later.
 void add_description(Bytes& out, const Mesh& mesh) {
-  constexpr uint64_t kSurface = 0, kNoMatrix = 0;
+  constexpr uint64_t kSurface = 0;
   out.unsigned_number(kSurface, 4);
   out.unsigned_number(mesh.has_all_bodies ? 1 : 0, 4);
   out.number(mesh.polygons.ambiguity);
   out.unsigned_number(mesh.polygons.ambiguous_face, 8);
-  for (int i = 0; i < 2; ++i) out.number(1);  // the unit, a fraction
-  out.unsigned_number(kNoMatrix, 8);
+  add_placement(out, mesh.placed ? mesh.placed->by : MeshTransform{});
   add_triangulations(out, mesh.polygons.triangulations);
 }
 
@@ -98,7 +110,7 @@ std::string certificate_of(const CertifiedMesh& a, const CertifiedMesh& b,
   out.unsigned_number(b_to_a ? 2 : 1, 4);
   out.unsigned_number(0, 4);
   for (const CertifiedMesh* one : {&a, &b}) out.unsigned_number(one->mesh.faces.size(), 8);
-  for (const CertifiedMesh* one : {&a, &b}) out.number(one->mesh.delta);
+  for (const CertifiedMesh* one : {&a, &b}) out.number(delta_of(one->mesh));
   for (const CertifiedMesh* one : {&a, &b}) out.digest(one->sha256);
   for (const CertifiedMesh* one : {&a, &b}) out.digest(corners_digest(one->mesh));
   for (const CertifiedMesh* one : {&a, &b}) add_description(out, one->mesh);

@@ -159,7 +159,20 @@ TEST_CASE("no printed end of an interval is on the other side of the limit") {
   const Outcome outcome = gate("0.2499999abs");
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("[0.2499,") == std::string::npos);
-  CHECK(starts_with(outcome.out, "FAIL  at least 0.2499999"));
+  CHECK(starts_with(outcome.out, "FAIL  0.2499999"));
+}
+
+TEST_CASE("a FAIL tells no upper end, and --worst goes on to the farthest point") {
+  const Outcome plain = gate("0.01abs"), worst = gate("0.01abs", {"--worst", "--json"});
+  CHECK(starts_with(plain.out, "FAIL  at least "));
+  CHECK(plain.out.find("\n  interval ") == std::string::npos);
+  CHECK(worst.exit_code == 1);
+  const json answer = json::parse(worst.out);
+  const double lower = answer["interval"]["lower"], upper = answer["interval"]["upper"];
+  CHECK(lower >= 0.24);
+  CHECK(upper <= 1.002 * lower);
+  CHECK(answer["status"] == "limit");
+  CHECK(starts_with(gate("0.01abs", {"--worst"}).out, "FAIL  0.2"));
 }
 
 TEST_CASE("too little memory is said") {

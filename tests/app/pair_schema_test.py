@@ -95,7 +95,7 @@ class Batch(unittest.TestCase):
     def test_definitions_are_those_of_an_answer(self):
         ours, answers = schema_of("pair")["$defs"], schema_of("answer")["$defs"]
         shared = {"interval", "unit", "status", "witness", "files", "input", "max", "face_limits", "tolerance", "options", "device",
-                  "note", "box", "boxes"}
+                  "note", "box", "boxes", "transform"}
         # A line has no times or waves of a direction, and names of its own in answers and failures.
         self.assertEqual(set(ours) & set(answers), shared | {"direction", "answer", "failure"})
         for name in shared:

@@ -68,16 +68,21 @@ TEST_CASE("an object in the build, its decimals as doubles") {
   CHECK(mesh.unit == "mm");
 }
 
-TEST_CASE("units that differ are noted, and nothing is converted") {
+TEST_CASE("A is converted to B's unit where both files say theirs") {
   const std::string inches = package_of(model_of(kOne, item("1"), "unit=\"inch\""));
   const std::string a = write_file("a.3mf", package_of(model_of(kOne, item("1")))),
                     b = write_file("b.3mf", inches);
   const Outcome differ = run({"distance", a, b, "--json"}),
                 same = run({"distance", a, a, "--json"});
   CHECK(differ.exit_code == 0);
-  CHECK(differ.out.find("A is in mm and B in in: neither was converted") != std::string::npos);
-  CHECK(nlohmann::json::parse(differ.out)["interval"]["upper"] == 0);
-  CHECK(same.out.find("neither was converted") == std::string::npos);
+  const auto json = nlohmann::json::parse(differ.out);
+  CHECK(differ.out.find("A was converted from mm to in, in which B is") != std::string::npos);
+  CHECK(json["transform"]["factor"] == nlohmann::json({5, 127}));
+  CHECK(json["interval"]["unit"] == "in");
+  // The far corner is one unit long: an inch, beside a millimetre in inches.
+  CHECK(json["directions"][0]["witness"]["to"]["point"] != nullptr);
+  CHECK(json["interval"]["upper"].get<double>() < 0.1);
+  CHECK(same.out.find("converted") == std::string::npos);
 }
 
 TEST_CASE("units are kept") {

@@ -43,7 +43,7 @@ TEST_CASE("units: a factor between units on every axis, to 2 %") {
   CHECK(note.value == 10.0);
   CHECK(note.text ==
         "A is 10 times larger than B, as centimetres and millimetres are: are both in "
-        "one unit?");
+        "one unit? --unit-a mm with --unit-b cm converts A");
 }
 
 TEST_CASE("size: an extent under 0.8 or over 1.25 times B's") {

@@ -13,7 +13,7 @@ __all__ = ["Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Sol
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
          progress=None, enable=(), preset="", field=False, statistics=False, bands=(), area=None, effort=None,
-         survey_time=None, certificate=None):
+         survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
@@ -26,7 +26,8 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
     """
     return _core.gate(a, b, max, tol=tol, symmetric=symmetric, device=device, time=time, waves=waves, memory=memory,
                       disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
-                      bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate)
+                      bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
+                      unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale)
 
 
 def _say_area(r, max):

@@ -21,6 +21,7 @@ _Bands = Union[list[Any], tuple[_Number | str, ...], npt.NDArray[Any]]
 _Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled", "limit", "pruned"]
 _Verdict = Literal["pass", "fail", "undecided"]
 _Preset = Literal["", "default", "paper", "baseline-gpu"]
+_Unit = Literal["um", "mm", "cm", "m", "in", "ft"]
 # progress(wave, lower, upper): False cancels the run.
 _Progress = Callable[[int, float, float], Any]
 
@@ -195,6 +196,11 @@ class Solver:
         bands: _Bands = (),
         effort: SupportsIndex | None = None,
         survey_time: _Number | None = None,
+        certificate: _Path | None = None,
+        unit_a: _Unit | None = None,
+        unit_b: _Unit | None = None,
+        transform: npt.ArrayLike | _Path | None = None,
+        scale: bool = False,
     ) -> Result: ...
     @overload
     def distance(
@@ -216,6 +222,10 @@ class Solver:
         effort: SupportsIndex | None = None,
         survey_time: _Number | None = None,
         certificate: _Path | None = None,
+        unit_a: _Unit | None = None,
+        unit_b: _Unit | None = None,
+        transform: npt.ArrayLike | _Path | None = None,
+        scale: bool = False,
     ) -> Result: ...
     def closest(self, points: npt.ArrayLike) -> Closest: ...
     def close(self) -> None: ...
@@ -246,6 +256,11 @@ def distance(
     bands: _Bands = (),
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
+    certificate: _Path | None = None,
+    unit_a: _Unit | None = None,
+    unit_b: _Unit | None = None,
+    transform: npt.ArrayLike | _Path | None = None,
+    scale: bool = False,
 ) -> Result: ...
 @overload
 def distance(
@@ -270,6 +285,10 @@ def distance(
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
     certificate: _Path | None = None,
+    unit_a: _Unit | None = None,
+    unit_b: _Unit | None = None,
+    transform: npt.ArrayLike | _Path | None = None,
+    scale: bool = False,
 ) -> Result: ...
 def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex = "") -> Closest: ...
 class _Results(Iterator[Result]):
@@ -307,6 +326,10 @@ def distances(
     bands: _Bands = (),
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
+    unit_a: _Unit | None = None,
+    unit_b: _Unit | None = None,
+    transform: npt.ArrayLike | _Path | None = None,
+    scale: bool = False,
 ) -> _Results: ...
 def gate(
     a: _Mesh,
@@ -330,6 +353,10 @@ def gate(
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
     certificate: _Path | None = None,
+    unit_a: _Unit | None = None,
+    unit_b: _Unit | None = None,
+    transform: npt.ArrayLike | _Path | None = None,
+    scale: bool = False,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str], *, max_input: SupportsIndex | str | None = None,

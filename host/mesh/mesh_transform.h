@@ -1,0 +1,30 @@
+// Where a user puts a mesh: in another unit, and by a matrix.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace vkh {
+
+/// The three upper rows of a matrix by rows, whose last row is 0 0 0 1.
+using MatrixRows = std::array<std::array<double, 4>, 3>;
+
+/// Maps x to matrix (numerator / denominator x): the unit first, then the matrix.
+struct MeshTransform {
+  double numerator = 1, denominator = 1;  ///< positive whole numbers, exact as doubles
+  std::optional<MatrixRows> matrix = {};
+
+  bool is_identity() const { return numerator == denominator && !matrix; }
+  bool operator==(const MeshTransform&) const = default;
+};
+
+/// How a mesh came to where it is, for a mesh that was placed.
+struct PlacedFrom {
+  MeshTransform by;
+  std::string from = {};     ///< the unit that it was in; empty: unknown
+  double delta = 0;          ///< Mesh::delta before it was rounded here, as long as it is now
+  std::string corners = {};  ///< SHA-256 of its corners before, in hexadecimal digits, if asked for
+};
+
+}  // namespace vkh
