@@ -61,6 +61,8 @@ struct Record {
 
   /// Whether another run of the same inputs would give the same result, but for times.
   bool is_final() const;
+  /// Whether it is the failure of a file that has no partner, in a batch of two folders.
+  bool is_unpaired() const { return inputs[0].path.empty() != inputs[1].path.empty(); }
   /// Whether the key covers all files that were read; before 0.2.0 it covered the two that a list
   /// names.
   bool names_files() const { return inputs[0].names_files && inputs[1].names_files; }

@@ -35,6 +35,8 @@ struct BatchAsked {
   std::string list;     ///< a file, or else:
   std::string against;  ///< one B for each of `parts`
   std::vector<std::string> parts;
+  std::string folder_a, folder_b;  ///< or folders, whose meshes are paired by their names
+  bool allows_unpaired = false;    ///< a file without a partner there is no failure
   std::string results;
   Shard shard;
   bool resumes = false, fails_fast = false;

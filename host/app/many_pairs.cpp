@@ -22,6 +22,10 @@ void note(const std::string& text) {
   std::fprintf(stderr, "vkhausdorff: note: %s\n", printable(text).c_str());
 }
 
+void warn(const std::string& text) {
+  std::fprintf(stderr, "vkhausdorff: warning: %s\n", printable(text).c_str());
+}
+
 /// The CSV and JUnit XML of results, checked before the work.
 class Tables {
  public:
@@ -47,6 +51,7 @@ class Tables {
 };
 
 PairList list_of(const BatchAsked& asked) {
+  if (!asked.folder_a.empty()) return list_folders(asked.folder_a, asked.folder_b);
   return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
 }
 
@@ -59,6 +64,32 @@ void check_outputs(const std::string& results, const TablesAsked& tables) {
   }
 }
 
+/// Names the shard's files without a partner. Unless they are allowed, each is a failure.
+void take_unpaired(const BatchAsked& asked, PairList& list, BatchJob& batch) {
+  for (Entry& entry : list.unpaired) {
+    if (!asked.shard.has(entry.id)) continue;
+    warn(entry.missing);
+    if (asked.allows_unpaired) {
+      ++batch.unpaired;
+    } else {
+      batch.entries.push_back(std::move(entry));
+    }
+  }
+}
+
+std::vector<std::string> inputs_of(const BatchAsked& asked, const std::vector<Entry>& entries) {
+  std::vector<std::string> inputs;
+  const auto add = [&](const std::string& file) {
+    if (!file.empty()) inputs.push_back(file);
+  };
+  add(asked.list.empty() ? asked.against : asked.list);
+  for (const Entry& entry : entries) {
+    add(entry.file_a);
+    add(entry.file_b);
+  }
+  return inputs;
+}
+
 BatchJob batch_of(const Question& question, const BatchAsked& asked, PairList& list) {
   BatchJob batch;
   batch.question = question;
@@ -67,6 +98,7 @@ BatchJob batch_of(const Question& question, const BatchAsked& asked, PairList& l
   for (Entry& entry : list.entries) {
     if (asked.shard.has(entry.id)) batch.entries.push_back(std::move(entry));
   }
+  take_unpaired(asked, list, batch);
   batch.results = asked.results;
   batch.resumes = asked.resumes;
   batch.fails_fast = asked.fails_fast;
@@ -115,12 +147,8 @@ ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
                      "'");
   PairList list = list_of(asked);
   for (const std::string& text : list.notes) note(text);
-  std::vector<std::string> inputs = {asked.list.empty() ? asked.against : asked.list};
   BatchJob batch = batch_of(question, asked, list);
-  for (const Entry& entry : batch.entries) {
-    inputs.push_back(entry.file_a);
-    inputs.push_back(entry.file_b);
-  }
+  const std::vector<std::string> inputs = inputs_of(asked, batch.entries);
   const Tables tables(asked.tables, inputs);
   batch.folders = folders_of(asked, batch.entries, inputs);
   const ExitCode code = run_batch(batch, std::cout);

@@ -47,6 +47,25 @@ void add_limits(CLI::App& command, Typed& typed) {
                      "End a pair's run after so long: 250ms, 10s, 2min [no limit]");
 }
 
+/// Tells a list, two folders, and meshes against one apart.
+void put_source(const TypedMany& typed, BatchAsked& batch) {
+  const bool is_of_folders = typed.against.empty() && typed.files.size() == 2;
+  if (typed.against.empty() && typed.files.size() > 2)
+    throw UsageError("batch: expected one LIST, two folders, or --against B with meshes");
+  if (typed.allows_unpaired && !is_of_folders)
+    throw UsageError("--allow-unpaired: is of two folders: batch FOLDER_A FOLDER_B");
+  batch.against = typed.against;
+  batch.allows_unpaired = typed.allows_unpaired;
+  if (!typed.against.empty()) {
+    batch.parts = typed.files;
+  } else if (is_of_folders) {
+    batch.folder_a = typed.files[0];
+    batch.folder_b = typed.files[1];
+  } else {
+    batch.list = typed.files[0];
+  }
+}
+
 }  // namespace
 
 void add_batch(CLI::App& command, TypedMany& typed) {
@@ -56,10 +75,14 @@ void add_batch(CLI::App& command, TypedMany& typed) {
       "2, 1, 3, 0 in this order.");
   command
       .add_option("LIST", typed.files,
-                  "A list of pairs; with --against, meshes to start from, each a pair")
+                  "A list of pairs; or two folders, A's and B's, whose meshes are paired by their "
+                  "names; with --against, meshes to start from, each a pair")
       ->required();
   command.add_option("--against", typed.against, "One mesh to go to for all that are named")
       ->type_name("B");
+  command.add_flag("--allow-unpaired", typed.allows_unpaired,
+                   "Of two folders: name and count the meshes without a partner, and let them "
+                   "cost no exit code [each is a pair without an answer, code 4]");
   add_tables(command, typed);
   command.add_flag("--resume", typed.resumes,
                    "Keep the results that there are, and do what they have not, or not of these "
@@ -110,11 +133,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   line.question = question_of(of_pairs, words, "batch");
   line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   BatchAsked& batch = line.batch;
-  if (typed.against.empty() && typed.files.size() > 1)
-    throw UsageError("batch: expected one LIST, or --against B with meshes");
-  if (typed.against.empty()) batch.list = typed.files[0];
-  batch.against = typed.against;
-  if (!typed.against.empty()) batch.parts = typed.files;
+  put_source(typed, batch);
   batch.results = typed.results;
   if (!typed.shard.empty()) batch.shard = parse_shard(typed.shard);
   batch.resumes = typed.resumes;

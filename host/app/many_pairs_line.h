@@ -13,6 +13,7 @@ struct TypedMany {
   std::optional<std::string> read_ahead;
   size_t together = 0, lanes = 0;
   bool resumes = false, fails_fast = false, reproducible = false;
+  bool allows_unpaired = false;
 };
 
 void add_batch(CLI::App& command, TypedMany& typed);

@@ -36,7 +36,7 @@ Failure failure_of(const std::exception_ptr& error, const Entry& entry) {
     failure.message = "internal error";
   }
   for (const auto& [file, name] : {std::pair{&entry.file_a, &entry.a}, {&entry.file_b, &entry.b}}) {
-    if (!failure.message.starts_with(*file + ": ")) continue;
+    if (file->empty() || !failure.message.starts_with(*file + ": ")) continue;
     failure.file = *name;
     failure.message = *name + failure.message.substr(file->size());
     failure.place = place_in(failure.message, *name);
@@ -99,8 +99,9 @@ class Batch {
   static std::vector<std::string> inputs_of(const BatchJob& job) {
     std::vector<std::string> files;
     for (const Entry& entry : job.entries) {
-      files.push_back(entry.file_a);
-      files.push_back(entry.file_b);
+      for (const std::string* file : {&entry.file_a, &entry.file_b}) {
+        if (!file->empty()) files.push_back(*file);
+      }
     }
     return files;
   }
@@ -133,7 +134,8 @@ class Batch {
                         .device = stream_->times(),
                         .devices = stream_->devices(),
                         .results = job_.results,
-                        .has_limit = job_.question.max.has_value()});
+                        .has_limit = job_.question.max.has_value(),
+                        .unpaired = job_.unpaired});
     out.flush();
   }
 

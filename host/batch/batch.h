@@ -16,6 +16,7 @@ namespace vkh {
 struct BatchJob {
   Question question;             ///< what is asked of each; options.time_limit_s is per pair
   std::vector<Entry> entries;    ///< the pairs of this shard
+  size_t unpaired = 0;           ///< files without a partner that are no entries
   std::set<std::string> shared;  ///< shared_files() of the whole list
   std::string results;           ///< the file that lines are added to
   bool resumes = false;          ///< keeps the lines of the file, and does the pairs without one

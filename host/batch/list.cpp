@@ -50,15 +50,6 @@ bool put(Entry& entry, const std::string& name, const std::string& text) {
   return true;
 }
 
-bool is_utf8(const std::string& text) {
-  try {
-    (void)nlohmann::json(text).dump();
-    return true;
-  } catch (const nlohmann::json::type_error&) {
-    return false;
-  }
-}
-
 /// The folder that a list's names start from: a pipe's (/dev/fd/63) is not its writer's.
 std::filesystem::path folder_of_list(const std::string& path) {
   std::error_code none;
@@ -176,7 +167,21 @@ void read_jsonl(std::istream& text, Collected& to) {
 
 }  // namespace
 
+bool is_utf8(const std::string& text) {
+  try {
+    (void)nlohmann::json(text).dump();
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
 PairList read_list(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path_of(path), none))
+    throw UsageError("'" + path +
+                     "' is a folder: expected a list of pairs; batch takes two folders whose "
+                     "meshes have the same names");
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) throw InputError(path + ": cannot be read; expected a list of pairs");
   Collected collected(path);

@@ -1,4 +1,5 @@
-// The pairs of a batch, as a file lists them: an object a line (JSONL), or CSV with a heading.
+// The pairs of a batch, as a file lists them: an object a line (JSONL), or CSV with a heading; or
+// as two folders have them.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +17,13 @@ struct Entry {
   std::string tolerance, max, unit, unit_a, unit_b;
   std::string transform;  ///< a matrix's path that opens from here
   std::optional<bool> symmetric;
+  std::string missing = {};  ///< the error of a file without a partner; empty: there is a pair
 };
 
 struct PairList {
   std::vector<Entry> entries;
-  std::vector<std::string> notes;  ///< members and columns that a batch does not use
+  std::vector<std::string> notes;  ///< members, columns and files that a batch does not use
+  std::vector<Entry> unpaired;     ///< of two folders: files without a partner, with `missing`
 };
 
 /// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform` and
@@ -31,6 +34,15 @@ PairList read_list(const std::string& path);
 
 /// Pairs each of `parts` with one B; its id is its name as the user typed it.
 PairList list_against(const std::string& b, const std::vector<std::string>& parts);
+
+/// Pairs the meshes of two folders by their stems, letter by letter, in the stems' order: a stem,
+/// the name without its last extension, is the id. Files beneath folders in them are left out, as
+/// are names that are none of a mesh. Throws UsageError if one is no folder or both are one, and
+/// InputError if two meshes of a folder have one stem, or no mesh has a partner.
+PairList list_folders(const std::string& a, const std::string& b);
+
+/// Whether a result line can hold the id.
+bool is_utf8(const std::string& text);
 
 /// Shard i of n, from 0.
 struct Shard {

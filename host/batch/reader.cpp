@@ -93,7 +93,8 @@ std::string key_of(const Question& question, const Answer& known, bool shares_b)
 std::set<std::string> shared_files(const std::vector<Entry>& entries) {
   std::set<std::string> once, more;
   for (const Entry& entry : entries) {
-    if (!once.insert(entry.file_b).second) more.insert(entry.file_b);
+    const bool has_b = !entry.file_b.empty();
+    if (has_b && !once.insert(entry.file_b).second) more.insert(entry.file_b);
   }
   return more;
 }
@@ -123,6 +124,7 @@ InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
 }
 
 NamedEntry EntryReader::name(const Entry& entry) {
+  if (!entry.missing.empty()) throw InputError(entry.missing);
   NamedEntry named;
   named.entry = &entry;
   Question& question = named.question = base_;

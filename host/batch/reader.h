@@ -45,7 +45,7 @@ class EntryReader {
   EntryReader(Question base, std::set<std::string> shared, std::function<bool()> keep_going)
       : base_(std::move(base)), shared_(std::move(shared)), keep_going_(std::move(keep_going)) {}
 
-  /// Throws UsageError for an entry's wrong options.
+  /// Throws UsageError for an entry's wrong options, and InputError for one without a partner.
   NamedEntry name(const Entry& entry);
   /// Throws what read_mesh and take_meshes throw. Fills entry.known.
   EntryMeshes read(NamedEntry& entry);

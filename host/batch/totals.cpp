@@ -27,6 +27,7 @@ std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::
 void Totals::add(const Record& record) {
   worst_ = worse(worst_, record.code);
   if (record.status.empty()) {
+    unpaired_ += record.is_unpaired() ? 1 : 0;
     if (++failed_ <= kTop) failures_.push_back(record.name.id + ": " + record.words);
     return;
   }
@@ -57,19 +58,23 @@ std::string Totals::in_words(const Run& run) const {
   const auto add = [&](size_t count, const char* what) {
     if (count > 0) rest += "; " + count_of(count, what);
   };
+  const auto add_without_answer = [&] {
+    add(failed_ - unpaired_, "without an answer");
+    add(unpaired_ + run.unpaired, "without a partner");
+  };
   if (within_ + beyond_ > 0 || run.has_limit) {
     const char* verdict = beyond_ > 0                      ? "FAIL"
                           : open_ + failed_ + run.left > 0 ? "UNDECIDED"
                                                            : "PASS";
     add(open_, "undecided");
     add(closed_, "without a limit");
-    add(failed_, "without an answer");
+    add_without_answer();
     add(run.left, "left");
     return std::string(verdict) + "  " + std::to_string(within_) + " of " + all +
            " are within their limit, " + std::to_string(beyond_) + " are beyond it, proven" + rest;
   }
   add(open_, "not closed");
-  add(failed_, "without an answer");
+  add_without_answer();
   add(run.left, "left");
   return std::to_string(closed_) + " of " + all + " have an interval within the tolerance" + rest;
 }

@@ -30,6 +30,7 @@ class Totals {
     std::vector<DeviceDescription> devices;
     std::string results;  ///< the results file
     bool has_limit = false;
+    size_t unpaired = 0;  ///< files without a partner that have no line
   };
   /// Prints a line in words, then a table.
   void print(std::ostream& out, const Run& run) const;
@@ -52,6 +53,7 @@ class Totals {
 
   ExitCode worst_ = kExitClosed;
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
+  size_t unpaired_ = 0;                // failures of files without a partner
   std::vector<Place> top_;             // the farthest, in order
   std::vector<double> ratios_;         // upper / diag(A)
   std::vector<std::string> failures_;  // the first failures

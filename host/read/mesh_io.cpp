@@ -185,6 +185,10 @@ Mesh parse_mesh(const MeshSource& file) {
   return mesh;
 }
 
+bool has_mesh_extension(const std::filesystem::path& path) {
+  return parser_by_extension(lower_case(name_of(path.extension()))) != nullptr;
+}
+
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string name = name_of(path);
   const InputFile file(path);

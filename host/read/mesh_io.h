@@ -17,6 +17,9 @@ namespace vkh {
 /// the file's size first.
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
+/// Whether the path has the extension of a format that read_mesh reads, in letters of any size.
+bool has_mesh_extension(const std::filesystem::path& path);
+
 /// A file that holds numbers of a mesh file, such as a glTF document's buffer.
 struct FileBeneath {
   std::string name;            ///< from the mesh file's folder, as it is opened
