@@ -88,6 +88,8 @@ void read_answer(const Json& json, Record& record) {
   record.upper = whole.upper;
   record.gap = number_in(interval, "gap", 0);
   record.unit = text_in(interval, "unit");
+  const Json& max = member(json, "max");
+  record.limit = {number_in(max, "within", 0), number_in(max, "beyond", 0)};
   record.diagonal = number_in(member(json, "tolerance"), "diagonal", 0);
   record.words = text_in(json, "words");
   record.notes = notes_in(json);

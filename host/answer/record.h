@@ -46,6 +46,7 @@ struct Record {
   /// The forward direction and, if both were asked for, the reverse; else [0, infinity).
   std::array<Bounds, 2> directions;
   double gap = 0, diagonal = 0;  ///< diag(A), to nearest; 0: not known
+  Limit limit;                   ///< the limit in the unit; 0: none was asked about
   std::string unit;
   struct Side {
     std::string path, sha256;

@@ -8,6 +8,7 @@
 
 #include "host/answer/merge.h"
 #include "host/answer/merge_parts.h"
+#include "host/answer/rank.h"
 #include "host/answer/session.h"
 #include "host/answer/tables.h"
 #include "host/base/error.h"
@@ -26,6 +27,14 @@ void warn(const std::string& text) {
   std::fprintf(stderr, "vkhausdorff: warning: %s\n", printable(text).c_str());
 }
 
+std::string worst_first(std::vector<std::pair<Rank, std::string>> rows) {
+  std::sort(rows.begin(), rows.end(),
+            [](const auto& x, const auto& y) { return is_worse(x.first, y.first); });
+  std::string text;
+  for (const auto& [rank, row] : rows) text += row;
+  return text;
+}
+
 /// The CSV and JUnit XML of results, checked before the work.
 class Tables {
  public:
@@ -36,13 +45,13 @@ class Tables {
   bool is_any() const { return csv_ || junit_; }
 
   void write(const Results& results, bool with_run) const {
-    std::string csv = csv_heading(with_run);
+    std::vector<std::pair<Rank, std::string>> rows;
     std::vector<JunitCase> cases;
     results.for_each([&](const Record& record, const std::string&) {
-      if (csv_) csv += csv_row(record, with_run);
+      if (csv_) rows.emplace_back(rank_of(record), csv_row(record, with_run));
       if (junit_) cases.push_back(junit_case(record, with_run));
     });
-    if (csv_) csv_->write(csv);
+    if (csv_) csv_->write(csv_heading(with_run) + worst_first(std::move(rows)));
     if (junit_) junit_->write(to_junit(cases, "", ""));
   }
 

@@ -107,6 +107,12 @@ UnitRatio unit_ratio(const std::string& from, const std::string& to) {
   return {static_cast<double>(a / common), static_cast<double>(b / common)};
 }
 
+double in_millimetres(double length, const std::string& unit) {
+  const Unit* known = find_unit(unit);
+  constexpr double kMillimetre = 1e4;
+  return known == nullptr ? length : length * (known->tenths_of_micrometres / kMillimetre);
+}
+
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
                double diagonal_a) {
   const Float128 number = float128(length.number);

@@ -47,6 +47,9 @@ struct UnitRatio {
 /// The exact factor from a length in the unit `from` to the same length in `to`, both known units.
 UnitRatio unit_ratio(const std::string& from, const std::string& to);
 
+/// Converts a length for comparison, rounded to nearest; one of an unknown unit stays as it is.
+double in_millimetres(double length, const std::string& unit);
+
 /// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
 /// arithmetic it is from `within` to `beyond`, which are 32 ulps apart, or both the number itself
 /// where that was given as a double in the files' unit. A share of a diagonal refers to the

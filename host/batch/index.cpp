@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/answer/rank.h"
 #include "host/base/decimal.h"
 #include "host/batch/totals.h"
 #include "host/show/escape.h"
@@ -64,33 +65,45 @@ struct Mark {
 };
 
 Mark mark_of(const Record& record) {
-  if (record.status.empty()) return {"fail", "NO ANSWER"};
-  if (record.code == kExitBeyond) return {"fail", "FAIL"};
-  const bool has_verdict = !record.verdict.empty();
-  if (record.code == kExitNotClosed) return {"open", has_verdict ? "UNDECIDED" : "NOT CLOSED"};
-  return has_verdict ? Mark{"pass", "PASS"} : Mark{"plain", "CLOSED"};
+  const char* const styles[] = {"fail", "fail", "open", "plain", "pass"};
+  return {styles[static_cast<size_t>(outcome_of(record))], outcome_word(record)};
 }
 
 /// The ratio to A's diagonal: a lower bound if a pair is beyond its limit, since its run ends
 /// there; else an upper bound.
-double ratio_of(const Record& record) {
-  if (record.code == kExitBeyond) return record.diagonal > 0 ? record.lower / record.diagonal : 0;
-  if (!std::isfinite(record.upper)) return std::numeric_limits<double>::infinity();
-  return record.diagonal > 0 ? record.upper / record.diagonal : 0;
-}
-
 std::string ratio_in_words(const Record& record) {
-  const double ratio = ratio_of(record);
-  if (!std::isfinite(ratio) || !(record.diagonal > 0)) return "";
-  if (record.code == kExitBeyond)
-    return "at least " + decimal(100 * ratio, 3, Rounding::kDown) + " %";
+  const bool is_beyond = outcome_of(record) == Outcome::kBeyond;
+  const double bound = is_beyond ? record.lower : record.upper;
+  if (!std::isfinite(bound) || !(record.diagonal > 0)) return "";
+  const double ratio = bound / record.diagonal;
+  if (is_beyond) return "at least " + decimal(100 * ratio, 3, Rounding::kDown) + " %";
   return "at most " + percent_up(ratio);
 }
 
-bool is_worse(const IndexRow& x, const IndexRow& y) {
-  if (x.record.code != y.record.code) return worse(x.record.code, y.record.code) == x.record.code;
-  if (ratio_of(x.record) != ratio_of(y.record)) return ratio_of(x.record) > ratio_of(y.record);
-  return x.record.name.id < y.record.name.id;
+std::string limit_in_words(const Record& record) {
+  const std::string share = share_of_limit_text(record);
+  return share.empty() ? "" : "at least " + share + " times";
+}
+
+/// The interval, or the lower end alone if a run ended beyond its limit: its upper end means
+/// nothing.
+std::string distance_in_words(const Record& record) {
+  Answer units;
+  units.unit = record.unit;
+  const bool is_beyond = outcome_of(record) == Outcome::kBeyond;
+  return range_text(
+      units, {record.lower, is_beyond ? std::numeric_limits<double>::infinity() : record.upper});
+}
+
+void sort_worst_first(std::vector<IndexRow>& rows) {
+  std::sort(rows.begin(), rows.end(), [](const IndexRow& x, const IndexRow& y) {
+    return is_worse(rank_of(x.record), rank_of(y.record));
+  });
+}
+
+bool has_any_limit(const IndexContents& contents) {
+  return std::any_of(contents.rows.begin(), contents.rows.end(),
+                     [](const IndexRow& row) { return row.record.limit.beyond > 0; });
 }
 
 /// The two parts of words that begin with a verdict and two spaces.
@@ -156,7 +169,8 @@ std::string head_of(const IndexContents& contents) {
   text += "<p class=\"kind\">VkHausdorff " + std::string(program_version()) +
           ": certified distances of many pairs, the worst first</p>\n";
   text += heading_of(words);
-  if (!percentiles.empty()) text += paragraph("Upper bounds, of diag(A): " + percentiles + ".");
+  if (!percentiles.empty())
+    text += paragraph("Upper bounds without a limit, of diag(A): " + percentiles + ".");
   text += paragraph(colours_in_words(contents));
   return text + paragraph("Results: " + contents.results);
 }
@@ -174,12 +188,10 @@ std::string pictures_of(const IndexRow& row, const PictureOptions& options) {
   return text;
 }
 
-std::string row_of(const IndexRow& row, const IndexContents& contents) {
+std::string row_of(const IndexRow& row, const IndexContents& contents, bool has_limits) {
   const Record& record = row.record;
   const bool has_answer = !record.status.empty();
   const std::string none = has_answer ? "<small>none</small>" : "";
-  Answer units;
-  units.unit = record.unit;
   const auto cell = [](const char* style, const std::string& html) {
     return std::string("<td class=\"") + style + "\">" + html + "</td>";
   };
@@ -187,8 +199,8 @@ std::string row_of(const IndexRow& row, const IndexContents& contents) {
   std::string text =
       "<tr><th scope=\"row\">" + html_text(record.name.id) + more_words(record) + "</th>";
   text += "<td><span class=\"mark " + std::string(mark.style) + "\">" + mark.word + "</span></td>";
-  text +=
-      cell("number", has_answer ? html_text(range_text(units, {record.lower, record.upper})) : "");
+  text += cell("number", has_answer ? html_text(distance_in_words(record)) : "");
+  if (has_limits) text += cell("number", limit_in_words(record));
   text += cell("number", has_answer ? ratio_in_words(record) : "");
   if (contents.has_reports)
     text += cell("", row.report.empty() ? none : "<a href=\"" + row.report + "\">report</a>");
@@ -200,15 +212,18 @@ std::string row_of(const IndexRow& row, const IndexContents& contents) {
 }  // namespace
 
 std::string to_index(IndexContents contents) {
-  std::sort(contents.rows.begin(), contents.rows.end(), is_worse);
+  sort_worst_first(contents.rows);
+  const bool has_limits = has_any_limit(contents);
   std::string text = head_of(contents);
   text +=
       "<table>\n<thead><tr><th scope=\"col\">Pair</th><th scope=\"col\">Verdict</th>"
-      "<th scope=\"col\">Interval</th><th scope=\"col\">Of diag(A)</th>";
+      "<th scope=\"col\">Distance</th>";
+  if (has_limits) text += "<th scope=\"col\">Of its limit</th>";
+  text += "<th scope=\"col\">Of diag(A)</th>";
   if (contents.has_reports) text += "<th scope=\"col\">Report</th>";
   if (contents.has_pictures) text += "<th scope=\"col\">Picture</th>";
   text += "</tr></thead>\n<tbody>\n";
-  for (const IndexRow& row : contents.rows) text += row_of(row, contents);
+  for (const IndexRow& row : contents.rows) text += row_of(row, contents, has_limits);
   return text + "</tbody>\n</table>\n</body>\n</html>\n";
 }
 

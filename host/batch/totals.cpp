@@ -20,6 +20,19 @@ std::string number(const char* format, double value) {
 
 std::string count_of(size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
+/// "FAIL  at least 0.347 mm, 3.47 times its limit  id". The upper end of a FAIL means nothing.
+std::string in_a_row(const Record& record) {
+  const std::string lower = decimal(record.lower, 7, Rounding::kDown);
+  const bool has_upper = outcome_of(record) != Outcome::kBeyond;
+  std::string text = outcome_word(record) + std::string("  ");
+  text += has_upper ? "[" + lower + ", " + decimal(record.upper, 7, Rounding::kUp) + "]"
+                    : "at least " + lower;
+  if (!record.unit.empty()) text += " " + record.unit;
+  const std::string share = share_of_limit_text(record);
+  if (!share.empty()) text += (has_upper ? ", at least " : ", ") + share + " times its limit";
+  return text + "  " + printable(record.name.id);
+}
+
 }  // namespace
 
 std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::kUp) + " %"; }
@@ -36,13 +49,17 @@ void Totals::add(const Record& record) {
      : record.code == kExitNotClosed ? open_
      : has_verdict                   ? within_
                                      : closed_);
-  if (!std::isfinite(record.upper) || !(record.diagonal > 0)) return;
-  const double ratio = record.upper / record.diagonal;
-  ratios_.push_back(ratio);
-  if (top_.size() == kTop && ratio <= top_.back().ratio) return;
+  put_in_order(record);
+  const bool has_ratio = !has_verdict && std::isfinite(record.upper) && record.diagonal > 0;
+  if (has_ratio) ratios_.push_back(record.upper / record.diagonal);
+}
+
+void Totals::put_in_order(const Record& record) {
+  Rank rank = rank_of(record);
+  if (top_.size() == kTop && !is_worse(rank, top_.back().rank)) return;
   const auto place = std::find_if(top_.begin(), top_.end(),
-                                  [&](const Place& other) { return ratio > other.ratio; });
-  top_.insert(place, {ratio, record.lower, record.upper, record.name.id, record.unit});
+                                  [&](const Place& other) { return is_worse(rank, other.rank); });
+  top_.insert(place, {std::move(rank), in_a_row(record)});
   if (top_.size() > kTop) top_.pop_back();
 }
 
@@ -95,12 +112,7 @@ void Totals::print_percentiles(std::ostream& out) const {
 }
 
 void Totals::print_worst(std::ostream& out) const {
-  for (const Place& place : top_) {
-    print_row(out, &place == top_.data() ? "farthest" : "",
-              percent_up(place.ratio) + "  [" + decimal(place.lower, 7, Rounding::kDown) + ", " +
-                  decimal(place.upper, 7, Rounding::kUp) + "]" +
-                  (place.unit.empty() ? "" : " " + place.unit) + "  " + printable(place.id));
-  }
+  for (const Place& place : top_) print_row(out, &place == top_.data() ? "worst" : "", place.text);
 }
 
 void Totals::print_failures(std::ostream& out) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/answer/rank.h"
 #include "host/answer/record.h"
 #include "host/solve/stream.h"
 
@@ -36,17 +37,18 @@ class Totals {
   void print(std::ostream& out, const Run& run) const;
   /// Returns that line: how many pairs have the requested result.
   std::string in_words(const Run& run) const;
-  /// Returns "median 2.64 %, ..., largest 5.8 %": the pairs' upper bounds, as shares of diag(A).
-  /// Empty: none.
+  /// Returns "median 2.64 %, ..., largest 5.8 %": upper bounds of pairs without a limit, as shares
+  /// of diag(A); with one a run stops before its upper bound is found. Empty: none.
   std::string percentiles() const;
   /// Prints the totals of merged results; `missing`: pairs that have none.
   void print_merged(std::ostream& out, size_t missing, const std::string& results) const;
 
  private:
   struct Place {
-    double ratio, lower, upper;
-    std::string id, unit;
+    Rank rank;
+    std::string text;
   };
+  void put_in_order(const Record& record);
   void print_worst(std::ostream& out) const;
   void print_failures(std::ostream& out) const;
   void print_percentiles(std::ostream& out) const;
@@ -54,8 +56,8 @@ class Totals {
   ExitCode worst_ = kExitClosed;
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
   size_t unpaired_ = 0;                // failures of files without a partner
-  std::vector<Place> top_;             // the farthest, in order
-  std::vector<double> ratios_;         // upper / diag(A)
+  std::vector<Place> top_;             // the worst answers, in order
+  std::vector<double> ratios_;         // upper / diag(A), without a limit
   std::vector<std::string> failures_;  // the first failures
 };
 

@@ -120,7 +120,10 @@ class Answers(Folder):
                          {"in": "1e-7", "out": "1e-7", "percent": "1e-7", "no limit": "0.001"})
         with (self.folder / "out.csv").open(newline="") as table:
             rows = list(csv.DictReader(table))
-        self.assertEqual([row["id"] for row in rows], sorted(results))
+        self.assertEqual([row["id"] for row in rows], ["out", "no limit", "in", "percent"], "the worst first")
+        worst = [line[13:] for line in done.stdout.splitlines() if line.startswith(("  worst ", "             "))][:4]
+        self.assertEqual([line.split()[0] for line in worst], ["FAIL", "CLOSED", "PASS", "PASS"])
+        self.assertRegex(worst[0], r"^FAIL  at least [0-9.]+, 1\.[0-9]+ times its limit  out$")
         for row in rows:
             self.assertLessEqual(float(row["lower"]), float(row["upper"]))
 

@@ -134,7 +134,11 @@ class Drawn(Folders):
         self.assertEqual([row["cells"][:2] for row in index.rows[1:]],
                          [[index.rows[1]["cells"][0], "FAIL"], ["open", "CLOSED"], [index.rows[3]["cells"][0], "PASS"]])
         self.assertTrue(index.rows[1]["cells"][0].startswith("failsat least "), "the distance is told")
-        self.assertTrue(index.rows[1]["cells"][3].startswith("at least "))
+        self.assertEqual(index.rows[0]["cells"][2:5], ["Distance", "Of its limit", "Of diag(A)"])
+        self.assertRegex(index.rows[1]["cells"][2], r"\Aat least [0-9.]+\Z", "the upper end means nothing there")
+        self.assertRegex(index.rows[1]["cells"][3], r"\Aat least [0-9.]+ times\Z")
+        self.assertTrue(index.rows[1]["cells"][4].startswith("at least "))
+        self.assertEqual(index.rows[2]["cells"][3], "")
         self.assertEqual(index.rows[1]["links"], ["fails.html", "fails.png"])
         self.assertEqual(index.rows[3]["links"], ["passes.html", "passes.png", "passes-b.png"])
         self.assertEqual(self.files(), sorted(["index.html", "passes-b.png"] + [f"{name}.{kind}" for name in ("passes", "fails", "open") for kind in ("html", "png")]))

@@ -1,11 +1,15 @@
 // Results of several files as one: the rules for merging lines.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "host/answer/json_object.h"
 #include "host/answer/merge.h"
+#include "host/answer/rank.h"
 #include "host/base/error.h"
 #include "tests/support/files.h"
 
@@ -92,4 +96,73 @@ TEST_CASE("keys that do not say which files were read go with no other line") {
   check_refused({without_files(line), without_files(line)}, "nothing tells");
   const std::string none = line_of({.lower = 0.25, .upper = 0.5, .key = ""});
   check_refused({none, none}, "nothing tells");
+}
+
+namespace {
+
+struct Shown {
+  const char* id;
+  ExitCode code;
+  double lower, upper, limit;
+  const char* unit = "";
+};
+
+Record record_of(const Shown& shown) {
+  Record record;
+  record.name.id = shown.id;
+  record.code = shown.code;
+  const bool has_answer = shown.code <= kExitNotClosed && shown.code != kExitUsage;
+  record.status = has_answer ? "closed" : "";
+  record.verdict = has_answer && shown.limit > 0 ? "a verdict" : "";
+  record.lower = shown.lower;
+  record.upper = shown.upper;
+  record.limit = {shown.limit, shown.limit};
+  record.unit = shown.unit;
+  return record;
+}
+
+std::vector<std::string> ranked(const std::vector<Shown>& shown) {
+  std::vector<Rank> ranks;
+  for (const Shown& one : shown) ranks.push_back(rank_of(record_of(one)));
+  std::sort(ranks.begin(), ranks.end(), is_worse);
+  std::vector<std::string> ids;
+  for (const Rank& rank : ranks) ids.push_back(rank.id);
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("results are ranked by verdict, then by the lower end over the limit") {
+  using Ids = std::vector<std::string>;
+  CHECK(ranked({{"pass", kExitClosed, 0.09, 0.1, 0.1},
+                {"closed", kExitClosed, 5, 5, 0},
+                {"open", kExitNotClosed, 0, 9, 0.1},
+                {"bad", kExitBadInput, 0, 0, 0},
+                {"wrong", kExitUsage, 0, 0, 0},
+                {"fail", kExitBeyond, 0.2, 0.3, 0.1}}) ==
+        Ids{"fail", "bad", "wrong", "open", "closed", "pass"});
+  // The upper end of a run that ended beyond its limit was not sought.
+  CHECK(ranked({{"far", kExitBeyond, 0.2, 117, 0.1},
+                {"farther", kExitBeyond, 0.3, 0.4, 0.1},
+                {"small limit", kExitBeyond, 0.1, 0.4, 0.01}}) ==
+        Ids{"small limit", "farther", "far"});
+  CHECK(ranked({{"b", kExitBeyond, 0.2, 1, 0.1}, {"a", kExitBeyond, 0.2, 2, 0.1}}) ==
+        Ids{"a", "b"});
+  CHECK(ranked({{"mm", kExitClosed, 2, 2, 0, "mm"},
+                {"in", kExitClosed, 1, 1, 0, "in"},
+                {"m", kExitClosed, 0.001, 0.001, 0, "m"},
+                {"unknown", kExitClosed, 1.5, 1.5, 0}}) == Ids{"in", "mm", "unknown", "m"});
+}
+
+TEST_CASE("the share of a limit is rounded down") {
+  const Record third = record_of({"x", kExitBeyond, 1, 2, 3});
+  CHECK(share_of_limit(third) < 1.0 / 3);
+  CHECK(share_of_limit(third) > 1.0 / 3 * (1 - 0x1p-51));
+  CHECK(share_of_limit_text(third) == "0.333");
+  CHECK(share_of_limit_text(record_of({"x", kExitBeyond, 0.3, 1, 0.1})) == "2.99");
+  CHECK(share_of_limit_text(record_of({"x", kExitClosed, 0, 1, 1})) == "0");
+  CHECK(share_of_limit_text(record_of({"x", kExitClosed, 1, 1, 0})).empty());
+  CHECK(share_of_limit_text(record_of({"x", kExitBadInput, 0, 1, 1})).empty());
+  CHECK(share_of_limit(record_of({"x", kExitBeyond, 1e308, 1e308, 1e-300})) <
+        std::numeric_limits<double>::infinity());
 }
