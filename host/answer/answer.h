@@ -170,8 +170,19 @@ std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
 std::string to_junit(const Answer& answer);
 std::string to_junit(const Failure& failure);
 
-/// A line that GitHub's runner turns into an annotation, and the text that it shows on the run's
-/// page.
+/// What GitHub shows beside a file.
+struct GithubAnnotation {
+  std::string level;  ///< "error", "warning" or "notice"
+  std::string file;   ///< empty: none
+  std::string title, words;
+  std::vector<std::string> notes = {};  ///< see server_notes
+};
+/// A line that GitHub's runner turns into an annotation.
+std::string github_line(const GithubAnnotation& annotation);
+/// The text between backticks, for a cell of a table in Markdown.
+std::string github_code(const std::string& text);
+
+/// The same for an answer or an error, and the text that GitHub shows on the run's page.
 std::string github_annotation(const Answer& answer);
 std::string github_annotation(const Failure& failure);
 std::string github_summary(const Answer& answer);

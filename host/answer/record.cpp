@@ -148,6 +148,7 @@ Record read_record(std::string_view line) {
     throw InputError("a result with neither a status nor an error");
   if (error.is_object()) {
     record.words = text_in(error, "message");
+    record.error_file = text_in(error, "file");
   } else {
     read_answer(json, record);
   }

@@ -57,6 +57,7 @@ struct Record {
   std::array<Side, 2> inputs;
   std::vector<Note> notes;  ///< on the pair
   std::string words;        ///< the answer's first line, or the error
+  std::string error_file;   ///< the file that an error is about, as an input's path; or empty
   double total_ms = 0, gpu_ms = 0;
   std::string host, started;
 

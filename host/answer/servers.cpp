@@ -88,16 +88,6 @@ std::string github(const std::string& text, bool is_property) {
   return out;
 }
 
-/// Puts the text between backticks, in a table of Markdown.
-std::string code(const std::string& text) {
-  std::string out = "`";
-  for (const char c : printable(text)) {
-    if (c == '|') out += '\\';
-    out += c == '`' ? '\'' : c;
-  }
-  return out + "`";
-}
-
 bool is_undecided(const Answer& answer) {
   return answer.max ? verdict_of(answer) == Verdict::kUndecided
                     : interval_of(answer).status != Status::kClosed;
@@ -202,19 +192,38 @@ std::string to_junit(const Failure& failure) {
   return to_junit({&one, 1}, "", "");
 }
 
+std::string github_line(const GithubAnnotation& annotation) {
+  const std::string& file = annotation.file;
+  std::string words = annotation.words;
+  for (const std::string& note : annotation.notes) words += "\n" + printable(note);
+  return "::" + annotation.level + " " +
+         (file.empty() ? "" : "file=" + github(printable(file), true) + ",") +
+         "title=" + github(printable(annotation.title), true) + "::" + github(words, false) + "\n";
+}
+
+std::string github_code(const std::string& text) {
+  std::string out = "`";
+  for (const char c : printable(text)) {
+    if (c == '|') out += '\\';
+    out += c == '`' ? '\'' : c;
+  }
+  return out + "`";
+}
+
 std::string github_annotation(const Answer& answer) {
   const char* level = is_failed(answer) ? "error" : is_undecided(answer) ? "warning" : "notice";
-  std::string words = in_words(answer);
-  for (const std::string& note : server_notes_of(answer)) words += "\n" + printable(note);
-  return std::string("::") + level + " file=" + github(printable(answer.inputs[0].path), true) +
-         ",title=vkhausdorff " + answer.command + "::" + github(words, false) + "\n";
+  return github_line({.level = level,
+                      .file = answer.inputs[0].path,
+                      .title = "vkhausdorff " + answer.command,
+                      .words = in_words(answer),
+                      .notes = server_notes_of(answer)});
 }
 
 std::string github_annotation(const Failure& failure) {
-  const std::string file =
-      failure.file.empty() ? "" : "file=" + github(printable(failure.file), true) + ",";
-  return "::error " + file + "title=vkhausdorff::" + github(printable(failure.message), false) +
-         "\n";
+  return github_line({.level = "error",
+                      .file = failure.file,
+                      .title = "vkhausdorff",
+                      .words = printable(failure.message)});
 }
 
 std::string github_summary(const Answer& answer) {
@@ -222,19 +231,20 @@ std::string github_summary(const Answer& answer) {
                      : is_undecided(answer) ? ":grey_question:"
                                             : ":white_check_mark:";
   std::string text = std::string("### ") + mark + " vkhausdorff " + answer.command + "\n\n" +
-                     code(in_words(answer)) + "\n\n";
-  text += "| | |\n|---|---|\n| A | " + code(answer.inputs[0].path) + " |\n| B | " +
-          code(answer.inputs[1].path) + " |\n";
-  if (answer.max) text += "| max | " + code(answer.max->length.requested) + " |\n";
+                     github_code(in_words(answer)) + "\n\n";
+  text += "| | |\n|---|---|\n| A | " + github_code(answer.inputs[0].path) + " |\n| B | " +
+          github_code(answer.inputs[1].path) + " |\n";
+  if (answer.max) text += "| max | " + github_code(answer.max->length.requested) + " |\n";
   const CertifiedInterval whole = interval_of(answer);
   const double gap = gap_as_printed(answer, whole.lower, whole.upper);
   text += "| interval | " +
-          code("[" + length_down(answer, whole.lower, gap) + ", " +
-               length_up(answer, whole.upper, gap) + "]") +
+          github_code("[" + length_down(answer, whole.lower, gap) + ", " +
+                      length_up(answer, whole.upper, gap) + "]") +
           " |\n";
   if (!answer.a_to_b.device.name.empty())
-    text += "| device | " + code(answer.a_to_b.device.name) + " |\n";
-  for (const std::string& note : server_notes_of(answer)) text += "| note | " + code(note) + " |\n";
+    text += "| device | " + github_code(answer.a_to_b.device.name) + " |\n";
+  for (const std::string& note : server_notes_of(answer))
+    text += "| note | " + github_code(note) + " |\n";
   return text + "\n";
 }
 

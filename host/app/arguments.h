@@ -40,6 +40,7 @@ struct BatchAsked {
   std::string results;
   Shard shard;
   bool resumes = false, fails_fast = false;
+  bool github = false;    ///< annotations and a summary for GitHub Actions
   StreamOptions devices;  ///< the options that Question does not have
   std::string device;     ///< names between commas, or all
   uint64_t read_ahead_bytes = 0;

@@ -11,10 +11,12 @@
 #include "host/answer/rank.h"
 #include "host/answer/session.h"
 #include "host/answer/tables.h"
+#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/output_file.h"
 #include "host/base/system.h"
 #include "host/batch/batch.h"
+#include "host/batch/github.h"
 
 namespace vkh {
 namespace {
@@ -147,7 +149,22 @@ ExitCode write_indexes(const BatchJob& batch) {
 
 }  // namespace
 
-ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
+namespace {
+
+/// Tells GitHub Actions about the pairs of the batch.
+ExitCode tell_github(const BatchJob& batch) {
+  const GithubTexts texts = github_texts(batch);
+  std::cout << texts.annotations << std::flush;
+  try {
+    append_github_summary(texts.summary);
+  } catch (const OutputError& error) {
+    note(error.what());
+    return kExitNotWritten;
+  }
+  return kExitClosed;
+}
+
+ExitCode run_asked_batch(const Question& question, const BatchAsked& asked) {
   check_outputs(asked.results, asked.tables);
   // Lines would be added to the list, and a last one without an end would be cut off.
   std::error_code none;
@@ -160,13 +177,27 @@ ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
   const std::vector<std::string> inputs = inputs_of(asked, batch.entries);
   const Tables tables(asked.tables, inputs);
   batch.folders = folders_of(asked, batch.entries, inputs);
-  const ExitCode code = run_batch(batch, std::cout);
+  ExitCode code = run_batch(batch, std::cout);
   if (tables.is_any()) {
     Results results;
     results.add(asked.results);
     tables.write(results, true);
   }
-  return batch.folders ? worse(code, write_indexes(batch)) : code;
+  if (batch.folders) code = worse(code, write_indexes(batch));
+  return asked.github ? worse(code, tell_github(batch)) : code;
+}
+
+}  // namespace
+
+ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
+  try {
+    return run_asked_batch(question, asked);
+  } catch (const std::exception& error) {
+    Failure failure{.code = kExitUsage, .message = error.what(), .file = {}, .place = {}};
+    if (failure.message.starts_with(asked.list + ": ")) failure.file = asked.list;
+    if (asked.github) std::cout << github_annotation(failure) << std::flush;
+    throw;
+  }
 }
 
 namespace {

@@ -84,6 +84,10 @@ void add_batch(CLI::App& command, TypedMany& typed) {
                    "Of two folders: name and count the meshes without a partner, and let them "
                    "cost no exit code [each is a pair without an answer, code 4]");
   add_tables(command, typed);
+  command.add_flag(
+      "--github", typed.of_pairs.github,
+      "Print workflow annotations for GitHub Actions, of all pairs and of each that is "
+      "no PASS, and add to the summary of the run ($GITHUB_STEP_SUMMARY)");
   command.add_flag("--resume", typed.resumes,
                    "Keep the results that there are, and do what they have not, or not of these "
                    "inputs and options");
@@ -138,6 +142,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   if (!typed.shard.empty()) batch.shard = parse_shard(typed.shard);
   batch.resumes = typed.resumes;
   batch.fails_fast = typed.fails_fast;
+  batch.github = typed.of_pairs.github;
   batch.device = of_pairs.device;
   batch.devices.together = typed.together;
   batch.devices.lanes = typed.lanes;

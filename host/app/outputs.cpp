@@ -1,5 +1,6 @@
 #include "host/app/outputs.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -11,16 +12,6 @@
 
 namespace vkh {
 namespace {
-
-/// Appends the text that GitHub shows on the run's page; earlier steps have written to it.
-void append_summary(const Answer& answer) {
-  const char* file = std::getenv("GITHUB_STEP_SUMMARY");
-  if (file == nullptr || *file == '\0') return;
-  std::ofstream out(path_of(file), std::ios::app | std::ios::binary);
-  out << github_summary(answer);
-  if (!out.flush())
-    throw OutputError(std::string("$GITHUB_STEP_SUMMARY '") + file + "': cannot be written");
-}
 
 /// Finds the places for an answer among words that may be misspelt, and collects the other words.
 Outputs outputs_in(const Words& words, Words& others) {
@@ -68,7 +59,7 @@ std::string Destinations::write(const Answer& answer) {
   };
   if (json_) attempt([&] { json_->write(to_json(answer) + '\n'); });
   if (junit_) attempt([&] { junit_->write(to_junit(answer)); });
-  if (outputs_.github) attempt([&] { append_summary(answer); });
+  if (outputs_.github) attempt([&] { append_github_summary(github_summary(answer)); });
   // GitHub's runner reads commands from both streams; stdout has no room beside one JSON object.
   if (outputs_.github) (outputs_.json ? std::cerr : std::cout) << github_annotation(answer);
   if (outputs_.json) {
@@ -91,7 +82,19 @@ void Destinations::write(const Failure& failure) {
   }
 }
 
+void append_github_summary(const std::string& text) {
+  const char* file = std::getenv("GITHUB_STEP_SUMMARY");
+  if (file == nullptr || *file == '\0') return;
+  std::ofstream out(path_of(file), std::ios::app | std::ios::binary);
+  out << text;
+  if (!out.flush())
+    throw OutputError(std::string("$GITHUB_STEP_SUMMARY '") + file + "': cannot be written");
+}
+
 void tell_misuse(const Words& words, const std::string& message) {
+  const bool is_batch = !words.empty() && words[0] == "batch";
+  if (is_batch && std::find(words.begin(), words.end(), "--github") != words.end())
+    std::cout << github_annotation(failure_of(message, kExitUsage, {})) << std::flush;
   if (words.empty() || (words[0] != "distance" && words[0] != "gate" && words[0] != "demo")) return;
   Words others;
   const Outputs outputs = outputs_in(words, others);

@@ -29,6 +29,10 @@ class Destinations {
   std::optional<OutputFile> json_, junit_;
 };
 
+/// Appends text that GitHub shows on the run's page; earlier steps have written to it. Throws
+/// OutputError.
+void append_github_summary(const std::string& text);
+
 /// Reports words that are not understood, or cannot be done, where they ask for JSON, JUnit's XML
 /// or an annotation. Writes to no file that another word names.
 void tell_misuse(const Words& words, const std::string& message);

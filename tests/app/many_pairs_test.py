@@ -112,6 +112,47 @@ class ManyPairs(unittest.TestCase):
                 self.run_program("merge", "begun.jsonl", "--out", "begun", "--reproducible")
                 self.assertEqual((self.folder / "begun").read_bytes(), (self.folder / "whole").read_bytes())
 
+    def github(self, *words, code):
+        summary = self.folder / "summary.md"
+        summary.write_text("before\n")
+        done = subprocess.run([PROGRAM, "batch", *words, "--github"], cwd=self.folder, capture_output=True, text=True, timeout=120,
+                              env={**os.environ, "GITHUB_STEP_SUMMARY": str(summary)})
+        self.assertEqual(done.returncode, code, (words, done.stderr))
+        return [line for line in done.stdout.splitlines() if line.startswith("::")], summary.read_text()
+
+    def test_annotations_for_github(self):
+        (self.folder / "lists").mkdir()
+        (self.folder / "bad.obj").write_text("v 0 0 zero\n")
+        (self.folder / "far.obj").write_text("v 9 0 0\nv 10 0 0\nv 9 1 0\nf 1 2 3\n")
+        rows = ["pass,../0.obj,../1.obj,1abs", "barely,../0.obj,../2.obj,0.2abs", "far | 100%,../far.obj,../0.obj,1abs", "no B,../0.obj,../gone.obj,1abs",
+                "bad A,../bad.obj,../0.obj,1abs", "open,../0.obj,../3.obj,0.375abs"]
+        (self.folder / "lists/list.csv").write_text("id,a,b,max\n" + "\n".join(rows))
+        lines, summary = self.github("lists/list.csv", "--out", "out.jsonl", "--tol", "1e-3", code=4)
+        self.assertEqual(lines[0], "::notice title=vkhausdorff batch::FAIL  1 of 6 pairs are within their limit, 2 are beyond it, proven; 1 undecided; 2 without an answer")
+        heads = [line.split("::")[1] for line in lines[1:]]
+        self.assertEqual(heads, ["error file=far.obj,title=vkhausdorff batch%3A far | 100%25", "error file=0.obj,title=vkhausdorff batch%3A barely",
+                                 "error file=bad.obj,title=vkhausdorff batch%3A bad A", "error file=gone.obj,title=vkhausdorff batch%3A no B",
+                                 "warning file=0.obj,title=vkhausdorff batch%3A open", "notice file=0.obj,title=vkhausdorff batch%3A pass"])
+        self.assertRegex(lines[1], r"::FAIL  at least .*%0Aapart: ", "its notes are there")
+        self.assertIn("../bad.obj: line 1", lines[3])
+        self.assertTrue(summary.startswith("before\n### :x: vkhausdorff batch\n\n`FAIL  1 of 6 pairs"), summary)
+        table = [line.split(" | ")[1] for line in summary.splitlines() if line.startswith("| :")]
+        self.assertEqual(table, ["`far \\| 100%`", "`barely`", "`bad A`", "`no B`", "`open`", "`pass`"])
+
+    def test_github_hears_of_a_batch_that_passes_or_cannot_begin(self):
+        (self.folder / "list.csv").write_text("id,a,b,max\nx,0.obj,0.obj,1abs\n")
+        lines, summary = self.github("list.csv", "--out", "out.jsonl", code=0)
+        self.assertEqual(lines, ["::notice title=vkhausdorff batch::PASS  1 of 1 pairs are within their limit, 0 are beyond it, proven"])
+        self.assertIn("### :white_check_mark:", summary)
+        (self.folder / "list.csv").write_text("id,a\n")
+        lines, summary = self.github("list.csv", "--out", "other.jsonl", code=4)
+        self.assertEqual([line[:34] for line in lines], ["::error file=list.csv,title=vkhaus"])
+        self.assertEqual(summary, "before\n")
+        lines, _ = self.github("list.csv", "--out", "other.jsonl", "--max", "1,5mm", code=2)
+        self.assertEqual([line[:33] for line in lines], ["::error title=vkhausdorff::--max "])
+        lines, _ = self.github("list.csv", code=2)
+        self.assertEqual(lines, ["::error title=vkhausdorff::--out is required (see vkhausdorff --help)"])
+
     def test_shards_are_the_whole(self):
         self.write_list()
         self.run_program("batch", "list.csv", "--out", "whole.jsonl")

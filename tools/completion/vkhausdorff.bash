@@ -29,7 +29,7 @@ _vkhausdorff() {
     distance) options="$search $outputs --unit --max-input --polygons --bodies --certificate --part --known-lower" ;;
     gate) options="$search $outputs --unit --max-input --polygons --bodies --certificate --max --area --face-max --face-max-b --junit --github" ;;
     batch)
-      options="$search $tables --against --allow-unpaired --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons --bodies"
+      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons --bodies"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help" ;;
     demo) options="$search $outputs" ;;
