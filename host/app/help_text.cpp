@@ -4,8 +4,9 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <numeric>
 #include <sstream>
+
+#include "host/base/edits.h"
 
 namespace vkh {
 namespace {
@@ -18,22 +19,6 @@ size_t text_column(const std::string& line) {
   if (gap == std::string::npos) return name;
   const size_t text = line.find_first_not_of(' ', gap);
   return text == std::string::npos ? name : text;
-}
-
-/// Levenshtein's distance, in one row.
-size_t edits(const std::string& x, const std::string& y) {
-  std::vector<size_t> row(y.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 1; i <= x.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= y.size(); ++j) {
-      const size_t change = diagonal + (x[i - 1] == y[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 }  // namespace

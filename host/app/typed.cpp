@@ -94,7 +94,8 @@ void check_part(const Typed& typed) {
 }  // namespace
 
 const char* const kLengths =
-    "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of A's bounding-box "
+    "0.1mm (um, cm, m, in, ft, mil and thou, too), 0.1abs in the files' own unit, 0.1% of A's "
+    "bounding-box "
     "diagonal, 1e-6diag";
 
 Question question_of(const Typed& typed, const Words& words, const char* command) {

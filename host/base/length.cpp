@@ -21,13 +21,25 @@ struct Unit {
   std::string_view name;
   double tenths_of_micrometres;  ///< an integer for each
 };
-constexpr std::array<Unit, 6> kUnits = {
-    {{"um", 1e1}, {"mm", 1e4}, {"cm", 1e5}, {"m", 1e7}, {"in", 254000}, {"ft", 3048000}}};
+constexpr std::array<Unit, 8> kUnits = {{{"um", 1e1},
+                                         {"mm", 1e4},
+                                         {"cm", 1e5},
+                                         {"m", 1e7},
+                                         {"in", 254000},
+                                         {"ft", 3048000},
+                                         {"mil", 254},  // 127/5000 mm
+                                         {"thou", 254}}};
+constexpr size_t kFileUnits = 6;  ///< files are in one of the first ones
 
 const Unit* find_unit(const std::string& name) {
   const auto* const found =
       std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& u) { return u.name == name; });
   return found == kUnits.end() ? nullptr : &*found;
+}
+
+bool is_of_files(const std::string& name) {
+  const Unit* unit = find_unit(name);
+  return unit != nullptr && unit < kUnits.data() + kFileUnits;
 }
 
 constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
@@ -47,16 +59,17 @@ Limit around(Float128 x) {
   return limit;
 }
 
-/// Returns "write 0.1mm; " if the meaning is known and differs from the typed text.
+/// Returns "did you mean 0.1mm? " if the meaning is known and differs from the typed text.
 std::string proposal(const std::string& meant, const std::string& typed) {
-  return meant.empty() || meant == typed ? std::string() : "write " + meant + "; ";
+  return meant.empty() || meant == typed ? std::string() : "did you mean " + meant + "? ";
 }
 
 std::string expected_of(PlainNumber plain) {
   std::string text = "a positive length: ";
   if (plain != PlainNumber::kRefused) text += "a fraction of diag(A) such as 1e-6, ";
   return text +
-         "0.1mm (um, cm, m, in and ft, too), 0.1abs in the files' own unit, 0.1% of diag(A) or "
+         "0.1mm (um, cm, m, in, ft, mil and thou, too), 0.1abs in the files' own unit, 0.1% of "
+         "diag(A) or "
          "1e-6diag";
 }
 
@@ -95,7 +108,7 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
 }
 
 void check_unit(const char* option, const std::string& unit) {
-  if (find_unit(unit) == nullptr)
+  if (!is_of_files(unit))
     throw UsageError(std::string(option) + " '" + unit + "': " + proposal(unit_meant(unit), unit) +
                      "expected " + kUnitNames);
 }

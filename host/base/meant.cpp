@@ -4,73 +4,76 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
 #include <string_view>
 #include <system_error>
 
 #include "host/base/decimal.h"
+#include "host/base/edits.h"
 
 namespace vkh {
 namespace {
 
-/// A unit as people type it, in lower case, and its factor to a unit of lengths.
+/// A unit as people type it, in lower case: so many of a unit of lengths, an exact fraction.
 struct TypedUnit {
-  std::string_view typed;
-  double of;
-  std::string_view unit;
+  std::string_view typed, unit;
+  double times = 1, over = 1;  ///< whole numbers
 };
-constexpr std::array<TypedUnit, 52> kTypedUnits = {{
-    {"um", 1, "um"},
-    {"mm", 1, "mm"},
-    {"cm", 1, "cm"},
-    {"m", 1, "m"},
-    {"in", 1, "in"},
-    {"ft", 1, "ft"},
-    {"%", 1, "%"},
-    {"abs", 1, "abs"},
-    {"diag", 1, "diag"},
-    {"inch", 1, "in"},
-    {"inches", 1, "in"},
-    {"\"", 1, "in"},
-    {"''", 1, "in"},
-    {"mil", 0.0254, "mm"},
-    {"mils", 0.0254, "mm"},
-    {"thou", 0.0254, "mm"},
-    {"foot", 1, "ft"},
-    {"feet", 1, "ft"},
-    {"'", 1, "ft"},
-    {"yd", 3, "ft"},
-    {"yard", 3, "ft"},
-    {"yards", 3, "ft"},
-    {"millimeter", 1, "mm"},
-    {"millimeters", 1, "mm"},
-    {"millimetre", 1, "mm"},
-    {"millimetres", 1, "mm"},
-    {"centimeter", 1, "cm"},
-    {"centimeters", 1, "cm"},
-    {"centimetre", 1, "cm"},
-    {"centimetres", 1, "cm"},
-    {"dm", 10, "cm"},
-    {"meter", 1, "m"},
-    {"meters", 1, "m"},
-    {"metre", 1, "m"},
-    {"metres", 1, "m"},
-    {"km", 1000, "m"},
-    {"micron", 1, "um"},
-    {"microns", 1, "um"},
-    {"micrometer", 1, "um"},
-    {"micrometers", 1, "um"},
-    {"micrometre", 1, "um"},
-    {"micrometres", 1, "um"},
-    {"\xc2\xb5m", 1, "um"},  // the micro sign, and the Greek letter
-    {"\xce\xbcm", 1, "um"},
-    {"nm", 0.001, "um"},
-    {"nanometer", 0.001, "um"},
-    {"nanometers", 0.001, "um"},
-    {"nanometre", 0.001, "um"},
-    {"nanometres", 0.001, "um"},
-    {"percent", 1, "%"},
-    {"pct", 1, "%"},
-    {"diagonal", 1, "diag"},
+constexpr std::array<TypedUnit, 54> kTypedUnits = {{
+    {"um", "um"},
+    {"mm", "mm"},
+    {"cm", "cm"},
+    {"m", "m"},
+    {"mil", "mil"},
+    {"thou", "thou"},
+    {"in", "in"},
+    {"ft", "ft"},
+    {"%", "%"},
+    {"abs", "abs"},
+    {"diag", "diag"},
+    {"inch", "in"},
+    {"inches", "in"},
+    {"\"", "in"},
+    {"''", "in"},
+    {"mils", "mil"},
+    {"foot", "ft"},
+    {"feet", "ft"},
+    {"'", "ft"},
+    {"yd", "ft", 3},
+    {"yard", "ft", 3},
+    {"yards", "ft", 3},
+    {"mile", "m", 1609344, 1000},
+    {"miles", "m", 1609344, 1000},
+    {"millimeter", "mm"},
+    {"millimeters", "mm"},
+    {"millimetre", "mm"},
+    {"millimetres", "mm"},
+    {"centimeter", "cm"},
+    {"centimeters", "cm"},
+    {"centimetre", "cm"},
+    {"centimetres", "cm"},
+    {"dm", "cm", 10},
+    {"meter", "m"},
+    {"meters", "m"},
+    {"metre", "m"},
+    {"metres", "m"},
+    {"km", "m", 1000},
+    {"micron", "um"},
+    {"microns", "um"},
+    {"micrometer", "um"},
+    {"micrometers", "um"},
+    {"micrometre", "um"},
+    {"micrometres", "um"},
+    {"\xc2\xb5m", "um"},  // the micro sign, and the Greek letter
+    {"\xce\xbcm", "um"},
+    {"nm", "um", 1, 1000},
+    {"nanometer", "um", 1, 1000},
+    {"nanometers", "um", 1, 1000},
+    {"nanometre", "um", 1, 1000},
+    {"nanometres", "um", 1, 1000},
+    {"percent", "%"},
+    {"pct", "%"},
+    {"diagonal", "diag"},
 }};
 
 std::string stripped(const std::string& text) {
@@ -79,13 +82,42 @@ std::string stripped(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
+/// How unlike two words are: by their edits first, then by their first letters and lengths.
+size_t unlikeness(const std::string& word, std::string_view unit) {
+  return 4 * edits(word, unit) + (word[0] == unit[0] ? 0 : 2) +
+         (word.size() == unit.size() ? 0 : 1);
+}
+
+/// Finds the unit that a misspelt word is closest to: one edit from it, or two from a long word.
+/// Returns null if there is none, or if two different units are as close.
+const TypedUnit* nearest_unit(const std::string& word) {
+  constexpr size_t kLong = 6, kNone = SIZE_MAX;
+  const bool is_word = word.size() > 1 && std::all_of(word.begin(), word.end(),
+                                                      [](char c) { return c >= 'a' && c <= 'z'; });
+  if (!is_word) return nullptr;
+  const size_t most = word.size() < kLong ? 1 : 2;
+  const TypedUnit* nearest = nullptr;
+  size_t least = kNone;
+  bool is_sole = true;
+  for (const TypedUnit& unit : kTypedUnits) {
+    if (edits(word, unit.typed) > most) continue;
+    const size_t here = unlikeness(word, unit.typed);
+    if (here == least) is_sole = is_sole && unit.unit == nearest->unit;
+    if (here >= least) continue;
+    nearest = &unit;
+    least = here;
+    is_sole = true;
+  }
+  return is_sole ? nearest : nullptr;
+}
+
 const TypedUnit* typed_unit(const std::string& text) {
   std::string lower = stripped(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto* const found =
       std::find_if(kTypedUnits.begin(), kTypedUnits.end(),
                    [&](const TypedUnit& unit) { return unit.typed == lower; });
-  return found == kTypedUnits.end() ? nullptr : found;
+  return found == kTypedUnits.end() ? nearest_unit(lower) : found;
 }
 
 /// The end of the number that `text` begins with, including its exponent, if it has one.
@@ -99,14 +131,17 @@ size_t number_end(const std::string& text) {
   return end == power ? digits : end;
 }
 
+bool is_itself(const TypedUnit& unit) { return unit.times == unit.over; }
+
 /// Writes a number and a unit in the form of parse_length; nothing if the number is none.
 std::string as_parsed(const std::string& number, const TypedUnit& unit) {
   double value = 0;
   const char* const end = number.data() + number.size();
   const auto [rest, error] = std::from_chars(number.data(), end, value);
   if (error != std::errc() || rest != end || !(value > 0)) return "";
-  if (unit.of == 1) return number + std::string(unit.unit);
-  return number_text(value * unit.of, std::chars_format::general, 12) + std::string(unit.unit);
+  if (is_itself(unit)) return number + std::string(unit.unit);
+  return number_text(value * unit.times / unit.over, std::chars_format::general, 12) +
+         std::string(unit.unit);
 }
 
 std::string without_commas(std::string number) {
@@ -137,8 +172,10 @@ std::string length_meant(const std::string& text) {
 
 std::string unit_meant(const std::string& text) {
   const TypedUnit* const unit = typed_unit(text);
-  const bool is_unit = unit != nullptr && unit->of == 1 && unit->unit != "%" &&
-                       unit->unit != "abs" && unit->unit != "diag";
+  constexpr std::array<std::string_view, 5> kOfLengthsAlone = {"%", "abs", "diag", "mil", "thou"};
+  const bool is_unit = unit != nullptr && is_itself(*unit) &&
+                       std::find(kOfLengthsAlone.begin(), kOfLengthsAlone.end(), unit->unit) ==
+                           kOfLengthsAlone.end();
   return is_unit ? std::string(unit->unit) : std::string();
 }
 

@@ -108,8 +108,11 @@ TEST_CASE("units: what the files are in, and what a length is in") {
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.err.find("--unit") != std::string::npos);
   CHECK(gate("6mm", {"--unit", "miles"}).exit_code == 2);
-  CHECK(gate("6mm", {"--unit", "inch"}).err.find("--unit 'inch': write in;") != std::string::npos);
-  CHECK(gate("4mil", {"--unit", "in"}).err.find("write 0.1016mm;") != std::string::npos);
+  CHECK(gate("6mm", {"--unit", "inch"}).err.find("--unit 'inch': did you mean in?") !=
+        std::string::npos);
+  CHECK(gate("0,1mm", {"--unit", "in"}).err.find("did you mean 0.1mm?") != std::string::npos);
+  CHECK(gate("251mil", {"--unit", "in"}).exit_code == 0);
+  CHECK(gate("249 thou", {"--unit", "in"}).exit_code == 1);
   for (const Words& apart : {Words{"--max", "0.1", "mm"}, Words{"--max=0.1", "mm"}}) {
     const Outcome outcome = run(Words{"gate", square_a(), square_b()} + apart);
     CHECK(outcome.exit_code == 2);

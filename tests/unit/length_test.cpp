@@ -34,7 +34,7 @@ TEST_CASE("each spelling is what it says") {
   CHECK(parsed("5 %").of == Of::kDiagonal);
   CHECK(parsed("0.01abs").of == Of::kFiles);
   CHECK(parsed("0.01abs").number == 0.01);
-  for (const char* unit : {"um", "mm", "cm", "m", "in", "ft"}) {
+  for (const char* unit : {"um", "mm", "cm", "m", "in", "ft", "mil", "thou"}) {
     const Length length = parsed((std::string("2.5") + unit).c_str());
     CHECK(length.of == Of::kUnit);
     CHECK(length.unit == unit);
@@ -75,9 +75,9 @@ std::string proposed(const std::string& text, PlainNumber plain = PlainNumber::k
   try {
     parse_length("--max", text, plain);
   } catch (const UsageError& error) {
-    const std::string line = error.what(), before = "--max '" + text + "': write ";
+    const std::string line = error.what(), before = "--max '" + text + "': did you mean ";
     if (!line.starts_with(before)) return "";
-    return line.substr(before.size(), line.find("; expected") - before.size());
+    return line.substr(before.size(), line.find("? expected") - before.size());
   }
   return "accepted";
 }
@@ -87,8 +87,11 @@ TEST_CASE("a length that is meant is proposed as it has to be written") {
   CHECK(proposed("0,100 mm") == "0.100mm");
   CHECK(proposed("1,000mm") == "1.000mm or 1000mm");
   CHECK(proposed("1,000.5mm") == "1000.5mm");
-  CHECK(proposed("4mil") == "0.1016mm");
-  CHECK(proposed("4 thou") == "0.1016mm");
+  CHECK(proposed("4mil") == "accepted");
+  CHECK(proposed("4 thou") == "accepted");
+  CHECK(proposed("4mils") == "4mil");
+  CHECK(proposed("2yd") == "6ft");
+  CHECK(proposed("1 mile") == "1609.344m");
   CHECK(proposed("0.1inch") == "0.1in");
   CHECK(proposed("0.1 Inches") == "0.1in");
   CHECK(proposed("0.1MM") == "0.1mm");
@@ -107,20 +110,37 @@ TEST_CASE("a length that is meant is proposed as it has to be written") {
   }
 }
 
+TEST_CASE("a misspelt unit is taken for the one that is nearest, if one is") {
+  CHECK(proposed("0.1mn") == "0.1mm");
+  CHECK(proposed("0.1mmm") == "0.1mm");
+  CHECK(proposed("0.1cms") == "0.1cm");
+  CHECK(proposed("0.1milimeter") == "0.1mm");
+  CHECK(proposed("0.1 milimetre") == "0.1mm");
+  CHECK(proposed("0.1ab") == "0.1abs");
+  CHECK(proposed("0.1inche") == "0.1in");
+  CHECK(proposed("0.1dig") == "0.1diag");
+  for (const char* none : {"0.1x", "0.1zz", "0.1 parsec", "0.1lightyear", "1e-6 %abs", "0.1xm"}) {
+    CAPTURE(none);
+    CHECK(proposed(none) == "");
+  }
+}
+
 TEST_CASE("a unit that is meant is proposed by its name") {
   CHECK_THROWS_WITH_AS(check_unit("--unit", "inch"),
-                       "--unit 'inch': write in; expected um, mm, cm, m, in or ft", UsageError);
+                       "--unit 'inch': did you mean in? expected um, mm, cm, m, in or ft",
+                       UsageError);
   for (const auto& one : {std::pair{"MM", "mm"},
                           {"Inches", "in"},
                           {"micron", "um"},
                           {"meter", "m"},
+                          {"mmm", "mm"},
                           {"feet", "ft"}}) {
     CAPTURE(one.first);
-    const std::string hint = std::string("write ") + one.second + ";";
+    const std::string hint = std::string("did you mean ") + one.second + "?";
     CHECK_THROWS_WITH_AS(check_unit("--unit", one.first), doctest::Contains(hint.c_str()),
                          UsageError);
   }
-  for (const char* none : {"mil", "%", "abs", "diag", "nm"})
+  for (const char* none : {"mil", "thou", "%", "abs", "diag", "nm", "parsec", "x"})
     CHECK_THROWS_WITH_AS(check_unit("--unit", none), doctest::Contains("': expected"), UsageError);
 }
 
@@ -138,6 +158,9 @@ TEST_CASE("a length is enclosed in the files' unit") {
   check_near(in("1ft", "in"), 12);
   check_near(in("1um", "m"), 1e-6);
   check_near(in("3cm", "mm"), 30);
+  check_near(in("4mil", "mm"), 0.1016);
+  check_near(in("5000mil", "mm"), 127);  // a mil is 127/5000 mm
+  check_near(in("1000thou", "in"), 1);
   check_near(in("1m", "ft"), 1 / 0.3048);
   // A tenth is no double: neither end is above, nor under, its exact value.
   const Limit tenth = in("0.1mm", "mm");
