@@ -4,6 +4,14 @@
 
 namespace vkh {
 
+bool CsvReader::separates(int c) {
+  if (!is_decided_ && (c == ',' || c == ';')) {
+    separator_ = static_cast<char>(c);
+    is_decided_ = true;
+  }
+  return c == separator_;
+}
+
 // Returns true if the row goes on after the cell.
 bool CsvReader::read_cell(std::string& cell) {
   const bool is_quoted = text_.peek() == '"';
@@ -15,7 +23,7 @@ bool CsvReader::read_cell(std::string& cell) {
       cell += static_cast<char>(text_.get());
     } else if (is_within && c == '"') {
       is_within = false;
-    } else if (!is_within && c == ',') {
+    } else if (!is_within && separates(c)) {
       return true;
     } else if (!is_within && c == '\n') {
       if (cell.ends_with('\r')) cell.pop_back();
@@ -35,7 +43,9 @@ std::optional<std::vector<std::string>> CsvReader::next() {
     std::vector<std::string> row;
     bool goes_on = true;
     while (goes_on) goes_on = read_cell(row.emplace_back());
-    if (row.size() > 1 || !row[0].empty()) return row;
+    if (row.size() == 1 && row[0].empty()) continue;
+    is_decided_ = true;
+    return row;
   }
   return std::nullopt;
 }

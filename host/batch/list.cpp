@@ -12,6 +12,7 @@
 #include "host/base/byte_order_mark.h"
 #include "host/base/error.h"
 #include "host/base/id_hash.h"
+#include "host/base/meant.h"
 #include "host/base/parse_number.h"
 #include "host/base/system.h"
 
@@ -101,8 +102,20 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, const
     const auto times = std::count(heading.begin(), heading.end(), name);
     if (times == 1) continue;
     to.refuse(line, std::string(times == 0 ? "no" : "more than one") + " column '" + name +
-                        "'; expected a heading with " + kExpected + ", between commas");
+                        "'; expected a heading with " + kExpected +
+                        ", between commas or semicolons");
   }
+}
+
+/// Refuses a decimal comma, which spreadsheets write where they separate by semicolons: 1,000mm may
+/// be one or a thousand.
+void check_decimal_point(const std::string& name, const std::string& text, char separator) {
+  const bool is_length = name == "tol" || name == "max";
+  if (separator != ';' || !is_length || text.find(',') == std::string::npos) return;
+  const std::string meant = length_meant(text);
+  throw InputError(name + " '" + text +
+                   "': " + (meant.empty() ? "" : "did you mean " + meant + "? ") +
+                   "expected a decimal point");
 }
 
 void read_csv(std::istream& text, Collected& to) {
@@ -126,6 +139,7 @@ void read_csv(std::istream& text, Collected& to) {
     Entry entry;
     for (size_t i = 0; i < row->size(); ++i) {
       try {
+        check_decimal_point((*heading)[i], (*row)[i], rows.separator());
         if (!put(entry, (*heading)[i], (*row)[i])) to.note_stranger((*heading)[i]);
       } catch (const InputError& error) {
         to.refuse(rows.line(), error.what());

@@ -28,8 +28,9 @@ struct PairList {
 
 /// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform` and
 /// `symmetric`. Relative names, of matrices too, start at the list's folder, or at the current one
-/// if the list is a pipe. A list is CSV if its name ends in .csv. Throws InputError with file, line
-/// and the expected form; also for an id that occurs twice.
+/// if the list is a pipe. A list is CSV if its name ends in .csv; its separator is a comma or a
+/// semicolon, as its heading has. Throws InputError with file, line and the expected form; also for
+/// an id that occurs twice.
 PairList read_list(const std::string& path);
 
 /// Pairs each of `parts` with one B; its id is its name as the user typed it.

@@ -68,6 +68,10 @@ TEST_CASE("CSV as spreadsheets write it") {
   CHECK(rows_of("a,b\r\n1,2\r\n") == Rows{{"a", "b"}, {"1", "2"}});
   CHECK(rows_of("a\n\n\nb") == Rows{{"a"}, {"b"}});
   CHECK(rows_of("\"x,\"\"y\"\"\nz\",2\n,\n") == Rows{{"x,\"y\"\nz", "2"}, {"", ""}});
+  CHECK(rows_of("a;b\r\n1;2,5\r\n") == Rows{{"a", "b"}, {"1", "2,5"}});
+  CHECK(rows_of("\"a,b\";\"c;\"\n1;2") == Rows{{"a,b", "c;"}, {"1", "2"}});
+  CHECK(rows_of("a,b;c\n1;2,3") == Rows{{"a", "b;c"}, {"1;2", "3"}});
+  CHECK(rows_of("\n\na\n1;2\n3,4") == Rows{{"a"}, {"1;2"}, {"3", "4"}});
   CHECK(rows_of("") == Rows{});
   CHECK_THROWS_AS(rows_of("a,\"b\n"), InputError);
 }
@@ -97,6 +101,23 @@ TEST_CASE("a list is the same as JSONL and as CSV") {
     REQUIRE(list->notes.size() == 1);
     CHECK(list->notes[0].find("'note'") != std::string::npos);
   }
+}
+
+TEST_CASE("a list of semicolons is the same, and has no decimal comma") {
+  const std::string heading = "\xef\xbb\xbfid;a;b;max\r\n";
+  const PairList list = read_text("s.csv", heading + "\"x;y\";a, b.obj;b.obj;0.1mm\r\n");
+  REQUIRE(list.entries.size() == 1);
+  CHECK(list.entries[0].id == "x;y");
+  CHECK(list.entries[0].a == "a, b.obj");
+  CHECK(list.entries[0].max == "0.1mm");
+  CHECK(error_of("s.csv", heading + "x;a.obj;b.obj;0,1mm\n")
+            .ends_with("line 2: max '0,1mm': did you mean 0.1mm? expected a decimal point"));
+  CHECK(error_of("s.csv", heading + "x;a.obj;b.obj;1,000mm\n")
+            .find("did you mean 1.000mm or 1000mm?") != std::string::npos);
+  CHECK(error_of("s.csv", "id;a;b;tol\nx;a.obj;b.obj;0,001\n")
+            .ends_with("line 2: tol '0,001': expected a decimal point"));
+  CHECK(error_of("s.csv", heading + "x;a.obj;b.obj\n").find("line 2: 3 cells; expected 4") !=
+        std::string::npos);
 }
 
 TEST_CASE("what is wrong with a list is said with its line") {

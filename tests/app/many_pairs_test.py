@@ -39,7 +39,7 @@ class ManyPairs(unittest.TestCase):
 
     def test_lists_of_spreadsheets(self):
         for text in (b"\xef\xbb\xbfid,a,b,symmetric\r\nx,0.obj,1.obj,TRUE\r\n", b'\xef\xbb\xbf"id","a","b","symmetric"\n"x","0.obj","1.obj","yes"',
-                     b'symmetric,b,a,id\n1,1.obj,0.obj,x\n\n'):
+                     b'symmetric,b,a,id\n1,1.obj,0.obj,x\n\n', b"\xef\xbb\xbfid;a;b;symmetric\r\nx;0.obj;1.obj;TRUE\r\n"):
             with self.subTest(text):
                 (self.folder / "list.CSV").write_bytes(text)
                 self.run_program("batch", "list.CSV", "--out", "out.jsonl")
@@ -48,7 +48,8 @@ class ManyPairs(unittest.TestCase):
                 (self.folder / "out.jsonl").unlink()
 
     def test_what_is_wrong_with_a_list_is_said(self):
-        for text, said in ((b"", "line 1: no pair"), (b"x,0.obj,1.obj\n", "line 1: no column 'id'"), (b"id;a;b\nx;0.obj;1.obj\n", "line 1: no column 'id'"),
+        for text, said in ((b"", "line 1: no pair"), (b"x,0.obj,1.obj\n", "line 1: no column 'id'"), (b"id;a\nx;0.obj\n", "line 1: no column 'b'; expected a heading with id, a, b and perhaps tol, max, unit, symmetric, between commas or semicolons"),
+                           (b"id;a;b;max\nx;0.obj;1.obj;0,1mm\n", "line 2: max '0,1mm': did you mean 0.1mm?"),
                            (b"id,a\nx,0.obj\n", "line 1: no column 'b'"), (b"id,a,a,b\n", "line 1: more than one column 'a'"), (b"id,a,b\n,0.obj,1.obj\n", "line 2: no id;"),
                            (b"id,a,b\nx,0.obj\n", "line 2: 2 cells; expected 3"), (b'id,a,b\nx,0.obj,"1.obj\n', "line 2: a quote does not end"),
                            (b"id,a,b\nx,0.obj,1.obj\nx,1.obj,2.obj\n", "line 3: the id 'x' is that of line 2"), (b"id,a,b\n\xe9,0.obj,1.obj\n", "line 2: the id"),
