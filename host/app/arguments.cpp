@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/answer/options.h"
+#include "host/app/help_groups.h"
 #include "host/app/help_text.h"
 #include "host/app/many_pairs_line.h"
 #include "host/app/typed.h"
@@ -14,6 +15,12 @@
 
 namespace vkh {
 namespace {
+
+/// CLI11 puts two blank lines behind a group.
+std::string without_double_blanks(std::string text) {
+  for (size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+  return text;
+}
 
 /// The commands, each with its own typed options: their defaults differ.
 struct Program {
@@ -26,10 +33,8 @@ struct Program {
 
   Program() {
     app.set_version_flag("-V,--version", std::string("vkhausdorff ") + program_version());
-    app.footer(
-        "Exit codes: 0 closed, or PASS; 1 FAIL; 2 usage; 3 not closed within the budget, or "
-        "UNDECIDED (the interval is true); 4 bad input; 5 device or driver; 6 the answer was given "
-        "and an output could not be written.");
+    app.set_help_flag("-h,--help", "Show the options that are needed most, and end");
+    app.set_help_all_flag("--help-all", "Show all options, and end");
     app.require_subcommand(1);
     app.allow_windows_style_options(false);  // one command line everywhere; and /folder is a name
 
@@ -59,6 +64,12 @@ struct Program {
     command = app.add_subcommand("doctor", "Devices, drivers and a self-check");
     add_device_option(*command, doctor);
     refuse_empty_values();
+    for (CLI::App* one : app.get_subcommands([](CLI::App*) { return true; })) group_options(*one);
+    // Last, since a command begins with its parent's.
+    app.footer(
+        "'vkhausdorff gate --help' shows a command's options. Exit codes: 0 closed, or PASS; 1 "
+        "FAIL; 2 usage; 3 not closed within the budget, or UNDECIDED (the interval is true); 4 bad "
+        "input; 5 device or driver; 6 the answer was given and an output could not be written.");
   }
 
   /// Refuses an empty value: with --max "$LIMIT", a script whose variable is not set would ask less
@@ -107,6 +118,17 @@ struct Program {
                      "the run ($GITHUB_STEP_SUMMARY)");
     add_output_options(command, gate);
     add_search_options(command, gate);
+  }
+
+  /// The help on the command that was named, or on the program.
+  std::string help(bool shows_all) {
+    const std::vector<CLI::App*> named = app.get_subcommands();
+    if (!named.empty() && !shows_all) show_few(*named[0]);
+    std::string text = without_double_blanks(app.help());
+    if (!named.empty() || !shows_all) return text;
+    for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+      text += "\n" + without_double_blanks(command->help("vkhausdorff"));
+    return text;
   }
 
   /// Finds the command that `words` name, or returns the program itself.
@@ -164,6 +186,12 @@ std::string blank_hint(const Words& words) {
   return "";
 }
 
+/// Returns where the options of the command, or of the program, are told.
+std::string see_help(const CLI::App& command) {
+  const bool is_program = command.get_parent() == nullptr;
+  return " (see vkhausdorff " + (is_program ? "--help)" : command.get_name() + " --help-all)");
+}
+
 /// Words the error anew: CLI11 reports a missing command for a misspelt one, and an unexpected
 /// option for a misspelt one.
 std::string usage_message(const Program& program, const CLI::ParseError& error,
@@ -182,14 +210,14 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
     if (!name.starts_with("--") || name == "--" || is_known) continue;
     const std::string meant = closest_name(name, options);
     return "unknown option '" + name + "'" +
-           (meant.empty() ? " (see vkhausdorff --help)" : ": did you mean " + meant + "?");
+           (meant.empty() ? see_help(command) : ": did you mean " + meant + "?");
   }
   const bool stray = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   if (std::string hint = stray ? blank_hint(words) : ""; !hint.empty()) return hint;
   if (stray && std::find(words.begin(), words.end(), "--json") != words.end()) {
     return std::string(error.what()) + "; JSON goes into a file by --json=FILE, without a space";
   }
-  return std::string(error.what()) + " (see vkhausdorff --help)";
+  return error.what() + see_help(command);
 }
 
 CommandLine pair_line(Command command, const Typed& typed, const Words& words, const char* name) {
@@ -234,10 +262,14 @@ CommandLine understand(const Words& given) {
   Program program;
   try {
     program.app.parse(Words(words.rbegin(), words.rend()));  // CLI11 wants them reversed
-  } catch (const CLI::Success& help) {
+  } catch (const CLI::CallForHelp&) {
+    return help_line(wrapped(program.help(false), terminal_columns()));
+  } catch (const CLI::CallForAllHelp&) {
+    return help_line(wrapped(program.help(true), terminal_columns()));
+  } catch (const CLI::Success& version) {
     std::ostringstream text, none;
-    program.app.exit(help, text, none);
-    return help_line(wrapped(text.str(), terminal_columns()));
+    program.app.exit(version, text, none);
+    return help_line(text.str());
   } catch (const CLI::ParseError& error) {
     throw UsageError(usage_message(program, error, words));
   }

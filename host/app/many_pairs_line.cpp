@@ -71,8 +71,7 @@ void put_source(const TypedMany& typed, BatchAsked& batch) {
 void add_batch(CLI::App& command, TypedMany& typed) {
   command.footer(
       "LIST has id, a, b and perhaps tol, max, unit and symmetric: JSONL, or CSV with a heading. "
-      "Its files' names are of its own folder. The exit code is the worst of the pairs': 5, 4, 6, "
-      "2, 1, 3, 0 in this order.");
+      "Its files' names are of its own folder.");
   command
       .add_option("LIST", typed.files,
                   "A list of pairs; or two folders, A's and B's, whose meshes are paired by their "

@@ -171,8 +171,14 @@ TEST_CASE("help and version are answers, not errors") {
   CHECK(run({"distance", "--help"}).out.find("--tol") != std::string::npos);
   CHECK(run({"help"}).out == help.out);
   CHECK(run({"-V"}).out == run({"--version"}).out);
-  for (const Words& words :
-       {Words{"--help"}, Words{"distance", "--help"}, Words{"gate", "--help"}}) {
+  CHECK(run({"distance", "--help"}).out.find("--waves") == std::string::npos);
+  CHECK(run({"distance", "--help-all"}).out.find("--waves") != std::string::npos);
+  CHECK(run({"help", "gate"}).out == run({"gate", "--help"}).out);
+  const std::string all = run({"--help-all"}).out;
+  for (const char* command : {"distance", "gate", "batch", "merge", "demo", "doctor"})
+    CHECK(all.find(std::string("Usage: vkhausdorff ") + command) != std::string::npos);
+  for (const Words& words : {Words{"--help"}, Words{"--help-all"}, Words{"distance", "--help"},
+                             Words{"gate", "--help"}}) {
     std::istringstream lines(run(words).out);
     for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 100);
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The man page and the shells' completions know the options that --help has, and no others.
+"""The man page and the shells' completions know the options that --help-all has, and no others.
 
 usage: completion_test.py PROGRAM SOURCE
 """
@@ -17,7 +17,7 @@ OPTION = r"--[a-z]+(?:-[a-z]+)*"
 
 
 def helped(command):
-    text = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True, timeout=60, check=True).stdout
+    text = subprocess.run([PROGRAM, command, "--help-all"], capture_output=True, text=True, timeout=60, check=True).stdout
     return set(re.findall(rf"^ +(?:-\w,)?({OPTION})", text, re.MULTILINE))
 
 
@@ -31,6 +31,27 @@ def completed(command):
 
 
 class Options(unittest.TestCase):
+    def test_help_is_short_and_says_where_the_rest_is(self):
+        for command in COMMANDS:
+            with self.subTest(command):
+                text = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True, timeout=60, check=True).stdout
+                few = set(re.findall(rf"^ +(?:-\w,)?({OPTION})", text, re.MULTILINE)) - {"--help", "--help-all"}
+                every = helped(command) - {"--help", "--help-all"}
+                self.assertLessEqual(few, every)
+                self.assertLessEqual(len(few), 10)
+                more = re.findall(r"^--help-all shows (\d+) more options\.$", text, re.MULTILINE)
+                self.assertEqual(list(map(int, more)), [len(every) - len(few)] if few != every else [])
+                self.assertIn("\nExit codes: 0 ", text)
+                self.assertNotIn("\n\n\n", text)
+
+    def test_all_options_stand_in_groups(self):
+        for command in ("distance", "gate", "batch", "demo"):
+            with self.subTest(command):
+                text = subprocess.run([PROGRAM, command, "--help-all"], capture_output=True, text=True, timeout=60, check=True).stdout
+                first, *groups = re.split(r"^(?:Options|What .*|How .*):$", text.split("Exit codes:")[0], flags=re.MULTILINE)[1:]
+                self.assertEqual(set(re.findall(rf"^ +(?:-\w,)?({OPTION})", first, re.MULTILINE)), {"--help", "--help-all"}, "an option without a group")
+                self.assertGreaterEqual(len(groups), 4)
+
     def test_bash_completes_them(self):
         for command in COMMANDS:
             with self.subTest(command):

@@ -152,7 +152,7 @@ class ManyPairs(unittest.TestCase):
         lines, _ = self.github("list.csv", "--out", "other.jsonl", "--max", "1,5mm", code=2)
         self.assertEqual([line[:33] for line in lines], ["::error title=vkhausdorff::--max "])
         lines, _ = self.github("list.csv", code=2)
-        self.assertEqual(lines, ["::error title=vkhausdorff::--out is required (see vkhausdorff --help)"])
+        self.assertEqual(lines, ["::error title=vkhausdorff::--out is required (see vkhausdorff batch --help-all)"])
 
     def test_shards_are_the_whole(self):
         self.write_list()

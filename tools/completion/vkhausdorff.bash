@@ -2,11 +2,11 @@
 _vkhausdorff() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
   local commands="distance gate batch merge demo doctor help"
-  local engine="--memory --waves --preset --enable --disable --no-cache --help" search tables="--out --csv --junit"
+  local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
   search="--device --time $engine"
   local look="--view --up --size --map --range --steps"
   local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol --effort --field --image --report $look"
-  local options="--help --version"
+  local options="--help --help-all --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
     mapfile -t COMPREPLY < <(compgen -W "$commands $options" -- "$current")
@@ -31,9 +31,9 @@ _vkhausdorff() {
     batch)
       options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons --bodies"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
-    merge) options="$tables --list --reproducible --help" ;;
+    merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;
-    doctor) options="--device --help" ;;
+    doctor) options="--device --help --help-all" ;;
     help) options="$commands" ;;
   esac
   if [[ $current == -* || $command == help ]]; then
