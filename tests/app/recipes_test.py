@@ -26,26 +26,32 @@ endsolid square
 """
 
 
-def gates(recipe):
-    """The command lines of a recipe that gate, as words."""
-    lines = re.findall(r"(vkhausdorff gate .*)$", recipe.read_text(), re.MULTILINE)
+def lines_of(recipe, command):
+    """The command lines of a recipe with the command, as words."""
+    lines = re.findall(rf"(vkhausdorff {command} .*)$", recipe.read_text(), re.MULTILINE)
     return [shlex.split(line) for line in lines]
+
+
+def write(path, z):
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(STL.format(z=z))
 
 
 class Recipes(unittest.TestCase):
     def test_each_gates_and_each_gate_runs(self):
-        recipes = sorted(RECIPES.glob("*.y*ml"))
+        recipes = sorted(recipe for recipe in RECIPES.glob("*.y*ml") if lines_of(recipe, "gate"))
         self.assertEqual(len(recipes), 3)
+        self.assertEqual(len(list(RECIPES.glob("*.y*ml"))), 4)
         for recipe in recipes:
             with self.subTest(recipe.name), tempfile.TemporaryDirectory() as folder:
                 here = pathlib.Path(folder)
-                self.assertEqual(len(gates(recipe)), 1)
-                words = gates(recipe)[0]
+                self.assertEqual(len(lines_of(recipe, "gate")), 1)
+                words = lines_of(recipe, "gate")[0]
                 summary = here / "summary.md"
                 environment = {**os.environ, "GITHUB_STEP_SUMMARY": str(summary)}
                 for height, code in ((0.05, 0), (0.2, 1)):
-                    (here / "part.stl").write_text(STL.format(z=height))
-                    (here / "reference.stl").write_text(STL.format(z=0))
+                    write(here / "part.stl", height)
+                    write(here / "reference.stl", 0)
                     done = subprocess.run([PROGRAM, *words[1:]], cwd=here, env=environment, capture_output=True, text=True, timeout=120)
                     self.assertEqual(done.returncode, code, done.stdout + done.stderr)
                 if "--github" in words:
@@ -55,6 +61,24 @@ class Recipes(unittest.TestCase):
                     if word.startswith("--junit="):
                         self.assertIn(word.removeprefix("--junit="), recipe.read_text().split("junit:")[1])
                         self.assertIn('failures="1"', (here / word.removeprefix("--junit=")).read_text())
+
+    def test_the_one_of_folders(self):
+        recipe = RECIPES / "github-folders.yml"
+        [words] = lines_of(recipe, "batch")
+        for heights, code, annotations in (((0.05, 0.02), 0, 0), ((0.05, 0.2), 1, 1), ((0.05, None), 4, 1)):
+            with self.subTest(code), tempfile.TemporaryDirectory() as folder:
+                here = pathlib.Path(folder)
+                for name, height in zip(("near", "far"), heights):
+                    write(here / "models" / f"{name}.stl", 0)
+                    if height is not None:
+                        write(here / "references" / f"{name}.stl", height)
+                environment = {**os.environ, "GITHUB_STEP_SUMMARY": str(here / "summary.md")}
+                done = subprocess.run([PROGRAM, *words[1:]], cwd=here, env=environment, capture_output=True, text=True, timeout=120)
+                self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+                self.assertEqual(done.stdout.count("::error file=models/far.stl,"), annotations, done.stdout)
+                self.assertIn("near", (here / "summary.md").read_text())
+                for path in recipe.read_text().split("path: |\n")[1].split():
+                    self.assertTrue((here / path).exists(), path)
 
 
 if __name__ == "__main__":
