@@ -80,7 +80,7 @@ void add_batch(CLI::App& command, TypedMany& typed) {
   command.add_option("--against", typed.against, "One mesh to go to for all that are named")
       ->type_name("B");
   command.add_flag("--allow-unpaired", typed.allows_unpaired,
-                   "Of two folders: name and count the meshes without a partner, and let them "
+                   "Name and count the meshes of two folders that have no partner, and let them "
                    "cost no exit code [each is a pair without an answer, code 4]");
   add_tables(command, typed);
   command.add_flag(
