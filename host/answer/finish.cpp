@@ -125,13 +125,40 @@ SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOption
   return result;
 }
 
+/// The distance beyond which B is not covered by A: the limit, or a hundredth of A's diagonal where
+/// that is larger. None unless B is surveyed for figures.
+std::optional<double> uncovered_beyond(const Finishing& at, const Side& side) {
+  if (&side.report == &at.answer.a_to_b || !at.question.statistics) return std::nullopt;
+  const double limit = at.answer.max ? at.answer.max->limit.beyond : 0;
+  const double beyond = std::max(limit, 0.01 * at.answer.a_to_b.diagonal_a);
+  return beyond > 0 && std::isfinite(beyond) ? std::optional(beyond) : std::nullopt;
+}
+
+/// Takes the last band out of the figures, and notes that more than a thousandth of B is beyond it.
+void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
+  constexpr double kLeast = 1e-3;
+  const double share = 1 - statistics.bands.back().share.upper;
+  statistics.bands.pop_back();
+  if (!(share >= kLeast)) return;
+  at.answer.notes.push_back(note_of(NoteCode::kCoverage,
+                                    "at least " + decimal(100 * share, 3, Rounding::kDown) +
+                                        " % of B's area is farther than " +
+                                        decimal(beyond, 3, Rounding::kDown) +
+                                        (at.answer.unit.empty() ? "" : " " + at.answer.unit) +
+                                        " from A: does A lack a part of B?",
+                                    {share, ""}));
+}
+
 SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   SurveyOptions options = survey_options(at, left);
   options.upper = side.report.upper;
+  const std::optional<double> beyond = uncovered_beyond(at, side);
+  if (beyond) options.bands.insert(options.bands.end(), 2, *beyond);
   SurveyResult result = survey_of(at, side, options);
   if (result.ended == SurveyEnd::kCancelled && at.observer.time_left_s() <= 0)
     result.ended = SurveyEnd::kTime;
   join(side.report, result, side.from.faces.size());
+  if (beyond && result.statistics) take_coverage(at, *beyond, *result.statistics);
   if (options.statistics && !result.statistics)
     note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);
   return result;

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kNoExtent = 1e-3;  // of the smaller diagonal
 constexpr double kSmaller = 0.8, kLarger = 1.25;
-constexpr double kUnitError = 0.02;
-constexpr double kApart = 0.1;  // of B's diagonal
+constexpr double kUnitError = 0.02;  // of the diagonals' ratio
+constexpr double kAxisError = 0.1;   // of an axis's: a scan of a thin part is thicker by its noise
+constexpr double kApart = 0.1;       // of B's diagonal
 
 std::string number(double value) { return number_text(value, std::chars_format::general, 4); }
 
@@ -38,14 +39,18 @@ std::vector<Ratio> ratios(const Box& a, const Box& b) {
   return all;
 }
 
-/// The factor between two units that all ratios are; none if they are not one.
-std::optional<double> unit_factor(const std::vector<Ratio>& all) {
+/// The factor between two units by which the diagonals differ, and each extent about so.
+std::optional<double> unit_factor(const Box& a, const Box& b, const std::vector<Ratio>& all) {
+  const double of_diagonals = diagonal(a) / diagonal(b);
+  const auto is_near = [](double ratio, double factor, double error) {
+    return std::abs(ratio / factor - 1) <= error;
+  };
   for (const double factor : {25.4, 10.0, 100.0, 1000.0}) {
     for (const double ratio : {factor, 1 / factor}) {
       const bool are_alike = std::all_of(all.begin(), all.end(), [&](const Ratio& r) {
-        return std::abs(r.of_extents / ratio - 1) <= kUnitError;
+        return is_near(r.of_extents, ratio, kAxisError);
       });
-      if (are_alike && !all.empty()) return ratio;
+      if (are_alike && is_near(of_diagonals, ratio, kUnitError)) return ratio;
     }
   }
   return std::nullopt;
@@ -119,12 +124,15 @@ std::vector<Note> notes_on_boxes(const Box& a, const Box& b, const std::string& 
                                  const std::string& unit_option) {
   std::vector<Note> notes;
   const std::vector<Ratio> all = ratios(a, b);
-  if (const std::optional<double> factor = unit_factor(all)) {
+  const std::optional<double> factor = unit_factor(a, b, all);
+  if (factor) {
     notes.push_back(note_on_units(*factor, unit_option));
   } else if (std::optional<Note> note = note_on_size(all)) {
     notes.push_back(std::move(*note));
   }
-  if (std::optional<Note> note = note_on_place(a, b, unit)) notes.push_back(std::move(*note));
+  // In another unit A lies elsewhere, too.
+  const Box in_unit = factor ? Box{a.lo / *factor, a.hi / *factor} : a;
+  if (std::optional<Note> note = note_on_place(in_unit, b, unit)) notes.push_back(std::move(*note));
   return notes;
 }
 

@@ -137,7 +137,7 @@ void find_worst(const Question& question, std::span<Solver* const> solvers,
 
 bool goes_on_to_worst(const Question& question, const Observer& observer, const Answer& answer) {
   return question.worst && question.max && !question.area && !question.is_by_face() &&
-         !question.part && verdict_of(answer) == Verdict::kBeyond && observer.is_to_go_on() &&
+         !question.part && verdict_of(answer) != Verdict::kUndecided && observer.is_to_go_on() &&
          observer.time_left_s() > 0;
 }
 

@@ -233,7 +233,7 @@ void print_part(std::ostream& out, const Answer& answer) {
 /// Whether the note stands with the sizes, or in the first line.
 bool is_said_first(NoteCode code) {
   return code == NoteCode::kUnits || code == NoteCode::kSize || code == NoteCode::kApart ||
-         code == NoteCode::kOneWay;
+         code == NoteCode::kOneWay || code == NoteCode::kCoverage || code == NoteCode::kConverted;
 }
 
 /// Prints the boxes' sizes, and what is odd about them.

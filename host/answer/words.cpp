@@ -16,9 +16,17 @@ std::string with_unit(std::string number, const Answer& answer) {
   return number;
 }
 
-std::string point_text(const SurfacePoint& p) {
-  return "(" + coordinates_text(p.point.x, p.point.y, p.point.z) + ") on face " +
-         std::to_string(p.file_face);
+/// Prints a point to a hundred-thousandth of A's diagonal, which is enough to find it; all digits
+/// are in JSON.
+std::string point_text(const Answer& answer, const SurfacePoint& p) {
+  const double step = 1e-5 * answer.a_to_b.diagonal_a;
+  const auto printed = [&](double x) {
+    const double size = std::abs(x);
+    const int digits = size > step && step > 0 ? 1 + static_cast<int>(std::log10(size / step)) : 1;
+    return number_text(x, std::chars_format::general, std::min(digits, 17));
+  };
+  return "(" + printed(p.point.x) + ", " + printed(p.point.y) + ", " + printed(p.point.z) +
+         ") on face " + std::to_string(p.file_face);
 }
 
 // Returns upper as a share in percent.
@@ -108,8 +116,8 @@ std::string failure_in_words(const Answer& answer, bool back) {
                            : margin;
   std::string text = is_worst_known(r) ? "FAIL  " : "FAIL  at least ";
   text += length_down(answer, r.lower, shown);
-  text +=
-      r.has_witness ? " at " + point_text(r.witness_a) + " of " + from : " at a point of " + from;
+  text += r.has_witness ? " at " + point_text(answer, r.witness_a) + " of " + from
+                        : " at a point of " + from;
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
   return text + ", limit of its face " +
          with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
@@ -153,6 +161,19 @@ std::string area_in_words(const Answer& answer) {
          percent(share.upper, area, Rounding::kUp) + of + asked + "; ask for more --time";
 }
 
+/// The largest deviation of a PASS, as far as it is known: the run ends once the limit is decided.
+std::string deviation_in_words(const Answer& answer, const CertifiedInterval& whole) {
+  if (whole.upper == 0) return "no deviation";
+  const double gap = gap_as_printed(answer, whole.lower, whole.upper);
+  if (whole.lower > 0 && whole.upper - whole.lower <= 2e-3 * whole.lower)
+    return "largest deviation " +
+           length_down(answer, whole.lower, std::max(gap, 2e-3 * whole.lower));
+  if (whole.upper <= 0.5 * answer.max->limit.within)
+    return "largest deviation at most " + length_up(answer, whole.upper, gap);
+  return "a point is " + length_down(answer, whole.lower, whole.upper - whole.lower) +
+         " away; --worst finds the farthest";
+}
+
 std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const Asked& max = *answer.max;
@@ -173,10 +194,9 @@ std::string gate_in_words(const Answer& answer) {
   if (verdict == Verdict::kUndecided)
     return "UNDECIDED  the limit " + asked + " lies in " + interval_text(answer, whole) +
            hint(answer, whole.status);
-  const double gap = gap_as_printed(answer, whole.lower, whole.upper);
   return std::string("PASS  every point of A") + (answer.b_to_a ? " and of B" : "") +
-         " is within " + asked + " of " + (answer.b_to_a ? "the other" : "B") +
-         ", proven (largest deviation at most " + length_up(answer, whole.upper, gap) + ")";
+         " is within " + asked + " of " + (answer.b_to_a ? "the other" : "B") + ", proven (" +
+         deviation_in_words(answer, whole) + ")";
 }
 
 /// A PASS in one direction, of all of A: half a part is within any limit of the whole.

@@ -106,7 +106,7 @@ struct Program {
                     "every point")
         ->type_name("SHARE");
     command.add_flag("--worst", gate.worst,
-                     "After a FAIL, go on to the farthest point; with --image, --report or --field "
+                     "After the verdict, go on to the farthest point; with --image, --report or --field "
                      "that is so without it");
     add_survey_options(command, gate);
     add_picture_options(command, gate.pictures);

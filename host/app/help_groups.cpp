@@ -28,7 +28,7 @@ const std::map<std::string, HelpOfCommand>& help_of_commands() {
                     "bad input; 5 device or driver; ") +
             kOutputCode + "."}},
       {"gate",
-       {{"max", "unit", "symmetric", "area", "face-max", "report", "json", "junit", "github",
+       {{"max", "unit", "symmetric", "worst", "area", "report", "json", "junit", "github",
          "time"},
         std::string("0 PASS; 1 FAIL; 2 usage; 3 UNDECIDED (the interval is true); 4 bad input; 5 "
                     "device or driver; ") +
@@ -70,9 +70,11 @@ struct HelpGroup {
 const std::vector<HelpGroup>& help_groups() {
   static const std::vector<HelpGroup> known{
       {"What is asked",
-       {"max", "face-max", "face-max-b", "area", "tol", "symmetric", "unit", "polygons", "bodies",
+       {"max", "face-max", "face-max-b", "area", "worst", "tol", "symmetric", "polygons", "bodies",
         "part", "known-lower", "stats", "bands", "field-tol", "effort", "against",
         "allow-unpaired"}},
+      {"What the meshes are in, and where A lies",
+       {"unit", "unit-a", "unit-b", "transform", "scale"}},
       {"What is printed and written",
        {"out", "csv", "json", "junit", "github", "field", "image", "report", "image-dir",
         "report-dir", "certificate", "verbose", "verify", "reproducible"}},

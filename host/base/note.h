@@ -31,6 +31,7 @@ enum class NoteCode {
   kSize,         ///< A's box is much smaller or larger than B's on an axis
   kApart,        ///< the boxes lie apart
   kOneWay,       ///< what A lacks of B was not asked
+  kCoverage,     ///< a share of B's area is far from A
   kUnitAssumed,  ///< one file does not say its unit, and the other does
   kConverted,    ///< A was converted to B's unit
   kStretch,      ///< the matrix that places A is no exact rotation

@@ -71,15 +71,11 @@ std::string note_on_others(const FolderOfMeshes& meshes) {
 }
 
 Entry pair_of(const std::string& stem, const std::string& a, const std::string& b) {
-  return {.id = stem,
-          .a = a,
-          .b = b,
-          .file_a = a,
-          .file_b = b,
-          .tolerance = {},
-          .max = {},
-          .unit = {},
-          .symmetric = {}};
+  Entry entry;
+  entry.id = stem;
+  entry.a = entry.file_a = a;
+  entry.b = entry.file_b = b;
+  return entry;
 }
 
 std::string missing_in(const FolderOfMeshes& other, const std::string& file,

@@ -411,6 +411,23 @@ TEST_CASE("a budget that is too small: exit code 3 and a true interval") {
   CHECK(table.out.find("NOT CLOSED") != std::string::npos);
 }
 
+TEST_CASE("coverage: how much of B is far from A, where both ways are surveyed") {
+  const std::string half = write_file("half.obj", rectangle(1, 0)),
+                    whole = write_file("whole.obj", rectangle(2, 0));
+  const auto coverage = [](const Words& words) {
+    const json notes = json::parse(run(Words{"distance"} + words).out)["notes"];
+    const auto found = std::find_if(notes.begin(), notes.end(),
+                                    [](const json& note) { return note["code"] == "coverage"; });
+    return found == notes.end() ? 0.0 : (*found)["value"].get<double>();
+  };
+  // Beyond x = 1 + sqrt(2) / 100, by a hundredth of A's diagonal, lie 49.3 % of B.
+  const double share = coverage({half, whole, "--symmetric", "--stats", "--json"});
+  CHECK(share <= (1 - std::sqrt(2.0) / 100) / 2);
+  CHECK(share >= 0.48);
+  CHECK(coverage({half, whole, "--stats", "--json"}) == 0);
+  CHECK(coverage({whole, whole, "--symmetric", "--stats", "--json"}) == 0);
+}
+
 TEST_CASE("doctor lists devices and passes its own check") {
   const Outcome outcome = run({"doctor"});
   CAPTURE(outcome.err);

@@ -27,7 +27,7 @@ TEST_CASE("a pair of one size at one place has no notes") {
   CHECK(codes(box({0, 0, 0}), box({0, 0, 0})).empty());
 }
 
-TEST_CASE("units: a factor between units on every axis, to 2 %") {
+TEST_CASE("units: a factor between units, to 2 % of the diagonal and 10 % of each axis") {
   const Box b = box({100, 60, 10});
   for (const double factor : {25.4, 10.0, 100.0, 1000.0}) {
     for (const double off : {0.985, 1.0, 1.015}) {
@@ -38,6 +38,11 @@ TEST_CASE("units: a factor between units on every axis, to 2 %") {
     }
     CHECK(codes(box({100 * factor * 1.03, 60 * factor, 10 * factor}), b) == Codes{NoteCode::kSize});
     CHECK(codes(box({100 * factor, 60, 10}), b) == Codes{NoteCode::kSize});
+    // The noise of a scan makes a thin part thicker, and its place is in its unit, too.
+    const DVec3 away = {500, 20, 0};
+    CHECK(codes(box({100 / factor, 60 / factor, 10.8 / factor}, away / factor),
+                box({100, 60, 10}, away)) == Codes{NoteCode::kUnits});
+    CHECK(codes(box({100 / factor, 60 / factor, 11.2 / factor}), b) == Codes{NoteCode::kSize});
   }
   const Note note = notes_on_boxes(box({1000, 600, 100}), b, "mm")[0];
   CHECK(note.value == 10.0);

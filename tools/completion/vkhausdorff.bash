@@ -6,6 +6,7 @@ _vkhausdorff() {
   search="--device --time $engine"
   local look="--view --up --size --map --range --steps"
   local outputs="--json --verbose --verify --tol --symmetric --stats --bands --field-tol --effort --field --image --report $look"
+  local files="--unit --unit-a --unit-b --transform --scale --max-input --polygons --bodies"
   local options="--help --help-all --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
@@ -20,16 +21,16 @@ _vkhausdorff() {
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --polygons) mapfile -t COMPREPLY < <(compgen -W "fan any" -- "$current"); return ;;
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
-    --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
+    --unit | --unit-a | --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
       --area | --bands | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
       --part | --known-lower) return ;;
   esac
   case $command in
-    distance) options="$search $outputs --unit --max-input --polygons --bodies --certificate --part --known-lower" ;;
-    gate) options="$search $outputs --unit --max-input --polygons --bodies --certificate --max --area --face-max --face-max-b --junit --github" ;;
+    distance) options="$search $outputs $files --certificate --part --known-lower" ;;
+    gate) options="$search $outputs $files --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
     batch)
-      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --unit --max-input --polygons --bodies"
+      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric $files"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;
