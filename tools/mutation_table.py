@@ -142,8 +142,8 @@ ROWS = [
     row("bound_cut's larger", BOUNDS, "max(surface_distance_up(p, s), surface_distance_up(p, r))",
         ["min(surface_distance_up(p, s), surface_distance_up(p, r))"], ON_BOUNDS),
     row("bound_cut's second cut", BOUNDS, "max(at_p, at_q)", ["max(at_p, min(at_p, at_q))"], ON_BOUNDS),
-    row("bound_pair's corners", BOUNDS, "max(bound_nearer(ds, dr), bound_cut(t, cut, ds - dr, s, r))",
-        ["bound_cut(t, cut, ds - dr, s, r)"], ON_BOUNDS),
+    row("bound_pair's corners", BOUNDS, "max(bound_nearer(ds, dr), bound_cut(t, cut, from_cut(ds, dr, s.base), s, r))",
+        ["bound_cut(t, cut, from_cut(ds, dr, s.base), s, r)"], ON_BOUNDS),
 
     # bounds_paper.h
     row("bound_split's side", PAPER, "side.y < 0.0f ? ds.y : dr.y", ["min(ds.y, dr.y)"], ON_BOUNDS),

@@ -66,11 +66,30 @@ VKH_FN Two3 corner_at(Patch t, uint i) {
   return p;
 }
 
-// d(corner, S) for each corner of T.
+// d or the float above it: the one whose last bit says whether the closest point is inside of its
+// triangle. A zero of either sign counts as 0. The bit steers the cut of u3 (from_cut) and
+// nothing else, so a device that flushes the float above 0 may lose it.
+VKH_FN float marked(float d, bool inside) {
+  uint bits = floatBitsToUint(d);
+  bits = choose(bits == 0x80000000u, 0u, bits);
+  uint step = (bits & 1u) ^ choose(inside, 1u, 0u);
+  return uintBitsToFloat(choose((bits >> 31) != 0u, bits - step, bits + step));
+}
+
+VKH_FN bool is_marked(float d) { return (floatBitsToUint(d) & 1u) != 0u; }
+
+// >= d(p, S) - base, marked.
+VKH_FN float corner_distance(Two3 p, Surface s) {
+  bool inside;
+  float d = surface_distance_up(p, s, inside);
+  return marked(d, inside);
+}
+
+// d(corner, S) for each corner of T, marked.
 VKH_FN vec3 corner_distances(Patch t, Surface s) {
   vec3 d = vec3(0.0f, 0.0f, 0.0f);
   for (uint i = 0u; i < 3u; ++i) {
-    float at_corner = surface_distance_up(corner_at(t, i), s);
+    float at_corner = corner_distance(corner_at(t, i), s);
     if (i == 0u) d.x = at_corner;
     if (i == 1u) d.y = at_corner;
     if (i == 2u) d.z = at_corner;
@@ -127,12 +146,38 @@ VKH_FN float bound_nearer(vec3 ds, vec3 dr) {
   return max(min(ds.x, dr.x), max(min(ds.y, dr.y), min(ds.z, dr.z)));
 }
 
+// Whether the point lies above the nearer of two surfaces and beside the other, by its marked
+// distances from them.
+VKH_FN bool is_beside(float ds, float dr) {
+  return both(is_marked(min(ds, dr)), !is_marked(max(ds, dr)));
+}
+
+// The root of |ds^2 - dr^2|, from distances above the base. Neither is squared, so that what they
+// have in common is not lost.
+VKH_FN float root_between(float ds, float dr, float base) {
+  return root(abs(ds - dr) * max((ds + dr) + 2.0f * base, 0.0f));
+}
+
+// How far T's corners are from the cut of u3 between S and R, by marked distances: cut_point takes
+// these numbers for lengths along T's edges. Above two triangles in one plane, at height H and a
+// length x from the edge between them, the distances are H and sqrt(H^2 + x^2): their difference is
+// no line across the edge, but the root of that of their squares is x. The same holds outside of a
+// convex edge. Inside of a concave one both distances are from planes, and their own difference is
+// a line. The side of a corner is the nearer surface's in both cases, or bound_nearer would be
+// false.
+VKH_FN vec3 from_cut(vec3 ds, vec3 dr, float base) {
+  bool ab = either(is_beside(ds.x, dr.x), is_beside(ds.y, dr.y));
+  if (!either(ab, is_beside(ds.z, dr.z))) return ds - dr;
+  return vec3(root_between(ds.x, dr.x, base), root_between(ds.y, dr.y, base),
+              root_between(ds.z, dr.z, base));
+}
+
 // u3 for a pair of surfaces (eq. 13): T is cut where its distances from them even out, one piece is
 // measured against S and the other against R. `ds` and `dr` are corner_distances of both.
 VKH_FN float bound_pair(Patch t, Surface s, vec3 ds, Surface r, vec3 dr) {
   Cut cut = cut_by(ds - dr);
   if (cut.none) return min(max3(ds), max3(dr));
-  return max(bound_nearer(ds, dr), bound_cut(t, cut, ds - dr, s, r));
+  return max(bound_nearer(ds, dr), bound_cut(t, cut, from_cut(ds, dr, s.base), s, r));
 }
 
 VKH_LIB_END

@@ -96,8 +96,8 @@ VKH_FN Closest closest_point(vec3 p, Corners t) {
 // and both in exact arithmetic for p and T as given, its root is off by kUlp (3 D + 4 L) before its
 // own rounding: inside, where 0 <= v, w and v + w <= 1 hold exactly as in closest_point, ap, which
 // is under D + L, is off by one kUlp of itself, v ab and w ac by two, the differences by one; on an
-// edge it is less.
-VKH_FN float plain_distance2(vec3 p, Corners t) {
+// edge it is less. `inside`: whether that point is on none of the edges.
+VKH_FN float plain_distance2(vec3 p, Corners t, VKH_OUT(bool) inside) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;
   vec3 bc = t.c - t.b;
@@ -112,12 +112,17 @@ VKH_FN float plain_distance2(vec3 p, Corners t) {
   float v = x - w * s;
   vec3 normal = (ap - v * ab) - w * ac;
   bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - 4.0f * kUlp));
-  bool inside = both(hh > kSmallSquare, in_halves);
+  inside = both(hh > kSmallSquare, in_halves);
   vec3 to_ab = ap - clamp(x, 0.0f, 1.0f) * ab;
   vec3 to_ac = ap - clamp(ratio(dot3(ap, ac), dot3(ac, ac)), 0.0f, 1.0f) * ac;
   vec3 to_bc = bp - clamp(ratio(dot3(bp, bc), dot3(bc, bc)), 0.0f, 1.0f) * bc;
   float at_edges = min(dot3(to_ab, to_ab), min(dot3(to_ac, to_ac), dot3(to_bc, to_bc)));
   return choose(inside, dot3(normal, normal), at_edges);
+}
+
+VKH_FN float plain_distance2(vec3 p, Corners t) {
+  bool inside;
+  return plain_distance2(p, t, inside);
 }
 
 // Largest distance of a corner from the local origin.
@@ -213,13 +218,21 @@ VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
   return raised(round_up(norm_up(rounded(offset)) + s.slack, 1.0f) - s.base);
 }
 
-// >= d(p, S) - base, for p taken as it is.
-VKH_FN float surface_distance_up(Two3 p, Surface s) {
+// >= d(p, S) - base, for p taken as it is. `inside`: whether the point of S at that distance is on
+// none of its edges, which only steers.
+VKH_FN float surface_distance_up(Two3 p, Surface s, VKH_OUT(bool) inside) {
   if (s.coarse) {
-    float d = length_up(plain_distance2(rounded(p), s.at));
+    float d = length_up(plain_distance2(rounded(p), s.at, inside));
     return raised(round_up(d + s.slack, 3.0f) - s.base);
   }
-  return distance_to_up(p, s, closest_point(rounded(p), s.at));
+  Closest c = closest_point(rounded(p), s.at);
+  inside = c.feature == kInside;
+  return distance_to_up(p, s, c);
+}
+
+VKH_FN float surface_distance_up(Two3 p, Surface s) {
+  bool inside;
+  return surface_distance_up(p, s, inside);
 }
 
 // Altitude on the longest edge over the longest edge: docs/method.md, eq. 3. Steers subdivision

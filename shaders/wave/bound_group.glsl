@@ -101,8 +101,8 @@ void hold(uint child, Child c) {
   for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;
 }
 
-// Measures every child's corners against the triangles known to it; if `fine`, one invocation per
-// corner.
+// Measures every child's corners against the triangles known to it, marked; if `fine`, one
+// invocation per corner.
 void measure_corners(bool fine, float enough) {
   uint step = fine ? 3u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
@@ -113,7 +113,7 @@ void measure_corners(bool fine, float enough) {
       Two3 p = two(vec3(0.0));
       if (corner == 1u) p = two(held_vector(kHeldB, child));
       if (corner == 2u) p = two(held_vector(kHeldC, child));
-      corner_bits[3u * at + corner] = floatBitsToUint(surface_distance_up(p, s));
+      corner_bits[3u * at + corner] = floatBitsToUint(corner_distance(p, s));
     }
   }
 }
@@ -173,6 +173,7 @@ void measure_cuts(bool fine, float enough) {
     vec3 di = distances_of(child, i);
     vec3 dj = distances_of(child, j);
     Cut cut = cut_by(di - dj);
+    vec3 side = from_cut(di, dj, control.base);
     Patch t = patch_of_child(child);
     View view = view_of_child(child);
     view.enough = enough;
@@ -180,7 +181,7 @@ void measure_cuts(bool fine, float enough) {
     Surface s;
     for (uint part = n % step; part < 4u; part += step) {
       if (fine || (part & 1u) == 0u) s = load_surface(known_to(child, part < 2u ? i : j), view);
-      Two3 p = cut_point(t, cut, part & 1u, di - dj);
+      Two3 p = cut_point(t, cut, part & 1u, side);
       u3 = max(u3, surface_distance_up(p, s));
     }
     uint bits = bits_of(kept_bound(u3, held[kHeldSlack][child]));

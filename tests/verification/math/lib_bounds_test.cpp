@@ -3,6 +3,7 @@
 // otherwise in exact arithmetic.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -58,11 +59,27 @@ std::array<StoredTriangle, 2> ridge(Random& random, const StoredTriangle& t, dou
           StoredTriangle{{stored(a), stored(fold), stored(c)}}};
 }
 
+/// The same two halves in one plane, or nearly, under T: an edge of B that T lies across.
+std::array<StoredTriangle, 2> nearly_flat(Random& random, const StoredTriangle& t, double size) {
+  const glm::dvec3 x = t.at(1) - t.at(0), y = t.at(2) - t.at(0);
+  const glm::dvec3 normal = glm::cross(x, y);
+  const double length = glm::length(normal);
+  if (!(length > 0)) return ridge(random, t, size);
+  const glm::dvec3 up = (size * log_uniform(random, -12, 4) / length) * normal;
+  const glm::dvec3 fold = (size * log_uniform(random, -30, -2) / length) * normal;
+  const double edge = random.range(0.1, 0.9);
+  const double reach = 4.0;
+  const glm::dvec3 low = t.at(0) + edge * x - reach * y - up, high = low + 2.0 * reach * y;
+  const glm::dvec3 left = t.at(0) - reach * x - up + fold, right = t.at(0) + reach * x - up;
+  return {StoredTriangle{{stored(low), stored(high), stored(left)}},
+          StoredTriangle{{stored(high), stored(low), stored(right)}}};
+}
+
 std::array<StoredTriangle, 2> hard_surfaces(Random& random, const StoredTriangle& t, double size) {
   const double range = size * log_uniform(random, -6, 3);
   const StoredTriangle s = hard_triangle_near(random, t.at(random.below(3)), range);
   const glm::dvec3 normal = random.direction();
-  switch (random.below(8)) {
+  switch (random.below(9)) {
     case 0:
       return {s, s};
     case 1:
@@ -72,6 +89,8 @@ std::array<StoredTriangle, 2> hard_surfaces(Random& random, const StoredTriangle
       return {s, mirrored(s, on_triangle(t, barycentrics(random)), normal)};
     case 3:
       return ridge(random, t, size);
+    case 7:
+      return nearly_flat(random, t, size);
     case 4:
       return {hard_triangle(random), s};
     case 5:
@@ -304,6 +323,48 @@ TEST_CASE("bounds.h: no sample is beyond bound_single, bound_u1, bound_u2, bound
   CHECK(tally.counted("pairs below both singles") > count / 50);
   CHECK(tally.counted("bisectors below both singles") > count / 100);
   CHECK(tally.counted("thirds below both singles") > count / 100);
+}
+
+TEST_CASE("bounds.h: a mark is the last bit, and raises a distance by one float at most") {
+  const auto check = [](float d) {
+    for (const bool inside : {false, true}) {
+      const float up = static_cast<float>(math::wide(math::marked(math::vec3(d, d, d).x, inside)));
+      CHECK(up >= d);
+      CHECK(up <= std::nextafter(d, 4.0f));
+      CHECK(((std::bit_cast<uint32_t>(up) & 1u) != 0) == inside);
+    }
+  };
+  for (const float d : {0.0f, -0.0f, 1.0f, -1.0f, 0x1p-60f, -0x1p-60f, 0x1p-149f, -0x1p-149f})
+    check(d);
+  Random random(11);
+  for (uint64_t i = 0; i < case_count(); ++i)
+    check(static_cast<float>((random.below(2) == 0 ? -1 : 1) * log_uniform(random, -60, 1)));
+}
+
+// B is a plane, of two triangles on both sides of an edge that T crosses: T is at height H all
+// over.
+TEST_CASE("bounds.h: bound_pair is the height of T over two triangles in one plane") {
+  Random random(12);
+  for (uint64_t i = 0; i < case_count() / 10; ++i) {
+    const double height = log_uniform(random, -12, 0);
+    const auto corner = [&](double x) { return glm::dvec3(x, random.range(-0.4, 0.4), height); };
+    const glm::dvec3 a = corner(random.range(-0.4, -0.05)), b = corner(random.range(0.05, 0.4)),
+                     c = corner(random.range(-0.4, 0.4));
+    const StoredTriangle s{{stored({0, -4, 0}), stored({0, 4, 0}), stored({-4, 0, 0})}};
+    const StoredTriangle r{{stored({0, 4, 0}), stored({0, -4, 0}), stored({4, 0, 0})}};
+    const auto base = static_cast<float>(height);
+    const Stored origin = stored(a);
+    const auto patch = math::make_patch(math::given(stored(a - a)), math::given(stored(b - a)),
+                                        math::given(stored(c - a)));
+    const math::Surface at_s = math::surface_around(s, origin, 2.0f, true, base);
+    const math::Surface at_r = math::surface_around(r, origin, 2.0f, true, base);
+    const double bound =
+        math::wide(math::bound_pair(patch, at_s, math::corner_distances(patch, at_s), at_r,
+                                    math::corner_distances(patch, at_r)));
+    CAPTURE(height);
+    CHECK(static_cast<double>(base) + bound >= height * (1 - 0x1p-45));
+    CHECK(bound <= 0x1p-16 * height);
+  }
 }
 
 // With two surfaces the centroid's distance never decides: the middles' are as large.

@@ -1,7 +1,7 @@
 #@ theorem closest_point's weights, and plain_distance2's, have 0 <= v, w and v + w <= 1 exactly
 #@ quote triangle.h: Closest inner; inner.offset = normal;
 #@ quote triangle.h: bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - {guard}f * kUlp)); if (both(has_inside, in_halves)) {
-#@ quote triangle.h: bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - {plain_guard}f * kUlp)); bool inside = both(hh > kSmallSquare, in_halves);
+#@ quote triangle.h: bool in_halves = both(v >= 0.0f, both(w >= 0.0f, v + w <= 1.0f - {plain_guard}f * kUlp)); inside = both(hh > kSmallSquare, in_halves);
 #@ quote triangle.h: c.v = clamp(t, 0.0f, 1.0f); c.w = 0.0f;
 #@ weakest guard: holds at 0.5, fails at 0
 #@ weakest plain_guard: holds at 0.5, fails at 0

@@ -1,6 +1,6 @@
 #@ theorem surface_distance_up(p, S) is at least d(p, S) - base, but for what make_surface leaves out
 #@ quote triangle.h: return round_up({radius}f * kUlp * radius_up(at) + {reach}f * kUlp2 * reach, {rounding}f);
-#@ quote triangle.h: float d = length_up(plain_distance2(rounded(p), s.at)); return raised(round_up(d + s.slack, {coarse}f) - s.base);
+#@ quote triangle.h: float d = length_up(plain_distance2(rounded(p), s.at, inside)); return raised(round_up(d + s.slack, {coarse}f) - s.base);
 #@ quote triangle.h: if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
 #@ quote triangle.h: return raised(round_up(norm_up(rounded(offset)) + s.slack, {plain}f) - s.base);
 #@ quote certified.h: return x * (1.0f + (n + {up}f) * kUlp) + kTiny;
