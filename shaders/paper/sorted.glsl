@@ -7,6 +7,8 @@
 
 #include "shaders/gpu_types.h"
 
+const float kThin = kPaperThinQuality;
+
 bool is_sorted() { return control.sorted != 0u; }
 uint slot_of_item(uint item) { return is_sorted() ? order[item] : item; }
 

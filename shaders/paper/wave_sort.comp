@@ -39,7 +39,7 @@ void main() {
   Bary3 corners = unpack_corners(c.corners);
   Root root = root_at(c.root);
   uint key = morton_of(position_of(root, centroid_of(corners)).hi);
-  if ((kSwitches & kUseThin) != 0u && quality(plain_corners(root, corners)) < kThinQuality)
+  if ((kSwitches & kUseThin) != 0u && quality(plain_corners(root, corners)) < kPaperThinQuality)
     key |= kKeyThin;
   bool waits = control.deferred > 0u && !not_after(key_of(c, control.select_largest != 0u),
                                                    Key(control.select_key, control.select_tie));

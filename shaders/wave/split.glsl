@@ -35,7 +35,7 @@ struct Refined {
 // The code of the candidate's split; kSplitNone if the barycentric bits have run out.
 uint choose_split(Bary3 at, Root root) {
   Corners t = plain_corners(root, at);
-  if ((kSwitches & kUseThin) != 0u && quality(t) < kThinQuality) {
+  if ((kSwitches & kUseThin) != 0u && quality(t) < kThin) {
     uint x = opposite_longest(t);
     Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
     uvec3 all = uvec3(0u, 1u, 2u);

@@ -139,8 +139,8 @@ void check_key(uint32_t key, const gpu::Candidate& c, const Wave& wave, const Me
   const math::Bary3 t = corners_of(c);
   CHECK(((key & gpu::kKeyDeferred) != 0) == (wave.waiting > 0 && selection_key(c) > wave.selected));
   const float quality = math::quality(math::local_corners(root, t).at);
-  if (std::abs(quality - gpu::kThinQuality) > 1e-5f)
-    CHECK(((key & gpu::kKeyThin) != 0) == (quality < gpu::kThinQuality));
+  if (std::abs(quality - gpu::kPaperThinQuality) > 1e-5f)
+    CHECK(((key & gpu::kKeyThin) != 0) == (quality < gpu::kPaperThinQuality));
   const glm::dvec3 extent = box.hi - box.lo;
   const double side = std::max({extent.x, extent.y, extent.z});
   const glm::dvec3 at =
