@@ -149,13 +149,17 @@ VKH_FN Minorant better(Minorant m, Minorant n, vec3 nearest) {
   return best;
 }
 
-// d(corner, S) for each corner of T, from above.
+// d(corner, S) from above, marked.
+VKH_FN float cell_corner_distance(CellFrame t, vec3 corner, Surface s) {
+  bool inside;
+  float d = length_up(plain_distance2(corner, s.at, inside)) + (s.slack + t.slack);
+  return marked(round_up(d, 3.0f), inside);
+}
+
+// The same for each corner of T.
 VKH_FN vec3 cell_distances(CellFrame t, Surface s) {
-  float more = s.slack + t.slack;
-  float x = length_up(plain_distance2(t.at.a, s.at)) + more;
-  float y = length_up(plain_distance2(t.at.b, s.at)) + more;
-  float z = length_up(plain_distance2(t.at.c, s.at)) + more;
-  return vec3(round_up(x, 3.0f), round_up(y, 3.0f), round_up(z, 3.0f));
+  return vec3(cell_corner_distance(t, t.at.a, s), cell_corner_distance(t, t.at.b, s),
+              cell_corner_distance(t, t.at.c, s));
 }
 
 // The bounds from above of one triangle, or of two: an affine function that is not under d(., B),
@@ -239,8 +243,8 @@ VKH_FN vec3 plane_above(Cut cut, vec3 at, float to_p, float p, float to_q, float
                 round_up(at.z + more, 4.0f));
 }
 
-// Cuts T between S and R where its distances from them, `ds` and `dr` at its corners, even out if
-// they are linear: the piece with one corner, o, belongs to the nearer there, the other to the
+// Cuts T between S and R where its distances from them, `ds` and `dr` at its corners, even out as
+// from_cut has it: the piece with one corner, o, belongs to the nearer there, the other to the
 // other. Cuts p and q on the edges from o to f and to h: the pieces are o p q, p f h and p h q.
 VKH_FN Gathered cut_between(Gathered g, CellFrame t, Surface s, vec3 ds, Surface r, vec3 dr) {
   vec3 side = ds - dr;
@@ -249,9 +253,10 @@ VKH_FN Gathered cut_between(Gathered g, CellFrame t, Surface s, vec3 ds, Surface
   bool own_s = pick3(side, cut.alone) < 0.0f;
   vec3 own = choose(own_s, ds, dr);
   vec3 other = choose(own_s, dr, ds);
-  float out_of = abs(pick3(side, cut.alone));
-  float to_p = min(ratio(out_of, out_of + abs(pick3(side, cut.first))), 1.0f);
-  float to_q = min(ratio(out_of, out_of + abs(pick3(side, cut.second))), 1.0f);
+  vec3 away = from_cut(ds, dr, 0.0f);
+  float out_of = abs(pick3(away, cut.alone));
+  float to_p = min(ratio(out_of, out_of + abs(pick3(away, cut.first))), 1.0f);
+  float to_q = min(ratio(out_of, out_of + abs(pick3(away, cut.second))), 1.0f);
   vec3 o = corner_of(t.at, cut.alone);
   vec3 p = o + to_p * (corner_of(t.at, cut.first) - o);
   vec3 q = o + to_q * (corner_of(t.at, cut.second) - o);
