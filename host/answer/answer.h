@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/answer/question.h"
+#include "host/base/error.h"
 #include "host/base/length.h"
 #include "host/base/note.h"
 #include "host/base/sha256.h"
@@ -132,11 +133,12 @@ std::vector<std::string> server_notes(std::span<const Note> pair, std::span<cons
 std::string to_json(const Answer& answer);
 
 /// An error instead of an answer, as the same kind of line. `code`: the exit code; `file`: empty if
-/// it is no file's fault; `place`: a line, byte or element of it, or empty.
+/// it is no input's fault; `place`: a line, byte or element of it, or empty.
 struct Failure {
   int code;
   std::string message, file, place;
 };
+Failure failure_of(const Error& error);
 std::string to_json(const Failure& failure);
 
 // table.cpp defines these.

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
-
-#include "host/base/error.h"
 
 namespace vkh {
 
@@ -23,26 +20,6 @@ ExitCode code_of(const Answer& answer) {
       break;
   }
   return kExitNotClosed;
-}
-
-ExitCode code_of(const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const UsageError&) {
-    return kExitUsage;
-  } catch (const InputError&) {
-    return kExitBadInput;
-  } catch (const DeviceError&) {
-    return kExitDevice;
-  } catch (const OutputError&) {
-    return kExitNotWritten;
-  } catch (const Interrupted&) {
-    return kExitNotClosed;
-  } catch (const std::bad_alloc&) {
-    return kExitDevice;
-  } catch (...) {
-    return kExitInternal;
-  }
 }
 
 ExitCode worse(ExitCode x, ExitCode y) {

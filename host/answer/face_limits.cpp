@@ -86,7 +86,9 @@ std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
       reject(path, place, vkh::quoted(max), std::string("face, max; ") + error.what());
     }
   }
-  if (file.bad()) throw InputError(path + ": line " + std::to_string(number) + ": cannot be read");
+  if (file.bad())
+    throw InputError(
+        {.file = path, .place = "line " + std::to_string(number), .problem = "cannot be read"});
   return limits_of_triangles(mesh, std::move(limits));
 }
 

@@ -292,6 +292,14 @@ std::string to_json(const Answer& answer) {
   return json.text();
 }
 
+Failure failure_of(const Error& error) {
+  const bool is_of_input = error.parts().option.empty();
+  return {.code = code_of(error.kind()),
+          .message = error.what(),
+          .file = is_of_input ? error.file() : "",
+          .place = is_of_input ? error.place() : ""};
+}
+
 std::string to_json(const Failure& failure) {
   JsonObject json;
   json.add("schema", kSchema);

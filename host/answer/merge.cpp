@@ -4,6 +4,7 @@
 
 #include "host/base/decimal.h"
 #include "host/base/error.h"
+#include "host/base/reject.h"
 #include "host/base/system.h"
 
 namespace vkh {
@@ -20,7 +21,7 @@ std::string in_brackets(const Bounds& bounds) {
 
 void Results::add(const std::string& path) {
   std::ifstream file(path_of(path), std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be read; expected a batch's results");
+  if (!file) reject(path, "", "cannot be read", "a batch's results");
   std::map<std::string, Place> of_file;
   uint64_t at = 0, number = 0;
   for (std::string line; std::getline(file, line) && !file.eof(); at += line.size() + 1) {
@@ -33,10 +34,11 @@ void Results::add(const std::string& path) {
       if (!wrong.empty()) throw InputError("'" + record.name.id + "': " + wrong);
       known->second = place;
     } catch (const InputError& error) {
-      throw InputError(path + ": line " + std::to_string(number) + ": " + error.what());
+      throw InputError(
+          {.file = path, .place = "line " + std::to_string(number), .problem = error.what()});
     }
   }
-  if (file.bad()) throw InputError(path + ": cannot be read");
+  if (file.bad()) throw InputError({.file = path, .problem = "cannot be read"});
   files_.push_back(path);
   put(of_file);
 }
@@ -69,15 +71,18 @@ void Results::check_same(const std::string& id, const Place& older, const Place&
   const std::string& file = files_[place.file];
   if (is_failure(older.code) != is_failure(place.code)) return;
   if (older.key != place.key)
-    throw InputError(file + ": '" + id + "' has other inputs or options than in " +
-                     files_[older.file]);
+    throw InputError(
+        {.file = file,
+         .problem = "'" + id + "' has other inputs or options than in " + files_[older.file]});
   const bool is_of_all = !place.key.empty() && older.names_files && place.names_files;
   if (place.is_answer && older.is_answer && !is_of_all)
-    throw InputError(file + ": '" + id + "' is in " + files_[older.file] +
-                     ", too, and nothing tells that both are of the same files: expected keys of "
-                     "all files that were read, as batch writes since 0.2.0 where it has SHA-256");
+    throw InputError(
+        {.file = file,
+         .problem = "'" + id + "' is in " + files_[older.file] +
+                    ", too, and nothing tells that both are of the same files: expected keys of "
+                    "all files that were read, as batch writes since 0.2.0 where it has SHA-256"});
   const std::string wrong = contradiction(place, older, files_[older.file]);
-  if (!wrong.empty()) throw InputError(file + ": '" + id + "': " + wrong);
+  if (!wrong.empty()) throw InputError({.file = file, .problem = "'" + id + "': " + wrong});
 }
 
 void Results::put(const std::map<std::string, Place>& of_file) {
@@ -103,7 +108,7 @@ std::string Results::text_of(const Place& place) const {
   std::string text(place.size, '\0');
   file.seekg(static_cast<std::streamoff>(place.begin));
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())))
-    throw InputError(files_[place.file] + ": cannot be read any more");
+    throw InputError({.file = files_[place.file], .problem = "cannot be read any more"});
   return text;
 }
 

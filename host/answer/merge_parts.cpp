@@ -376,9 +376,9 @@ std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files) {
     // A second read of a pipe would wait without end.
     if (std::filesystem::exists(path_of(path), none) &&
         !std::filesystem::is_regular_file(path_of(path), none))
-      throw InputError(path + ": is no file; expected results in files, which are read twice");
+      reject(path, "", "is no file", "results in files, which are read twice");
     std::ifstream file(path_of(path), std::ios::binary);
-    if (!file) throw InputError(path + ": cannot be read; expected results");
+    if (!file) reject(path, "", "cannot be read", "results");
     uint64_t number = 0;
     for (std::string line; std::getline(file, line);) {
       const std::string place = "line " + std::to_string(++number);
@@ -387,7 +387,7 @@ std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files) {
       if (json.is_discarded()) reject(path, place, vkh::quoted(line), "a JSON object a line");
       parts.push_back({path, place, std::move(json)});
     }
-    if (file.bad()) throw InputError(path + ": cannot be read");
+    if (file.bad()) throw InputError({.file = path, .problem = "cannot be read"});
   }
   return parts;
 }

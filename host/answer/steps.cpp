@@ -10,6 +10,7 @@
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/note.h"
+#include "host/base/reject.h"
 #include "host/base/rounding.h"
 #include "host/base/system.h"
 #include "host/read/place.h"
@@ -105,8 +106,8 @@ namespace {
 // Refuses a share of no area, which is no question.
 void check_area(const Question& question, const Mesh& mesh) {
   if (!question.max || !question.area || areas_of(mesh).is_positive()) return;
-  throw InputError(mesh.name + ": faces without area; expected a surface, of which --area " +
-                   question.area_requested + " asks a share");
+  reject(mesh.name, "", "faces without area",
+         "a surface, of which --area " + question.area_requested + " asks a share");
 }
 
 }  // namespace

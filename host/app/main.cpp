@@ -56,14 +56,8 @@ void check_verified(const Answer& answer) {
 Answered answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
   try {
     return ask(line.question, stop);
-  } catch (const InputError& error) {
-    destinations.write(failure_of(error.what(), kExitBadInput, line.question));
-    throw;
-  } catch (const DeviceError& error) {
-    destinations.write(failure_of(error.what(), kExitDevice, line.question));
-    throw;
-  } catch (const UsageError& error) {
-    destinations.write(failure_of(error.what(), kExitUsage, line.question));
+  } catch (const Error& error) {
+    destinations.write(failure_of(error));
     throw;
   }
 }
@@ -99,7 +93,7 @@ auto or_tell(const Words& words, const F& work) {
   try {
     return work();
   } catch (const UsageError& error) {
-    tell_misuse(words, error.what());
+    tell_misuse(words, error);
     throw;
   }
 }
@@ -155,14 +149,8 @@ int run(const Words& words, Clock::time_point start) {
 int run_and_catch(const Words& words, Clock::time_point start) {
   try {
     return run(words, start);
-  } catch (const UsageError& error) {
-    return complain(error.what(), kExitUsage);
-  } catch (const InputError& error) {
-    return complain(error.what(), kExitBadInput);
-  } catch (const DeviceError& error) {
-    return complain(error.what(), kExitDevice);
-  } catch (const OutputError& error) {
-    return complain(error.what(), kExitNotWritten);
+  } catch (const Error& error) {
+    return complain(error.what(), code_of(error.kind()));
   } catch (const std::bad_alloc&) {
     return complain_of_memory(kExitDevice);
   } catch (const std::exception& error) {

@@ -7,7 +7,6 @@
 
 #include "host/answer/exit_code.h"
 #include "host/base/error.h"
-#include "host/base/reject.h"
 #include "host/base/system.h"
 
 namespace vkh {
@@ -88,32 +87,21 @@ void append_github_summary(const std::string& text) {
   std::ofstream out(path_of(file), std::ios::app | std::ios::binary);
   out << text;
   if (!out.flush())
-    throw OutputError(std::string("$GITHUB_STEP_SUMMARY '") + file + "': cannot be written");
+    throw OutputError(
+        {.option = "$GITHUB_STEP_SUMMARY", .file = file, .problem = "cannot be written"});
 }
 
-void tell_misuse(const Words& words, const std::string& message) {
+void tell_misuse(const Words& words, const UsageError& error) {
   const bool is_batch = !words.empty() && words[0] == "batch";
   if (is_batch && std::find(words.begin(), words.end(), "--github") != words.end())
-    std::cout << github_annotation(failure_of(message, kExitUsage, {})) << std::flush;
+    std::cout << github_annotation(failure_of(error)) << std::flush;
   if (words.empty() || (words[0] != "distance" && words[0] != "gate" && words[0] != "demo")) return;
   Words others;
   const Outputs outputs = outputs_in(words, others);
   try {
-    Destinations(outputs, others).write(failure_of(message, kExitUsage, {}));
-  } catch (const UsageError&) {  // the message reports it
+    Destinations(outputs, others).write(failure_of(error));
+  } catch (const UsageError&) {  // `error` is reported
   }
-}
-
-Failure failure_of(const std::string& message, int code, const Question& question) {
-  Failure failure{.code = code, .message = message, .file = {}, .place = {}};
-  for (const std::string& file :
-       {question.file_a, question.file_b, question.face_max_a, question.face_max_b}) {
-    if (file.empty() || !message.starts_with(file + ": ")) continue;
-    failure.file = file;
-    failure.place = place_in(message, file);
-    break;
-  }
-  return failure;
 }
 
 }  // namespace vkh

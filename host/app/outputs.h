@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/app/arguments.h"
+#include "host/base/error.h"
 #include "host/base/output_file.h"
 
 namespace vkh {
@@ -35,9 +36,6 @@ void append_github_summary(const std::string& text);
 
 /// Reports words that are not understood, or cannot be done, where they ask for JSON, JUnit's XML
 /// or an annotation. Writes to no file that another word names.
-void tell_misuse(const Words& words, const std::string& message);
-
-/// Makes a Failure of an error's one line, which begins with its file.
-Failure failure_of(const std::string& message, int code, const Question& question);
+void tell_misuse(const Words& words, const UsageError& error);
 
 }  // namespace vkh

@@ -196,11 +196,7 @@ std::string Pictures::write(const Answered& done) const {
     }
     if (report_)
       report_->write(report_of(measured, pictures_or_none(measured, asked_.look, device)));
-  } catch (const OutputError& error) {
-    return error.what();
-  } catch (const DeviceError& error) {
-    return error.what();
-  } catch (const UsageError& error) {  // a length that the files' units do not resolve
+  } catch (const Error& error) {  // a length that the files' units do not resolve, for example
     return error.what();
   }
   return "";

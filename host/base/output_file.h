@@ -33,6 +33,7 @@ class OutputFile {
   void replace(std::string_view text) const;
   void write_over(std::string_view text) const;
   [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void fail(const std::string& reason) const;
 
   std::string option_, path_;
   std::string target_;  ///< the target of `path_`'s links

@@ -104,7 +104,11 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::refuse(const std::string& why) const {
-  throw UsageError(option_ + " '" + path_ + "': " + why);
+  throw UsageError({.option = option_, .file = path_, .problem = why});
+}
+
+void OutputFile::fail(const std::string& reason) const {
+  throw OutputError({.option = option_, .file = path_, .problem = "cannot be written: " + reason});
 }
 
 // Keeps the file open until it is written to: a pipe's reader would take its closing for the end.
@@ -131,8 +135,7 @@ void OutputFile::check_place() const {
 
 void OutputFile::write(std::string_view text) const {
   if (special_ < 0) return replace(text);
-  if (!write_all(static_cast<int>(special_), text))
-    throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(errno));
+  if (!write_all(static_cast<int>(special_), text)) fail(std::strerror(errno));
 }
 
 // Writes over an older file that nothing can be renamed over: it is mounted by itself, or its
@@ -142,8 +145,7 @@ void OutputFile::write_over(std::string_view text) const {
   const bool good = file >= 0 && write_all(file, text);
   const int error = errno;
   if (file >= 0 && close(file) == 0 && good) return;
-  throw OutputError(option_ + " '" + path_ +
-                    "': cannot be written: " + std::strerror(good ? errno : error));
+  fail(std::strerror(good ? errno : error));
 }
 
 void OutputFile::replace(std::string_view text) const {
@@ -160,17 +162,18 @@ void OutputFile::replace(std::string_view text) const {
   if (file >= 0) unlink(beside.c_str());
   const bool may_write_over = error == EBUSY || error == EACCES || error == EPERM || error == EXDEV;
   if (older && may_write_over) return write_over(text);
-  throw OutputError(option_ + " '" + path_ + "': cannot be written: " + std::strerror(error));
+  fail(std::strerror(error));
 }
 
 void LineFile::fail(const std::string& what) const {
-  throw OutputError(option_ + " '" + path_ + "': " + what + ": " + std::strerror(errno));
+  throw OutputError(
+      {.option = option_, .file = path_, .problem = what + ": " + std::strerror(errno)});
 }
 
 LineFile::LineFile(std::string option, std::string path, const std::vector<std::string>& inputs)
     : option_(std::move(option)), path_(std::move(path)) {
   const auto refuse = [&](const std::string& why) {
-    throw UsageError(option_ + " '" + path_ + "': " + why);
+    throw UsageError({.option = option_, .file = path_, .problem = why});
   };
   const std::optional<struct stat> older = status_of(path_);
   for (const std::string& input : older ? inputs : std::vector<std::string>()) {

@@ -158,7 +158,11 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::refuse(const std::string& why) const {
-  throw UsageError(option_ + " '" + path_ + "': " + why);
+  throw UsageError({.option = option_, .file = path_, .problem = why});
+}
+
+void OutputFile::fail(const std::string& reason) const {
+  throw OutputError({.option = option_, .file = path_, .problem = "cannot be written: " + reason});
 }
 
 // Keeps NUL, a console or a pipe open until it is written to.
@@ -191,15 +195,14 @@ void OutputFile::check_place() const {
 
 void OutputFile::write(std::string_view text) const {
   if (special_ == -1) return replace(text);
-  if (!write_all(handle_of(special_), text))
-    throw OutputError(option_ + " '" + path_ + "': cannot be written: " + text_of(GetLastError()));
+  if (!write_all(handle_of(special_), text)) fail(text_of(GetLastError()));
 }
 
 // Writes over an older file that another process holds open, or whose folder is not ours to write.
 void OutputFile::write_over(std::string_view text) const {
   File file(path_of(target_), GENERIC_WRITE, TRUNCATE_EXISTING, 0);
   if (file.is_open() && write_all(file.handle(), text) && file.close()) return;
-  throw OutputError(option_ + " '" + path_ + "': cannot be written: " + text_of(GetLastError()));
+  fail(text_of(GetLastError()));
 }
 
 void OutputFile::replace(std::string_view text) const {
@@ -220,18 +223,19 @@ void OutputFile::replace(std::string_view text) const {
   if (is_made) DeleteFileW(beside.c_str());
   if (has_older && (error == ERROR_ACCESS_DENIED || error == ERROR_SHARING_VIOLATION))
     return write_over(text);
-  throw OutputError(option_ + " '" + path_ + "': cannot be written: " + text_of(error));
+  fail(text_of(error));
 }
 
 void LineFile::fail(const std::string& what) const {
-  throw OutputError(option_ + " '" + path_ + "': " + what + ": " + text_of(GetLastError()));
+  throw OutputError(
+      {.option = option_, .file = path_, .problem = what + ": " + text_of(GetLastError())});
 }
 
 // Lets no other process write to it while it is open: that is the lock.
 LineFile::LineFile(std::string option, std::string path, const std::vector<std::string>& inputs)
     : option_(std::move(option)), path_(std::move(path)) {
   const auto refuse = [&](const std::string& why) {
-    throw UsageError(option_ + " '" + path_ + "': " + why);
+    throw UsageError({.option = option_, .file = path_, .problem = why});
   };
   const std::optional<FileId> older =
       is_pipe(path_) ? std::nullopt : id_of(look_at(path_).handle());

@@ -1,28 +1,13 @@
 #include "host/base/reject.h"
 
-#include <algorithm>
-
 #include "host/base/error.h"
 
 namespace vkh {
 
 void reject(std::string_view name, const std::string& place, const std::string& what,
             const std::string& expected) {
-  std::string line(name);
-  if (!place.empty()) line += ": " + place;
-  line += ": " + what + "; expected " + expected;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
-  throw InputError(line);
-}
-
-std::string place_in(std::string_view line, std::string_view name) {
-  if (!line.starts_with(name)) return "";
-  const size_t begin = std::min(name.size() + 2, line.size());
-  const size_t end = std::min(line.find(": ", begin), line.size());
-  return end < line.find("; expected ", begin) && end < line.size()
-             ? std::string(line.substr(begin, end - begin))
-             : std::string();
+  throw InputError(
+      {.file = std::string(name), .place = place, .problem = what, .expected = expected});
 }
 
 std::string quoted(std::string_view word) {

@@ -12,7 +12,6 @@
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/base/parallel.h"
-#include "host/base/reject.h"
 #include "host/solve/budget.h"
 
 namespace vkh {
@@ -25,24 +24,13 @@ double seconds_since(Clock::time_point start) {
 constexpr uint64_t kReadAhead = uint64_t{2} << 30;
 
 /// The error of a pair, with its files as its list names them.
-Failure failure_of(const std::exception_ptr& error, const Entry& entry) {
-  Failure failure{.code = code_of(error), .message = "no memory", .file = {}, .place = {}};
-  try {
-    std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
-  } catch (const std::exception& e) {
-    failure.message = e.what();
-  } catch (...) {
-    failure.message = "internal error";
-  }
+Failure failure_of(const std::exception_ptr& thrown, const Entry& entry) {
+  const Error error = error_of(thrown);
   for (const auto& [file, name] : {std::pair{&entry.file_a, &entry.a}, {&entry.file_b, &entry.b}}) {
-    if (file->empty() || !failure.message.starts_with(*file + ": ")) continue;
-    failure.file = *name;
-    failure.message = *name + failure.message.substr(file->size());
-    failure.place = place_in(failure.message, *name);
-    break;
+    if (!file->empty() && error.parts().option.empty() && error.file() == *file)
+      return failure_of(error.renamed(*name));
   }
-  return failure;
+  return failure_of(error);
 }
 
 class Batch {
@@ -108,10 +96,13 @@ class Batch {
 
   void keep_older_lines() {
     if (file_.size() > 0 && !file_.begins_with(kRecordStart))
-      throw UsageError("--out '" + job_.results + "': is a file, and no batch's results");
+      throw UsageError({.option = "--out",
+                        .file = job_.results,
+                        .problem = "is a file, and no batch's results"});
     if (file_.size() > 0 && !job_.resumes)
-      throw UsageError("--out '" + job_.results +
-                       "': has results: add --resume to go on, or name another file");
+      throw UsageError({.option = "--out",
+                        .file = job_.results,
+                        .problem = "has results: add --resume to go on, or name another file"});
     uint64_t number = 0;
     file_.read([&](std::string_view line) {
       ++number;
@@ -120,7 +111,9 @@ class Batch {
         if (!record.status.empty()) record.words.clear();  // not needed any more
         older_.insert_or_assign(record.name.id, std::move(record));
       } catch (const InputError& error) {
-        throw InputError(job_.results + ": line " + std::to_string(number) + ": " + error.what());
+        throw InputError({.file = job_.results,
+                          .place = "line " + std::to_string(number),
+                          .problem = error.what()});
       }
     });
   }

@@ -14,6 +14,7 @@
 #include "host/base/id_hash.h"
 #include "host/base/meant.h"
 #include "host/base/parse_number.h"
+#include "host/base/reject.h"
 #include "host/base/system.h"
 
 namespace vkh {
@@ -84,7 +85,7 @@ class Collected {
       list.notes.push_back(path_ + ": '" + name + "' is not used; a batch knows " + kExpected);
   }
   [[noreturn]] void refuse(uint64_t line, const std::string& what) const {
-    throw InputError(path_ + ": line " + std::to_string(line) + ": " + what);
+    throw InputError({.file = path_, .place = "line " + std::to_string(line), .problem = what});
   }
 
   PairList list;
@@ -197,16 +198,15 @@ PairList read_list(const std::string& path) {
                      "' is a folder: expected a list of pairs; batch takes two folders whose "
                      "meshes have the same names");
   std::ifstream file(path_of(path), std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be read; expected a list of pairs");
+  if (!file) reject(path, "", "cannot be read", "a list of pairs");
   Collected collected(path);
   if (lower_word(path).ends_with(".csv")) {
     read_csv(file, collected);
   } else {
     read_jsonl(file, collected);
   }
-  if (file.bad()) throw InputError(path + ": cannot be read");
-  if (collected.list.entries.empty())
-    throw InputError(path + ": line 1: no pair; expected " + kExpected);
+  if (file.bad()) throw InputError({.file = path, .problem = "cannot be read"});
+  if (collected.list.entries.empty()) reject(path, "line 1", "no pair", kExpected);
   return std::move(collected.list);
 }
 

@@ -111,7 +111,7 @@ std::string PairFolder::path_in(const std::string& name) const {
 }
 
 void PairFolder::refuse(const std::string& why) const {
-  throw UsageError(option_ + " '" + folder_ + "': " + why);
+  throw UsageError({.option = option_, .file = folder_, .problem = why});
 }
 
 void PairFolder::open(const std::vector<std::string>& ids,
@@ -162,7 +162,7 @@ void PairFolder::replace(const std::string& name, const std::string& text) const
   try {
     OutputFile(option_, path_in(name), {}).write(text);
   } catch (const UsageError& error) {  // the folder no longer exists
-    throw OutputError(error.what());
+    throw OutputError(error.parts());
   }
 }
 

@@ -58,6 +58,7 @@ void check(VkResult result, const char* what) {
   const std::string said = std::string(what) + " failed: " + reason;
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
     throw MemoryError(said);
+  if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(said);
   throw DeviceError(said);
 }
 

@@ -3,8 +3,8 @@
 #include <pybind11/pybind11.h>
 
 #include "engine/vkhausdorff.h"
-#include "host/base/error.h"
 #include "host/gpu/device.h"
+#include "host/python/errors.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/many.h"
@@ -146,21 +146,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("__name__") = "vkhausdorff";  // the package's name, for all that is defined below
   m.doc() = "Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan).";
   m.attr("__version__") = VKH_VERSION_STRING;
-  py::register_exception<vkh::DeviceError>(m, "DeviceError", PyExc_RuntimeError);
-  // By value: pybind11's type of a translator. NOLINTNEXTLINE(performance-unnecessary-value-param)
-  py::register_exception_translator([](std::exception_ptr thrown) {
-    try {
-      if (thrown) std::rethrow_exception(thrown);
-    } catch (const vkh::InputError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
-    } catch (const vkh::UsageError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
-    } catch (const FileFault& fault) {
-      raise(fault);
-    } catch (const vkh::OutputError& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
-    }
-  });
+  define_errors(m);
   py::options quiet;
   // (*args, **kwargs) is no information: the texts have them, as inspect.signature reads them.
   quiet.disable_function_signatures();

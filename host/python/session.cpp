@@ -110,7 +110,7 @@ void Session::run(const Work& work) {
   } catch (const DeviceError& error) {
     if (parts_ != nullptr) is_lost_ = parts_->device.is_lost();
     if (!is_lost_) throw;
-    throw DeviceError(std::string(error.what()) + "; the next call opens a device anew");
+    throw DeviceLost(std::string(error.what()) + "; the next call opens a device anew");
   }
 }
 

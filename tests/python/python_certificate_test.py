@@ -110,8 +110,9 @@ class Certificates(unittest.TestCase):
         for path, kind, why in ((5, TypeError, "certificate: expected the path of a file that ends in .vhc, or None, not 5"),
                                 ("out.txt", ValueError, "certificate: expected the path"),
                                 (self.folder / "no" / "out.vhc", ValueError, "certificate '.*no/out.vhc': the folder")):
-            with self.assertRaisesRegex(kind, why):
+            with self.assertRaisesRegex(kind, why) as raised:
                 vkh.distance(*A, *B, certificate=path)
+            self.assertEqual(getattr(raised.exception, "file", None), str(path) if "the folder" in why else None)
         for more in ({"max": 0.5, "area": "50%"}, {"max": np.full(len(A[1]), 0.5)}):
             with self.assertRaisesRegex(ValueError, "certificate: is of the interval"):
                 vkh.gate(A, B, certificate=self.path, **more)
@@ -121,8 +122,9 @@ class Certificates(unittest.TestCase):
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_a_full_disk(self):
         self.path.symlink_to("/dev/full")
-        with self.assertRaisesRegex(OSError, "certificate .*cannot be written"):
+        with self.assertRaisesRegex(OSError, "certificate .*cannot be written") as raised:
             vkh.distance(*A, *B, certificate=self.path)
+        self.assertEqual(raised.exception.file, str(self.path))
 
     def test_the_guides_example(self):
         example = pathlib.Path(__file__).resolve().parents[1] / "package/certificate_example.py"

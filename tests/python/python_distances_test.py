@@ -179,6 +179,10 @@ class Failures(unittest.TestCase):
             self.assertRegex(str(r.error), said)
             self.assertEqual(r.id, "id" if len(pair) == 3 else None)
             self.check_failed(r, kind)
+        self.assertEqual([getattr(r.error, "file", None) for r in results[1::2]],
+                         ["not there", folder, str(bad), None, None, "A", "B", None, None, None])
+        self.assertEqual([getattr(r.error, "place", None) for r in results[1::2]],
+                         [None, None, "line 1", None, None, "vertex 0", "face 0", None, None, None])
 
     def check_failed(self, r, kind):
         for name in ("lower", "upper", "closed", "status", "verdict", "witness_a", "face_b", "stats", "field", "mean", "survey_met"):
