@@ -20,6 +20,8 @@ namespace {
 constexpr double kMostStretch = 1e-6;
 constexpr const char* kAMatrix = "sixteen numbers, four rows of four, the last of them 0 0 0 1";
 
+constexpr const char* kARotation = "a rotation and a shift";
+
 bool is_between_numbers(char c) {
   return std::string_view(" \t\r\n\v\f,;[]()").find(c) != std::string_view::npos;
 }
@@ -132,9 +134,10 @@ void check_finite(const Mesh& mesh, const std::string& unit) {
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     const DVec3& v = mesh.vertices[i];
     if (std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) continue;
-    throw InputError(mesh.name + ": vertex " + std::to_string(i) +
-                     ": beyond any double where the unit or the matrix puts it" +
-                     (unit.empty() ? "" : ", in " + unit));
+    reject(mesh.name, "vertex " + std::to_string(i),
+           "beyond any double where the unit or the matrix puts it" +
+               (unit.empty() ? "" : ", in " + unit),
+           "smaller coordinates");
   }
 }
 
@@ -143,15 +146,13 @@ void check_finite(const Mesh& mesh, const std::string& unit) {
 MatrixRows read_matrix(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(name + ": cannot be read; expected " + kAMatrix);
+  if (!file) reject(name, "", "cannot be read", kAMatrix);
   constexpr std::streamsize kMost = 1 << 16;
   std::string text(static_cast<size_t>(kMost), '\0');
   file.read(text.data(), kMost);
   text.resize(static_cast<size_t>(file.gcount()));
   const std::vector<double> numbers = numbers_in(name, text);
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(name + ": " + what + "; expected " + kAMatrix);
-  };
+  const auto refuse = [&](const std::string& what) { reject(name, "", what, kAMatrix); };
   if (numbers.size() != 16) refuse(std::to_string(numbers.size()) + " numbers");
   const auto is_last = [&](size_t first, size_t step) {
     return numbers[first] == 0 && numbers[first + step] == 0 && numbers[first + 2 * step] == 0 &&
@@ -176,24 +177,27 @@ double stretch_of(const MatrixRows& rows) {
 }
 
 void check_matrix(const std::string& name, const MatrixRows& rows, bool may_stretch) {
-  const auto refuse = [&](const std::string& what) { throw InputError(name + ": " + what); };
+  const auto refuse = [&](const std::string& what, const char* expected) {
+    reject(name, "", what, expected);
+  };
   for (const auto& row : rows) {
     if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
-      refuse("a number that is not finite; expected " + std::string(kAMatrix));
+      refuse("a number that is not finite", kAMatrix);
   }
   const Float128 volume = determinant(rows);
-  if (volume < 0) refuse("mirrors (its determinant is negative); expected a rotation and a shift");
+  if (volume < 0) refuse("mirrors (its determinant is negative)", kARotation);
   const double stretch = stretch_of(rows);
   if (!may_stretch && !(stretch <= kMostStretch))
-    refuse("stretches by more than 1e-6 (|R^T R - I| is " + decimal(stretch, 3, Rounding::kUp) +
-           "); expected a rotation and a shift, or --scale, which allows any");
+    refuse(
+        "stretches by more than 1e-6 (|R^T R - I| is " + decimal(stretch, 3, Rounding::kUp) + ")",
+        "a rotation and a shift, or --scale, which allows any");
   // Entries of one row by one: a volume that small against them is a rounding.
   Float128 largest = 0;
   for (const auto& row : rows) {
     for (size_t i = 0; i < 3; ++i) largest = std::max(largest, magnitude(float128(row[i])));
   }
   if (!(volume > largest * largest * largest * float128(0x1p-90)))
-    refuse("flattens (its determinant is 0); expected a rotation and a shift");
+    refuse("flattens (its determinant is 0)", kARotation);
 }
 
 void place(Mesh& mesh, const MeshTransform& placement, const std::string& unit, bool hash_corners) {
