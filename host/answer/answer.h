@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/answer/question.h"
@@ -72,6 +73,7 @@ struct Waits {
 
 /// The question about a pair of meshes, and its answer.
 struct Answer {
+  std::string version = program_version();
   std::string command;                     ///< "distance", "gate" or "demo"
   std::vector<std::string> words;          ///< the words typed after the program's name
   std::string started, host;               ///< UTC in ISO 8601; the machine's name
@@ -82,11 +84,14 @@ struct Answer {
   Length tolerance;  ///< a fraction is of A's diagonal in both directions
   std::optional<Asked> max;
   std::optional<PartOf> part;  ///< a_to_b covers that part alone
+  uint64_t parts = 0;          ///< the answers of so many parts are merged in it; 0: it is of none
   Report a_to_b;
   std::optional<Report> b_to_a;                    ///< set for a symmetric run
   std::optional<SurveyResult> survey_a, survey_b;  ///< A's; B's in the reverse direction
   std::optional<Proof> proof_a, proof_b;           ///< the same two for a certificate
   Waits waits;
+  /// in_words() as it was read from JSON, which has no limits of single faces; empty otherwise.
+  std::string first_line = {};
 };
 
 // words.cpp defines these.
@@ -127,10 +132,16 @@ std::string printable(const std::string& text);
 std::vector<std::string> server_notes(std::span<const Note> pair, std::span<const Note> a,
                                       std::span<const Note> b);
 
-// json.cpp defines these.
+// json.cpp and answer_from_json.cpp define these.
 
 /// One line of JSON, without a newline at its end, of docs/schema/answer.schema.json.
 std::string to_json(const Answer& answer);
+/// Reads such a line back, so that to_json() returns it again, byte for byte. Throws InputError
+/// without a file's name: for another schema or an error, a member that is missing or of another
+/// type, a bound that is another number in hexadecimal than in decimal, and an interval, gap,
+/// status or verdict that the rest of it does not imply. Corners of a field and leaves of a
+/// certificate are not in JSON: only their summaries are read.
+Answer answer_from_json(std::string_view text);
 
 /// An error instead of an answer, as the same kind of line. `code`: the exit code; `file`: empty if
 /// it is no input's fault; `place`: a line, byte or element of it, or empty.
@@ -140,6 +151,7 @@ struct Failure {
 };
 Failure failure_of(const Error& error);
 std::string to_json(const Failure& failure);
+Failure failure_from_json(std::string_view text);
 
 // table.cpp defines these.
 

@@ -189,7 +189,7 @@ std::string proof_json(const Proof& proof) {
   json.add("cut_leaves", proof.cut_leaves);
   json.add("unproven", proof.unproven);
   json.add("cells", proof.asked_cells);
-  json.add("bytes", proof.blocks.size());
+  json.add("bytes", proof.bytes);
   json.add("wall_ms", proof.ms);
   return json.text();
 }
@@ -226,8 +226,6 @@ std::string direction_json(const Answer& answer, const Report& r, bool back, Det
   return json.text();
 }
 
-constexpr const char* kSchema = "vkhausdorff.answer/2";
-
 }  // namespace
 
 void add_hashes(Json& json, const Input& input) {
@@ -250,6 +248,7 @@ void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
     json.add_text("max", max_json(answer));
   }
   if (answer.part) json.add("part", {{"index", answer.part->index}, {"count", answer.part->count}});
+  if (answer.parts > 0) json.add("parts", answer.parts);
   json.add_text("interval", interval_json(whole.lower, whole.upper, whole.gap, answer.unit));
   std::string directions = direction_json(answer, answer.a_to_b, false, detail);
   if (answer.b_to_a) directions += "," + direction_json(answer, *answer.b_to_a, true, detail);
@@ -280,8 +279,8 @@ void add_waits(JsonObject& json, const Waits& waits) {
 
 std::string to_json(const Answer& answer) {
   JsonObject json;
-  json.add("schema", kSchema);
-  json.add("version", program_version());
+  json.add("schema", kAnswerSchema);
+  json.add("version", answer.version);
   add_answer(json, answer, Detail::kFull);
   add_device(json, answer);
   add_waits(json, answer.waits);
@@ -302,7 +301,7 @@ Failure failure_of(const Error& error) {
 
 std::string to_json(const Failure& failure) {
   JsonObject json;
-  json.add("schema", kSchema);
+  json.add("schema", kAnswerSchema);
   json.add("version", program_version());
   json.add("error", {{"code", failure.code},
                      {"message", failure.message},

@@ -12,6 +12,8 @@ namespace vkh {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr const char* kAnswerSchema = "vkhausdorff.answer/2";
+
 /// Members in order. nlohmann cannot write a number in a given form, and the bounds must be written
 /// as they were rounded, so the outermost object is put together as text.
 class JsonObject {
@@ -52,6 +54,8 @@ std::vector<Note> notes_in(const Json& object);
 double bound_in(const Json& interval, const std::string& key);
 /// Checks every bound of an answer that was read, as bound_in does.
 void check_bounds(const Json& answer);
+/// The answer of a document that is parsed, as answer_from_json().
+Answer answer_from(const Json& json);
 /// A whole number of 0 or more. Throws InputError that names `key` for anything else: 1.9, true.
 uint64_t count_in(const Json& object, const std::string& key);
 

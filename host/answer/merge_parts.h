@@ -21,12 +21,12 @@ bool is_part(const Json& answer);
 /// InputError for a file that cannot be read, and for lines that are no JSON.
 std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files);
 
-/// Returns one line of JSON in docs/schema/answer.schema.json: lower is the largest, with its
+/// Returns the answer of all of A: lower is the largest, with its
 /// witness; upper is the largest; their bits are carried, and only compared. It is closed if that
 /// width is at most the tolerance in exact arithmetic, whatever became of the parts: one that was
 /// pruned by a known lower bound has an upper end like any other. Throws InputError, naming file
 /// and place, unless they are all parts of one A and one B (the SHA-256 of both files), each once,
 /// of one tolerance and one version. There is at least one.
-std::string merge_parts(const std::vector<WrittenAnswer>& parts);
+Answer merge_parts(const std::vector<WrittenAnswer>& parts);
 
 }  // namespace vkh

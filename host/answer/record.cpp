@@ -118,6 +118,59 @@ std::string to_record(const RecordName& name, const Failure& failure, const Answ
   return json.text();
 }
 
+namespace {
+
+Record begun(const RecordName& name, ExitCode code, const Answer& answer) {
+  Record record;
+  record.name = name;
+  record.code = code;
+  for (size_t i = 0; i < 2; ++i) {
+    record.inputs[i].path = answer.inputs[i].path;
+    record.inputs[i].sha256 = answer.inputs[i].sha256;
+    record.inputs[i].names_files = true;
+  }
+  record.total_ms = answer.waits.total;
+  record.gpu_ms = gpu_ms(answer);
+  record.host = answer.host;
+  record.started = answer.started;
+  return record;
+}
+
+Record::Side with_mesh(Record::Side side, const Input& input) {
+  side.faces = input.is_read ? input.counts.faces : 0;
+  side.notes = input.notes;
+  for (Note& note : side.notes) {
+    if (note.file.empty()) note.file = input.path;
+  }
+  return side;
+}
+
+}  // namespace
+
+Record record_of(const RecordName& name, const Answer& answer) {
+  const CertifiedInterval whole = interval_of(answer);
+  Record record = begun(name, code_of(answer), answer);
+  for (size_t i = 0; i < 2; ++i) record.inputs[i] = with_mesh(record.inputs[i], answer.inputs[i]);
+  record.status = status_name(whole.status);
+  if (answer.max) record.verdict = verdict_name(verdict_of(answer));
+  record.lower = whole.lower;
+  record.upper = whole.upper;
+  record.directions[0] = {answer.a_to_b.lower, answer.a_to_b.upper};
+  if (answer.b_to_a) record.directions[1] = {answer.b_to_a->lower, answer.b_to_a->upper};
+  record.gap = std::isfinite(whole.gap) ? whole.gap : 0;
+  record.diagonal = answer.a_to_b.diagonal_a;
+  record.unit = answer.unit;
+  record.notes = notes_of(answer);
+  record.words = in_words(answer);
+  return record;
+}
+
+Record record_of(const RecordName& name, const Failure& failure, const Answer& known) {
+  Record record = begun(name, static_cast<ExitCode>(failure.code), known);
+  record.words = failure.message;
+  return record;
+}
+
 // Quotes in a text are escaped, so no text in the line has these characters in this order.
 std::string without_run(const std::string& line) {
   const size_t run = line.rfind(kRun);

@@ -70,8 +70,12 @@ struct Record {
   bool names_files() const { return inputs[0].names_files && inputs[1].names_files; }
 };
 
-/// Throws InputError with the error but without the file's name. A bound that differs from the
-/// decimal beside it is wrong, and so is an interval whose lower end is above its upper.
+/// The content of the line that to_record() makes.
+Record record_of(const RecordName& name, const Answer& answer);
+Record record_of(const RecordName& name, const Failure& failure, const Answer& known);
+
+/// Reads a line. Throws InputError with the error but without the file's name. A bound that differs
+/// from the decimal beside it is wrong, and so is an interval whose lower end is above its upper.
 Record read_record(std::string_view line);
 
 }  // namespace vkh

@@ -48,9 +48,11 @@ std::string statistics_json(const Statistics& s, const Json& unit) {
   return json.text();
 }
 
-Json faces_json(const Field& field, const Answer& answer) {
-  const FieldSummary summary = summary_of(field, answer.max ? answer.max->limit : Limit{});
-  Json json = {{"faces", field.face_count()}, {"width", summary.width}};
+Json faces_json(const SurveyResult& survey, const Answer& answer) {
+  const FieldSummary summary =
+      survey.summary ? *survey.summary
+                     : summary_of(survey.field, answer.max ? answer.max->limit : Limit{});
+  Json json = {{"faces", summary.faces}, {"width", summary.width}};
   if (!answer.max) return json;
   json["within"] = summary.within;
   json["beyond"] = summary.beyond;
@@ -67,7 +69,7 @@ void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answ
                       {"cells", survey.cells},
                       {"bounded", survey.bounded},
                       {"wall_ms", survey.ms}});
-  if (survey.faces) json.add("field", faces_json(survey.field, answer));
+  if (survey.faces) json.add("field", faces_json(survey, answer));
   if (survey.statistics)
     json.add_text("statistics", statistics_json(*survey.statistics, text_or_null(answer.unit)));
 }

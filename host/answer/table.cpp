@@ -164,7 +164,7 @@ void print_proof(std::ostream& out, const std::optional<Proof>& proof) {
   print_row(out, "certificate",
             printed("%llu leaves, ", Count{proof->leaves}) +
                 printed("%llu of them cut, ", Count{proof->cut_leaves}) +
-                printed("%llu bytes, in ", Count{proof->blocks.size()}) + seconds(proof->ms));
+                printed("%llu bytes, in ", Count{proof->bytes}) + seconds(proof->ms));
 }
 
 std::string times_text(const Answer& answer) {
@@ -205,7 +205,7 @@ void print_waves(std::ostream& out, const std::vector<WaveStats>& waves) {
 void print_culled(std::ostream& out, const std::vector<CullCount>& culled) {
   out << "\n  candidates closed by\n";
   for (const CullCount& c : culled)
-    out << printed("  %-14s %14llu\n", c.name, static_cast<Count>(c.candidates));
+    out << printed("  %-14s %14llu\n", c.name.c_str(), static_cast<Count>(c.candidates));
 }
 
 void print_details(std::ostream& out, const Report& r) {

@@ -304,6 +304,7 @@ std::string printable(const std::string& text) {
 }
 
 std::string in_words(const Answer& answer) {
+  if (!answer.first_line.empty()) return answer.first_line;
   if (!answer.max) return distance_in_words(answer);
   return gate_in_words(answer) + (is_one_way_pass(answer) ? std::string(". ") + kOneWay : "");
 }

@@ -210,12 +210,11 @@ ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswe
         "merge: the parts of one pair make one answer: no --list, --reproducible, "
         "--csv or --junit");
   const OutputFile out("--out", asked.results, asked.files);
-  const std::string text = merge_parts(parts);
-  out.write(text + '\n');
-  const Json json = Json::parse(text);
-  std::cout << json.at("words").get<std::string>() << "\n  parts      " << parts.size() << ": "
-            << json.at("stop_reason").get<std::string>() << '\n';
-  return json.at("status") == status_name(Status::kClosed) ? kExitClosed : kExitNotClosed;
+  const Answer whole = merge_parts(parts);
+  out.write(to_json(whole) + '\n');
+  std::cout << in_words(whole) << "\n  parts      " << parts.size() << ": "
+            << stop_reason(whole.a_to_b.status) << '\n';
+  return code_of(whole);
 }
 
 }  // namespace

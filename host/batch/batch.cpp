@@ -191,8 +191,7 @@ class Batch {
       return false;
     } catch (...) {
       if (!has_room && !budget_.take(ticket, 0)) return false;
-      write(to_record(running.entry.name, failure_of(std::current_exception(), entry),
-                      running.entry.known));
+      write_failure(running.entry, std::current_exception());
       budget_.give(running.bytes);
       return true;
     }
@@ -270,14 +269,18 @@ class Batch {
   }
 
   void write_result(const NamedEntry& entry, StreamResult&& result) {
-    if (result.error)
-      return write(to_record(entry.name, failure_of(result.error, *entry.entry), entry.known));
+    if (result.error) return write_failure(entry, result.error);
     const Answer answer = answer_of(entry, std::move(result));
-    if (!is_cancelled(answer)) write(to_record(entry.name, answer));  // else it is done again
+    if (is_cancelled(answer)) return;  // it is done again
+    write(to_record(entry.name, answer), record_of(entry.name, answer));
   }
 
-  void write(const std::string& line) {
-    const Record record = read_record(line);
+  void write_failure(const NamedEntry& entry, const std::exception_ptr& error) {
+    const Failure failure = failure_of(error, *entry.entry);
+    write(to_record(entry.name, failure, entry.known), record_of(entry.name, failure, entry.known));
+  }
+
+  void write(const std::string& line, const Record& record) {
     const std::lock_guard lock(mutex_);
     if (error_) return;
     try {

@@ -19,7 +19,7 @@ py::dict counts_of(const MeshCounts& c) {
 
 py::dict culled_of(const std::vector<CullCount>& culled) {
   py::dict counts;
-  for (const CullCount& c : culled) counts[c.name] = c.candidates;
+  for (const CullCount& c : culled) counts[c.name.c_str()] = c.candidates;
   return counts;
 }
 

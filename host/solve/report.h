@@ -58,7 +58,7 @@ struct StageStats {
 /// The number of candidates that a bound of the cascade closed; "lower_raised": later, because
 /// lower had risen past their u; "precision": at their u, because nothing finer can be decided.
 struct CullCount {
-  const char* name = "";
+  std::string name;
   uint64_t candidates = 0;
 };
 

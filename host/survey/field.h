@@ -29,6 +29,7 @@ inline Verdict verdict_of(const Field& field, size_t face, const Limit& limit) {
 
 /// The summary of all faces: the widest bounds, and how many have each verdict.
 struct FieldSummary {
+  size_t faces = 0;
   double width = 0;
   size_t within = 0, beyond = 0, undecided = 0;
 };

@@ -134,6 +134,7 @@ class Prover {
       if (open.size() > kManySmall && open.front().depth >= kVerySmall) more_ *= 4;
     }
     result_.blocks += tree.written();
+    result_.bytes = result_.blocks.size();
     return raised;
   }
 

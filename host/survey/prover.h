@@ -23,6 +23,7 @@ struct ProofJob {
 struct Proof {
   double upper = 0;    ///< the bound that is proven: at least what was asked
   std::string blocks;  ///< docs/certificate-file.md
+  size_t bytes = 0;    ///< the size of `blocks`, which JSON has without them
   size_t leaves = 0, cut_leaves = 0, asked_cells = 0;
   size_t unproven = 0;  ///< leaves that proved more than was asked: `upper` is larger for them
   double ms = 0;

@@ -210,7 +210,7 @@ const char* survey_end_name(SurveyEnd end) {
 size_t default_effort(bool on_cpu) { return on_cpu ? 4'000'000 : 10'000'000; }
 
 FieldSummary summary_of(const Field& field, const Limit& limit) {
-  FieldSummary summary;
+  FieldSummary summary{.faces = field.face_count()};
   for (size_t f = 0; f < field.face_count(); ++f) {
     summary.width = std::max(summary.width, field.upper[f] - field.lower[f]);
     const Verdict verdict = verdict_of(field, f, limit);

@@ -64,6 +64,8 @@ struct SurveyOptions {
 struct SurveyResult {
   Field field;
   bool faces = false;  ///< SurveyOptions::faces
+  /// The summary of a field that is not held, since the answer was read from JSON.
+  std::optional<FieldSummary> summary = {};
   std::optional<Statistics> statistics;
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -189,6 +190,73 @@ TEST_CASE("a result's line is read back as what it says") {
   CHECK(!failed.is_final());
   for (const char* text : {"", "{", "[]", "{}", R"({"schema":"vkhausdorff.pair/2"})"})
     CHECK_THROWS_AS(read_record(text), InputError);
+}
+
+void check_same(const Record& x, const Record& y) {
+  CHECK(x.name.id == y.name.id);
+  CHECK(x.name.key == y.name.key);
+  CHECK(x.code == y.code);
+  CHECK(x.status == y.status);
+  CHECK(x.verdict == y.verdict);
+  CHECK(x.words == y.words);
+  CHECK(x.unit == y.unit);
+  CHECK(x.host == y.host);
+  CHECK(x.started == y.started);
+  CHECK(x.notes == y.notes);
+  const auto numbers = [](const Record& r) {
+    return std::vector<double>{r.lower,
+                               r.upper,
+                               r.directions[0].lower,
+                               r.directions[0].upper,
+                               r.directions[1].lower,
+                               r.directions[1].upper,
+                               r.gap,
+                               r.diagonal,
+                               r.total_ms,
+                               r.gpu_ms};
+  };
+  CHECK(numbers(x) == numbers(y));
+  for (size_t i = 0; i < 2; ++i) {
+    CHECK(x.inputs[i].path == y.inputs[i].path);
+    CHECK(x.inputs[i].sha256 == y.inputs[i].sha256);
+    CHECK(x.inputs[i].faces == y.inputs[i].faces);
+    CHECK(x.inputs[i].names_files == y.inputs[i].names_files);
+    CHECK(x.inputs[i].notes == y.inputs[i].notes);
+  }
+  CHECK(x.is_final() == y.is_final());
+}
+
+TEST_CASE("a record of an answer is that of its line") {
+  Answer answer;
+  answer.inputs[0] = {.path = "a.obj",
+                      .is_read = true,
+                      .counts = {.faces = 7},
+                      .sha256 = "aa",
+                      .notes = {note_of(NoteCode::kUnread, "so")}};
+  answer.inputs[1].path = "b.obj";
+  answer.a_to_b.lower = 0.1;
+  answer.a_to_b.upper = 0.3;
+  answer.a_to_b.diagonal_a = 1.0 / 3;
+  answer.a_to_b.times = {.hierarchy_ms = 0.1, .solve_ms = 0.2};
+  answer.notes = {note_of(NoteCode::kMemory, "less")};
+  answer.unit = "mm";
+  answer.host = "here";
+  answer.started = "now";
+  answer.waits.total = 0.7;
+  const RecordName name{"an id", "key"};
+  const auto check = [&] {
+    check_same(record_of(name, answer), read_record(to_record(name, answer)));
+  };
+  check();
+  answer.b_to_a = answer.a_to_b;
+  answer.b_to_a->upper = std::numeric_limits<double>::infinity();
+  check();
+  answer.b_to_a.reset();
+  answer.max = Asked{.length = parse_length("max", "0.5mm", PlainNumber::kRefused),
+                     .limit = {.within = 0.5, .beyond = 0.5}};
+  check();  // and the note that it is one way
+  const Failure failure{.code = 4, .message = "a.obj: bad", .file = "a.obj", .place = ""};
+  check_same(record_of(name, failure, answer), read_record(to_record(name, failure, answer)));
 }
 
 TEST_CASE("a line that was changed is refused") {

@@ -56,7 +56,11 @@ std::vector<WrittenAnswer> three() {
           written(answer_of(1, 3, 0.5, 0.5))};
 }
 
-Json merged(const std::vector<WrittenAnswer>& parts) { return Json::parse(merge_parts(parts)); }
+std::string merged_text(const std::vector<WrittenAnswer>& parts) {
+  return to_json(merge_parts(parts));
+}
+
+Json merged(const std::vector<WrittenAnswer>& parts) { return Json::parse(merged_text(parts)); }
 
 void check_refused(const std::vector<WrittenAnswer>& parts, const std::string& why) {
   CAPTURE(why);
@@ -96,14 +100,14 @@ TEST_CASE("the largest lower with its witness, the largest upper, bit by bit") {
   CHECK(all["notes"][0]["text"] == "a note of all");
   CHECK(all["arguments"] == Json({"distance", "a.ply", "b.ply", "--json"}));
   CHECK(all["started"] == "2026-01-07T00:00:00Z");
-  CHECK(merge_parts({written(answer_of(0, 1, 1, 1))}).find("\"parts\":1") != std::string::npos);
+  CHECK(merged_text({written(answer_of(0, 1, 1, 1))}).find("\"parts\":1") != std::string::npos);
 }
 
 TEST_CASE("the order of the answers does not matter") {
   std::vector<WrittenAnswer> parts = three();
-  const std::string one = merge_parts(parts);
+  const std::string one = merged_text(parts);
   std::swap(parts[0], parts[2]);
-  CHECK(merge_parts(parts) == one);
+  CHECK(merged_text(parts) == one);
 }
 
 TEST_CASE("closed is decided by the exact width, whatever became of the parts") {
@@ -192,6 +196,8 @@ TEST_CASE("all parts, each once, of one question") {
   check_refused(spoilt("/directions/0/witness", nullptr), "without a witness");
   check_refused(spoilt("/directions", Json::array()), "expected an answer");
   check_refused(spoilt("/part", 3), "expected an answer");
+  check_refused(spoilt("/schema", "vkhausdorff.answer/1"),
+                "the schema 'vkhausdorff.answer/1'; expected vkhausdorff.answer/2");
 }
 
 TEST_CASE("parts are of the same files, those beneath A and B, too") {
