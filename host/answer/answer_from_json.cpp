@@ -354,11 +354,41 @@ void read_question(const Json& json, Answer& answer) {
     answer.part = PartOf{count_in(json.at("part"), "index"), count_in(json.at("part"), "count")};
 }
 
+MatrixRows matrix_of(const Json& json) {
+  MatrixRows rows;
+  if (json.size() != 4) refuse_member("matrix", "array of four rows");
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (!json[i].is_array() || json[i].size() != 4) refuse_member("matrix", "array of four rows");
+    for (size_t j = 0; j < 4; ++j) {
+      if (!json[i][j].is_number()) refuse_member("matrix", "array of rows of numbers");
+      rows[i][j] = json[i][j].get<double>();
+    }
+  }
+  if (json[3] != Json::array({0.0, 0.0, 0.0, 1.0})) refuse_member("matrix", "map of points");
+  return rows;
+}
+
+PlacedInput placed_of(const Json& json, const std::string& unit) {
+  PlacedInput placed{.by = {},
+                     .from = text_or_empty_at(json, "from_unit"),
+                     .file = text_or_empty_at(json, "path"),
+                     .sha256 = text_or_empty_at(json, "sha256")};
+  if (text_or_empty_at(json, "unit") != unit) throw InputError("units that contradict each other");
+  const Json& factor = array_at(json, "factor");
+  if (factor.size() != 2 || !factor[0].is_number() || !factor[1].is_number())
+    refuse_member("factor", "array of two numbers");
+  placed.by.numerator = factor[0].get<double>();
+  placed.by.denominator = factor[1].get<double>();
+  if (!member_at(json, "matrix").is_null()) placed.by.matrix = matrix_of(array_at(json, "matrix"));
+  return placed;
+}
+
 void read_meshes(const Json& json, Answer& answer) {
   const Json& inputs = array_at(json, "inputs");
   if (inputs.size() != 2) throw InputError("inputs are not two");
   for (size_t i = 0; i < 2; ++i) answer.inputs[i] = input_of(inputs[i]);
   answer.notes = notes_in(json);
+  if (json.contains("transform")) answer.placed = placed_of(json.at("transform"), answer.unit);
   if (!json.contains("boxes")) return;
   answer.inputs[0].box = box_at(json.at("boxes"), "a");
   answer.inputs[1].box = box_at(json.at("boxes"), "b");

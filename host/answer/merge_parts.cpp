@@ -65,6 +65,11 @@ Part parsed(const WrittenAnswer& written) {
   }
 }
 
+/// Leaves out the matrix's file, of which each part has its own.
+MeshTransform placed_by(const Answer& answer) {
+  return answer.placed ? answer.placed->by : MeshTransform{};
+}
+
 void check_alike(const Part& part, const Part& first) {
   const WrittenAnswer& at = *part.written;
   const auto same = [&](const auto& value, const auto& of_first, const char* what) {
@@ -79,6 +84,7 @@ void check_alike(const Part& part, const Part& first) {
     same(part.files[i].front(), first.files[i].front(), name);
     same(part.files[i], first.files[i], (std::string("file beneath ") + name).c_str());
   }
+  same(placed_by(here), placed_by(there), "--transform or unit");
   same(part.reading, first.reading, "choice of --bodies or --polygons");
   same(here.a_to_b.tolerance, there.a_to_b.tolerance, "tolerance");
   same(here.unit, there.unit, "unit");
