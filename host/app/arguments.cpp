@@ -105,9 +105,10 @@ struct Program {
                     "Ask that so much of A's area is within the limit, such as 99.5%, in place of "
                     "every point")
         ->type_name("SHARE");
-    command.add_flag("--worst", gate.worst,
-                     "After the verdict, go on to the farthest point; with --image, --report or --field "
-                     "that is so without it");
+    command.add_flag(
+        "--worst", gate.worst,
+        "After the verdict, go on to the farthest point; with --image, --report or --field "
+        "that is so without it");
     add_survey_options(command, gate);
     add_picture_options(command, gate.pictures);
     add_certificate_option(command, gate.pictures);

@@ -28,8 +28,7 @@ const std::map<std::string, HelpOfCommand>& help_of_commands() {
                     "bad input; 5 device or driver; ") +
             kOutputCode + "."}},
       {"gate",
-       {{"max", "unit", "symmetric", "worst", "area", "report", "json", "junit", "github",
-         "time"},
+       {{"max", "unit", "symmetric", "worst", "area", "report", "json", "junit", "github", "time"},
         std::string("0 PASS; 1 FAIL; 2 usage; 3 UNDECIDED (the interval is true); 4 bad input; 5 "
                     "device or driver; ") +
             kOutputCode + "."}},

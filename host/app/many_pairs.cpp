@@ -79,7 +79,7 @@ void check_outputs(const std::string& results, const TablesAsked& tables) {
 void take_unpaired(const BatchAsked& asked, PairList& list, BatchJob& batch) {
   for (Entry& entry : list.unpaired) {
     if (!asked.shard.has(entry.id)) continue;
-    warn(entry.missing);
+    warn(entry.one_file() + ": " + entry.missing);
     if (asked.allows_unpaired) {
       ++batch.unpaired;
     } else {

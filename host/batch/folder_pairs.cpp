@@ -78,9 +78,9 @@ Entry pair_of(const std::string& stem, const std::string& a, const std::string& 
   return entry;
 }
 
-std::string missing_in(const FolderOfMeshes& other, const std::string& file,
-                       const std::string& stem) {
-  return file + ": no partner in " + other.folder + "; expected a mesh named " + stem + " there";
+/// The error of a file that has no partner in `other`.
+std::string missing_in(const FolderOfMeshes& other, const std::string& stem) {
+  return "no partner in " + other.folder + "; expected a mesh named " + stem + " there";
 }
 
 }  // namespace
@@ -96,12 +96,12 @@ PairList list_folders(const std::string& a, const std::string& b) {
       continue;
     }
     list.unpaired.push_back(pair_of(stem, file, ""));
-    list.unpaired.back().missing = missing_in(meshes_b, file, stem);
+    list.unpaired.back().missing = missing_in(meshes_b, stem);
   }
   for (const auto& [stem, file] : meshes_b.files) {
     if (meshes_a.files.count(stem) > 0) continue;
     list.unpaired.push_back(pair_of(stem, "", file));
-    list.unpaired.back().missing = missing_in(meshes_a, file, stem);
+    list.unpaired.back().missing = missing_in(meshes_a, stem);
   }
   for (const FolderOfMeshes* meshes : {&meshes_a, &meshes_b}) {
     if (std::string note = note_on_others(*meshes); !note.empty())

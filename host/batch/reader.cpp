@@ -124,7 +124,8 @@ InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
 }
 
 NamedEntry EntryReader::name(const Entry& entry) {
-  if (!entry.missing.empty()) throw InputError(entry.missing);
+  if (!entry.missing.empty())
+    throw InputError({.file = entry.one_file(), .problem = entry.missing});
   NamedEntry named;
   named.entry = &entry;
   Question& question = named.question = base_;
