@@ -152,7 +152,10 @@ Record record_of(const RecordName& name, const Answer& answer) {
   Record record = begun(name, code_of(answer), answer);
   for (size_t i = 0; i < 2; ++i) record.inputs[i] = with_mesh(record.inputs[i], answer.inputs[i]);
   record.status = status_name(whole.status);
-  if (answer.max) record.verdict = verdict_name(verdict_of(answer));
+  if (answer.max) {
+    record.verdict = verdict_name(verdict_of(answer));
+    record.limit = answer.max->limit;
+  }
   record.lower = whole.lower;
   record.upper = whole.upper;
   record.directions[0] = {answer.a_to_b.lower, answer.a_to_b.upper};
@@ -168,6 +171,7 @@ Record record_of(const RecordName& name, const Answer& answer) {
 Record record_of(const RecordName& name, const Failure& failure, const Answer& known) {
   Record record = begun(name, static_cast<ExitCode>(failure.code), known);
   record.words = failure.message;
+  record.error_file = failure.file;
   return record;
 }
 

@@ -193,6 +193,9 @@ TEST_CASE("a result's line is read back as what it says") {
 }
 
 void check_same(const Record& x, const Record& y) {
+  CHECK(x.limit.within == y.limit.within);
+  CHECK(x.limit.beyond == y.limit.beyond);
+  CHECK(x.error_file == y.error_file);
   CHECK(x.name.id == y.name.id);
   CHECK(x.name.key == y.name.key);
   CHECK(x.code == y.code);

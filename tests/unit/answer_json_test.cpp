@@ -163,8 +163,18 @@ Answer unread() {
   return answer;
 }
 
+Answer placed() {
+  Answer answer = distance();
+  MeshTransform by{.numerator = 127, .denominator = 5};
+  by.matrix = MatrixRows{{{0.1, -1, 0, 1.5}, {1, 0.1, -0.0, 1e-300}, {0, 0, 1, 3}}};
+  answer.placed =
+      PlacedInput{.by = by, .from = "in", .file = "m.txt", .sha256 = std::string(64, 'd')};
+  return answer;
+}
+
 std::vector<Answer> all_kinds() {
   return {distance(),
+          placed(),
           both_directions(),
           gate("0.2mm", 0.2, 0.15),
           gate("0.05mm", 0.05, 0.15),
@@ -307,7 +317,8 @@ TEST_CASE("a member that is missing is refused, unless it may be or says nothing
       "unit",                              // says nothing new
       "file",     "face",        "notes",  // or is of a note
       "part",     "parts",       "boxes", "more_devices", "barycentric", "certificate",
-      "coverage", "faces_a",     "field", "verified",     "exact",       "u1"};
+      "coverage", "faces_a",     "field", "verified",     "exact",       "u1",
+      "transform"};
   for (const Answer& answer : all_kinds()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {
