@@ -116,8 +116,8 @@ void check_unit(const char* option, const std::string& unit) {
 UnitRatio unit_ratio(const std::string& from, const std::string& to) {
   const auto a = static_cast<uint64_t>(find_unit(from)->tenths_of_micrometres);
   const auto b = static_cast<uint64_t>(find_unit(to)->tenths_of_micrometres);
-  const uint64_t common = std::gcd(a, b);
-  return {static_cast<double>(a / common), static_cast<double>(b / common)};
+  const uint64_t common = std::gcd(a, b), numerator = a / common, denominator = b / common;
+  return {static_cast<double>(numerator), static_cast<double>(denominator)};
 }
 
 double in_millimetres(double length, const std::string& unit) {

@@ -183,7 +183,7 @@ std::string unit_from(const Arguments& given, const char* name) {
   constexpr const char* kExpected = "'um', 'mm', 'cm', 'm', 'in' or 'ft', or None";
   const py::object* unit = given.find(name);
   if (unit == nullptr || unit->is_none()) return "";
-  const std::string text = text_from(name, kExpected, *unit);
+  std::string text = text_from(name, kExpected, *unit);
   try {
     check_unit(name, text);
   } catch (const UsageError&) {
