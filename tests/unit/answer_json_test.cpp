@@ -297,8 +297,12 @@ TEST_CASE("what the rest contradicts is refused") {
 }
 
 TEST_CASE("a stranger in place of any value is refused, or read as another answer") {
+#ifdef VKH_SANITIZED  // a minute otherwise
+  const std::vector<Json> strangers = {nullptr, -1, Json::array()};
+#else
   const std::vector<Json> strangers = {nullptr,       true,           -1,   1.5, "x", "", 3,
                                        Json::array(), Json::object(), 1e300};
+#endif
   for (const Answer& answer : all_kinds()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {
