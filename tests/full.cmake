@@ -41,6 +41,7 @@ foreach(source IN LISTS VKH_TEST_SOURCES)
     list(APPEND VKH_QUICK_PROGRAMS ${VKH_PROGRAM_${name}})
   endif()
 endforeach()
+list(REMOVE_ITEM VKH_QUICK answer_json_test)  # most of a minute
 get_property(all DIRECTORY PROPERTY TESTS)
 list(REMOVE_ITEM all ${VKH_QUICK})
 vkh_label(full ${all})
