@@ -19,9 +19,10 @@ if(NOT VKH_SANITIZE)
                  long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
                  kernel_query_by_address kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
-                 proofs mutation_quick attack certificate_polygons batch batch_folders
+                 proofs mutation_quick attack certificate_polygons batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life)
-  vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all driver_lavapipe128_more platform_arm64_more)
+  vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all driver_lavapipe128_more platform_arm64
+                     platform_arm64_more)
   return()
 endif()
 
