@@ -45,8 +45,8 @@ endif()
 # Headers of host/ that a user of vkh::Solver includes. They include each other as
 # "host/mesh/mesh.h", in a package that is <vkhausdorff/mesh.h>; the engine's header is
 # <vkhausdorff.h>.
-set(VKH_HOST_HEADERS base/error base/limit base/note gpu/device gpu/device_description gpu/vulkan_api mesh/file_faces mesh/mesh mesh/polygon
-                     read/read_limits read/mesh_io solve/solve_options solve/report solve/closest_points solve/solver survey/prover survey/certificate)
+set(VKH_HOST_HEADERS base/error base/limit base/note gpu/device gpu/device_description gpu/vulkan_api mesh/file_faces mesh/mesh mesh/mesh_transform mesh/polygon
+                     read/read_limits read/mesh_io read/place solve/solve_options solve/report solve/closest_points solve/solver survey/prover survey/certificate)
 set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)
 foreach(header IN LISTS VKH_HOST_HEADERS)
   get_filename_component(name ${header} NAME)
