@@ -159,7 +159,7 @@ ROWS = [
     counts("shortened", CELL, "1.0f - {8.0f} * kUlp", ON_CELL, steps=[4.0, 0.0, -32.0]),
     counts("minorant_off's products", CELL, "round_up({5.0f} * kUlp * (t.radius", ON_CELL),
     row("minorant_off's slacks", CELL, "rounding + s.slack + t.slack", ["rounding + s.slack", "rounding"], ON_CELL),
-    row("a cell's distance's slacks", CELL, "float more = s.slack + t.slack;", ["float more = t.slack;", "float more = 0.0f;"], ON_CELL),
+    row("a cell's distance's slacks", CELL, "s.at, inside)) + (s.slack + t.slack)", ["s.at, inside)) + t.slack", "s.at, inside))"], ON_CELL),
     row("a cut's slacks", CELL, "s.at)) + (s.slack + t.slack), 3.0f", ["s.at)), 3.0f"], ON_CELL),
     row("kThirdUp", CELL, "kThirdUp = 0.33333334f", ["kThirdUp = 0.3333333f"], ON_CELL),
     row("kThirdDown", CELL, "kThirdDown = 0.33333331f", ["kThirdDown = 0.33333334f"], ON_CELL),
