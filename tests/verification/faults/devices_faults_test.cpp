@@ -89,7 +89,7 @@ TEST_CASE("a device that is lost leaves its part to the other") {
 }
 
 TEST_CASE("where all are lost, that is said") {
-  for (const char* from : {"1", "3", "9"}) {
+  for (const char* from : {"1", "3", "5"}) {  // of more than six, as above
     Two two(options());
     const Watchdog watchdog;
     layer().arm("vkQueueSubmit:" + std::string(from) + "+:VK_ERROR_DEVICE_LOST");
