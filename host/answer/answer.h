@@ -119,6 +119,12 @@ std::string in_words(const Answer& answer);
 std::string length_down(const Answer& answer, double length, double gap);
 std::string length_up(const Answer& answer, double length, double gap);
 
+/// Whether an interval is narrow enough for people to call its lower end the farthest point's
+/// distance: to a thousandth, or two.
+inline bool is_farthest_known(double lower, double upper) {
+  return lower > 0 && upper - lower <= 2e-3 * lower;
+}
+
 /// The gap that an interval's ends are rounded to in print: its width, or less, so that neither end
 /// is printed on the other side of the limit.
 double gap_as_printed(const Answer& answer, double lower, double upper);
@@ -184,7 +190,7 @@ std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
 std::string to_junit(const Answer& answer);
 std::string to_junit(const Failure& failure);
 
-/// What GitHub shows beside a file.
+/// A remark that GitHub shows beside a file.
 struct GithubAnnotation {
   std::string level;  ///< "error", "warning" or "notice"
   std::string file;   ///< empty: none

@@ -49,6 +49,8 @@ class Asking {
   void advance(const Progress& progress) {
     line.show(progress);
     const std::lock_guard lock(mutex_);
+    // A later search begins with wider bounds, and without the witness that is kept.
+    if (is_final_) return;
     // The progress covers a part of A's faces and bounds none of the others.
     if (known_.max && (known_.max->faces_a || known_.max->faces_b)) return;
     Report& r = progress.back && known_.b_to_a ? *known_.b_to_a : known_.a_to_b;

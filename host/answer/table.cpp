@@ -249,10 +249,11 @@ void print_sizes(std::ostream& out, const Answer& answer) {
   }
 }
 
-/// After a FAIL the upper end was not sought, and would mislead: it is in JSON.
+/// After a FAIL the upper end was not sought, and would mislead: it is in JSON. A question about a
+/// share of the area seeks it whatever its verdict is.
 bool is_upper_sought(const Answer& answer, double lower, double upper) {
-  return !answer.max || verdict_of(answer) != Verdict::kBeyond ||
-         width_up(lower, upper) <= 2e-3 * lower;
+  return !answer.max || answer.max->area || verdict_of(answer) != Verdict::kBeyond ||
+         is_farthest_known(lower, upper);
 }
 
 std::string enclosed(const Answer& answer, double lower, double upper, Status status) {
@@ -269,9 +270,10 @@ std::string direction_text(const Answer& answer, const Report& r) {
 void print_interval(std::ostream& out, const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const bool is_sought = is_upper_sought(answer, whole.lower, whole.upper);
+  const bool has_worst = answer.max && !answer.max->faces_a && !answer.max->faces_b;
   print_row(out, is_sought ? "interval" : "distance",
             enclosed(answer, whole.lower, whole.upper, whole.status) +
-                (is_sought ? "" : "; --worst goes on to the farthest point"));
+                (is_sought || !has_worst ? "" : "; --worst goes on to the farthest point"));
   if (!is_sought) return;
   print_row(out, "width",
             decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " +

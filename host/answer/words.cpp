@@ -100,9 +100,6 @@ std::string limit_text(const Answer& answer, const Length& length) {
   return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
 }
 
-/// Whether the farthest point is known, as by --worst, to what people read: a thousandth.
-bool is_worst_known(const Report& r) { return r.lower > 0 && r.upper - r.lower <= 2e-3 * r.lower; }
-
 std::string failure_in_words(const Answer& answer, bool back) {
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
@@ -110,11 +107,11 @@ std::string failure_in_words(const Answer& answer, bool back) {
   // The text never rounds down to the limit itself.
   const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
   const std::string from = back ? "B" : "A";
+  const bool is_known = is_farthest_known(r.lower, r.upper);
   // Four digits where the farthest point is known, or more where the limit is nearer.
-  const double shown = is_worst_known(r)
-                           ? std::min(r.lower - limit.beyond, std::max(margin, 2e-3 * r.lower))
-                           : margin;
-  std::string text = is_worst_known(r) ? "FAIL  " : "FAIL  at least ";
+  const double shown =
+      is_known ? std::min(r.lower - limit.beyond, std::max(margin, 2e-3 * r.lower)) : margin;
+  std::string text = is_known ? "FAIL  " : "FAIL  at least ";
   text += length_down(answer, r.lower, shown);
   text += r.has_witness ? " at " + point_text(answer, r.witness_a) + " of " + from
                         : " at a point of " + from;
@@ -165,7 +162,7 @@ std::string area_in_words(const Answer& answer) {
 std::string deviation_in_words(const Answer& answer, const CertifiedInterval& whole) {
   if (whole.upper == 0) return "no deviation";
   const double gap = gap_as_printed(answer, whole.lower, whole.upper);
-  if (whole.lower > 0 && whole.upper - whole.lower <= 2e-3 * whole.lower)
+  if (is_farthest_known(whole.lower, whole.upper))
     return "largest deviation " +
            length_down(answer, whole.lower, std::max(gap, 2e-3 * whole.lower));
   if (whole.upper <= 0.5 * answer.max->limit.within)
