@@ -1,5 +1,5 @@
-// An answer from its JSON. What the rest of it implies is not read but must agree with it, so that
-// no line that a user changed passes for an answer.
+// Reads an answer from its JSON. Members that others imply are not taken but must agree with those,
+// so that no line that a user changed passes for an answer.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 namespace vkh {
 
-/// What is known of a pair, the worst first.
+/// The outcomes of a pair, the worst first.
 enum class Outcome {
   kBeyond,    ///< beyond its limit
   kNoAnswer,  ///< a failure

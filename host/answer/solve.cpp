@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/note.h"
 #include "host/solve/face_gate.h"
+#include "host/solve/pair.h"
 #include "host/solve/part.h"
 #include "host/solve/together.h"
 
@@ -103,21 +104,10 @@ Report distance_of_one_part(std::span<Solver* const> solvers, const AskedMeshes&
 
 constexpr uint32_t kWorstWaves = 60;  // an ordinary pair closes in under 30
 
-/// Takes the bounds and the witness of a search without a limit. The first search's status stays:
-/// the limit was decided.
-void narrow(Report& report, Report&& worst) {
-  report.upper = std::min(report.upper, worst.upper);
-  report.waves += worst.waves;
-  report.candidates += worst.candidates;
-  report.queries += worst.queries;
-  report.peak_frontier = std::max(report.peak_frontier, worst.peak_frontier);
-  report.times.solve_ms += worst.times.solve_ms;
+/// Adds a search without a limit. The status stays: the limit was decided.
+void add_search(Report& report, const Report& worst) {
+  narrow(report, worst);
   report.times.wall_ms += worst.times.wall_ms;
-  if (!worst.has_witness || worst.lower < report.lower) return;
-  report.lower = worst.lower;
-  report.has_witness = true;
-  report.witness_a = worst.witness_a;
-  report.witness_b = worst.witness_b;
 }
 
 /// Searches on for the farthest point, to a thousandth of the distance that is known, since that
@@ -129,10 +119,10 @@ void find_worst(const Question& question, std::span<Solver* const> solvers,
   options.wave_limit = std::min(options.wave_limit, kWorstWaves);
   options.tolerance = std::max(answer.a_to_b.tolerance, 1e-3 * interval_of(answer).lower);
   options.tolerance_is_absolute = true;
-  if (!answer.b_to_a) return narrow(answer.a_to_b, distance_of(solvers, meshes, options));
-  SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options);
-  narrow(answer.a_to_b, std::move(both.a_to_b));
-  narrow(*answer.b_to_a, std::move(both.b_to_a));
+  if (!answer.b_to_a) return add_search(answer.a_to_b, distance_of(solvers, meshes, options));
+  const SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options);
+  add_search(answer.a_to_b, both.a_to_b);
+  add_search(*answer.b_to_a, both.b_to_a);
 }
 
 bool goes_on_to_worst(const Question& question, const Observer& observer, const Answer& answer) {

@@ -110,10 +110,6 @@ void check_area(const Question& question, const Mesh& mesh) {
          "a surface, of which --area " + question.area_requested + " asks a share");
 }
 
-}  // namespace
-
-namespace {
-
 // Corners that are off a plane by less than a tenth of the tolerance, as decimals of a slanted
 // plane are, make no difference. The interval says so itself where it is wider by them.
 void drop_small_ambiguities(double tolerance, Input& input) {
@@ -121,10 +117,6 @@ void drop_small_ambiguities(double tolerance, Input& input) {
     return note.code == NoteCode::kAmbiguity && *note.value <= 0.1 * tolerance;
   });
 }
-
-}  // namespace
-
-namespace {
 
 std::optional<PlacedInput> placed_of(const Question& question, const Mesh& a) {
   if (!a.placed) return std::nullopt;

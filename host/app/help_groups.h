@@ -1,4 +1,4 @@
-// What --help and --help-all show of a command.
+// Chooses what --help and --help-all show of a command.
 #pragma once
 
 #include <string>

@@ -192,9 +192,8 @@ ExitCode run_asked_batch(const Question& question, const BatchAsked& asked) {
 ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
   try {
     return run_asked_batch(question, asked);
-  } catch (const std::exception& error) {
-    Failure failure{.code = kExitUsage, .message = error.what(), .file = {}, .place = {}};
-    if (failure.message.starts_with(asked.list + ": ")) failure.file = asked.list;
+  } catch (...) {
+    const Failure failure = failure_of(error_of(std::current_exception()));
     if (asked.github) std::cout << github_annotation(failure) << std::flush;
     throw;
   }

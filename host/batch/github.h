@@ -1,4 +1,4 @@
-// What a batch tells GitHub Actions: docs.github.com, "Workflow commands for GitHub Actions".
+// Tells GitHub Actions about a batch: docs.github.com, "Workflow commands for GitHub Actions".
 #pragma once
 
 #include <string>

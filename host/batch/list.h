@@ -17,7 +17,7 @@ struct Entry {
   std::string tolerance, max, unit, unit_a, unit_b;
   std::string transform;  ///< a matrix's path that opens from here
   std::optional<bool> symmetric;
-  /// What is wrong with a file without a partner; empty: there is a pair.
+  /// The error of a file without a partner; empty: there is a pair.
   std::string missing = {};
   const std::string& one_file() const { return file_a.empty() ? file_b : file_a; }
 };

@@ -10,6 +10,7 @@
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/rounding.h"
+#include "host/base/system.h"
 #include "host/mesh/polygon.h"
 #include "host/read/corners_hash.h"
 #include "host/read/transform.h"
@@ -75,17 +76,15 @@ double up(Float128 x) {
 
 /// The factor by which the map lengthens at most, rounded up: its Frobenius norm.
 double growth_of(const MeshTransform& placement) {
-  Float128 square = 0;
+  constexpr double kOutward = 1 + 0x1p-50;  // a root, its argument, and the sums above
+  if (placement.is_identity()) return 1;
+  Float128 square = 1;
   if (placement.matrix) {
     const Rows3 squares = squares_of(*placement.matrix);
     square = squares[0][0] + squares[1][1] + squares[2][2];
-  } else {
-    square = 1;
   }
   const Float128 factor = float128(placement.numerator) / float128(placement.denominator);
-  constexpr double kOutward = 1 + 0x1p-50;  // a root, its argument, and the sums above
-  const bool is_exact = !placement.matrix && placement.numerator == placement.denominator;
-  return is_exact ? 1 : std::sqrt(up(square * factor * factor)) * kOutward;
+  return std::sqrt(up(square * factor * factor)) * kOutward;
 }
 
 /// One coordinate times p / q, to nearest but for a second rounding, and a bound of its error.
@@ -144,7 +143,7 @@ void check_finite(const Mesh& mesh, const std::string& unit) {
 }  // namespace
 
 MatrixRows read_matrix(const std::filesystem::path& path) {
-  const std::string name = path.string();
+  const std::string name = name_of(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) reject(name, "", "cannot be read", kAMatrix);
   constexpr std::streamsize kMost = 1 << 16;

@@ -117,26 +117,24 @@ bool asks_for_more(const Report& r) {
          (r.status == Status::kClosed || r.status == Status::kPrecision);
 }
 
-// Joins two reports: both intervals are true; the work is that of both.
-Report joined(const Report& coarse, Report r) {
-  if (coarse.lower > r.lower && coarse.has_witness) {
-    r.lower = coarse.lower;
-    r.witness_a = coarse.witness_a;
-    r.witness_b = coarse.witness_b;
+}  // namespace
+
+void narrow(Report& r, const Report& other) {
+  if (other.lower > r.lower && other.has_witness) {
+    r.lower = other.lower;
+    r.witness_a = other.witness_a;
+    r.witness_b = other.witness_b;
     r.has_witness = true;
   }
-  r.upper = std::min(r.upper, coarse.upper);
-  r.waves += coarse.waves;
-  r.candidates += coarse.candidates;
-  r.queries += coarse.queries;
-  r.peak_frontier = std::max(r.peak_frontier, coarse.peak_frontier);
-  r.times.upload_ms += coarse.times.upload_ms;
-  r.times.hierarchy_ms += coarse.times.hierarchy_ms;
-  r.times.solve_ms += coarse.times.solve_ms;
-  return r;
+  r.upper = std::min(r.upper, other.upper);
+  r.waves += other.waves;
+  r.candidates += other.candidates;
+  r.queries += other.queries;
+  r.peak_frontier = std::max(r.peak_frontier, other.peak_frontier);
+  r.times.upload_ms += other.times.upload_ms;
+  r.times.hierarchy_ms += other.times.hierarchy_ms;
+  r.times.solve_ms += other.times.solve_ms;
 }
-
-}  // namespace
 
 double tolerance_of(const Pair& pair) {
   return pair.options.tolerance_is_absolute
@@ -164,8 +162,10 @@ std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& s
   }
   if (open.empty()) return reports;
   std::vector<Report> again = solve(open);
-  for (size_t i = 0; i < open.size(); ++i)
-    reports[numbers[i]] = joined(reports[numbers[i]], std::move(again[i]));
+  for (size_t i = 0; i < open.size(); ++i) {
+    narrow(again[i], reports[numbers[i]]);
+    reports[numbers[i]] = std::move(again[i]);
+  }
   return reports;
 }
 

@@ -39,6 +39,10 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance);
 /// The pair's tolerance, in the files' units.
 double tolerance_of(const Pair& pair);
 
+/// Narrows a report by another search of the same pair: both intervals are true. The work is that
+/// of both, and all else stays.
+void narrow(Report& r, const Report& other);
+
 using Solve = std::function<std::vector<Report>(const std::vector<Pair>&)>;
 
 /// Calls `solve`, but asks about a limit in plain floats first if the tolerance is finer than these

@@ -1,4 +1,4 @@
-// What the program writes as JSON is read back as the bytes that they are, whatever was asked.
+// Reads the JSON that the program writes back as the same bytes, whatever was asked.
 #include <doctest/doctest.h>
 
 #include <string>
