@@ -15,14 +15,17 @@ endfunction()
 if(NOT VKH_SANITIZE)
   # Each takes over ten seconds, and checks the same as others do with more cases, on another device or driver, or in
   # processes that are ended. The faults, the proofs and the spoilt certificates guard what seldom changes.
-  vkh_label(full compile_amd fallbacks barriers workspace_test api_address_test api_limit_test api_move_test presets_test
+  vkh_label(full fallbacks barriers workspace_test api_address_test api_limit_test api_move_test presets_test
                  long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
-                 kernel_query_by_address kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address
+                 kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life)
+  # A minute and more each: the same kernels with more cases, in other orders, compiled for another card or system, and
+  # the examples of clusters.
   vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all driver_lavapipe128_more platform_arm64
-                     platform_arm64_more)
+                     platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
+                     orders_quick slurm dask clusters)
   return()
 endif()
 
@@ -50,7 +53,8 @@ vkh_label(full ${all})
 # also run by tests of one start, and searches of the same kernels with more cases.
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
-                  python_meshes python_lost python_environment python_fork python_certificate)
+                  python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs
+                  folder_pairs vulkan_faults_test)
 # The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz api_fuzz)
