@@ -21,11 +21,11 @@ if(NOT VKH_SANITIZE)
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life)
-  # A minute and more each: the same kernels with more cases, in other orders, compiled for another card or system, and
+  # A minute and more each: the same kernels with more cases, compiled for another card or system, and
   # the examples of clusters.
   vkh_label(nightly attack_long certificate_polygons_long batch_killed clang_all driver_lavapipe128_more platform_arm64
                      platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
-                     orders_quick slurm dask clusters)
+                     slurm dask clusters)
   return()
 endif()
 
