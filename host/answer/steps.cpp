@@ -167,13 +167,14 @@ void place_a(const Question& question, Mesh& a, const Mesh& b) {
 }
 
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
-  return take_meshes(question, {a, bounding_box(a)}, {b, bounding_box(b)}, answer);
+  return take_meshes(question, {a, shape_of(a)}, {b, shape_of(b)}, answer);
 }
 
-double take_meshes(const Question& question, const BoxedMesh& boxed_a, const BoxedMesh& boxed_b,
+double take_meshes(const Question& question, const ShapedMesh& shaped_a, const ShapedMesh& shaped_b,
                    Answer& answer) {
-  const auto& [a, box_a] = boxed_a;
-  const auto& [b, box_b] = boxed_b;
+  const auto& [a, shape_a] = shaped_a;
+  const auto& [b, shape_b] = shaped_b;
+  const Box &box_a = shape_a.box, &box_b = shape_b.box;
   const Units units = units_of(question, a, b);
   if (units.differ())
     throw UsageError("A is in " + units.a + " and B in " + units.b + ": convert one of them");
@@ -187,7 +188,7 @@ double take_meshes(const Question& question, const BoxedMesh& boxed_a, const Box
   answer.placed = placed_of(question, a);
   answer.inputs[0].box = box_a;
   answer.inputs[1].box = box_b;
-  for (Note& note : notes_on_boxes(box_a, box_b, answer.unit, question.option("unit")))
+  for (Note& note : notes_on_pair(shape_a, shape_b, answer.unit, question.option("unit")))
     answer.notes.push_back(std::move(note));
   for (Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (r == nullptr) continue;

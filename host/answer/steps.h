@@ -6,6 +6,7 @@
 #include <span>
 
 #include "host/answer/answer.h"
+#include "host/answer/pair_notes.h"
 #include "host/answer/question.h"
 #include "host/solve/solver.h"
 #include "host/solve/stream.h"
@@ -31,10 +32,10 @@ struct AskedMeshes {
   const PreparedMesh* prepared = nullptr;
 };
 
-/// A mesh and its bounding box, which a caller keeps for a mesh of many pairs.
-struct BoxedMesh {
+/// A mesh and its shape, which a caller keeps for a mesh of many pairs.
+struct ShapedMesh {
   const Mesh& mesh;
-  Box box;
+  MeshShape shape;
 };
 
 /// The answer before anything is read: [0, infinity).
@@ -51,9 +52,9 @@ bool is_placed(const Question& question, const Mesh& a, const Mesh& b);
 /// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal
 /// and both deltas. Throws UsageError for units that do not go together and for lengths that cannot
 /// be converted to the files' unit, and InputError where a share is asked of a mesh without area.
-double take_meshes(const Question& question, const BoxedMesh& a, const BoxedMesh& b,
+double take_meshes(const Question& question, const ShapedMesh& a, const ShapedMesh& b,
                    Answer& answer);
-/// Does the same, and finds the boxes.
+/// Does the same, and finds the shapes.
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer);
 
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.

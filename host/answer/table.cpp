@@ -6,6 +6,7 @@
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
+#include "host/base/system.h"
 
 namespace vkh {
 namespace {
@@ -107,6 +108,9 @@ std::string unit_text(const Answer& answer) {
 
 // Writes the length of the request, and its value in the files' unit.
 std::string length_text(const Answer& answer, const Length& asked, double resolved) {
+  if (asked.of == Length::Of::kFiles ||
+      (asked.of == Length::Of::kUnit && asked.unit == answer.unit))
+    return printed("%.6g ", resolved) + unit_text(answer);
   std::string text = asked.requested;
   if (asked.of == Length::Of::kDiagonal) {
     text += text.ends_with("diag") ? "(A)" : " of diag(A)";
@@ -232,17 +236,18 @@ void print_part(std::ostream& out, const Answer& answer) {
 
 /// Whether the note stands with the sizes, or in the first line.
 bool is_said_first(NoteCode code) {
-  return code == NoteCode::kUnits || code == NoteCode::kSize || code == NoteCode::kApart ||
-         code == NoteCode::kOneWay || code == NoteCode::kCoverage || code == NoteCode::kConverted;
+  return is_odd_pair(code) || code == NoteCode::kOneWay || code == NoteCode::kCoverage ||
+         code == NoteCode::kConverted;
 }
 
 /// Prints the boxes' sizes, and what is odd about them.
 void print_sizes(std::ostream& out, const Answer& answer) {
   if (!answer.inputs[0].box || !answer.inputs[1].box) return;
-  const std::string unit = answer.unit.empty() ? "" : " " + answer.unit;
-  print_row(out, "size",
-            "A " + size_text(*answer.inputs[0].box) + unit + ", B " +
-                size_text(*answer.inputs[1].box) + unit);
+  const auto sized = [&](const char* name, const Input& input) {
+    return name + size_text(*input.box) + (answer.unit.empty() ? "" : " " + answer.unit) + " (" +
+           printable(file_name_of(input.path)) + ")";
+  };
+  print_row(out, "boxes", sized("A ", answer.inputs[0]) + ", " + sized("B ", answer.inputs[1]));
   for (const Note& note : answer.notes) {
     if (is_said_first(note.code) && note.code != NoteCode::kOneWay)
       print_row(out, "note", printable(line_of(note)));
@@ -275,7 +280,7 @@ void print_interval(std::ostream& out, const Answer& answer) {
             enclosed(answer, whole.lower, whole.upper, whole.status) +
                 (is_sought || !has_worst ? "" : "; --worst goes on to the farthest point"));
   if (!is_sought) return;
-  print_row(out, "width",
+  print_row(out, "known to",
             decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " +
                 unit_text(answer) +
                 (answer.a_to_b.diagonal_a > 0

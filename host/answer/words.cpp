@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "engine/vkhausdorff.h"
 #include "host/answer/answer.h"
+#include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
 
@@ -112,7 +114,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const double shown =
       is_known ? std::min(r.lower - limit.beyond, std::max(margin, 2e-3 * r.lower)) : margin;
   std::string text = is_known ? "FAIL  " : "FAIL  at least ";
-  text += length_down(answer, r.lower, shown);
+  text += length_down(answer, r.lower, shown) + (back ? " from B to A" : " from A to B");
   text += r.has_witness ? " at " + point_text(answer, r.witness_a) + " of " + from
                         : " at a point of " + from;
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
@@ -167,8 +169,7 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
            length_down(answer, whole.lower, std::max(gap, 2e-3 * whole.lower));
   if (whole.upper <= 0.5 * answer.max->limit.within)
     return "largest deviation at most " + length_up(answer, whole.upper, gap);
-  return "a point is " + length_down(answer, whole.lower, whole.upper - whole.lower) +
-         " away; --worst finds the farthest";
+  return "largest deviation in " + interval_text(answer, whole) + "; --worst narrows it";
 }
 
 std::string gate_in_words(const Answer& answer) {
@@ -201,7 +202,26 @@ bool is_one_way_pass(const Answer& answer) {
   return answer.max && !answer.b_to_a && !answer.part && verdict_of(answer) == Verdict::kWithin;
 }
 
-constexpr const char* kOneWay = "A to B only; --symmetric also asks what A lacks of B";
+constexpr const char* kOneWay = "A to B only; --symmetric also finds what A lacks of B";
+
+/// What is odd about the pair, in a few words; empty: nothing.
+std::string oddities(const Answer& answer) {
+  std::string text;
+  for (const Note& note : answer.notes) {
+    if (is_odd_pair(note.code)) text += (text.empty() ? "" : "; ") + clause_of(note);
+  }
+  return text;
+}
+
+/// Warns within the answer: a PASS says first that the pair is odd, since few read on.
+std::string warned(const Answer& answer, std::string text) {
+  const std::string odd = oddities(answer);
+  if (odd.empty()) return text;
+  constexpr std::string_view kPass = "PASS  ";
+  if (text.starts_with(kPass))
+    return text.insert(kPass.size(), "if the inputs are right (" + odd + "): ");
+  return text + ". Check the inputs: " + odd;
+}
 
 }  // namespace
 
@@ -256,7 +276,7 @@ const char* stop_reason(Status status) {
     case Status::kPruned:
       return "it exceeds a lower bound that was known by no more than the tolerance";
     case Status::kLimit:
-      return "the limit was decided, which was all that was asked";
+      return "the search stopped once the verdict was certain";
   }
   return "unknown";
 }
@@ -302,8 +322,9 @@ std::string printable(const std::string& text) {
 
 std::string in_words(const Answer& answer) {
   if (!answer.first_line.empty()) return answer.first_line;
-  if (!answer.max) return distance_in_words(answer);
-  return gate_in_words(answer) + (is_one_way_pass(answer) ? std::string(". ") + kOneWay : "");
+  if (!answer.max) return warned(answer, distance_in_words(answer));
+  return warned(answer, gate_in_words(answer)) +
+         (is_one_way_pass(answer) ? std::string(". ") + kOneWay : "");
 }
 
 std::vector<Note> notes_of(const Answer& answer) {

@@ -8,11 +8,11 @@
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 26> kCodeNames = {
-    "polygons",  "ambiguity", "bodies",    "short-faces", "elements",     "surfaces",   "calls",
-    "unread",    "scene",     "rotations", "positions",   "morph",        "animations", "units",
-    "size",      "apart",     "one-way",   "coverage",    "unit-assumed", "converted",  "stretch",
-    "tolerance", "memory",    "devices",   "certificate", "survey"};
+constexpr std::array<std::string_view, 27> kCodeNames = {
+    "polygons", "ambiguity", "bodies",    "short-faces", "elements",    "surfaces",     "calls",
+    "unread",   "scene",     "rotations", "positions",   "morph",       "animations",   "units",
+    "size",     "turn",      "apart",     "one-way",     "coverage",    "unit-assumed", "converted",
+    "stretch",  "tolerance", "memory",    "devices",     "certificate", "survey"};
 static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kSurvey) + 1);
 
 }  // namespace
@@ -49,6 +49,7 @@ bool is_for_servers(NoteCode code) {
     case NoteCode::kBodies:
     case NoteCode::kUnits:
     case NoteCode::kSize:
+    case NoteCode::kTurn:
     case NoteCode::kApart:
     case NoteCode::kCoverage:
     case NoteCode::kConverted:

@@ -29,6 +29,7 @@ enum class NoteCode {
   // Notes on the pair.
   kUnits,        ///< the boxes differ by a factor between units on every axis
   kSize,         ///< A's box is much smaller or larger than B's on an axis
+  kTurn,         ///< the principal axes are turned
   kApart,        ///< the boxes lie apart
   kOneWay,       ///< what A lacks of B was not asked
   kCoverage,     ///< a share of B's area is far from A

@@ -18,6 +18,11 @@ inline std::string name_of(const std::filesystem::path& path) {
   return {name.begin(), name.end()};
 }
 
+/// The last part of a path, or all of it if that is empty.
+inline std::string file_name_of(const std::string& path) {
+  return path_of(path).filename().empty() ? path : path.substr(path.find_last_of("/\\") + 1);
+}
+
 /// The place of a file, existing or not: absolute, links followed. Without absolute(), a relative
 /// name of a file that does not exist yet stays relative.
 inline std::filesystem::path place_of(const std::string& name) {

@@ -112,8 +112,8 @@ void Flow::solve(FlowPair pair) {
   running->b = against ? against : made_mesh(std::move(pair.b), limits);
   running->a = placed(question, running->a, *running->b);
   running->answer = unread_answer(question);
-  const Box box_b = against ? asked_.against.box : bounding_box(*running->b);
-  take_meshes(question, {*running->a, bounding_box(*running->a)}, {*running->b, box_b},
+  const MeshShape shape_b = against ? asked_.against.shape : shape_of(*running->b);
+  take_meshes(question, {*running->a, shape_of(*running->a)}, {*running->b, shape_b},
               running->answer);
   push(pair.number, running);
 }

@@ -440,8 +440,8 @@ MeshPointer mesh_of(const std::string& name, const py::object& vertices, const p
 
 KeptMesh kept(MeshPointer mesh) {
   const FloatEnvironment ours;
-  const Box box = bounding_box(*mesh);
-  return {std::move(mesh), box};
+  const MeshShape shape = shape_of(*mesh);
+  return {std::move(mesh), shape};
 }
 
 }  // namespace vkh::python

@@ -8,20 +8,20 @@
 #include <optional>
 #include <string>
 
+#include "host/answer/pair_notes.h"
 #include "host/answer/question.h"
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
 #include "host/read/read_limits.h"
-#include "host/solve/frame.h"
 
 namespace vkh::python {
 
 using MeshPointer = std::shared_ptr<const Mesh>;
 
-/// A mesh of many pairs, with its bounding box.
+/// A mesh of many pairs, with its shape.
 struct KeptMesh {
   MeshPointer mesh;
-  Box box;
+  MeshShape shape;
 };
 
 KeptMesh kept(MeshPointer mesh);

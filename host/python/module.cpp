@@ -83,7 +83,8 @@ void define_gate(py::module_& m) {
         "gate(a, b, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
         "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
         "     field=False, statistics=False, bands=(), area=None, effort=None, survey_time=None,\n"
-        "     certificate=None, unit_a=None, unit_b=None, transform=None, scale=False)\n--\n\n"
+        "     certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
+        "     worst=False)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 

@@ -255,6 +255,7 @@ Question question_of(const char* command, const Arguments& given) {
   read_max(given, question);
   read_engine(given, question.options);
   question.symmetric = given.flag("symmetric");
+  question.worst = given.flag("worst");
   read_area(given, question);
   read_survey(given, question);
   read_placement(given, question);

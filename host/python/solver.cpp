@@ -59,7 +59,7 @@ struct Given {
   py::object progress;
   std::unique_ptr<OutputFile> certificate;
   MeshPointer a, b;
-  Box box_b;
+  MeshShape shape_b;
 
   Given(const char* command, const Arguments& given, MeshPointer mesh_a, KeptMesh mesh_b)
       : question(question_of(command, given)),
@@ -67,7 +67,7 @@ struct Given {
         certificate(certificate_file(given)),
         a(std::move(mesh_a)),
         b(std::move(mesh_b.mesh)),
-        box_b(mesh_b.box) {
+        shape_b(mesh_b.shape) {
     question.certificate = certificate != nullptr;
     if (question.certificate && (question.area || question.is_by_face()))
       throw UsageError(
@@ -127,8 +127,7 @@ Result answered(Given given, Session& session) {
   {
     const FloatEnvironment ours;
     given.a = placed(given.question, given.a, *given.b);
-    take_meshes(given.question, {*given.a, bounding_box(*given.a)}, {*given.b, given.box_b},
-                answer);
+    take_meshes(given.question, {*given.a, shape_of(*given.a)}, {*given.b, given.shape_b}, answer);
   }
   session.use([&](Solver& solver, const PreparedMesh* prepared) {
     Listener listener(given);
@@ -201,14 +200,14 @@ Result distance(const py::args& positional, const py::kwargs& named) {
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"gate",
-                    {"a",           "b",           "max",        "tol",     "symmetric", "device",
-                     "time",        "waves",       "memory",     "disable", "progress",  "enable",
-                     "preset",      "field",       "statistics", "bands",   "area",      "effort",
-                     "survey_time", "certificate", "unit_a",     "unit_b",  "transform", "scale"},
-                    3,
-                    3};
+  static const auto* signature = new Signature{
+      "gate",
+      {"a",          "b",         "max",     "tol",      "symmetric",   "device",      "time",
+       "waves",      "memory",    "disable", "progress", "enable",      "preset",      "field",
+       "statistics", "bands",     "area",    "effort",   "survey_time", "certificate", "unit_a",
+       "unit_b",     "transform", "scale",   "worst"},
+      3,
+      3};
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),

@@ -7,10 +7,6 @@
 namespace vkh {
 namespace {
 
-std::string file_name_of(const std::string& path) {
-  return path_of(path).filename().empty() ? path : path.substr(path.find_last_of("/\\") + 1);
-}
-
 PictureOptions options_of(const PictureStyle& look, const Answer& answer) {
   PictureOptions options = look.options;
   if (!look.range) return options;

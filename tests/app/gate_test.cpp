@@ -44,18 +44,24 @@ bool starts_with(const std::string& text, const std::string& begin) {
 TEST_CASE("PASS, FAIL and UNDECIDED: words first, and the exit code") {
   const Outcome pass = gate("0.3abs");
   CHECK(pass.exit_code == 0);
-  CHECK(starts_with(pass.out, "PASS  every point of A is within 0.3 of B, proven ("));
-  CHECK(starts_with(gate("0.3abs", {"--worst"}).out,
-                    "PASS  every point of A is within 0.3 of B, proven (largest deviation 0.2"));
+  // The boxes are far apart for their size, which each first line says.
+  const std::string odd =
+      "the boxes of A and B do not meet, and their centres are 0.25 apart, A's by (0, 0, -0.25)";
+  const std::string odd_pass = "PASS  if the inputs are right (" + odd + "): ";
+  CHECK(starts_with(pass.out, odd_pass + "every point of A is within 0.3 of B, proven ("));
+  CHECK(
+      starts_with(gate("0.3abs", {"--worst"}).out,
+                  odd_pass + "every point of A is within 0.3 of B, proven (largest deviation 0.2"));
   CHECK(starts_with(gate("9abs").out,
-                    "PASS  every point of A is within 9 of B, proven (largest deviation "));
+                    odd_pass + "every point of A is within 9 of B, proven (largest deviation "));
   const Outcome fail = gate("0.2abs");
   CHECK(fail.exit_code == 1);
-  CHECK(pass.out.find("). A to B only; --symmetric also asks what A lacks of B\n") !=
+  CHECK(pass.out.find("). A to B only; --symmetric also finds what A lacks of B\n") !=
         std::string::npos);
   CHECK(starts_with(fail.out, "FAIL  at least 0.2"));
+  CHECK(fail.out.find(" from A to B at (") != std::string::npos);
   CHECK(fail.out.find(") on face ") != std::string::npos);
-  CHECK(fail.out.find(" of A, limit 0.2\n") != std::string::npos);
+  CHECK(fail.out.find(" of A, limit 0.2. Check the inputs: " + odd + "\n") != std::string::npos);
   CHECK(gate("0.3abs", {"--symmetric"}).out.find("A to B only") == std::string::npos);
   const Outcome undecided = gate("0.25abs");
   CHECK(undecided.exit_code == 3);
@@ -98,7 +104,11 @@ TEST_CASE("both directions: what is beyond may be a point of B") {
   const Outcome outcome = run(both);
   CHECK(outcome.exit_code == 1);
   CHECK(starts_with(outcome.out, "FAIL  at least 0.9"));
-  CHECK(outcome.out.find(" of B, limit 0.5\n") != std::string::npos);
+  CHECK(outcome.out.find(" from B to A at (") != std::string::npos);
+  CHECK(
+      outcome.out.find(
+          " of B, limit 0.5. Check the inputs: A's extent in x is 50 % of B's; the boxes' centres "
+          "are 0.5 apart, A's by (-0.5, 0, 0)\n") != std::string::npos);
   both[4] = "1.01abs";
   CHECK(run(both).exit_code == 0);
 }
@@ -121,7 +131,7 @@ TEST_CASE("units: what the files are in, and what a length is in") {
     CHECK(outcome.err.find("--max '0.1 mm': write 0.1mm, without a blank") != std::string::npos);
   }
   const std::string line = gate("7mm", {"--unit", "in"}).out;
-  CHECK(starts_with(line, "PASS  every point of A is within 7 mm of B, proven ("));
+  CHECK(line.find("): every point of A is within 7 mm of B, proven (") != std::string::npos);
   CHECK(line.substr(0, line.find('\n')).find("). A to B only") != std::string::npos);
   const json r = json::parse(gate("7mm", {"--unit", "in", "--json"}).out);
   CHECK(r["interval"]["unit"] == "in");

@@ -42,6 +42,22 @@ class Gates(unittest.TestCase):
             with self.assertRaisesRegex(TypeError, "^b: expected .vertices, faces."):
                 vkh.gate(A, wrong, 0.3)
 
+    def test_worst_goes_on_to_the_farthest_point(self):
+        tilted = (SQUARE + [[0, 0, 0], [0, 0, 4], [0, 0, 4], [0, 0, 0]], FACES)
+        floor = (SQUARE * 20 - [5, 5, 0], FACES)
+        found = vkh.gate(tilted, floor, 0.001, worst=True)
+        self.assertEqual((found.verdict, found.status), ("fail", "limit"))
+        self.assertLessEqual(found.upper - found.lower, 4.1e-3)
+        self.assertTrue(found.lower <= 4 <= found.upper)
+        plain = vkh.gate(tilted, floor, 0.001)
+        self.assertEqual(plain.verdict, "fail")
+        self.assertGreaterEqual(plain.upper, found.upper)
+        passed = vkh.gate(tilted, floor, 9, worst=True)
+        self.assertEqual(passed.verdict, "pass")
+        self.assertLessEqual(passed.upper - passed.lower, 4.1e-3)
+        with self.assertRaisesRegex(TypeError, "^worst: "):
+            vkh.gate(tilted, floor, 1, worst=1)
+
     def test_assertions(self):
         self.assertIsNone(vkh.assert_within(A, B, 0.3))
         with self.assertRaisesRegex(AssertionError, r"^FAIL: .* on face [01] of A is at least 0\.2\d+ from B; max is 0\.2$"):

@@ -357,6 +357,7 @@ def gate(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    worst: bool = False,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str], *, max_input: SupportsIndex | str | None = None,

@@ -1,0 +1,35 @@
+// A surface's area, centroid and principal axes: figures for notes, in ordinary double arithmetic.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+/// The principal axes of a surface, each point of it weighing alike. They go by the surface and not
+/// by its triangles, so that a scan of a part has those of its CAD.
+struct PrincipalAxes {
+  double area = 0;
+  DVec3 centroid{};  ///< of the surface
+  /// The mean squared distances from the centroid along each axis, the least first; zeros where
+  /// there is no area, or a figure is too large for a double.
+  DVec3 variances{};
+  std::array<DVec3, 3> axes{};  ///< principal axes, of length 1 and of either sign
+};
+/// The same figures to the bit whatever the number of threads is.
+PrincipalAxes principal_axes_of(const Mesh& mesh);
+
+/// By how much the variances of two surfaces differ at most, as a share of the largest of `b`; 1 or
+/// more where one has no axes.
+double difference_in_shape(const PrincipalAxes& a, const PrincipalAxes& b);
+
+/// The angle in degrees by which the principal axes of `a` are turned against those of `b`, where
+/// it tells something: the variances agree so well that the shapes, if they are one, would be off
+/// by at most a third of it, and it is 0.25 degrees or more. An axis counts if its variance is a
+/// twentieth of the largest apart from the others'. Axes have no sign, so that half turns are not
+/// seen.
+std::optional<double> turn_between(const PrincipalAxes& a, const PrincipalAxes& b);
+
+}  // namespace vkh
