@@ -132,7 +132,7 @@ double gap_as_printed(const Answer& answer, double lower, double upper);
 /// A file's name as a terminal may show it: control characters are written as \xNN.
 std::string printable(const std::string& text);
 
-// servers.cpp defines this one.
+// junit_github.cpp defines this one.
 
 /// Picks the notes that build servers get too (is_for_servers): "size: ...", "A: polygons: ...".
 std::vector<std::string> server_notes(std::span<const Note> pair, std::span<const Note> a,
@@ -175,7 +175,7 @@ struct TableRow {
 };
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey);
 
-// servers.cpp defines these: the formats that build servers read.
+// junit_github.cpp defines these: the formats that build servers read.
 
 /// The outcome of one JUnit test case; `element` empty: it passed.
 struct JunitCase {

@@ -10,7 +10,7 @@
 #include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
-#include "host/solve/joined.h"
+#include "host/solve/join_reports.h"
 
 namespace vkh {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "host/answer/question.h"
 #include "host/app/picture_options.h"
-#include "host/batch/folders.h"
 #include "host/batch/list.h"
+#include "host/batch/picture_folders.h"
 #include "host/solve/stream.h"
 
 namespace vkh {

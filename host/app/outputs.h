@@ -34,8 +34,9 @@ class Destinations {
 /// OutputError.
 void append_github_summary(const std::string& text);
 
-/// Reports words that are not understood, or cannot be done, where they ask for JSON, JUnit's XML
-/// or an annotation. Writes to no file that another word names.
+/// Reports a usage error in the formats that the command line asks for: JSON or JUnit (distance,
+/// gate, demo), or an annotation (batch). If an output file is also named by another word, writes
+/// neither JSON nor JUnit.
 void tell_misuse(const Words& words, const UsageError& error);
 
 }  // namespace vkh

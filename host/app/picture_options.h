@@ -7,8 +7,8 @@
 
 #include "host/answer/asking.h"
 #include "host/base/output_file.h"
-#include "host/batch/folders.h"
-#include "host/show/drawn.h"
+#include "host/batch/picture_folders.h"
+#include "host/show/draw_answer.h"
 
 namespace CLI {
 class App;

@@ -72,7 +72,8 @@ Error error_of(const std::exception_ptr& thrown);
 template <ErrorKind kKind, class Base = Error>
 class ErrorOf : public Base {
  public:
-  /// A template, for g++ takes two members in braces for the two pointers of a string otherwise.
+  /// A template, because with a std::string parameter g++ would read {"x", "y"} as a string's begin
+  /// and end instead of as two members of ErrorParts.
   template <std::convertible_to<std::string> Text>
   explicit ErrorOf(const Text& problem) : ErrorOf(ErrorParts{.problem = problem}) {}
   explicit ErrorOf(ErrorParts parts) : Base(kKind, std::move(parts)) {}

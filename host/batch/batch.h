@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/batch/folders.h"
+#include "host/batch/picture_folders.h"
 #include "host/batch/reader.h"
 #include "host/batch/totals.h"
 #include "host/solve/stream.h"

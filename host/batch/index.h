@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/answer/record.h"
-#include "host/show/drawn.h"
+#include "host/show/draw_answer.h"
 
 namespace vkh {
 

@@ -56,7 +56,8 @@ enum class Reply { kGoOn, kCancel, kRaised };
 /// does, and Raised.
 bool ask(Reply (*question)(void*), void* about);
 
-/// Waits for `ready`, and does `change` before any other thread does one. Throws Ended.
+/// Waits until `ready` returns true, then calls `change` under the same lock, so that no other
+/// change comes between. Throws Ended.
 void change_when(const std::function<bool()>& ready, const std::function<void()>& change);
 void change_now(const std::function<void()>& change);
 

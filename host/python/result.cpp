@@ -90,7 +90,7 @@ Result result_from_state(const py::tuple& state) {
 
 // Reads a member whether there is an answer or not.
 template <class Get>
-auto of_any(Get get) {
+auto of_any_result(Get get) {
   return [get](const py::object& self) { return get(made<Result>(self, "Result")); };
 }
 
@@ -218,10 +218,11 @@ void define_values(py::class_<Result>& result) {
       .def("to_dict", dict_of,
            "to_dict(self)\n--\n\n"
            "All of it as plain values, which json.dumps takes.")
-      .def("__repr__", of_any(text_of))
+      .def("__repr__", of_any_result(text_of))
       .def("__eq__", equal)
-      .def("__hash__",
-           of_any([](const Result& r) { return py::hash(py::make_tuple(r.lower, r.upper)); }))
+      .def("__hash__", of_any_result([](const Result& r) {
+             return py::hash(py::make_tuple(r.lower, r.upper));
+           }))
       .def(py::pickle(
           [](const py::object& self) {
             const Result& r = made<Result>(self, "Result");
@@ -233,12 +234,12 @@ void define_values(py::class_<Result>& result) {
 // Defines what distances() adds about a pair.
 void define_place(py::class_<Result>& result) {
   result
-      .def_property_readonly("index", of_any([](const Result& r) { return r.index; }),
+      .def_property_readonly("index", of_any_result([](const Result& r) { return r.index; }),
                              "of distances(): the pair's place in the iterable, from 0; else None")
-      .def_property_readonly("id", of_any([](const Result& r) { return r.id; }),
+      .def_property_readonly("id", of_any_result([](const Result& r) { return r.id; }),
                              "of distances(): what the pair was called, as it was given; else None")
       .def_property_readonly(
-          "error", of_any([](const Result& r) { return r.error; }),
+          "error", of_any_result([](const Result& r) { return r.error; }),
           "of distances(): the exception that the pair ended with, else None. Where it is one,\n"
           "whatever else is asked of the result raises it");
 }

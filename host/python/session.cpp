@@ -92,7 +92,8 @@ void Session::prepare(Mesh b) {
   });
 }
 
-// Each step may throw and be tried again by the next call.
+// If a step throws, the session stays lost, and the next call repeats all of this: B is kept until
+// it is prepared again.
 void Session::reopen() {
   if (parts_ != nullptr && parts_->b) lost_b_ = parts_->b->mesh();
   parts_.reset();

@@ -36,7 +36,7 @@ T named(const std::array<std::string_view, kCount>& names, std::string_view name
 /// fault.
 class Handler {
  public:
-  Handler(const MeshSource& source, const JsonText& text) : source_(source), text_(text) {}
+  Handler(const MeshSource& source, const GltfJsonText& text) : source_(source), text_(text) {}
   Model model;
 
   bool null() { return other(); }
@@ -96,7 +96,7 @@ class Handler {
   }
 
   const MeshSource& source_;
-  const JsonText& text_;
+  const GltfJsonText& text_;
   std::array<Frame, 8> frames_;  // objects that matter lie five deep at most
   size_t depth_ = 0, skipped_ = 0;
   uint32_t count_ = 0;  // numbers in the array that is open
@@ -390,7 +390,7 @@ void Handler::finish() const {
 }  // namespace
 
 Model read_model(const MeshSource& source, std::string_view json) {
-  JsonText text(json);
+  GltfJsonText text(json);
   Handler handler(source, text);
   const bool is_whole = nlohmann::json::sax_parse(JsonIterator(text), JsonIterator(), &handler);
   if (text.is_too_long()) handler.fail("a number of too many digits", "numbers of at most 2048");

@@ -10,11 +10,11 @@ namespace vkh::gltf {
 
 /// The bytes that a parser is given for a document's: the same ones, but strings of more than
 /// kLongest bytes are empty.
-class JsonText {
+class GltfJsonText {
  public:
   static constexpr size_t kLongest = 2048;
 
-  explicit JsonText(std::string_view text) : text_(text) {}
+  explicit GltfJsonText(std::string_view text) : text_(text) {}
 
   /// -1 at the end, and where a number has more than kLongest digits.
   int next() {
@@ -59,7 +59,7 @@ class JsonText {
   bool in_string_ = false, is_escaped_ = false, is_too_long_ = false;
 };
 
-/// The parser's view of the text: an input iterator with the text's own state.
+/// An input iterator over a GltfJsonText, which holds the position: copies advance together.
 class JsonIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -69,7 +69,7 @@ class JsonIterator {
   using reference = char;
 
   JsonIterator() = default;  ///< the end
-  explicit JsonIterator(JsonText& text) : text_(&text), current_(text.next()) {}
+  explicit JsonIterator(GltfJsonText& text) : text_(&text), current_(text.next()) {}
 
   char operator*() const { return static_cast<char>(current_); }
   JsonIterator& operator++() {
@@ -80,7 +80,7 @@ class JsonIterator {
   bool operator!=(const JsonIterator& other) const { return current_ != other.current_; }
 
  private:
-  JsonText* text_ = nullptr;
+  GltfJsonText* text_ = nullptr;
   int current_ = -1;
 };
 

@@ -254,7 +254,8 @@ class ObjReader {
     return static_cast<uint32_t>(index - 1);
   }
 
-  // Notes the relative corners of the triangles that the face is fanned into.
+  // Records which corners of the face's triangles had negative indices: they are shifted once the
+  // number of vertices in the blocks before is known.
   void note_relative() {
     if (std::none_of(indices_.begin(), indices_.end(), [](int32_t i) { return i < 0; })) return;
     size_t number = 3 * builder_.face_count();

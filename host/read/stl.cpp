@@ -365,7 +365,7 @@ bool is_ascii(std::string_view bytes) {
          is_word(bytes.substr(begin, 5), "solid") && bytes.find('\0') == std::string_view::npos;
 }
 
-/// The corners and facets of a block.
+/// Keeps the corners of a block, three for each facet.
 struct KeepingUse {
   std::vector<glm::dvec3> corners;
 

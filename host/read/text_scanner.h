@@ -39,8 +39,8 @@ class TextScanner {
   bool next_full_line();
   /// True where the current line ends in a backslash that no comment holds.
   bool is_continued() const;
-  /// Appends the lines that continue the current one. A backslash may not split a word: '2\' and
-  /// '4' are one number to some readers and two to others.
+  /// Appends the lines that continue the current one. Fails if a backslash splits a word: some
+  /// readers take '2\' and '4' as one number, others as two.
   void join_continued_lines();
 
   /// The next word of the current line, empty at its end.

@@ -160,7 +160,8 @@ Affine compose(const Affine& outer, const Affine& inner) {
   return map;
 }
 
-// Four products and three sums in any order: 4 ulp of the terms' sum by size, taken as 5.
+// Three products and three sums round each term at most four times, in any order: 4 kUlp of the sum
+// of the terms' sizes, taken as 5.
 Mover::Mover(const Affine& map, double relative) : map_(map) {
   for (size_t r = 0; r < 3; ++r)
     relative_[r] = (is_exact(map.m[r], map.off[r]) ? 0 : 5 * kUlp) + 2 * relative;

@@ -11,7 +11,7 @@
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"
 #include "host/show/page_markup.h"
-#include "host/show/shown.h"
+#include "host/show/page_mesh.h"
 
 namespace vkh {
 namespace {

@@ -7,7 +7,7 @@
 #include <zlib.h>
 #endif
 
-#include "host/show/shown.h"
+#include "host/show/page_mesh.h"
 
 namespace vkh {
 namespace {

@@ -185,8 +185,8 @@ class Search {
     open_.push_back(std::move(group));
   }
 
-  /// Takes the largest of each end as the whole's interval; the witness is the one that decides, or
-  /// that of the largest lower bound.
+  /// Adds one run to the whole: the largest upper bound, and the largest lower bound with its
+  /// witness. A run that decides gives its own lower bound and witness instead.
   void add(Report r, bool is_beyond) {
     if (is_beyond) {
       out_.verdict = Verdict::kBeyond;

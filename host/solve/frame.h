@@ -34,8 +34,8 @@ struct Frame {
   double to_frame(double length) const;
   /// The largest |frame coordinate| in a box, to within a rounding.
   double extent(const Box& box) const;
-  /// A length of the frame in the files' units. Exact unless it underflows; then 0 or the smallest
-  /// double.
+  /// Convert a length of the frame to the files' units, rounded down or up. Exact unless the result
+  /// is subnormal.
   double length_down(double frame_length) const;
   double length_up(double frame_length) const;
   /// The interval for the given coordinates from the one certified for the stored coordinates:

@@ -190,7 +190,8 @@ VkDeviceSize PairBuffers::take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize
   return bytes;
 }
 
-// Building B needs scratch, before the run needs its workspace.
+// On the device one buffer serves twice: as scratch while B's BVH is built, then as the run's
+// workspace. If memory is scarce, the scratch is a buffer of its own in the host's memory.
 VkDeviceSize PairBuffers::take_workspace(const VkhWorkspaceRequirements& needed,
                                          VkDeviceSize scratch, const RunInput& in,
                                          MemoryBudget budget) {

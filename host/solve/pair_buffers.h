@@ -98,7 +98,8 @@ class PairBuffers {
   /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes. Throws
   /// MemoryError if there is no room for it, DeviceError if the device cannot have it.
   void take(VkhContext context, const RunInput& input, RunOutput& output, MemoryBudget budget);
-  /// Takes B alone, and returns the memory for its BVH.
+  /// Allocates and fills B's buffers, without A, and scratch for the build; returns the memory that
+  /// its BVH will be built in.
   ResidentMesh take_resident(VkhContext context, const MeshData& b, MemoryPolicy policy);
 
   /// The problem as the library gets it. `mesh_b` and `scratch` are for building B's BVH; null if B

@@ -144,7 +144,8 @@ VkCommandBuffer Runner::begin() {
   return commands;
 }
 
-// Writes a timestamp where the library writes none.
+// Writes a timestamp, unless the library times its own stages in this run or the device has no
+// timestamps.
 void Runner::stamp(VkCommandBuffer commands, const char* name) {
   if (stage_times_ || !device_.has_timestamps()) return;
   device_.vk().CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, profile_.pool,

@@ -17,7 +17,7 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/solve/frame.h"
-#include "host/solve/joined.h"
+#include "host/solve/join_reports.h"
 #include "host/solve/part.h"
 
 namespace vkh {

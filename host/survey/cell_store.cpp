@@ -12,7 +12,7 @@
 namespace vkh {
 namespace {
 
-gpu::CellBounds unknown(float farthest) {
+gpu::CellBounds unknown_bounds(float farthest) {
   return {.lower_a = 0,
           .lower_b = 0,
           .lower_c = 0,
@@ -71,7 +71,7 @@ CellStore::CellStore(const Mesh& a, float farthest) : a_(a), reached_(a.faces.si
   whole.start = gpu::kNone;
   cells_.assign(a.faces.size(), whole);
   for (size_t i = 0; i < cells_.size(); ++i) cells_[i].face = static_cast<uint32_t>(i);
-  bounds_.assign(cells_.size(), unknown(farthest));
+  bounds_.assign(cells_.size(), unknown_bounds(farthest));
   depth_.assign(cells_.size(), 0);
   opposite_.resize(cells_.size());
   each_of(cells_.size(), [&](size_t i) { see_split(i); });

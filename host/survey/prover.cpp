@@ -194,10 +194,10 @@ class Prover {
     if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
   }
 
-  // The parts for which all of B is searched: those that are too small to ask the device about, and
-  // those whose face is the nearest but for what a float rounds, as the device may have named the
-  // wrong one. The farthest of the others is searched, too: if it is too far, halving helps none of
-  // them.
+  // Chooses the parts for which all of B is searched: those too small to ask the device about, and
+  // small ones whose known faces are within the bound but for a float's rounding, since the device
+  // may have missed a nearer face. Of the others only the farthest: if all of B is too far from it,
+  // the bound must be raised, and halving the rest would be in vain.
   std::vector<Open*> to_search(std::vector<Open>& open) {
     std::vector<Open*> sought;
     Open* farthest = nullptr;

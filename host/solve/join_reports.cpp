@@ -1,4 +1,4 @@
-#include "host/solve/joined.h"
+#include "host/solve/join_reports.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "host/batch/folders.h"
+#include "host/batch/picture_folders.h"
 
 #include <algorithm>
 #include <exception>

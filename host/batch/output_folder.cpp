@@ -1,4 +1,4 @@
-#include "host/batch/pair_folder.h"
+#include "host/batch/output_folder.h"
 
 #include <algorithm>
 #include <array>

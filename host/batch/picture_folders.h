@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/batch/pair_folder.h"
+#include "host/batch/output_folder.h"
 #include "host/batch/reader.h"
-#include "host/show/drawn.h"
+#include "host/show/draw_answer.h"
 #include "host/solve/solver.h"
 
 namespace vkh {
@@ -50,9 +50,9 @@ class BatchFolders {
                      bool has_limit) const;
   std::vector<std::string> indexes() const;  ///< the indexes' file names
 
-  /// The reasons for files that were not written, a line per pair; and pairs that the batch's end
-  /// left without.
+  /// The reasons why files were not written, one line per pair.
   std::vector<std::string> failures() const;
+  /// The number of pairs without all their files because the batch ended first.
   size_t left() const;
 
  private:

@@ -1,5 +1,5 @@
 // Decimation loses no bound, steps lie on neither side, tallies are sums, worst places are apart.
-#include "host/show/shown.h"
+#include "host/show/page_mesh.h"
 
 #include <doctest/doctest.h>
 

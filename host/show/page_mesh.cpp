@@ -1,5 +1,5 @@
 // Decimation by a grid: it must lose no bound, but need not be beautiful.
-#include "host/show/shown.h"
+#include "host/show/page_mesh.h"
 
 #include <algorithm>
 #include <array>

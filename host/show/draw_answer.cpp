@@ -1,4 +1,4 @@
-#include "host/show/drawn.h"
+#include "host/show/draw_answer.h"
 
 #include "host/base/error.h"
 #include "host/base/system.h"
