@@ -110,12 +110,16 @@ py::object attribute(const py::object& object, const char* name) {
   return py::none();
 }
 
-// Returns (vertices, faces); None for both if an object has none.
+// Returns (vertices, faces); None for both if an object has none. Meshes of meshio, PyVista and VTK
+// name them otherwise.
 py::tuple arrays_of(const py::object& object) {
   if (is_pair(object)) return py::tuple(object);
+  py::object vertices = attribute(object, "vertices");
+  if (vertices.is_none())
+    return py::tuple(py::module_::import("vkhausdorff._meshes").attr("arrays")(object));
   py::object faces = attribute(object, "faces");
   if (faces.is_none()) faces = attribute(object, "triangles");
-  return py::make_tuple(attribute(object, "vertices"), faces);
+  return py::make_tuple(vertices, faces);
 }
 
 bool has_arrays(const py::tuple& arrays) { return !arrays[0].is_none() && !arrays[1].is_none(); }
@@ -124,12 +128,23 @@ bool is_mesh(const py::object& object) {
   return py::isinstance<FileMesh>(object) || is_path(object) || has_arrays(arrays_of(object));
 }
 
+// Names the argument of a mesh that holds more than triangles.
+py::tuple named_arrays_of(const char* argument, const py::object& object) {
+  try {
+    return arrays_of(object);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw py::value_error(std::string(argument) + ": " + std::string(py::str(error.value())));
+  }
+}
+
 py::tuple checked_arrays(const char* argument, const py::object& object) {
-  py::tuple arrays = arrays_of(object);
+  const py::tuple arrays = named_arrays_of(argument, object);
   if (!has_arrays(arrays))
     throw py::type_error(std::string(argument) +
                          ": expected (vertices, faces), an object that has .vertices and .faces, "
-                         "or the path of a file, not a value of type " +
+                         "a mesh of meshio, PyVista or VTK, or the path of a file, not a value of "
+                         "type " +
                          Py_TYPE(object.ptr())->tp_name);
   return arrays;
 }

@@ -191,6 +191,58 @@ class Meshes(unittest.TestCase):
         self.assertLess(known.lower, bare.lower)
         self.assertGreater(known.upper, bare.upper)
 
+    def test_meshes_of_other_libraries(self):
+        points, faces = np.array(B[0]), np.array(B[1])
+        plain = vkh.distance(PAIRS[0][0], B)
+        as_cells = types.SimpleNamespace(points=points, cells_dict={"triangle": faces, "line": np.array([[0, 1]])})
+        as_regular = types.SimpleNamespace(points=points, regular_faces=faces, n_strips=0)
+        for mesh in (as_cells, as_regular):
+            self.assertEqual(vkh.distance(PAIRS[0][0], mesh), plain)
+            self.assertEqual(vkh.Solver(mesh).distance(PAIRS[0][0]), plain)
+            self.assertEqual(next(vkh.distances([(PAIRS[0][0], mesh)])), plain)
+        quad = types.SimpleNamespace(points=points, cells_dict={"triangle": faces, "quad": np.array([[0, 1, 2, 3]])})
+        strips = types.SimpleNamespace(points=points, regular_faces=faces, n_strips=1)
+        fours = types.SimpleNamespace(points=points, regular_faces=np.array([[0, 1, 2, 3]]), n_strips=0)
+        for mesh, said in ((quad, "^b: expected triangles, not cells of type quad: "), (strips, "^b: expected triangles, not strips: "),
+                           (fours, "^b: expected triangles, not polygons: ")):
+            with self.assertRaisesRegex(ValueError, said):
+                vkh.gate(B, mesh, 1)
+        with self.assertRaisesRegex(TypeError, "^b: expected .vertices, faces., .*meshio"):
+            vkh.gate(B, types.SimpleNamespace(points=points, cells_dict={"line": np.array([[0, 1]])}), 1)
+
+    def test_meshio(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("meshio is missing")
+        with tempfile.TemporaryDirectory() as folder:
+            file = obj(folder, "a.obj", PAIRS[0][0])
+            read = meshio.read(file)
+            self.assertEqual(vkh.distance(read, B), vkh.distance(PAIRS[0][0], B))
+
+    def test_vtk(self):
+        try:
+            from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+            from vtkmodules.vtkCommonCore import vtkPoints
+            from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+        except ImportError:
+            self.skipTest("VTK is missing")
+
+        def poly_data(rows):
+            points, cells = vtkPoints(), vtkCellArray()
+            points.SetData(numpy_to_vtk(np.array(PAIRS[0][0][0], dtype=np.float64), deep=True))
+            flat = np.concatenate([[len(row), *row] for row in rows])
+            cells.SetCells(len(rows), numpy_to_vtkIdTypeArray(flat.astype(np.int64), deep=True))
+            mesh = vtkPolyData()
+            mesh.SetPoints(points)
+            mesh.SetPolys(cells)
+            return mesh
+
+        rows = np.array(PAIRS[0][0][1]).tolist()
+        self.assertEqual(vkh.distance(poly_data(rows), B), vkh.distance(PAIRS[0][0], B))
+        with self.assertRaisesRegex(ValueError, "polygons: use vtkTriangleFilter"):
+            vkh.distance(poly_data([*rows, [0, 1, 2, 3]]), B)
+
     def test_refusals(self):
         with tempfile.TemporaryDirectory() as folder:
             bad = pathlib.Path(folder) / "bad.stl"

@@ -37,7 +37,33 @@ class _WithTriangles(Protocol):
     @property
     def triangles(self) -> Any: ...
 
-_Mesh = Union[tuple[npt.ArrayLike, npt.ArrayLike], _WithFaces, _WithTriangles, "Mesh", str, PathLike[str]]
+# The meshes of meshio, PyVista and VTK.
+class _WithCells(Protocol):
+    points: Any
+    @property
+    def cells_dict(self) -> Any: ...
+
+class _WithRegularFaces(Protocol):
+    @property
+    def points(self) -> Any: ...
+    @property
+    def regular_faces(self) -> Any: ...
+
+class _WithPolys(Protocol):
+    def GetPoints(self) -> Any: ...
+    def GetPolys(self) -> Any: ...
+
+_Mesh = Union[
+    tuple[npt.ArrayLike, npt.ArrayLike],
+    _WithFaces,
+    _WithTriangles,
+    _WithCells,
+    _WithRegularFaces,
+    _WithPolys,
+    "Mesh",
+    str,
+    PathLike[str],
+]
 
 class DeviceError(RuntimeError): ...
 

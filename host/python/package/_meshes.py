@@ -1,0 +1,56 @@
+"""Points and triangles of other libraries' meshes: meshio, PyVista, VTK. Anything else that they hold is refused by name,
+since a surface of which a part was left out would be measured as if it were whole."""
+
+import numpy as np
+
+_NO_SURFACE = {"vertex", "line"}  # what meshio has beside faces in files of meshers
+
+
+def _refuse(found, remedy):
+    raise ValueError(f"expected triangles, not {found}: {remedy}")
+
+
+def _of_meshio(mesh):
+    others = sorted(set(mesh.cells_dict) - _NO_SURFACE - {"triangle"})
+    if others:
+        _refuse(f"cells of type {', '.join(others)}", "triangulate the surface first")
+    if "triangle" not in mesh.cells_dict:
+        return None, None
+    return mesh.points, mesh.cells_dict["triangle"]
+
+
+def _of_pyvista(mesh):
+    try:
+        faces = mesh.regular_faces
+    except ValueError:
+        faces = None
+    if faces is None or (len(faces) and faces.shape[1] != 3):
+        _refuse("polygons", "call .triangulate()")
+    if getattr(mesh, "n_strips", 0):
+        _refuse("strips", "call .triangulate()")
+    return mesh.points, faces
+
+
+def _of_vtk(mesh):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if mesh.GetNumberOfStrips():
+        _refuse("strips", "use vtkTriangleFilter")
+    polygons = mesh.GetPolys()
+    if polygons.GetNumberOfCells() == 0:
+        return None, None
+    offsets = vtk_to_numpy(polygons.GetOffsetsArray())
+    if not np.array_equal(np.diff(offsets), np.full(len(offsets) - 1, 3)):
+        _refuse("polygons", "use vtkTriangleFilter")
+    return vtk_to_numpy(mesh.GetPoints().GetData()), vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)
+
+
+def arrays(mesh):
+    """Returns (points, triangles), or (None, None) for an object of no such library."""
+    if hasattr(mesh, "cells_dict") and hasattr(mesh, "points"):
+        return _of_meshio(mesh)
+    if hasattr(mesh, "regular_faces") and hasattr(mesh, "points"):
+        return _of_pyvista(mesh)
+    if hasattr(mesh, "GetPolys") and hasattr(mesh, "GetPoints"):
+        return _of_vtk(mesh)
+    return None, None
