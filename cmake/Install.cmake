@@ -18,7 +18,7 @@ target_include_directories(vkh_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INST
 install(TARGETS vkh_engine EXPORT VkHausdorffEngine
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT engine
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT engine)
-install(FILES engine/vkhausdorff.h engine/vkhausdorff_report.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT engine)
+install(FILES ${VKH_ENGINE_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT engine)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT engine)
 install(EXPORT VkHausdorffEngine NAMESPACE VkHausdorff:: DESTINATION ${VKH_PACKAGE_DIR} COMPONENT engine)
 configure_package_config_file(cmake/VkHausdorffConfig.cmake.in ${PROJECT_BINARY_DIR}/VkHausdorffConfig.cmake
@@ -30,6 +30,10 @@ install(FILES ${PROJECT_BINARY_DIR}/VkHausdorffConfig.cmake ${PROJECT_BINARY_DIR
 # A C program links the C++ run-time library that an archive of C++ objects needs, and that a shared
 # library brings along.
 set(VKH_PC_LIBS)
+set(VKH_PC_DEFINES)
+if(BUILD_SHARED_LIBS)
+  set(VKH_PC_DEFINES " -DVKH_SHARED")
+endif()
 if(NOT BUILD_SHARED_LIBS)
   list(TRANSFORM VKH_CXX_RUNTIME PREPEND -l OUTPUT_VARIABLE VKH_PC_LIBS)
   list(APPEND VKH_PC_LIBS -pthread)

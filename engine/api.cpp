@@ -59,6 +59,10 @@ Limits chosen(const VkhContextCreateInfo& info) {
   return limits;
 }
 
+Threads threads_of(const VkhContextCreateInfo& info) {
+  return {.most = info.threads, .run = info.parallelFor, .user = info.parallelUser};
+}
+
 bool load_functions(const VkhDeviceInfo& info, const Limits& limits, DeviceFunctions& vk) {
   const auto get_device_proc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
       info.getInstanceProcAddr(info.instance, "vkGetDeviceProcAddr"));
@@ -254,9 +258,9 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
     if (created->limits.by_address && !vkh::has_addresses(info->device))
       return VKH_ERROR_UNSUPPORTED;
     if (!vkh::load_functions(info->device, created->limits, created->vk))
-      return VKH_ERROR_UNSUPPORTED;
+      return VKH_ERROR_NOT_ENABLED;
     if (!created->limits.pushes) created->sets = std::make_shared<vkh::SetStore>(*created);
-    if (vkh::create_kernels(*created, info->pipelineCache) != VK_SUCCESS) {
+    if (vkh::create_kernels(*created, info->pipelineCache, vkh::threads_of(*info)) != VK_SUCCESS) {
       vkh::destroy_kernels(*created);
       return VKH_ERROR_PIPELINE;
     }

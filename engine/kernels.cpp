@@ -169,33 +169,53 @@ bool is_needed(uint32_t kernel, const Limits& limits) {
   return !lines.any || lines.needed;
 }
 
-}  // namespace
-
-VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache) {
-  const auto sources = kernel_sources(context.limits);
-  const auto order = costliest_first(sources);
-  std::atomic<uint32_t> next = 0;
+// The work of create_kernels, one call of create() a kernel, from any threads. Drivers compile in
+// it; a pipeline cache is internally synchronized.
+struct Creation {
+  VkhContext_T& context;
+  VkPipelineCache cache;
+  std::array<KernelSource, kKernelCount> sources;
+  std::array<uint32_t, kKernelCount> order;
   std::atomic<VkResult> outcome = VK_SUCCESS;
+
+  void create(uint32_t i) {
+    if (outcome != VK_SUCCESS || !is_needed(order[i], context.limits)) return;
+    KernelPipeline& kernel = context.kernels[order[i]];
+    const VkResult result = create_kernel(context, sources[order[i]], cache, kernel);
+    if (result != VK_SUCCESS) outcome = result;
+  }
+};
+
+void create_one(void* creation, uint32_t i) { static_cast<Creation*>(creation)->create(i); }
+
+void create_on_own_threads(Creation& creation, uint32_t most) {
+  std::atomic<uint32_t> next = 0;
   const auto work = [&] {
-    for (uint32_t i = next++; i < kKernelCount && outcome == VK_SUCCESS; i = next++) {
-      if (!is_needed(order[i], context.limits)) continue;
-      KernelPipeline& kernel = context.kernels[order[i]];
-      const KernelSource& source = sources[order[i]];
-      const VkResult result = create_kernel(context, source, cache, kernel);
-      if (result != VK_SUCCESS) outcome = result;
-    }
+    for (uint32_t i = next++; i < kKernelCount; i = next++) creation.create(i);
   };
-  // Drivers compile here; a pipeline cache is internally synchronized.
-  std::vector<std::thread> helpers;
   const uint32_t cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  const uint32_t count = most != 0 ? std::min<uint32_t>(most, kKernelCount) : cores;
+  std::vector<std::thread> helpers;
   try {
-    helpers.reserve(cores);
-    for (uint32_t i = 1; i < cores; ++i) helpers.emplace_back(work);
+    helpers.reserve(count);
+    for (uint32_t i = 1; i < count; ++i) helpers.emplace_back(work);
   } catch (...) {  // no more threads available: those there are do it
   }
   work();
   for (std::thread& helper : helpers) helper.join();
-  return outcome;
+}
+
+}  // namespace
+
+VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, const Threads& threads) {
+  const auto sources = kernel_sources(context.limits);
+  Creation creation{context, cache, sources, costliest_first(sources)};
+  if (threads.run != nullptr) {
+    threads.run(threads.user, kKernelCount, create_one, &creation);
+  } else {
+    create_on_own_threads(creation, threads.most);
+  }
+  return creation.outcome;
 }
 
 void destroy_kernels(VkhContext_T& context) {

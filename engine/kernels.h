@@ -24,9 +24,17 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
+// The threads that create pipelines: the caller's, by `run`, or up to `most` of ours, 0 for a
+// number that pays.
+struct Threads {
+  uint32_t most = 0;
+  VkhParallelFor run = nullptr;
+  void* user = nullptr;
+};
+
 // Creates the pipelines that the context's switches and kind of device need. On failure the
 // pipelines made so far stay in the context, for destroy_kernels.
-VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache);
+VkResult create_kernels(VkhContext_T& context, VkPipelineCache cache, const Threads& threads);
 void destroy_kernels(VkhContext_T& context);
 
 }  // namespace vkh

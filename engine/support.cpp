@@ -165,6 +165,24 @@ bool has_addresses(const VkhDeviceInfo& info) {
 
 uint32_t vkhGetVersion(void) { return VKH_VERSION; }
 
+const char* vkhResultString(VkhResult result) {
+  switch (result) {
+    case VKH_SUCCESS:
+      return "VKH_SUCCESS";
+    case VKH_ERROR_UNSUPPORTED:
+      return "VKH_ERROR_UNSUPPORTED";
+    case VKH_ERROR_PIPELINE:
+      return "VKH_ERROR_PIPELINE";
+    case VKH_ERROR_TOO_LARGE:
+      return "VKH_ERROR_TOO_LARGE";
+    case VKH_ERROR_MEMORY:
+      return "VKH_ERROR_MEMORY";
+    case VKH_ERROR_NOT_ENABLED:
+      return "VKH_ERROR_NOT_ENABLED";
+  }
+  return "no VkhResult of this version";
+}
+
 const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count) try {
   vkh::DeviceFacts facts;
   vkh::query_facts(*info, facts);
@@ -185,6 +203,8 @@ std::string reasons_against(const VkhDeviceInfo& info) {
     return "Vulkan 1.2 is missing";
   DeviceFacts facts;
   query_facts(info, facts);
+  // Every device answers this since Vulkan 1.1, and lavapipe only where the instance is as new.
+  if (facts.subgroup.subgroupSize == 0) return "the instance was created for less than Vulkan 1.2";
   query_features(info, facts);
   Reasons why;
   check_limits(facts, why);

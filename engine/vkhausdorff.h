@@ -51,6 +51,12 @@
  * workspace are written by ALL_TRANSFER too: before you use that memory for something else, wait
  * for both.
  *
+ * Queue families: buffers of VK_SHARING_MODE_EXCLUSIVE belong to one family. Those that the engine
+ * is given must belong to the family that runs its commands; it records no transfer of ownership. A
+ * mesh that another family has written, or a report that another family reads, needs your release
+ * and acquire, or VK_SHARING_MODE_CONCURRENT. Scratch and workspace hold nothing before the first
+ * use, and need none.
+ *
  * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
  *
@@ -76,11 +82,20 @@
 #define VKH_VERSION VKH_MAKE_VERSION(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
 #define VKH_VERSION_STRING "0.2.0"
 
+/* Marks what the library exports. A shared library on Windows needs VKH_SHARED defined by those who
+ * use it, as the CMake target and pkg-config do, and VKH_BUILDS_ENGINE by its own build. */
+#if defined(_WIN32) && defined(VKH_SHARED) && defined(VKH_BUILDS_ENGINE)
+#define VKH_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(VKH_SHARED)
+#define VKH_API __declspec(dllimport)
+#elif defined(__GNUC__)
+#define VKH_API __attribute__((visibility("default")))
+#else
+#define VKH_API
+#endif
+
 #ifdef __cplusplus
 extern "C" {
-#endif
-#ifdef __GNUC__
-#pragma GCC visibility push(default)
 #endif
 
 /* Pipelines for one device and one set of switches; no device memory of its own. */
@@ -89,14 +104,18 @@ typedef struct VkhContext_T* VkhContext;
 typedef enum VkhResult {
   VKH_SUCCESS = 0,
   VKH_ERROR_UNSUPPORTED = -1, /* the device lacks something; vkhQuerySupport says what */
-  VKH_ERROR_PIPELINE = -2,  /* the driver refused a pipeline or ran out of host or device memory */
-  VKH_ERROR_TOO_LARGE = -3, /* a mesh exceeds 2^28, or one storage buffer binding (but see
-                             * VkhContextCreateInfo::byAddress); or is empty */
-  VKH_ERROR_MEMORY = -4     /* no host or device memory for descriptor sets */
+  VKH_ERROR_PIPELINE = -2,   /* the driver refused a pipeline or ran out of host or device memory */
+  VKH_ERROR_TOO_LARGE = -3,  /* a mesh exceeds 2^28, or one storage buffer binding (but see
+                              * VkhContextCreateInfo::byAddress); or is empty */
+  VKH_ERROR_MEMORY = -4,     /* no host or device memory for descriptor sets */
+  VKH_ERROR_NOT_ENABLED = -5 /* the device has what is needed, and was created without it */
 } VkhResult;
 
+/* The constant's name, such as "VKH_ERROR_PIPELINE", a static string; never null. */
+VKH_API const char* vkhResultString(VkhResult result);
+
 /* VKH_VERSION of the linked library; a shared one may differ from this header. */
-uint32_t vkhGetVersion(void);
+VKH_API uint32_t vkhGetVersion(void);
 
 /* Parts of the method, for ablations: 0 selects what pays on the device, and what you want. The
  * interval is true without any of them. */
@@ -153,13 +172,19 @@ typedef struct VkhDeviceInfo {
  * none: vkhReleaseCommandBuffer) that the device has. The features scalarBlockLayout (Vulkan 1.2)
  * and synchronization2 must be enabled too. Nothing else is: no fp64, no 64-bit or float atomics,
  * no ray queries, no fixed subgroup size. */
-const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count);
+VKH_API const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count);
 
 /* Whether a physical device can run the engine: extensions, features, limits, subgroup operations.
  * Writes the reasons why not, separated by "; " and cut at `capacity` bytes including the end;
  * `reasons` may be null if capacity is 0. Returns VKH_SUCCESS or VKH_ERROR_UNSUPPORTED. It cannot
- * see whether the extensions and features are enabled on your device. */
-VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity);
+ * see whether the extensions and features are enabled on your device: vkhCreateContext looks for
+ * the functions that extensions bring. */
+VKH_API VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size_t capacity);
+
+/* Calls work(data, i) once for each i below count, in any order and on any threads, and returns
+ * when all calls have returned. `user` is VkhContextCreateInfo::parallelUser. */
+typedef void (*VkhParallelFor)(void* user, uint32_t count, void (*work)(void* data, uint32_t i),
+                               void* data);
 
 typedef struct VkhContextCreateInfo {
   VkhDeviceInfo device;
@@ -181,23 +206,47 @@ typedef struct VkhContextCreateInfo {
    * with a mesh that fails has reports of VKH_STATUS_INPUT, which name a face. VK_FALSE: none of
    * this is checked, and such a mesh gives an untrue interval that says certified. */
   VkBool32 checkInput;
+  /* The most threads that create pipelines at once, the calling one among them. 1: the engine
+   * starts no thread. 0: up to 8. Unused with `parallelFor`. */
+  uint32_t threads;
+  /* Null, or what calls on threads of yours; the engine then starts none. */
+  VkhParallelFor parallelFor;
+  void* parallelUser;
 } VkhContextCreateInfo;
 
 /* Zeros in all but `device` are right: certified, and what pays on the device. Creates the
- * pipelines, on up to 8 threads of its own while it runs; this is the one slow call (seconds where
+ * pipelines, on several threads while it runs (`threads`); this is the one slow call (seconds where
  * the driver has not compiled them before, so keep a pipeline cache). Nothing of `info` but the
  * handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
- * VKH_ERROR_UNSUPPORTED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left. */
-VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context);
+ * VKH_ERROR_UNSUPPORTED (vkhQuerySupport tells why, or byAddress needs a feature),
+ * VKH_ERROR_NOT_ENABLED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left.
+ *
+ * A device in C, with one queue, that `info` then names:
+ *
+ *     VkPhysicalDeviceSynchronization2Features synchronization = {
+ *         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+ *         .synchronization2 = VK_TRUE};
+ *     VkPhysicalDeviceScalarBlockLayoutFeatures scalar = {
+ *         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,
+ *         .pNext = &synchronization,
+ *         .scalarBlockLayout = VK_TRUE};
+ *     VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+ *                                  .pNext = &scalar,
+ *                                  .queueCreateInfoCount = 1,
+ *                                  .pQueueCreateInfos = &queue};
+ *     create.ppEnabledExtensionNames =
+ *         vkhGetRequiredExtensions(&info, &create.enabledExtensionCount);
+ */
+VKH_API VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context);
 /* No command buffer that was recorded with the context may still be pending. Null is fine. */
-void vkhDestroyContext(VkhContext context);
+VKH_API void vkhDestroyContext(VkhContext context);
 
 /* For devices without VK_KHR_push_descriptor; on others both do nothing. There a command buffer
  * binds descriptor sets, which the context keeps. The first, after recording: VKH_ERROR_MEMORY if
  * one could not be allocated; dispatches are missing, do not submit. The second frees them: once
  * the command buffer has run, and is freed or to be recorded anew. */
-VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
-void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
+VKH_API VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
+VKH_API void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
 /* A triangle mesh in the caller's buffers. Positions are three float32 at vertexOffset + i *
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
@@ -258,8 +307,9 @@ typedef struct VkhHierarchy {
 } VkhHierarchy;
 
 /* Sizes for B. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
-VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
-                                      VkhHierarchyRequirements* requirements);
+VKH_API VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount,
+                                              uint32_t faceCount,
+                                              VkhHierarchyRequirements* requirements);
 
 typedef struct VkhWorkspaceRequirements {
   VkDeviceSize minimum;     /* bytes; works, slowly */
@@ -269,12 +319,13 @@ typedef struct VkhWorkspaceRequirements {
 
 /* Sizes for A. Anything from minimum to maximum is right: a smaller workspace costs time, never
  * truth. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
-VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
-                                      VkhWorkspaceRequirements* requirements);
+VKH_API VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount,
+                                              uint32_t faceCount,
+                                              VkhWorkspaceRequirements* requirements);
 
 /* Bytes, from minimum to maximum, of a workspace with room for so many candidates at once. */
-VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
-                                 uint32_t candidates);
+VKH_API VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount,
+                                         uint32_t faceCount, uint32_t candidates);
 
 /* Optional timestamps: one is written at the start of each vkhCmd* function and one
  * after each stage (at ALL_COMMANDS), from query `count` on; names[i] is the stage that ends with
@@ -291,8 +342,9 @@ typedef struct VkhProfile {
  * ranges of VkhHierarchyRequirements) and sets hierarchy->faceCount and vertexCount. Reads the
  * mesh's buffers in compute shaders; writes the BVH and scratch (scratchSize bytes; it may lie in
  * what will be the workspace). The mesh's buffers are not needed afterwards. */
-void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
-                          VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile);
+VKH_API void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer,
+                                  const VkhMesh* mesh, VkhHierarchy* hierarchy,
+                                  const VkhMemory* scratch, VkhProfile* profile);
 
 /* B has moved: takes its vertices from `mesh` again and fits the boxes to them, over the old order
  * of triangles; a few dispatches, no sort. The mesh has the faceCount and vertexCount of the build;
@@ -302,8 +354,9 @@ void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, con
  * shares with B are found only where they have not moved since the build. Boxes overlap more the
  * further B is from the shape that it was built for, so that traversals take longer: build again
  * when a frame takes too long. */
-void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
-                          const VkhHierarchy* hierarchy, VkhProfile* profile);
+VKH_API void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer,
+                                  const VkhMesh* mesh, const VkhHierarchy* hierarchy,
+                                  VkhProfile* profile);
 
 /* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport, and
  * the same context; after the begin `b`, `workspace`, a's counts and the coverage buffer are read.
@@ -366,8 +419,8 @@ typedef struct VkhProblem {
  * none yet in a run whose tolerance is under 1e-9 of the coordinates, which may have a base to
  * move. Reads a's buffers and the BVH in compute shaders, writes the workspace. After it the
  * workspace holds the run, and a's buffers are not needed. */
-void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                 VkhProfile* profile);
+VKH_API void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer,
+                         const VkhProblem* problem, VkhProfile* profile);
 
 /* Records `waves` waves: each refines what is undecided and narrows the interval. A wave after the
  * end costs a few empty dispatches, so more than are needed may be recorded: a frame's budget is a
@@ -375,16 +428,16 @@ void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhPro
  * distances are kept above, measures the witness anew and refines nothing. A command buffer of
  * waves alone, submitted again, goes on where the run stands; one that starts with vkhCmdBegin does
  * the run again. Reads the BVH, reads and writes the workspace. */
-void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                   uint32_t waves, VkhProfile* profile);
+VKH_API void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer,
+                           const VkhProblem* problem, uint32_t waves, VkhProfile* profile);
 
 /* Between two waves: the run goes on in `workspace`, as a rule a larger one, at least as large as
  * its own and apart from it, and problem->workspace becomes that; or it goes on in its own range,
  * if `workspace` is that. Any other range changes nothing, and problem->workspace stays. From now
  * on problem->pauseWhenFull and knownLower hold. Reads the old workspace and writes the new one in
  * transfers; once they have run, the old one is free. */
-void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
-                   const VkhMemory* workspace, VkhProfile* profile);
+VKH_API void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
+                           const VkhMemory* workspace, VkhProfile* profile);
 
 typedef enum VkhStatus {
   VKH_STATUS_RUNNING = 0, /* candidates are left: advance further, or take the interval as it is */
@@ -411,8 +464,8 @@ typedef struct VkhWaveRecord {
 } VkhWaveRecord;
 
 /* The output of vkhCmdWriteReport: sizeof(VkhReport) bytes of 4-byte words, in the device's byte
- * order, no padding: in GLSL a struct of the same members in a scalar or std430 block. Lengths are
- * in the coordinates' units. */
+ * order, no padding. Your shader reads it by vkhausdorff_report.glsl, which lies beside this header
+ * and has the same struct, for a scalar or std430 block. Lengths are in the coordinates' units. */
 typedef struct VkhReport {
   float lower; /* certified: lower <= h(A, B) */
   float upper; /* certified: h(A, B) <= upper; 3e38 while faces of A wait for their first bound */
@@ -443,8 +496,9 @@ typedef struct VkhReport {
  * of 256 bytes) of `buffer` (usage STORAGE_BUFFER; TRANSFER_SRC if you copy it), in COMPUTE_SHADER
  * with SHADER_STORAGE_WRITE: your next shader can read it without the host. Costs a pass over B's
  * triangles. The run can be advanced further afterwards. */
-void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                       VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
+VKH_API void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, VkBuffer buffer, VkDeviceSize offset,
+                               VkhProfile* profile);
 
 /* A cell: a triangle within a face of A. Its corners are in barycentric coordinates of the face,
  * that of the face's second corner and that of its third, in units of 2^-20, their sum at most
@@ -484,8 +538,9 @@ typedef struct VkhCells {
  * the run. The run does not change. A cell's result does not depend on the others. If a report
  * would be of VKH_STATUS_INPUT, bounds are NaN, and faces and starts 0xffffffff. Buffers: usage
  * STORAGE_BUFFER, offsets multiples of 256 bytes; read and written in COMPUTE_SHADER. */
-void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                      const VkhCells* cells, VkhProfile* profile);
+VKH_API void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer,
+                              const VkhProblem* problem, const VkhCells* cells,
+                              VkhProfile* profile);
 
 /* A point as an exact sum of two float32 a coordinate, the second at most half an ulp of the first:
  * 48 bits. Coordinates are finite and up to 2^15. */
@@ -518,8 +573,9 @@ typedef struct VkhClosestQuery {
  * VKH_SWITCH_CLOSEST, and no run: B alone. A point's result does not depend on the others. If B is
  * no mesh, ends are NaN and faces 0xffffffff. Buffers: usage STORAGE_BUFFER, offsets multiples of
  * 256 bytes; read and written in COMPUTE_SHADER. */
-void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer, const VkhHierarchy* b,
-                       const VkhClosestQuery* query, VkhProfile* profile);
+VKH_API void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhHierarchy* b, const VkhClosestQuery* query,
+                               VkhProfile* profile);
 
 /* The work for one pair, in the order of the members; each part may be left out. */
 typedef struct VkhTask {
@@ -545,12 +601,9 @@ typedef struct VkhTask {
  * 15 kB a task and 2 to 4 kB a wave of it, or twice that, while it records. Without it, tasks are
  * recorded one after the other. Timestamps: for one task, or tasks one after the other, as the
  * functions above write them, with one null for all; for several one stage, "tasks". */
-void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,
-                    const VkhTask* tasks, VkhProfile* profile);
+VKH_API void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,
+                            const VkhTask* tasks, VkhProfile* profile);
 
-#ifdef __GNUC__
-#pragma GCC visibility pop
-#endif
 #ifdef __cplusplus
 }
 #endif

@@ -60,12 +60,8 @@ Gpu::Gpu(const GpuRequest& request) {
   create_device(request.graphics);
   create_queue_objects();
   create_layout();
-  const VkhContextCreateInfo info{{vkGetInstanceProcAddr, instance_, physical_, device_},
-                                  VK_NULL_HANDLE,
-                                  0,
-                                  VKH_DEVICE_KIND_AUTO,
-                                  VK_FALSE,
-                                  VK_FALSE};
+  VkhContextCreateInfo info{};
+  info.device = {vkGetInstanceProcAddr, instance_, physical_, device_};
   if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
   keep([this] { vkhDestroyContext(context_); });
 }

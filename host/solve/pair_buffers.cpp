@@ -120,9 +120,10 @@ bool fits_bindings(VkhContext context, const RunInput& in) {
 
 void check_engine(VkhResult result, const char* what) {
   if (result == VKH_SUCCESS) return;
-  const char* reason = result == VKH_ERROR_UNSUPPORTED ? "the device is not supported"
-                       : result == VKH_ERROR_MEMORY    ? "no memory for descriptor sets"
-                                                       : "the driver refused a pipeline";
+  const char* reason = result == VKH_ERROR_UNSUPPORTED   ? "the device is not supported"
+                       : result == VKH_ERROR_NOT_ENABLED ? "the device lacks an extension"
+                       : result == VKH_ERROR_MEMORY      ? "no memory for descriptor sets"
+                                                         : "the driver refused a pipeline";
   throw DeviceError(std::string(what) + ": " + reason);
 }
 

@@ -89,12 +89,12 @@ VkhContext Runner::context_for(uint32_t switches) {
   const auto known = contexts_.find(switches);
   if (known != contexts_.end()) return known->second.get();
   const bool wide = (switches & kSwitchWide) != 0;
-  const VkhContextCreateInfo info{device_.engine_info(),
-                                  cache_.handle(),
-                                  (switches & ~(kSwitchWide | kSwitchByAddress)) | VKH_SWITCH_NONE,
-                                  wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
-                                  (switches & kSwitchByAddress) != 0 ? VK_TRUE : VK_FALSE,
-                                  VK_FALSE};
+  VkhContextCreateInfo info{};
+  info.device = device_.engine_info();
+  info.pipelineCache = cache_.handle();
+  info.switches = (switches & ~(kSwitchWide | kSwitchByAddress)) | VKH_SWITCH_NONE;
+  info.deviceKind = wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW;
+  info.byAddress = (switches & kSwitchByAddress) != 0 ? VK_TRUE : VK_FALSE;
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
   ContextHandle kept(context, vkhDestroyContext);

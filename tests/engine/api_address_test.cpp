@@ -28,8 +28,7 @@ constexpr Ways kWays[] = {
      VKH_DEVICE_KIND_WIDE}};
 
 ContextHandle make_context(const Ways& ways, VkBool32 by_address) {
-  const VkhContextCreateInfo info{
-      test_device().engine_info(), VK_NULL_HANDLE, ways.switches, ways.kind, by_address, VK_FALSE};
+  const VkhContextCreateInfo info = create_info(ways.switches, ways.kind, by_address);
   VkhContext context = nullptr;
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   return {context, vkhDestroyContext};

@@ -35,12 +35,12 @@ static PFN_vkGetInstanceProcAddr open_loader(void) {
   return get;
 }
 
-static VkInstance create_instance(PFN_vkGetInstanceProcAddr get) {
+static VkInstance create_instance(PFN_vkGetInstanceProcAddr get, uint32_t version) {
   VkApplicationInfo app = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO};
   VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   VkInstance instance = VK_NULL_HANDLE;
   PFN_vkCreateInstance create = (PFN_vkCreateInstance)get(NULL, "vkCreateInstance");
-  app.apiVersion = VK_API_VERSION_1_3;
+  app.apiVersion = version;
   info.pApplicationInfo = &app;
   if (create == NULL || create(&info, NULL, &instance) != VK_SUCCESS) return VK_NULL_HANDLE;
   return instance;
@@ -68,29 +68,31 @@ static VkPhysicalDevice choose(VkhDeviceInfo info) {
   return chosen;
 }
 
-/* Nothing is enabled but what the header asks for. */
-static VkDevice create_device(const VkhDeviceInfo* info) {
+/* Nothing is enabled but what the header asks for, as it shows; api_contract_test compares the
+ * lines. `bare`: without the extensions. */
+static VkDevice create_device(VkhDeviceInfo info, int bare) {
   const float priority = 1.0f;
   VkDevice device = VK_NULL_HANDLE;
-  VkPhysicalDeviceSynchronization2Features synchronization = {
-      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
-  VkPhysicalDeviceScalarBlockLayoutFeatures scalar = {
-      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
-  VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-  VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                   .queueCount = 1,
+                                   .pQueuePriorities = &priority};
   PFN_vkCreateDevice create_with =
-      (PFN_vkCreateDevice)info->getInstanceProcAddr(info->instance, "vkCreateDevice");
-  synchronization.synchronization2 = VK_TRUE;
-  scalar.scalarBlockLayout = VK_TRUE;
-  scalar.pNext = &synchronization;
-  queue.queueCount = 1;
-  queue.pQueuePriorities = &priority;
-  create.pNext = &scalar;
-  create.queueCreateInfoCount = 1;
-  create.pQueueCreateInfos = &queue;
-  create.ppEnabledExtensionNames = vkhGetRequiredExtensions(info, &create.enabledExtensionCount);
-  if (create_with(info->physicalDevice, &create, NULL, &device) != VK_SUCCESS)
-    return VK_NULL_HANDLE;
+      (PFN_vkCreateDevice)info.getInstanceProcAddr(info.instance, "vkCreateDevice");
+  VkPhysicalDeviceSynchronization2Features synchronization = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+      .synchronization2 = VK_TRUE};
+  VkPhysicalDeviceScalarBlockLayoutFeatures scalar = {
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,
+      .pNext = &synchronization,
+      .scalarBlockLayout = VK_TRUE};
+  VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                               .pNext = &scalar,
+                               .queueCreateInfoCount = 1,
+                               .pQueueCreateInfos = &queue};
+  create.ppEnabledExtensionNames = vkhGetRequiredExtensions(&info, &create.enabledExtensionCount);
+  if (bare) create.enabledExtensionCount = 0;
+  if (bare) create.pNext = NULL;
+  if (create_with(info.physicalDevice, &create, NULL, &device) != VK_SUCCESS) return VK_NULL_HANDLE;
   return device;
 }
 
@@ -113,10 +115,11 @@ static void check_context(VkhDeviceInfo info) {
   VkhContext context = NULL;
   PFN_vkDestroyDevice destroy =
       (PFN_vkDestroyDevice)info.getInstanceProcAddr(info.instance, "vkDestroyDevice");
-  info.device = create_device(&info);
+  info.device = create_device(info, 0);
   CHECK(info.device != VK_NULL_HANDLE);
   if (info.device == VK_NULL_HANDLE) return;
   create.device = info;
+  create.threads = 1;
   CHECK(vkhCreateContext(&create, &context) == VKH_SUCCESS);
   if (context != NULL) check_sizes(context);
   vkhDestroyContext(context);
@@ -124,18 +127,58 @@ static void check_context(VkhDeviceInfo info) {
   destroy(info.device, NULL);
 }
 
+/* vkhQuerySupport cannot see that the extensions were not enabled; creating a context can. */
+static void check_bare_device(VkhDeviceInfo info) {
+  VkhContextCreateInfo create = {0};
+  VkhContext context = NULL;
+  PFN_vkDestroyDevice destroy =
+      (PFN_vkDestroyDevice)info.getInstanceProcAddr(info.instance, "vkDestroyDevice");
+  info.device = create_device(info, 1);
+  if (info.device == VK_NULL_HANDLE) return;
+  create.device = info;
+  CHECK(vkhCreateContext(&create, &context) == VKH_ERROR_NOT_ENABLED);
+  CHECK(context == NULL);
+  destroy(info.device, NULL);
+}
+
+/* A device that runs the engine, asked through an instance that is too old for it. */
+static void check_old_instance(PFN_vkGetInstanceProcAddr get) {
+  VkhDeviceInfo info = {get, create_instance(get, VK_API_VERSION_1_0), VK_NULL_HANDLE,
+                        VK_NULL_HANDLE};
+  uint32_t count = 1;
+  char reasons[256] = "";
+  if (info.instance == VK_NULL_HANDLE) return;
+  if (((PFN_vkEnumeratePhysicalDevices)get(info.instance, "vkEnumeratePhysicalDevices"))(
+          info.instance, &count, &info.physicalDevice) >= 0) {
+    CHECK(vkhQuerySupport(&info, reasons, sizeof reasons) == VKH_ERROR_UNSUPPORTED);
+    CHECK(strcmp(reasons, "the instance was created for less than Vulkan 1.2") == 0 ||
+          strcmp(reasons, "Vulkan 1.2 is missing") == 0);
+  }
+  ((PFN_vkDestroyInstance)get(info.instance, "vkDestroyInstance"))(info.instance, NULL);
+}
+
+static void check_names(void) {
+  CHECK(strcmp(vkhResultString(VKH_SUCCESS), "VKH_SUCCESS") == 0);
+  CHECK(strcmp(vkhResultString(VKH_ERROR_NOT_ENABLED), "VKH_ERROR_NOT_ENABLED") == 0);
+  CHECK(strncmp(vkhResultString((VkhResult)1234), "no VkhResult", 12) == 0);
+}
+
 int main(void) {
   VkhDeviceInfo info = {NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE};
   static_assert(sizeof(VkhReport) == 4 * (4 + 3 + 17 + VKH_MAX_CULLS + 7 * VKH_MAX_WAVE_RECORDS),
                 "no padding");
+  check_names();
   info.getInstanceProcAddr = open_loader();
-  if (info.getInstanceProcAddr != NULL) info.instance = create_instance(info.getInstanceProcAddr);
+  if (info.getInstanceProcAddr != NULL)
+    info.instance = create_instance(info.getInstanceProcAddr, VK_API_VERSION_1_3);
   if (info.instance != VK_NULL_HANDLE) info.physicalDevice = choose(info);
   if (info.physicalDevice == VK_NULL_HANDLE) {
     puts("api_c11: no loader or no supported device; only what needs none was checked");
     return failures > 0 ? 1 : kSkipped;
   }
   check_context(info);
+  check_bare_device(info);
+  check_old_instance(info.getInstanceProcAddr);
   ((PFN_vkDestroyInstance)info.getInstanceProcAddr(info.instance, "vkDestroyInstance"))(
       info.instance, NULL);
   return failures > 0 ? 1 : 0;

@@ -5,8 +5,12 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <thread>
 
 #include "tests/support/kernel_bench.h"
 
@@ -63,6 +67,101 @@ TEST_CASE("every function that is not obvious has a contract of its own") {
     CAPTURE(name);
     CHECK(has_contract(text, name));
   }
+}
+
+TEST_CASE("the device that the header shows is the one that api_c11 creates") {
+  std::istringstream lines(header());
+  std::ifstream file(VKH_SOURCE_DIR "/tests/engine/api_c11.c");
+  const std::string program{std::istreambuf_iterator<char>(file), {}};
+  std::string line;
+  while (line.find("A device in C") == std::string::npos) REQUIRE(std::getline(lines, line));
+  int shown = 0;
+  while (std::getline(lines, line) && line != " */") {
+    const size_t start = line.find_first_not_of(" *");
+    if (start == std::string::npos) continue;
+    CAPTURE(line);
+    CHECK(program.find(line.substr(start)) != std::string::npos);
+    ++shown;
+  }
+  CHECK(shown > 10);
+}
+
+TEST_CASE("every result has its name") {
+  const std::string text = header();
+  const std::string results = text.substr(text.find("typedef enum VkhResult {"));
+  const std::regex constant(R"((VKH_\w+) = (-?\d+))");
+  const auto end = results.begin() + static_cast<std::ptrdiff_t>(results.find('}'));
+  int named = 0;
+  for (std::sregex_iterator i(results.begin(), end, constant), none; i != none; ++i, ++named)
+    CHECK(vkhResultString(static_cast<VkhResult>(std::stoi((*i)[2]))) == (*i)[1].str());
+  CHECK(named >= 6);
+}
+
+namespace {
+
+// The number of threads that created pipelines, if they are the engine's own.
+size_t threads_of_context(uint32_t most) {
+  VkhContextCreateInfo info = create_info(0, VKH_DEVICE_KIND_NARROW);
+  info.threads = most;
+  static std::mutex mutex;
+  static std::set<std::thread::id> seen;
+  static PFN_vkGetDeviceProcAddr get_device = nullptr;
+  static PFN_vkGetInstanceProcAddr get_instance = nullptr;
+  static PFN_vkCreateComputePipelines create = nullptr;
+  seen.clear();
+  get_instance = info.device.getInstanceProcAddr;
+  get_device = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+      get_instance(info.device.instance, "vkGetDeviceProcAddr"));
+  create = reinterpret_cast<PFN_vkCreateComputePipelines>(
+      get_device(info.device.device, "vkCreateComputePipelines"));
+  static const PFN_vkCreateComputePipelines counting =
+      [](VkDevice device, VkPipelineCache cache, uint32_t count,
+         const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* callbacks,
+         VkPipeline* pipelines) {
+        {
+          const std::lock_guard lock(mutex);
+          seen.insert(std::this_thread::get_id());
+        }
+        return create(device, cache, count, infos, callbacks, pipelines);
+      };
+  static const PFN_vkGetDeviceProcAddr device_functions =
+      [](VkDevice device, const char* name) -> PFN_vkVoidFunction {
+    if (std::strcmp(name, "vkCreateComputePipelines") == 0)
+      return reinterpret_cast<PFN_vkVoidFunction>(counting);
+    return get_device(device, name);
+  };
+  info.device.getInstanceProcAddr = [](VkInstance instance,
+                                       const char* name) -> PFN_vkVoidFunction {
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+      return reinterpret_cast<PFN_vkVoidFunction>(device_functions);
+    return get_instance(instance, name);
+  };
+  VkhContext context = nullptr;
+  REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
+  vkhDestroyContext(context);
+  if (most == 1) CHECK(seen == std::set{std::this_thread::get_id()});
+  return seen.size();
+}
+
+// Runs the work backwards on the calling thread, and counts it.
+void run_here(void* user, uint32_t count, void (*work)(void*, uint32_t), void* data) {
+  for (uint32_t i = count; i-- > 0;) work(data, i);
+  *static_cast<uint32_t*>(user) += count;
+}
+
+}  // namespace
+
+TEST_CASE("threads that create pipelines can be limited, forbidden or given") {
+  CHECK(threads_of_context(1) == 1);
+  CHECK(threads_of_context(2) <= 2);
+  VkhContextCreateInfo info = create_info(0, VKH_DEVICE_KIND_NARROW);
+  uint32_t given = 0;
+  info.parallelFor = run_here;
+  info.parallelUser = &given;
+  VkhContext context = nullptr;
+  REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
+  CHECK(given > 0);
+  vkhDestroyContext(context);
 }
 
 TEST_CASE("extensions are those of the two that the device has") {

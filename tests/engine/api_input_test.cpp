@@ -26,12 +26,7 @@ using Context = std::unique_ptr<VkhContext_T, decltype(&vkhDestroyContext)>;
 
 Context checking(VkhDeviceKind kind, VkBool32 checks = VK_TRUE, VkBool32 by_address = VK_FALSE,
                  uint32_t switches = 0) {
-  VkhContextCreateInfo info{};
-  info.device = test_device().engine_info();
-  info.switches = switches;
-  info.deviceKind = kind;
-  info.byAddress = by_address;
-  info.checkInput = checks;
+  const VkhContextCreateInfo info = create_info(switches, kind, by_address, checks);
   VkhContext context = nullptr;
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   return {context, vkhDestroyContext};

@@ -205,12 +205,7 @@ TEST_CASE("a moved run keeps its subroots") {
     // The choice of candidates that are split twice depends on the room.
     const uint32_t switches =
         wide ? VKH_SWITCH_DEFAULT_WIDE & ~VKH_SWITCH_SPLIT_TWICE : VKH_SWITCH_DEFAULT_NARROW;
-    const VkhContextCreateInfo info{test_device().engine_info(),
-                                    VK_NULL_HANDLE,
-                                    switches | VKH_SWITCH_SUBROOTS,
-                                    kind,
-                                    VK_FALSE,
-                                    VK_FALSE};
+    const VkhContextCreateInfo info = create_info(switches | VKH_SWITCH_SUBROOTS, kind);
     VkhContext context = nullptr;
     REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
     {

@@ -22,12 +22,8 @@ ContextHandle make_closest_context(VkhDeviceKind kind, VkBool32 by_address = VK_
                                    VkBool32 checks = VK_FALSE) {
   const uint32_t defaults = kind == VKH_DEVICE_KIND_WIDE ? uint32_t{VKH_SWITCH_DEFAULT_WIDE}
                                                          : uint32_t{VKH_SWITCH_DEFAULT_NARROW};
-  const VkhContextCreateInfo info{test_device().engine_info(),
-                                  VK_NULL_HANDLE,
-                                  defaults | VKH_SWITCH_CLOSEST,
-                                  kind,
-                                  by_address,
-                                  checks};
+  const VkhContextCreateInfo info =
+      create_info(defaults | VKH_SWITCH_CLOSEST, kind, by_address, checks);
   VkhContext context = nullptr;
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   return {context, vkhDestroyContext};

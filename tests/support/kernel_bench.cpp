@@ -46,10 +46,9 @@ VkBool32 by_address(const Device& device) {
 VkhContext context_for(uint32_t switches, bool wide) {
   Device& device = test_device();
   VkhContext& context = made()->contexts[{switches, wide}];
-  const VkhContextCreateInfo info{
-      device.engine_info(),       VK_NULL_HANDLE,
-      switches | VKH_SWITCH_NONE, wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
-      by_address(device),         VK_FALSE};
+  const VkhContextCreateInfo info =
+      create_info(switches | VKH_SWITCH_NONE, wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW,
+                  by_address(device));
   if (context == nullptr && vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw std::runtime_error("no context");
   return context;
@@ -60,6 +59,17 @@ VkhContext context_for(uint32_t switches, bool wide) {
 Device& test_device() {
   if (made() == nullptr) made() = &kept<TestDevice>();
   return made()->device;
+}
+
+VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind, VkBool32 by_address,
+                                 VkBool32 checks) {
+  VkhContextCreateInfo info{};
+  info.device = test_device().engine_info();
+  info.switches = switches;
+  info.deviceKind = kind;
+  info.byAddress = by_address;
+  info.checkInput = checks;
+  return info;
 }
 
 AdoptedDevice handles_of(const Device& device) {

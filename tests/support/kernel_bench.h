@@ -41,6 +41,10 @@ inline void release_kept() {
 /// VKH_TEST_BY_ADDRESS is not empty.
 vkh::Device& test_device();
 
+/// A context on the test device; `checks`: of its input.
+VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind,
+                                 VkBool32 by_address = VK_FALSE, VkBool32 checks = VK_FALSE);
+
 /// A foreign device, to be adopted.
 AdoptedDevice handles_of(const Device& device);
 

@@ -158,8 +158,9 @@ TEST_CASE("the C API") {
     return result == VKH_SUCCESS ? std::string() : throw std::bad_alloc();
   });
   const auto create_context = [&](VkBool32 by_address) {
-    const VkhContextCreateInfo create{info,       VK_NULL_HANDLE, 0, VKH_DEVICE_KIND_AUTO,
-                                      by_address, VK_FALSE};
+    VkhContextCreateInfo create{};
+    create.device = info;
+    create.byAddress = by_address;
     VkhContext context = nullptr;
     const VkhResult result = vkhCreateContext(&create, &context);
     CHECK((context != nullptr) == (result == VKH_SUCCESS));

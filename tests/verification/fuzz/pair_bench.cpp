@@ -50,8 +50,10 @@ FuzzDevice::FuzzDevice(size_t context_count)
        {VKH_SWITCH_DEFAULT_WIDE | VKH_SWITCH_COVERAGE, VKH_DEVICE_KIND_WIDE}}};
   for (size_t i = 0; i < std::min(context_count, kWays.size()); ++i) {
     const Ways& ways = kWays[i];
-    const VkhContextCreateInfo info{
-        device_.engine_info(), VK_NULL_HANDLE, ways.switches, ways.kind, VK_FALSE, VK_FALSE};
+    VkhContextCreateInfo info{};
+    info.device = device_.engine_info();
+    info.switches = ways.switches;
+    info.deviceKind = ways.kind;
     check_engine(vkhCreateContext(&info, &contexts_.emplace_back()));
   }
 }
