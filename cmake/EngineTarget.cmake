@@ -2,7 +2,7 @@
 # with <vkhausdorff.h> and vkhausdorff_report.glsl.
 add_library(VkHausdorff::engine ALIAS vkh_engine)
 # These are the public headers, for C and for shaders; glslang finds the latter by -I of the same folder.
-set(VKH_ENGINE_HEADERS engine/vkhausdorff.h engine/vkhausdorff_report.glsl)
+set(VKH_ENGINE_HEADERS engine/vkhausdorff.h engine/vkhausdorff_experimental.h engine/vkhausdorff_report.glsl)
 foreach(header IN LISTS VKH_ENGINE_HEADERS)
   get_filename_component(name ${header} NAME)
   configure_file(${header} ${PROJECT_BINARY_DIR}/generated/include/${name} COPYONLY)

@@ -9,6 +9,7 @@
 #include "engine/checks.h"
 #include "engine/record.h"
 #include "engine/support.h"
+#include "engine/vkhausdorff_experimental.h"
 
 namespace vkh {
 namespace {
@@ -27,9 +28,10 @@ VKH_SWITCHES(VKH_SAME_SWITCH)
 #define VKH_SAME_STATUS(constant, value, api) static_assert(VKH_STATUS_##api == gpu::constant);
 VKH_STATUSES(VKH_SAME_STATUS)
 #undef VKH_SAME_STATUS
-static_assert(VKH_SWITCH_COVERAGE == gpu::kUseCoverage);
-static_assert(VKH_SWITCH_FIELD == gpu::kUseField);
-static_assert(VKH_SWITCH_SUBROOTS == gpu::kUseSubroots);
+static_assert(VKH_CONTEXT_COVERAGE == gpu::kUseCoverage);
+static_assert(VKH_CONTEXT_CELLS == gpu::kUseField);
+static_assert(VKH_CONTEXT_FINE == gpu::kUseSubroots);
+static_assert(VKH_CONTEXT_CHECK_INPUT == gpu::kUseInputCheck);
 static_assert(sizeof(VkhCell) == sizeof(gpu::Cell));
 static_assert(offsetof(VkhCell, start) == offsetof(gpu::Cell, start));
 static_assert(sizeof(VkhCellBounds) == sizeof(gpu::CellBounds));
@@ -40,22 +42,30 @@ static_assert(sizeof(VkhPoint) == sizeof(gpu::Vertex));
 static_assert(offsetof(VkhPoint, low) == offsetof(gpu::Vertex, lo));
 static_assert(sizeof(VkhClosestFace) == sizeof(gpu::ClosestFace));
 static_assert(offsetof(VkhClosestFace, face) == offsetof(gpu::ClosestFace, face));
-static_assert(VKH_SWITCH_CLOSEST == gpu::kUseClosest);
+static_assert(VKH_CONTEXT_CLOSEST == gpu::kUseClosest);
 static_assert(VKH_SWITCH_UNCERTIFIED == gpu::kUseUncertified);
 static_assert(VKH_MAX_WAVE_RECORDS == gpu::kMaxWaveRecords && VKH_MAX_CULLS == gpu::kMostCulls);
 static_assert(gpu::kCullCount <= gpu::kMostCulls);
+
+// The flags that kernels see, as bits beside the switches; and all flags.
+constexpr uint32_t kKernelFlags = VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE |
+                                  VKH_CONTEXT_CHECK_INPUT | VKH_CONTEXT_CLOSEST;
+constexpr uint32_t kFlags = kKernelFlags | VKH_CONTEXT_BY_ADDRESS;
+
+bool is_known(const VkhContextCreateInfo& info) {
+  return info.size == sizeof(info) && (info.flags & ~kFlags) == 0 && (info.switches & kFlags) == 0;
+}
 
 // The default switches for each kind of device.
 Limits chosen(const VkhContextCreateInfo& info) {
   Limits limits = device_limits(info.device);
   if (info.deviceKind != VKH_DEVICE_KIND_AUTO)
     limits.wide = info.deviceKind == VKH_DEVICE_KIND_WIDE;
-  limits.by_address = info.byAddress != VK_FALSE;
+  limits.by_address = (info.flags & VKH_CONTEXT_BY_ADDRESS) != 0;
   limits.switches = info.switches & ~uint32_t{VKH_SWITCH_NONE};
   if (info.switches == 0)
     limits.switches = limits.wide ? VKH_SWITCH_DEFAULT_WIDE : VKH_SWITCH_DEFAULT_NARROW;
-  limits.switches &= ~gpu::kUseInputCheck;
-  if (info.checkInput != VK_FALSE) limits.switches |= gpu::kUseInputCheck;
+  limits.switches |= info.flags & kKernelFlags;
   return limits;
 }
 
@@ -115,28 +125,31 @@ Hierarchy view_built(const VkhContext_T& context, VkhHierarchy b) {
 // such a run records only a report of VKH_STATUS_INPUT.
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   check_problem(context, p);
-  const bool has_a = counts_fit(p.a.vertexCount, p.a.faceCount);
+  const bool has_options = p.options.size == sizeof(VkhRunOptions);
+  const VkhRunOptions options = has_options ? p.options : VkhRunOptions{};
+  const bool has_a = has_options && counts_fit(p.a.vertexCount, p.a.faceCount);
   const uint32_t vertex_count = has_a ? p.a.vertexCount : 1, face_count = has_a ? p.a.faceCount : 1;
   const Workspace ws = view_workspace(p.workspace, context.limits, vertex_count, face_count);
   // Without this a run would wait forever for more room than the device's limits allow.
   const bool can_grow = ws.capacity < largest_capacity(context.limits);
   return {.vertex_count = vertex_count,
           .face_count = face_count,
-          .cull_tolerance = not_negative(p.cullTolerance),
-          .known_lower = not_negative(p.knownLower),
-          .limit = not_negative(p.limit),
-          .limit_up = not_negative(p.limitUp),
-          .sort_from = p.sortFrom,
+          .cull_tolerance = not_negative(options.cullTolerance),
+          .known_lower = not_negative(options.knownLower),
+          .limit = not_negative(options.limit),
+          .limit_up = not_negative(options.limitUp),
+          .sort_from = options.sortFrom,
           .switches = context.limits.switches,
           .wide = context.limits.wide,
-          .two_float = p.twoFloat != VK_FALSE,
-          .warm = p.warm != VK_FALSE,
-          .pauses = can_grow && p.pauseWhenFull != VK_FALSE,
+          .two_float = options.twoFloat != VK_FALSE,
+          .warm = options.warm != VK_FALSE,
+          .pauses = can_grow && options.pauseWhenFull != VK_FALSE,
           .has_a = has_a,
           .input_fault = layout_fault(p.a),
           .b = view_built(context, p.b),
           .ws = ws,
-          .areas = {p.coverageBuffer, p.coverageOffset, 2 * sizeof(gpu::Area) * face_count}};
+          .areas = {options.coverageBuffer, options.coverageOffset,
+                    2 * sizeof(gpu::Area) * face_count}};
 }
 
 // Sets the counts of the BVH, before anything reads them. A mesh without faces or vertices
@@ -172,7 +185,7 @@ void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
   // Without twoFloat, B is measured by its high parts alone: A must be, too.
   check_begin(problem);
   VkhMesh a = problem.a;
-  if (problem.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
+  if (problem.options.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   record_load(rec, a, p.ws.vertices, p.ws.faces);
   record_seed(rec, p);
   record_check(rec, a, as<uint32_t>(p.ws.control), offsetof(gpu::Control, input_fault) / 4);
@@ -199,6 +212,8 @@ void record_any_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>
 }
 
 void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task) {
+  check_task(task);
+  if (task.size != sizeof(VkhTask)) return;
   VkhProblem& problem = *task.problem;
   if (task.mesh != nullptr && task.scratch != nullptr) {
     record_hierarchy(rec, context.limits, *task.mesh, problem.b, *task.scratch);
@@ -250,6 +265,7 @@ bool can_move(const VkhProblem& p, const VkhMemory& to) {
 
 VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context) {
   *context = nullptr;
+  if (!vkh::is_known(*info)) return VKH_ERROR_MISUSE;
   if (vkhQuerySupport(&info->device, nullptr, 0) != VKH_SUCCESS) return VKH_ERROR_UNSUPPORTED;
   try {
     auto created = std::make_unique<VkhContext_T>();

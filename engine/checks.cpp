@@ -76,14 +76,20 @@ void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& 
 }
 
 void check_begin(const VkhProblem& p) {
+  const VkhRunOptions& o = p.options;
   check_mesh(p.a);
-  VKH_RULE("VkhProblem::cullTolerance: at least 0", p.cullTolerance >= 0);
-  VKH_RULE("VkhProblem::knownLower: at least 0", p.knownLower >= 0);
-  VKH_RULE("VkhProblem::limit: at least 0", p.limit >= 0);
-  VKH_RULE("VkhProblem::limitUp: 0 or at least limit", p.limitUp == 0 || p.limitUp >= p.limit);
+  VKH_RULE("VkhRunOptions::cullTolerance: at least 0", o.cullTolerance >= 0);
+  VKH_RULE("VkhRunOptions::knownLower: at least 0", o.knownLower >= 0);
+  VKH_RULE("VkhRunOptions::limit: at least 0", o.limit >= 0);
+  VKH_RULE("VkhRunOptions::limitUp: 0 or at least limit", o.limitUp == 0 || o.limitUp >= o.limit);
+}
+
+void check_task(const VkhTask& task) {
+  VKH_RULE("VkhTask::size: sizeof(VkhTask)", task.size == sizeof(VkhTask));
 }
 
 void check_problem(const VkhContext_T& context, const VkhProblem& p) {
+  VKH_RULE("VkhRunOptions::size: sizeof(VkhRunOptions)", p.options.size == sizeof(VkhRunOptions));
   VKH_RULE("VkhMesh::vertexCount: 1 to 2^28", is_count(p.a.vertexCount));
   VKH_RULE("VkhMesh::faceCount: 1 to 2^28", is_count(p.a.faceCount));
   VKH_RULE("VkhProblem::b: a hierarchy that was built",
@@ -95,9 +101,11 @@ void check_problem(const VkhContext_T& context, const VkhProblem& p) {
                                               context.limits.switches));
   VKH_RULE("VkhProblem::workspace and ::b: apart", !overlaps_any(p.workspace, p.b));
   const bool covers = gpu::covers_area(context.limits.switches, context.limits.wide);
-  VKH_RULE("VkhProblem::coverageBuffer: with a context of VKH_SWITCH_COVERAGE, and with no other",
-           (p.coverageBuffer != VK_NULL_HANDLE) == covers);
-  VKH_RULE("VkhProblem::coverageOffset: a multiple of 256 bytes", p.coverageOffset % 256 == 0);
+  VKH_RULE(
+      "VkhRunOptions::coverageBuffer: with a context of VKH_CONTEXT_COVERAGE, and with no other",
+      (p.options.coverageBuffer != VK_NULL_HANDLE) == covers);
+  VKH_RULE("VkhRunOptions::coverageOffset: a multiple of 256 bytes",
+           p.options.coverageOffset % 256 == 0);
 }
 
 void check_move(const VkhProblem& p, const VkhMemory& to) {
@@ -116,7 +124,7 @@ void check_report(VkBuffer buffer, VkDeviceSize offset) {
 }
 
 void check_cells(const VkhContext_T& context, const VkhProblem& p, const VkhCells& cells) {
-  VKH_RULE("vkhCmdBoundCells: a context of VKH_SWITCH_FIELD",
+  VKH_RULE("vkhCmdBoundCells: a context of VKH_CONTEXT_CELLS",
            gpu::bounds_cells(context.limits.switches, context.limits.wide));
   VKH_RULE("VkhCells::count: at least 1", cells.count >= 1);
   VKH_RULE("VkhCells::count: no more than A has faces",
@@ -129,7 +137,7 @@ void check_cells(const VkhContext_T& context, const VkhProblem& p, const VkhCell
 
 void check_closest(const VkhContext_T& context, const VkhHierarchy& b,
                    const VkhClosestQuery& query) {
-  VKH_RULE("vkhCmdFindClosest: a context of VKH_SWITCH_CLOSEST",
+  VKH_RULE("vkhCmdFindClosest: a context of VKH_CONTEXT_CLOSEST",
            gpu::finds_closest(context.limits.switches, context.limits.wide));
   VKH_RULE("vkhCmdFindClosest: a hierarchy that was built",
            is_count(b.faceCount) && is_count(b.vertexCount));

@@ -9,6 +9,7 @@ namespace vkh {
 #ifdef NDEBUG
 inline void check_build(const Limits&, const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
 inline void check_begin(const VkhProblem&) {}
+inline void check_task(const VkhTask&) {}
 inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
 inline void check_move(const VkhProblem&, const VkhMemory&) {}
 inline void check_report(VkBuffer, VkDeviceSize) {}
@@ -21,6 +22,7 @@ void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& 
                  const VkhMemory* scratch);
 // The rules of what the begin alone reads, and of what the rest of a run reads, too.
 void check_begin(const VkhProblem& problem);
+void check_task(const VkhTask& task);
 void check_problem(const VkhContext_T& context, const VkhProblem& problem);
 // The rules of a move into `to`.
 void check_move(const VkhProblem& problem, const VkhMemory& to);

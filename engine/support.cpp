@@ -179,6 +179,8 @@ const char* vkhResultString(VkhResult result) {
       return "VKH_ERROR_MEMORY";
     case VKH_ERROR_NOT_ENABLED:
       return "VKH_ERROR_NOT_ENABLED";
+    case VKH_ERROR_MISUSE:
+      return "VKH_ERROR_MISUSE";
   }
   return "no VkhResult of this version";
 }

@@ -6,7 +6,7 @@
 namespace vkh {
 
 Limits device_limits(const VkhDeviceInfo& info);
-// Whether buffers can be given by address (VkhContextCreateInfo::byAddress).
+// Whether buffers can be given by address (VKH_CONTEXT_BY_ADDRESS).
 bool has_addresses(const VkhDeviceInfo& info);
 
 }  // namespace vkh

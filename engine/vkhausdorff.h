@@ -60,6 +60,9 @@
  * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
  *
+ * Structs that may grow have their size first: set it to sizeof, as compiled. A library of a later
+ * version takes what is missing for 0.
+ *
  * Errors: functions that can fail return VkhResult and then leave their output as it was (a context
  * becomes null). Recording cannot fail (but see vkhGetRecordingResult): what could go wrong is
  * refused before, or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the
@@ -104,11 +107,12 @@ typedef struct VkhContext_T* VkhContext;
 typedef enum VkhResult {
   VKH_SUCCESS = 0,
   VKH_ERROR_UNSUPPORTED = -1, /* the device lacks something; vkhQuerySupport says what */
-  VKH_ERROR_PIPELINE = -2,   /* the driver refused a pipeline or ran out of host or device memory */
-  VKH_ERROR_TOO_LARGE = -3,  /* a mesh exceeds 2^28, or one storage buffer binding (but see
-                              * VkhContextCreateInfo::byAddress); or is empty */
-  VKH_ERROR_MEMORY = -4,     /* no host or device memory for descriptor sets */
-  VKH_ERROR_NOT_ENABLED = -5 /* the device has what is needed, and was created without it */
+  VKH_ERROR_PIPELINE = -2,  /* the driver refused a pipeline or ran out of host or device memory */
+  VKH_ERROR_TOO_LARGE = -3, /* a mesh exceeds 2^28, or one storage buffer binding (but see
+                             * VKH_CONTEXT_BY_ADDRESS); or is empty */
+  VKH_ERROR_MEMORY = -4,    /* no host or device memory for descriptor sets */
+  VKH_ERROR_NOT_ENABLED = -5, /* the device has what is needed, and was created without it */
+  VKH_ERROR_MISUSE = -6 /* a struct's `size` is of no version that the library knows, or a flag */
 } VkhResult;
 
 /* The constant's name, such as "VKH_ERROR_PIPELINE", a static string; never null. */
@@ -117,45 +121,38 @@ VKH_API const char* vkhResultString(VkhResult result);
 /* VKH_VERSION of the linked library; a shared one may differ from this header. */
 VKH_API uint32_t vkhGetVersion(void);
 
-/* Parts of the method, for ablations: 0 selects what pays on the device, and what you want. The
- * interval is true without any of them. */
-typedef enum VkhSwitchBits {
-  VKH_SWITCH_CENTROID = 1,       /* the triangle closest to a candidate's centroid, in ha and u3 */
-  VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, too */
-  VKH_SWITCH_TOLERANCE_CULL = 4, /* cull at lower + tolerance instead of lower */
-  VKH_SWITCH_THIN = 8,           /* double longest-edge bisection of thin candidates */
-  VKH_SWITCH_PAIRS = 16,         /* u3, the pairwise split bound */
-  VKH_SWITCH_U4 = 32,            /* u4, the point-point bisector bound */
-  VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
-  VKH_SWITCH_COVERAGE = 128,     /* no part of the method: VkhProblem::coverageBuffer is written */
-  VKH_SWITCH_GROUP_WALK = 256,   /* few queries: a workgroup traverses for each; GPU profile */
-  VKH_SWITCH_SHARED_FACES = 512, /* faces of A that B has are closed: h(A, A) is 0 at once */
-  /* Plain floats: NOTHING IS CERTIFIED, and VkhReport::certified says so; to measure the price. */
-  VKH_SWITCH_UNCERTIFIED = 1024,
-  /* Parts of the paper's method that this one does without, or has in another form. */
-  VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
-  VKH_SWITCH_PACKET = 4096, /* one traversal for a candidate's three new points */
-  VKH_SWITCH_DEFER = 8192,  /* excess candidates wait; off: they end the run as VKH_STATUS_MEMORY */
-  VKH_SWITCH_LARGEST_FIRST = 16384, /* candidates with the largest u are refined first */
-  VKH_SWITCH_U3_PAPER = 32768,      /* u3 by one bisector, or by midpoints and centroid */
-  /* Few candidates are split twice in a wave, unless CENTROID, PACKET or U3_PAPER is on. */
-  VKH_SWITCH_SPLIT_TWICE = 65536,
-  VKH_SWITCH_FIELD = 131072,    /* no part of the method: vkhCmdBoundCells can be recorded */
-  VKH_SWITCH_SUBROOTS = 262144, /* no part: edges are halved 40 times, not 20 (tight tolerances) */
-  VKH_SWITCH_CLOSEST = 1048576, /* no part: vkhCmdFindClosest can be recorded */
-  VKH_SWITCH_NONE = 1 << 30,    /* switches nothing: the empty set, which 0 is not */
-  /* The meaning of 0 for each kind of device. Fewer candidates are worth a query on a CPU; on a
-   * GPU, a chain of short steps, more candidates at once are cheaper than another step. */
-  VKH_SWITCH_DEFAULT_NARROW = 1 + 2 + 4 + 8 + 16 + 64 + 512 + 8192,
-  VKH_SWITCH_DEFAULT_WIDE = 4 + 8 + 16 + 64 + 256 + 512 + 8192 + 65536
-} VkhSwitchBits;
-
 /* The profile of a device: decides on kernels and dispatches. The interval is true either way. */
 typedef enum VkhDeviceKind {
   VKH_DEVICE_KIND_AUTO = 0,  /* NARROW for VK_PHYSICAL_DEVICE_TYPE_CPU, WIDE for all others */
   VKH_DEVICE_KIND_WIDE = 1,  /* GPU profile, many workgroups: a small wave gets more invocations */
   VKH_DEVICE_KIND_NARROW = 2 /* CPU profile, few workgroups at once: no invocation without work */
 } VkhDeviceKind;
+
+/* What a context does besides, or in another way. The values leave free what VkhSwitchBits takes.
+ */
+typedef enum VkhContextFlagBits {
+  VKH_CONTEXT_COVERAGE = 0x80, /* runs write VkhRunOptions::coverageBuffer */
+  VKH_CONTEXT_CELLS = 0x20000, /* vkhCmdBoundCells can be recorded */
+  /* For tolerances under 5e-7 of A's diagonal: edges are halved 40 times, not 20. */
+  VKH_CONTEXT_FINE = 0x40000,
+  /* Each mesh is checked on the device where it is read, by vkhCmdBuildHierarchy,
+   * vkhCmdRefitHierarchy, vkhCmdBegin and tasks: indices below vertexCount, coordinates that are
+   * finite and up to 2^15, low parts of at most half an ulp, of the vertices that faces use. A run
+   * with a mesh that fails has reports of VKH_STATUS_INPUT, which name a face. Without it none of
+   * this is checked, and such a mesh gives an untrue interval. */
+  VKH_CONTEXT_CHECK_INPUT = 0x80000,
+  VKH_CONTEXT_CLOSEST = 0x100000, /* vkhCmdFindClosest can be recorded */
+  /* For meshes whose buffers no binding reaches. Kernels are given the addresses of the buffers
+   * that hold a mesh or a BVH. At most 4 bytes a face and a vertex are bound, 16 a face of A with
+   * VKH_CONTEXT_COVERAGE: a device that binds 128 MiB takes 33 million faces. It binds 2 million of
+   * B. Every bit of a report is the same. Needs the feature bufferDeviceAddress (Vulkan 1.2),
+   * enabled; without it vkhCreateContext returns VKH_ERROR_UNSUPPORTED. The buffers of each VkhMesh
+   * and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
+   * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
+   * at most 8 GiB. robustBufferAccess does not hold for addresses. */
+  VKH_CONTEXT_BY_ADDRESS = 0x200000
+} VkhContextFlagBits;
+typedef uint32_t VkhContextFlags; /* VkhContextFlagBits that are on */
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: you may have
  * opened the loader yourself, or it may be a layer. `device` may be null before it is created.
@@ -187,25 +184,13 @@ typedef void (*VkhParallelFor)(void* user, uint32_t count, void (*work)(void* da
                                void* data);
 
 typedef struct VkhContextCreateInfo {
+  size_t size; /* sizeof(VkhContextCreateInfo) */
   VkhDeviceInfo device;
   VkPipelineCache pipelineCache; /* may be null */
-  uint32_t switches;             /* VkhSwitchBits that are on; 0: what pays on the device */
-  VkhDeviceKind deviceKind;      /* 0: by the device's type */
-  /* VK_TRUE: for meshes whose buffers no binding reaches. Kernels are given the addresses of the
-   * buffers that hold a mesh or a BVH. At most 4 bytes a face and a vertex are bound, 16 a face of
-   * A with VKH_SWITCH_COVERAGE: a device that binds 128 MiB takes 33 million faces. It binds 2
-   * million of B. Every bit of a report is the same. Needs the feature bufferDeviceAddress (Vulkan
-   * 1.2), enabled; without it vkhCreateContext returns VKH_ERROR_UNSUPPORTED. The buffers of each
-   * VkhMesh and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
-   * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
-   * at most 8 GiB. robustBufferAccess does not hold for addresses. */
-  VkBool32 byAddress;
-  /* VK_TRUE: each mesh is checked on the device where it is read, by vkhCmdBuildHierarchy,
-   * vkhCmdRefitHierarchy, vkhCmdBegin and tasks: indices below vertexCount, coordinates that are
-   * finite and up to 2^15, low parts of at most half an ulp, of the vertices that faces use. A run
-   * with a mesh that fails has reports of VKH_STATUS_INPUT, which name a face. VK_FALSE: none of
-   * this is checked, and such a mesh gives an untrue interval that says certified. */
-  VkBool32 checkInput;
+  VkhContextFlags flags;
+  VkhDeviceKind deviceKind; /* 0: by the device's type */
+  /* 0: the parts of the method that pay on the device. vkhausdorff_experimental.h has others. */
+  uint32_t switches;
   /* The most threads that create pipelines at once, the calling one among them. 1: the engine
    * starts no thread. 0: up to 8. Unused with `parallelFor`. */
   uint32_t threads;
@@ -214,12 +199,13 @@ typedef struct VkhContextCreateInfo {
   void* parallelUser;
 } VkhContextCreateInfo;
 
-/* Zeros in all but `device` are right: certified, and what pays on the device. Creates the
- * pipelines, on several threads while it runs (`threads`); this is the one slow call (seconds where
- * the driver has not compiled them before, so keep a pipeline cache). Nothing of `info` but the
- * handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
- * VKH_ERROR_UNSUPPORTED (vkhQuerySupport tells why, or byAddress needs a feature),
- * VKH_ERROR_NOT_ENABLED or VKH_ERROR_PIPELINE; on failure *context is null and nothing is left.
+/* Zeros in all but `size` and `device` are right: certified, and what pays on the device. Creates
+ * the pipelines, on several threads while it runs (`threads`); this is the one slow call (seconds
+ * where the driver has not compiled them before, so keep a pipeline cache). Nothing of `info` but
+ * the handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
+ * VKH_ERROR_UNSUPPORTED (vkhQuerySupport tells why, or VKH_CONTEXT_BY_ADDRESS needs a feature),
+ * VKH_ERROR_NOT_ENABLED, VKH_ERROR_PIPELINE or VKH_ERROR_MISUSE; on failure *context is null and
+ * nothing is left.
  *
  * A device in C, with one queue, that `info` then names:
  *
@@ -251,10 +237,11 @@ VKH_API void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer command
 /* A triangle mesh in the caller's buffers. Positions are three float32 at vertexOffset + i *
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount.
- * Without VkhContextCreateInfo::checkInput the GPU checks nothing: coordinates not finite and
+ * Without VKH_CONTEXT_CHECK_INPUT the GPU checks nothing: coordinates not finite and
  * indices out of range give an untrue interval; the latter are taken for the last vertex. Unused
  * vertices are no part of the mesh. Degenerate faces are segments or points. Both buffers: usage
- * STORAGE_BUFFER; each range is at most maxStorageBufferRange less 256 bytes, unless byAddress, and
+ * STORAGE_BUFFER; each range is at most maxStorageBufferRange less 256 bytes, but for
+ * VKH_CONTEXT_BY_ADDRESS, and
  * with 16-bit indices it must reach to the end of the last index's 4-byte word. A and B may share
  * buffers. The engine never writes them.
  */
@@ -358,13 +345,10 @@ VKH_API void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuf
                                   const VkhMesh* mesh, const VkhHierarchy* hierarchy,
                                   VkhProfile* profile);
 
-/* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport, and
- * the same context; after the begin `b`, `workspace`, a's counts and the coverage buffer are read.
- */
-typedef struct VkhProblem {
-  VkhMesh a;
-  VkhHierarchy b;
-  VkhMemory workspace;
+/* What is asked of a run. Zeros in all but `size` ask for the distance to the last bit that floats
+ * have: set cullTolerance. */
+typedef struct VkhRunOptions {
+  size_t size; /* sizeof(VkhRunOptions) */
   /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. Here and
    * below, NaN and what is under 0 stand for 0. */
   float cullTolerance;
@@ -384,7 +368,7 @@ typedef struct VkhProblem {
    * the interval is just as true, but takes longer. Zero it for a first frame, and where a run must
    * repeat to the last bit. */
   VkBool32 warm;
-  /* With a context of VKH_SWITCH_COVERAGE, and with no other (then null): 16 bytes a face of A,
+  /* With a context of VKH_CONTEXT_COVERAGE, and with no other (then null): 16 bytes a face of A,
    * usage STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute
    * shaders and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport
    * adds what is open. It holds faceCount 64-bit integers (two little-endian words each), the part
@@ -393,8 +377,6 @@ typedef struct VkhProblem {
    * without a bound yet. */
   VkBuffer coverageBuffer;
   VkDeviceSize coverageOffset; /* bytes */
-  /* With VKH_SWITCH_SORT: frontiers of fewer candidates are not sorted. 0: as measured to pay. */
-  uint32_t sortFrom;
   /* VK_TRUE: if the workspace has no room for all that a wave would do, the run pauses: waves
    * change nothing, and VkhReport::wanted says for how many candidates room is wanted, until
    * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE, or in a
@@ -412,6 +394,17 @@ typedef struct VkhProblem {
   /* 0, which stands for limit, or more than limit: lower must exceed it for VKH_STATUS_BEYOND. For
    * a limit that is no float, set `limit` to it rounded down, and this to it rounded up. */
   float limitUp;
+  uint32_t sortFrom; /* for VKH_SWITCH_SORT of vkhausdorff_experimental.h; else unused */
+} VkhRunOptions;
+
+/* One run: h(a, b). Give the same problem to vkhCmdBegin, vkhCmdAdvance and vkhCmdWriteReport, and
+ * the same context; after the begin `b`, `workspace`, a's counts and the coverage buffer are read.
+ * A later version may add to VkhRunOptions alone, which stands last for it. */
+typedef struct VkhProblem {
+  VkhMesh a;
+  VkhHierarchy b;
+  VkhMemory workspace;
+  VkhRunOptions options;
 } VkhProblem;
 
 /* Starts a run: copies A into the workspace, queries each vertex of A, finds the first lower bound,
@@ -434,8 +427,8 @@ VKH_API void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer,
 /* Between two waves: the run goes on in `workspace`, as a rule a larger one, at least as large as
  * its own and apart from it, and problem->workspace becomes that; or it goes on in its own range,
  * if `workspace` is that. Any other range changes nothing, and problem->workspace stays. From now
- * on problem->pauseWhenFull and knownLower hold. Reads the old workspace and writes the new one in
- * transfers; once they have run, the old one is free. */
+ * on pauseWhenFull and knownLower of problem->options hold. Reads the old workspace and writes the
+ * new one in transfers; once they have run, the old one is free. */
 VKH_API void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
                            const VkhMemory* workspace, VkhProfile* profile);
 
@@ -444,13 +437,14 @@ typedef enum VkhStatus {
   VKH_STATUS_DECIDED = 1, /* none is left: upper - lower is at most cullTolerance and rounding */
   VKH_STATUS_PRECISION = 2, /* none is left, but some could not be decided in float32 */
   VKH_STATUS_MEMORY = 3,    /* no room for some, and none could wait: their u is in upper */
-  VKH_STATUS_WITHIN = 4,    /* with VkhProblem::limit: upper is at most that */
-  VKH_STATUS_BEYOND = 5,    /* with VkhProblem::limit: lower is more than limit and limitUp */
+  VKH_STATUS_WITHIN = 4,    /* with VkhRunOptions::limit: upper is at most that */
+  VKH_STATUS_BEYOND = 5,    /* with VkhRunOptions::limit: lower is more than limit and limitUp */
   /* A or B is no mesh, and nothing is known: lower 0, upper infinite, certified 0. Always where a
    * count is 0 or above 2^28, a buffer is null, a stride is under 12 or makes more than 8 GiB, a
-   * stride or offset is no multiple of what it must be, or an index type is unknown; where a refit
+   * stride or offset is no multiple of what it must be, an index type is unknown, or the options'
+   * `size` is of no known version; where a refit
    * has other counts than the build; and where VkhProblem::b is a copy that was made before the
-   * build. With VkhContextCreateInfo::checkInput also for what the buffers hold. witnessFaceA and
+   * build. With VKH_CONTEXT_CHECK_INPUT also for what the buffers hold. witnessFaceA and
    * witnessFaceB are then the least face of A and of B that is at fault; 0xffffffff: none is;
    * 0xfffffffe: the VkhMesh is, or b. */
   VKH_STATUS_INPUT = 6
@@ -489,7 +483,7 @@ typedef struct VkhReport {
   uint32_t wanted; /* the run pauses: vkhGetWorkspaceSize of so many candidates would do; else 0 */
   uint32_t culled[VKH_MAX_CULLS]; /* by exact, u1, u2, ha, u3, u4, lower raised, precision */
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
-  uint32_t witnessBarycentricLow[2]; /* to be added, in units of 2^-40: VKH_SWITCH_SUBROOTS */
+  uint32_t witnessBarycentricLow[2]; /* to be added, in units of 2^-40: VKH_CONTEXT_FINE */
 } VkhReport;
 
 /* Certifies the witness against every triangle of B and writes the report at `offset` (a multiple
@@ -534,7 +528,7 @@ typedef struct VkhCells {
 } VkhCells;
 
 /* Bounds of d(x, B) over cells of A: for a picture, for statistics, for choosing what to refine.
- * Needs a context of VKH_SWITCH_FIELD; valid from vkhCmdBegin on, as long as the workspace holds
+ * Needs a context of VKH_CONTEXT_CELLS; valid from vkhCmdBegin on, as long as the workspace holds
  * the run. The run does not change. A cell's result does not depend on the others. If a report
  * would be of VKH_STATUS_INPUT, bounds are NaN, and faces and starts 0xffffffff. Buffers: usage
  * STORAGE_BUFFER, offsets multiples of 256 bytes; read and written in COMPUTE_SHADER. */
@@ -570,15 +564,17 @@ typedef struct VkhClosestQuery {
 } VkhClosestQuery;
 
 /* Finds the face of B that is closest to each of some points. Needs a context of
- * VKH_SWITCH_CLOSEST, and no run: B alone. A point's result does not depend on the others. If B is
+ * VKH_CONTEXT_CLOSEST, and no run: B alone. A point's result does not depend on the others. If B is
  * no mesh, ends are NaN and faces 0xffffffff. Buffers: usage STORAGE_BUFFER, offsets multiples of
  * 256 bytes; read and written in COMPUTE_SHADER. */
 VKH_API void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhHierarchy* b, const VkhClosestQuery* query,
                                VkhProfile* profile);
 
-/* The work for one pair, in the order of the members; each part may be left out. */
+/* The work for one pair, in the order of the members; each part may be left out. A task of another
+ * `size` than the library knows is left out whole. */
 typedef struct VkhTask {
+  size_t size; /* sizeof(VkhTask), in every task */
   /* B's BVH first. With `scratch`, as vkhCmdBuildHierarchy into problem->b, whose
    * counts are set; without, as vkhCmdRefitHierarchy. Null: it is left as it is. */
   const VkhMesh* mesh;

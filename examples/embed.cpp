@@ -27,7 +27,8 @@ VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float 
   problem.a = a;
   problem.b.memory = {memory.handle, 0, split};
   problem.workspace = {memory.handle, split, workspace.recommended};
-  problem.cullTolerance = tolerance;
+  problem.options.size = sizeof(problem.options);
+  problem.options.cullTolerance = tolerance;
   gpu.run([&](VkCommandBuffer commands) {
     vkhCmdBuildHierarchy(vkh, commands, &b, &problem.b, &scratch, nullptr);
     vkhCmdBegin(vkh, commands, &problem, nullptr);

@@ -61,6 +61,7 @@ Gpu::Gpu(const GpuRequest& request) {
   create_queue_objects();
   create_layout();
   VkhContextCreateInfo info{};
+  info.size = sizeof(info);
   info.device = {vkGetInstanceProcAddr, instance_, physical_, device_};
   if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
   keep([this] { vkhDestroyContext(context_); });

@@ -98,8 +98,9 @@ Pair::Pair(Gpu& gpu, const Scene& scene, uint32_t a, uint32_t b)
 
 void Pair::certify(VkCommandBuffer commands, Hierarchy hierarchy, bool warm, uint32_t waves,
                    float tolerance) {
-  problem_.warm = warm ? VK_TRUE : VK_FALSE;
-  problem_.cullTolerance = tolerance;
+  problem_.options.size = sizeof(problem_.options);
+  problem_.options.warm = warm ? VK_TRUE : VK_FALSE;
+  problem_.options.cullTolerance = tolerance;
   if (hierarchy == Hierarchy::kBuild) {
     vkhCmdBuildHierarchy(context_, commands, &b_, &problem_.b, &scratch_, nullptr);
   } else {

@@ -70,8 +70,8 @@ VKH_CONST uint kMaxTriangles = 1u << 28;
 VKH_CONST uint kStackDepth = 60u;
 
 // Switches (specialisation constant 0): their only list. A set bit switches the part on.
-//   X(constant, bit, api, name): VKH_SWITCH_<api> in vkhausdorff.h; name: what the command line,
-// JSON and Python call it.
+//   X(constant, bit, api, name): VKH_SWITCH_<api> in vkhausdorff_experimental.h; name: what the
+// command line, JSON and Python call it.
 #define VKH_SWITCHES(X)                                                                           \
   X(kUseCentroid, 0u, CENTROID, centroid) /* query the centroid, use its closest triangle */      \
   X(kUseParentSamples, 1u, PARENT_SAMPLES, parent_samples) /* the parent's six points', too */    \

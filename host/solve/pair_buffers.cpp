@@ -220,13 +220,14 @@ VkDeviceSize PairBuffers::host_bytes(const RunInput& in) const {
 
 void PairBuffers::set_problem(const RunInput& in, VkDeviceSize bytes, bool may_grow) {
   problem_.workspace = {workspace_.handle(), 0, bytes};
-  problem_.cullTolerance = in.cull_tolerance;
-  problem_.knownLower = in.known_lower;
-  problem_.limit = in.limit;
-  problem_.limitUp = in.limit_up;
-  problem_.sortFrom = in.sort_from;
-  problem_.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
-  problem_.pauseWhenFull = may_grow && in.memory_bytes == 0 ? VK_TRUE : VK_FALSE;
+  problem_.options.size = sizeof(problem_.options);
+  problem_.options.cullTolerance = in.cull_tolerance;
+  problem_.options.knownLower = in.known_lower;
+  problem_.options.limit = in.limit;
+  problem_.options.limitUp = in.limit_up;
+  problem_.options.sortFrom = in.sort_from;
+  problem_.options.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
+  problem_.options.pauseWhenFull = may_grow && in.memory_bytes == 0 ? VK_TRUE : VK_FALSE;
   next_.reset();
   left_ = Buffer();
 }
@@ -281,7 +282,7 @@ void PairBuffers::make_room(VkhContext context, RunOutput& out) {
     if (bytes > problem_.workspace.size) next_ = take_room(bytes);
   } catch (const MemoryError&) {  // candidates without room can wait
   }
-  problem_.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
+  problem_.options.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
   out.workspace_bytes = next_->size;
   const bool leaves = problem_.workspace.buffer == workspace_.handle() &&
                       next_->buffer != problem_.workspace.buffer;
@@ -289,8 +290,8 @@ void PairBuffers::make_room(VkhContext context, RunOutput& out) {
 }
 
 void PairBuffers::raise_known(float known_lower) {
-  if (!(known_lower > problem_.knownLower)) return;
-  problem_.knownLower = known_lower;
+  if (!(known_lower > problem_.options.knownLower)) return;
+  problem_.options.knownLower = known_lower;
   if (!next_) next_ = problem_.workspace;
 }
 
@@ -314,13 +315,13 @@ ResidentMesh PairBuffers::take_resident(VkhContext context, const MeshData& b,
 }
 
 void PairBuffers::place_areas(const RunInput& in, RunOutput& out, MemoryPolicy policy) {
-  problem_.coverageBuffer = VK_NULL_HANDLE;
+  problem_.options.coverageBuffer = VK_NULL_HANDLE;
   if (!in.coverage) return;
   out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
   take_buffer(areas_, device_, bytes, policy);
   grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
-  problem_.coverageBuffer = areas_.handle();
+  problem_.options.coverageBuffer = areas_.handle();
 }
 
 void PairBuffers::record_upload(VkCommandBuffer commands) const {

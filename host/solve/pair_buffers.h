@@ -54,19 +54,19 @@ struct ResidentMesh {
 struct RunInput {
   MeshData a, b;
   const ResidentMesh* resident = nullptr;  ///< instead of uploading and building b
-  uint32_t switches = 0;                   ///< VkhSwitchBits and kSwitchWide
+  uint32_t switches = 0;                   ///< switches_of, without the host's own
   uint64_t memory_bytes = 0;               ///< workspace; 0: start_memory_bytes, and more if the
                                            ///< run wants it
   uint64_t start_memory_bytes = 0;         ///< 0: the recommended size
   uint32_t wave_limit = UINT32_MAX;
   bool multiwave = true;   ///< false: the host reads the report after every wave
-  uint32_t sort_from = 0;  ///< VkhProblem::sortFrom
+  uint32_t sort_from = 0;  ///< VkhRunOptions::sortFrom
   float cull_tolerance = 0, known_lower = 0, limit = 0, limit_up = 0;
   bool two_float = false;
   bool stage_times = true;  ///< false: only the stages "hierarchy" and "solve"
-  bool coverage = false;    ///< record what was closed; `switches` has VKH_SWITCH_COVERAGE too
+  bool coverage = false;    ///< record what was closed; `switches` has VKH_CONTEXT_COVERAGE too
   /// Called at the end, with the report and a function that bounds cells; `switches` has
-  /// VKH_SWITCH_FIELD too.
+  /// VKH_CONTEXT_CELLS too.
   std::function<void(const VkhReport&, const BoundCells&)> survey;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/vkhausdorff_experimental.h"
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/solve/switches.h"
@@ -90,11 +91,12 @@ VkhContext Runner::context_for(uint32_t switches) {
   if (known != contexts_.end()) return known->second.get();
   const bool wide = (switches & kSwitchWide) != 0;
   VkhContextCreateInfo info{};
+  info.size = sizeof(info);
   info.device = device_.engine_info();
   info.pipelineCache = cache_.handle();
-  info.switches = (switches & ~(kSwitchWide | kSwitchByAddress)) | VKH_SWITCH_NONE;
+  info.flags = switches & kContextFlags;
   info.deviceKind = wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW;
-  info.byAddress = (switches & kSwitchByAddress) != 0 ? VK_TRUE : VK_FALSE;
+  info.switches = (switches & ~(kSwitchWide | kContextFlags)) | VKH_SWITCH_NONE;
   VkhContext context = nullptr;
   check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
   ContextHandle kept(context, vkhDestroyContext);
@@ -203,7 +205,8 @@ void Runner::record_together(VkCommandBuffer commands, const Submission& submiss
   for (const size_t i : submission.running) {
     PairBuffers& buffers = *buffers_[i];
     buffers.record_move(context_, commands, nullptr);
-    tasks.push_back({.mesh = submission.builds ? buffers.mesh_b() : nullptr,
+    tasks.push_back({.size = sizeof(VkhTask),
+                     .mesh = submission.builds ? buffers.mesh_b() : nullptr,
                      .scratch = buffers.scratch(),
                      .problem = &buffers.problem(),
                      .begin = submission.begins ? VK_TRUE : VK_FALSE,
@@ -281,7 +284,7 @@ void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBa
   const SerialGuard::Hold hold(guard_);
   std::array<RunInput, 1> alone;
   alone[0].b.mesh = &mesh;
-  context_ = context_for(default_switches(device_) | VKH_SWITCH_CLOSEST, alone);
+  context_ = context_for(default_switches(device_) | VKH_CONTEXT_CLOSEST, alone);
   VkhClosestQuery query{};
   buffers(1, [&](MemoryPolicy) { query = buffers_[0]->take_points(batch); });
   const VkhHierarchy hierarchy = b.view();

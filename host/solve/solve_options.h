@@ -33,7 +33,7 @@ using Survey = std::function<void(const SurveyedPair&, const BoundCells&)>;
 struct SolveOptions {
   double tolerance = 1e-6;  ///< fraction of diag(A), or in the files' units if absolute
   bool tolerance_is_absolute = false;
-  /// Takes the pipelines of a fine tolerance (VKH_SWITCH_SUBROOTS), whatever the tolerance: for the
+  /// Takes the pipelines of a fine tolerance (VKH_CONTEXT_FINE), whatever the tolerance: for the
   /// runs of one question, which would otherwise create two sets.
   bool subroots = false;
   double time_limit_s = std::numeric_limits<double>::infinity();

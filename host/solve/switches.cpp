@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/vkhausdorff.h"
+#include "engine/vkhausdorff_experimental.h"
 #include "host/base/error.h"
 #include "shaders/gpu_types.h"
 
@@ -64,8 +64,8 @@ uint32_t switches_of(const SolveOptions& options, const Device& device) {
   uint32_t on = preset_bits(options.preset, device);
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
-  if (options.coverage) on |= VKH_SWITCH_COVERAGE;
-  if (options.survey) on |= VKH_SWITCH_FIELD;
+  if (options.coverage) on |= VKH_CONTEXT_COVERAGE;
+  if (options.survey) on |= VKH_CONTEXT_CELLS;
   return options.certified ? on : on | VKH_SWITCH_UNCERTIFIED;
 }
 
@@ -73,7 +73,7 @@ uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Devi
   const double coarse =
       options.tolerance_is_absolute ? kFineTolerance * diagonal_a : kFineTolerance;
   const bool is_fine = options.subroots || options.tolerance < coarse;
-  return switches_of(options, device) | (is_fine ? uint32_t{VKH_SWITCH_SUBROOTS} : 0);
+  return switches_of(options, device) | (is_fine ? uint32_t{VKH_CONTEXT_FINE} : 0);
 }
 
 SwitchStates switch_states(uint32_t switches) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/vkhausdorff.h"
 #include "host/gpu/device.h"
 #include "host/solve/solve_options.h"
 
@@ -16,20 +17,23 @@ namespace vkh {
 constexpr uint32_t kSwitchMultiwave = 1u << 31;
 /// The device is of VKH_DEVICE_KIND_WIDE, otherwise NARROW.
 constexpr uint32_t kSwitchWide = 1u << 29;
-/// VkhContextCreateInfo::byAddress: for meshes that the device cannot bind.
-constexpr uint32_t kSwitchByAddress = 1u << 28;
+/// VKH_CONTEXT_BY_ADDRESS: for meshes that the device cannot bind.
+constexpr uint32_t kSwitchByAddress = VKH_CONTEXT_BY_ADDRESS;
+/// The bits that a context takes as flags.
+constexpr uint32_t kContextFlags = VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE |
+                                   VKH_CONTEXT_CLOSEST | VKH_CONTEXT_BY_ADDRESS;
 
 /// The switches that are on by default; what pays depends on the kind of device.
 uint32_t default_switches(const Device& device);
 
-/// The VkhSwitchBits that are on, kSwitchWide and kSwitchMultiwave. Throws UsageError for an
-/// unknown name.
+/// The VkhSwitchBits and VkhContextFlagBits that are on, kSwitchWide and kSwitchMultiwave. Throws
+/// UsageError for an unknown name.
 uint32_t switches_of(const SolveOptions& options, const Device& device);
 
 /// A fraction of A's diagonal. A sample is within 2^-20 of a face's edge of the farthest point:
 /// half of that.
 constexpr double kFineTolerance = 5e-7;
-/// The same, with VKH_SWITCH_SUBROOTS where 20 bits of barycentrics are too few for the tolerance.
+/// The same, with VKH_CONTEXT_FINE where 20 bits of barycentrics are too few for the tolerance.
 uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Device& device);
 
 struct SwitchStates {

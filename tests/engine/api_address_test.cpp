@@ -1,4 +1,4 @@
-// VkhContextCreateInfo::byAddress and BVHs of several ranges: every bit of a report is that
+// VKH_CONTEXT_BY_ADDRESS and BVHs of several ranges: every bit of a report is that
 // of a run that binds everything.
 #include <doctest/doctest.h>
 

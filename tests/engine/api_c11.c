@@ -111,7 +111,8 @@ static void check_sizes(VkhContext context) {
 }
 
 static void check_context(VkhDeviceInfo info) {
-  VkhContextCreateInfo create = {0}; /* what pays on the device, certified */
+  VkhContextCreateInfo create = {.size =
+                                     sizeof create}; /* certified, and what pays on the device */
   VkhContext context = NULL;
   PFN_vkDestroyDevice destroy =
       (PFN_vkDestroyDevice)info.getInstanceProcAddr(info.instance, "vkDestroyDevice");
@@ -120,6 +121,12 @@ static void check_context(VkhDeviceInfo info) {
   if (info.device == VK_NULL_HANDLE) return;
   create.device = info;
   create.threads = 1;
+  create.size -= 1;
+  CHECK(vkhCreateContext(&create, &context) == VKH_ERROR_MISUSE);
+  create.size = sizeof create;
+  create.flags = 1; /* none has this bit */
+  CHECK(vkhCreateContext(&create, &context) == VKH_ERROR_MISUSE);
+  create.flags = VKH_CONTEXT_CHECK_INPUT;
   CHECK(vkhCreateContext(&create, &context) == VKH_SUCCESS);
   if (context != NULL) check_sizes(context);
   vkhDestroyContext(context);
@@ -129,7 +136,7 @@ static void check_context(VkhDeviceInfo info) {
 
 /* vkhQuerySupport cannot see that the extensions were not enabled; creating a context can. */
 static void check_bare_device(VkhDeviceInfo info) {
-  VkhContextCreateInfo create = {0};
+  VkhContextCreateInfo create = {.size = sizeof create};
   VkhContext context = NULL;
   PFN_vkDestroyDevice destroy =
       (PFN_vkDestroyDevice)info.getInstanceProcAddr(info.instance, "vkDestroyDevice");

@@ -1,5 +1,5 @@
 // VKH_STATUS_INPUT: an input that is no mesh is reported. Any build reports the faults that the
-// host sees; with VkhContextCreateInfo::checkInput those in the buffers, too.
+// host sees; with VKH_CONTEXT_CHECK_INPUT those in the buffers, too.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -195,7 +195,7 @@ TEST_CASE("low parts are checked where they are used") {
     std::memcpy(low.mapped() + 12 * vertex + 4 * axis, &value, sizeof(value));
     ApiPair pair(a, b, 1e-3f, context.get());
     pair.problem().a.vertexLowBuffer = low.handle();
-    pair.problem().twoFloat = two_float;
+    pair.problem().options.twoFloat = two_float;
     return whole_run(pair);
   };
   CHECK(run(1e-9f, VK_TRUE).certified == 1);
@@ -237,7 +237,7 @@ TEST_CASE("the check changes no bit of a report on meshes") {
 
 TEST_CASE("cells of what is no mesh have no bounds") {
   const Context context = checking(VKH_DEVICE_KIND_NARROW, VK_TRUE, VK_FALSE,
-                                   VKH_SWITCH_DEFAULT_NARROW | VKH_SWITCH_FIELD);
+                                   uint32_t{VKH_SWITCH_DEFAULT_NARROW} | VKH_CONTEXT_CELLS);
   Mesh bad = icosphere(1, 1);
   keep_to_six(bad, std::nan(""));
   ApiMesh good(icosphere(1.1, 1)), spoilt_mesh(bad);
@@ -350,12 +350,12 @@ TEST_CASE("a run of what is no mesh stays one where it is moved") {
 TEST_CASE("numbers that are none change no truth") {
   const Context context = checking(VKH_DEVICE_KIND_NARROW, VK_FALSE);
   ApiMesh a(icosphere(1, 1)), b(icosphere(1.1, 1));
-  for (float VkhProblem::*member : {&VkhProblem::cullTolerance, &VkhProblem::knownLower,
-                                    &VkhProblem::limit, &VkhProblem::limitUp}) {
+  for (float VkhRunOptions::*member : {&VkhRunOptions::cullTolerance, &VkhRunOptions::knownLower,
+                                       &VkhRunOptions::limit, &VkhRunOptions::limitUp}) {
     for (const float value : {std::nanf(""), -1.0f, -std::numeric_limits<float>::infinity()}) {
       CAPTURE(value);
       ApiPair pair(a, b, 1e-3f, context.get());
-      pair.problem().*member = value;
+      pair.problem().options.*member = value;
       const VkhReport r = whole_run(pair);
       CHECK(r.certified == 1);
       CHECK(r.status != VKH_STATUS_WITHIN);
@@ -367,7 +367,7 @@ TEST_CASE("numbers that are none change no truth") {
 
 TEST_CASE("cells without a run have no bounds, and without the switch are not recorded") {
   const Context with = checking(VKH_DEVICE_KIND_NARROW, VK_FALSE, VK_FALSE,
-                                VKH_SWITCH_DEFAULT_NARROW | VKH_SWITCH_FIELD);
+                                uint32_t{VKH_SWITCH_DEFAULT_NARROW} | VKH_CONTEXT_CELLS);
   const Context without = checking(VKH_DEVICE_KIND_NARROW, VK_FALSE);
   for (const Description& description : descriptions()) {
     CAPTURE(description.name);

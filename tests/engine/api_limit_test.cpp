@@ -1,5 +1,5 @@
-// VkhProblem::limit: within and beyond are proven, beyond ends the run, and a run is undecided if
-// it is within the tolerance of the limit, or out of budget.
+// VkhRunOptions::limit: within and beyond are proven, beyond ends the run, and a run is undecided
+// if it is within the tolerance of the limit, or out of budget.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -26,15 +26,15 @@ struct Pairs : ApiPairs {
 };
 
 VkhReport ask(ApiPair& pair, float limit, uint32_t waves = 24, float limit_up = 0) {
-  pair.problem().limit = limit;
-  pair.problem().limitUp = limit_up;
+  pair.problem().options.limit = limit;
+  pair.problem().options.limitUp = limit_up;
   const VkhReport report = pair.run([&](VkCommandBuffer c) {
     pair.build(c);
     pair.begin(c);
     pair.advance(c, waves);
     pair.report(c);
   });
-  pair.problem().limit = pair.problem().limitUp = 0;
+  pair.problem().options.limit = pair.problem().options.limitUp = 0;
   return report;
 }
 
@@ -118,8 +118,8 @@ TEST_CASE("a budget that ends first leaves it undecided; the run goes on to its 
   Pairs all;
   ApiPair& pair = all[1];
   const double h = upper_of(ask(pair, 0));
-  pair.problem().limit = static_cast<float>(1.001 * h);
-  pair.problem().limitUp = 0;
+  pair.problem().options.limit = static_cast<float>(1.001 * h);
+  pair.problem().options.limitUp = 0;
   VkhReport r = pair.run([&](VkCommandBuffer c) {
     pair.build(c);
     pair.begin(c);

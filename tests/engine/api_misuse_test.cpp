@@ -77,11 +77,11 @@ TEST_CASE("a rule that is broken is named") {
       {"offset: a multiple of 256", none, [](VkhProblem& p) { p.workspace.offset = 4; }},
       {"workspace and ::b: apart", none,
        [](VkhProblem& p) { p.workspace.buffer = p.b.memory.buffer; }},
-      {"cullTolerance: at least 0", none, [](VkhProblem& p) { p.cullTolerance = -1; }},
-      {"cullTolerance: at least 0", none, [](VkhProblem& p) { p.cullTolerance = NAN; }},
+      {"cullTolerance: at least 0", none, [](VkhProblem& p) { p.options.cullTolerance = -1; }},
+      {"cullTolerance: at least 0", none, [](VkhProblem& p) { p.options.cullTolerance = NAN; }},
       {"b: a hierarchy that was built", none, [](VkhProblem& p) { p.b.faceCount = 0; }},
       {"coverageBuffer: with a context", none,
-       [](VkhProblem& p) { p.coverageBuffer = p.workspace.buffer; }}};
+       [](VkhProblem& p) { p.options.coverageBuffer = p.workspace.buffer; }}};
   for (const Misuse& misuse : misuses) {
     CAPTURE(misuse.rule);
     const Ended end = ended([&] {
@@ -121,13 +121,13 @@ TEST_CASE("a rule that is broken is named") {
     vkhCmdBoundCells(pair.context(), VK_NULL_HANDLE, &pair.problem(), &asked, nullptr);
   });
   CHECK(cells.signal == SIGABRT);
-  CHECK(cells.said.find("vkhCmdBoundCells: a context of VKH_SWITCH_FIELD") != std::string::npos);
+  CHECK(cells.said.find("vkhCmdBoundCells: a context of VKH_CONTEXT_CELLS") != std::string::npos);
   const Ended closest = ended([&] {
     const VkhClosestQuery asked{pair.report_buffer(), 0, 1, VK_FALSE, pair.report_buffer(), 0};
     vkhCmdFindClosest(pair.context(), VK_NULL_HANDLE, &pair.problem().b, &asked, nullptr);
   });
   CHECK(closest.signal == SIGABRT);
-  CHECK(closest.said.find("vkhCmdFindClosest: a context of VKH_SWITCH_CLOSEST") !=
+  CHECK(closest.said.find("vkhCmdFindClosest: a context of VKH_CONTEXT_CLOSEST") !=
         std::string::npos);
   const Ended report = ended([&] {
     vkhCmdWriteReport(pair.context(), VK_NULL_HANDLE, &pair.problem(), pair.report_buffer(), 4,

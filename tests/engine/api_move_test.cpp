@@ -1,5 +1,5 @@
-// vkhCmdMoveRun and VkhProblem::pauseWhenFull: a run that pauses until it has room is the run that
-// had it from the start, bit by bit.
+// vkhCmdMoveRun and VkhRunOptions::pauseWhenFull: a run that pauses until it has room is the run
+// that had it from the start, bit by bit.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ class Mover {
   }
   ~Mover() {
     problem().workspace = given_;
-    problem().pauseWhenFull = VK_FALSE;
+    problem().options.pauseWhenFull = VK_FALSE;
   }
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
@@ -111,7 +111,7 @@ TEST_CASE("a run that pauses for room is the run that had it, bit by bit") {
       CHECK(roomy.status == VKH_STATUS_DECIDED);
     }
     Mover mover(*pair, least_bytes(*pair));
-    mover.problem().pauseWhenFull = VK_TRUE;
+    mover.problem().options.pauseWhenFull = VK_TRUE;
     VkhReport report = mover.start();
     const uint32_t before = moves;
     while (report.status == VKH_STATUS_RUNNING) {
@@ -139,11 +139,11 @@ TEST_CASE("a run that pauses and is told to go on is the run that never paused")
       cramped = to_the_end(mover, mover.start());
     }
     Mover mover(*pair, least_bytes(*pair));
-    mover.problem().pauseWhenFull = VK_TRUE;
+    mover.problem().options.pauseWhenFull = VK_TRUE;
     VkhReport report = mover.start();
     while (report.status == VKH_STATUS_RUNNING && report.wanted == 0) report = mover.advance(1);
     REQUIRE(report.wanted > 0);
-    mover.problem().pauseWhenFull = VK_FALSE;
+    mover.problem().options.pauseWhenFull = VK_FALSE;
     const VkhMemory own = mover.problem().workspace;
     CHECK(is_same(to_the_end(mover, mover.move(own)), cramped));
   }
@@ -178,7 +178,7 @@ TEST_CASE("a run in the largest workspace waits for no larger one") {
     }
     Mover mover(*pair, least_bytes(*pair));
     CHECK(mover.bytes_for(UINT32_MAX) == least_bytes(*pair));
-    mover.problem().pauseWhenFull = VK_TRUE;
+    mover.problem().options.pauseWhenFull = VK_TRUE;
     const VkhReport report = to_the_end(mover, mover.start());
     CHECK(report.wanted == 0);
     CHECK(is_same(report, cramped));
@@ -205,12 +205,12 @@ TEST_CASE("a moved run keeps its subroots") {
     // The choice of candidates that are split twice depends on the room.
     const uint32_t switches =
         wide ? VKH_SWITCH_DEFAULT_WIDE & ~VKH_SWITCH_SPLIT_TWICE : VKH_SWITCH_DEFAULT_NARROW;
-    const VkhContextCreateInfo info = create_info(switches | VKH_SWITCH_SUBROOTS, kind);
+    const VkhContextCreateInfo info = create_info(switches | VKH_CONTEXT_FINE, kind);
     VkhContext context = nullptr;
     REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
     {
       ApiPair pair(a, b, 1e-9f, context);
-      pair.problem().twoFloat = VK_TRUE;
+      pair.problem().options.twoFloat = VK_TRUE;
       VkhReport moved, stayed;
       {
         Mover mover(pair, least_bytes(pair));
@@ -243,11 +243,11 @@ TEST_CASE("a move to where the run is tells it what has become known") {
     mover.start();
     CHECK(is_same(to_the_end(mover, mover.advance(1)), same));  // nothing new changes no bit
     mover.start();
-    mover.problem().knownLower = 10;  // farther than anything is
+    mover.problem().options.knownLower = 10;  // farther than anything is
     const VkhReport pruned = to_the_end(mover, mover.move(own));
     CHECK(pruned.status == VKH_STATUS_DECIDED);
     CHECK(pruned.waves < same.waves);
     CHECK(interval(pruned).meets(interval(same)));
-    mover.problem().knownLower = 0;
+    mover.problem().options.knownLower = 0;
   }
 }

@@ -19,7 +19,7 @@ using namespace vkh::test;
 ContextHandle make_context(VkhDeviceKind kind, VkBool32 by_address = VK_FALSE) {
   const uint32_t defaults = kind == VKH_DEVICE_KIND_WIDE ? uint32_t{VKH_SWITCH_DEFAULT_WIDE}
                                                          : uint32_t{VKH_SWITCH_DEFAULT_NARROW};
-  const VkhContextCreateInfo info = create_info(defaults | VKH_SWITCH_FIELD, kind, by_address);
+  const VkhContextCreateInfo info = create_info(defaults | VKH_CONTEXT_CELLS, kind, by_address);
   VkhContext context = nullptr;
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   return {context, vkhDestroyContext};

@@ -23,7 +23,7 @@ ContextHandle make_closest_context(VkhDeviceKind kind, VkBool32 by_address = VK_
   const uint32_t defaults = kind == VKH_DEVICE_KIND_WIDE ? uint32_t{VKH_SWITCH_DEFAULT_WIDE}
                                                          : uint32_t{VKH_SWITCH_DEFAULT_NARROW};
   const VkhContextCreateInfo info =
-      create_info(defaults | VKH_SWITCH_CLOSEST, kind, by_address, checks);
+      create_info(defaults | VKH_CONTEXT_CLOSEST, kind, by_address, checks);
   VkhContext context = nullptr;
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   return {context, vkhDestroyContext};

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/vkhausdorff.h"
+#include "engine/vkhausdorff_experimental.h"
 #include "host/solve/switches.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"

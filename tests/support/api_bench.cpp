@@ -143,7 +143,8 @@ ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance, VkhContext contex
   reports_ = garbage(kFirstReport + 4 * kReportStride, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   problem_.a = a.view();
   problem_.workspace = {workspace_.handle(), 0, bytes};
-  problem_.cullTolerance = cull_tolerance;
+  problem_.options.size = sizeof(problem_.options);
+  problem_.options.cullTolerance = cull_tolerance;
   scratch_view_ = {scratch_.handle(), 0, scratch_.size()};
 }
 
@@ -156,7 +157,7 @@ void ApiPair::refit(VkCommandBuffer commands) {
 }
 
 void ApiPair::begin(VkCommandBuffer commands, bool warm) {
-  problem_.warm = warm ? VK_TRUE : VK_FALSE;
+  problem_.options.warm = warm ? VK_TRUE : VK_FALSE;
   vkhCmdBegin(context_, commands, &problem_, nullptr);
 }
 
@@ -185,7 +186,8 @@ void ApiPair::spoil_hierarchy() {
 }
 
 VkhTask ApiPair::task(uint32_t waves) {
-  return {.mesh = &b_.view(),
+  return {.size = sizeof(VkhTask),
+          .mesh = &b_.view(),
           .scratch = &scratch_view_,
           .problem = &problem_,
           .begin = VK_TRUE,

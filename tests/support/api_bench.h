@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/vkhausdorff.h"
+#include "engine/vkhausdorff_experimental.h"
 #include "host/gpu/memory.h"
 #include "host/mesh/mesh.h"
 #include "tests/verification/oracle/reference_solver.h"

@@ -64,11 +64,15 @@ Device& test_device() {
 VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind, VkBool32 by_address,
                                  VkBool32 checks) {
   VkhContextCreateInfo info{};
+  constexpr uint32_t flags = VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE |
+                             VKH_CONTEXT_CHECK_INPUT | VKH_CONTEXT_CLOSEST | VKH_CONTEXT_BY_ADDRESS;
+  info.size = sizeof(info);
   info.device = test_device().engine_info();
-  info.switches = switches;
+  info.flags = switches & flags;
+  if (by_address == VK_TRUE) info.flags |= VKH_CONTEXT_BY_ADDRESS;
+  if (checks == VK_TRUE) info.flags |= VKH_CONTEXT_CHECK_INPUT;
   info.deviceKind = kind;
-  info.byAddress = by_address;
-  info.checkInput = checks;
+  info.switches = switches & ~flags;
   return info;
 }
 

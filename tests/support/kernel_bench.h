@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/record.h"
+#include "engine/vkhausdorff_experimental.h"
 #include "host/gpu/memory.h"
 #include "host/mesh/mesh.h"
 
@@ -41,7 +42,7 @@ inline void release_kept() {
 /// VKH_TEST_BY_ADDRESS is not empty.
 vkh::Device& test_device();
 
-/// A context on the test device; `checks`: of its input.
+/// A context on the test device; `switches` has VkhContextFlagBits, too; `checks`: of its input.
 VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind,
                                  VkBool32 by_address = VK_FALSE, VkBool32 checks = VK_FALSE);
 

@@ -17,6 +17,7 @@
 
 #include "engine/by_address.h"
 #include "engine/kernels.h"
+#include "engine/vkhausdorff_experimental.h"
 #include "host/app/self_test.h"
 #include "host/base/error.h"
 #include "host/gpu/device.h"
@@ -39,10 +40,11 @@ constexpr std::array kKernels{
 
 // The switches that bring in the kernels that others leave out; VKH_SWITCH_NONE: the rest is off.
 constexpr uint32_t kRest =
-    VKH_SWITCH_COVERAGE | VKH_SWITCH_FIELD | VKH_SWITCH_SUBROOTS | VKH_SWITCH_CLOSEST;
+    VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE | VKH_CONTEXT_CLOSEST;
 constexpr uint32_t kPaper = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4 | VKH_SWITCH_SORT |
                             VKH_SWITCH_PACKET | VKH_SWITCH_THIN | VKH_SWITCH_DEFER;
-constexpr std::array kSwitchSets{uint32_t{VKH_SWITCH_DEFAULT_WIDE}, VKH_SWITCH_DEFAULT_WIDE | kRest,
+constexpr std::array kSwitchSets{uint32_t{VKH_SWITCH_DEFAULT_WIDE},
+                                 uint32_t{VKH_SWITCH_DEFAULT_WIDE} | kRest,
                                  uint32_t{VKH_SWITCH_DEFAULT_NARROW} | kRest, kPaper};
 
 using Names = std::set<std::string>;
@@ -66,11 +68,12 @@ Names compile_all(const vkh::Device& device, VkBool32 by_address) {
   for (const uint32_t switches : kSwitchSets) {
     for (const VkhDeviceKind kind : {VKH_DEVICE_KIND_WIDE, VKH_DEVICE_KIND_NARROW}) {
       VkhContextCreateInfo info{};
+      info.size = sizeof(info);
       info.device = device.engine_info();
-      info.switches = switches;
+      info.flags = (switches & kRest) | VKH_CONTEXT_CHECK_INPUT;
+      if (by_address == VK_TRUE) info.flags |= VKH_CONTEXT_BY_ADDRESS;
       info.deviceKind = kind;
-      info.byAddress = by_address;
-      info.checkInput = VK_TRUE;
+      info.switches = switches & ~kRest;
       compiled.merge(compile(info));
     }
   }

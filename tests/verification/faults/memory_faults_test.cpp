@@ -159,8 +159,9 @@ TEST_CASE("the C API") {
   });
   const auto create_context = [&](VkBool32 by_address) {
     VkhContextCreateInfo create{};
+    create.size = sizeof(create);
     create.device = info;
-    create.byAddress = by_address;
+    if (by_address == VK_TRUE) create.flags = VKH_CONTEXT_BY_ADDRESS;
     VkhContext context = nullptr;
     const VkhResult result = vkhCreateContext(&create, &context);
     CHECK((context != nullptr) == (result == VKH_SUCCESS));

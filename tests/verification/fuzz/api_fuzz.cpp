@@ -128,7 +128,8 @@ class Run {
   }
 
   VkhTask task(size_t i, uint32_t waves, uint32_t slot) {
-    return {.mesh = nullptr,
+    return {.size = sizeof(VkhTask),
+            .mesh = nullptr,
             .scratch = nullptr,
             .problem = &bench(i).problem,
             .begin = VK_FALSE,

@@ -39,19 +39,21 @@ FuzzDevice::FuzzDevice(size_t context_count)
   constexpr uint32_t kPaper = VKH_SWITCH_DEFAULT_NARROW | VKH_SWITCH_U4 | VKH_SWITCH_SORT |
                               VKH_SWITCH_PACKET | VKH_SWITCH_LARGEST_FIRST | VKH_SWITCH_U3_PAPER;
   struct Ways {
-    uint32_t switches;
+    uint32_t switches, flags;
     VkhDeviceKind kind;
   };
   constexpr std::array<Ways, kMostContexts> kWays = {
-      {{VKH_SWITCH_DEFAULT_NARROW, VKH_DEVICE_KIND_NARROW},
-       {VKH_SWITCH_DEFAULT_WIDE, VKH_DEVICE_KIND_WIDE},
-       {kPaper, VKH_DEVICE_KIND_WIDE},
-       {VKH_SWITCH_NONE, VKH_DEVICE_KIND_NARROW},
-       {VKH_SWITCH_DEFAULT_WIDE | VKH_SWITCH_COVERAGE, VKH_DEVICE_KIND_WIDE}}};
+      {{VKH_SWITCH_DEFAULT_NARROW, 0, VKH_DEVICE_KIND_NARROW},
+       {VKH_SWITCH_DEFAULT_WIDE, 0, VKH_DEVICE_KIND_WIDE},
+       {kPaper, 0, VKH_DEVICE_KIND_WIDE},
+       {VKH_SWITCH_NONE, 0, VKH_DEVICE_KIND_NARROW},
+       {VKH_SWITCH_DEFAULT_WIDE, VKH_CONTEXT_COVERAGE, VKH_DEVICE_KIND_WIDE}}};
   for (size_t i = 0; i < std::min(context_count, kWays.size()); ++i) {
     const Ways& ways = kWays[i];
     VkhContextCreateInfo info{};
+    info.size = sizeof(info);
     info.device = device_.engine_info();
+    info.flags = ways.flags;
     info.switches = ways.switches;
     info.deviceKind = ways.kind;
     check_engine(vkhCreateContext(&info, &contexts_.emplace_back()));
@@ -142,21 +144,22 @@ void PairBench::take(const FuzzPair& pair, VkhContext context, bool covers) {
   scratch = reserve(hierarchy.scratchSize);
   reports_at_ = used_;
   for (uint32_t slot = 0; slot < kReports; ++slot) reserve(sizeof(VkhReport));
-  problem.cullTolerance = pair.tolerance;
-  problem.knownLower = pair.known_lower;
-  problem.twoFloat = pair.two_float ? VK_TRUE : VK_FALSE;
-  problem.sortFrom = pair.sort_from;
+  problem.options.size = sizeof(problem.options);
+  problem.options.cullTolerance = pair.tolerance;
+  problem.options.knownLower = pair.known_lower;
+  problem.options.twoFloat = pair.two_float ? VK_TRUE : VK_FALSE;
+  problem.options.sortFrom = pair.sort_from;
   if (!covers) return;
   const VkhMemory coverage = reserve(VkDeviceSize{16} * problem.a.faceCount);
   coverage_at_ = coverage.offset;
-  problem.coverageBuffer = coverage.buffer;
-  problem.coverageOffset = coverage.offset;
+  problem.options.coverageBuffer = coverage.buffer;
+  problem.options.coverageOffset = coverage.offset;
 }
 
 void PairBench::move() {
   problem.a = put(pair_->later_a, 0, kMeshBytes / 4);
   b = put(pair_->later_b, kMeshBytes / 2, kMeshBytes * 3 / 4);
-  problem.warm = pair_->warm ? VK_TRUE : VK_FALSE;
+  problem.options.warm = pair_->warm ? VK_TRUE : VK_FALSE;
 }
 
 VkhReport PairBench::report(uint32_t slot) const {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/vkhausdorff_experimental.h"
 #include "host/gpu/memory.h"
 #include "tests/verification/fuzz/random_pair.h"
 
