@@ -16,12 +16,11 @@ namespace {
 
 static_assert(sizeof(VkhReport) == sizeof(gpu::Report));
 static_assert(offsetof(VkhReport, upperAbove) == offsetof(gpu::Report, upper_above));
+static_assert(offsetof(VkhReport, wanted) == offsetof(gpu::Report, wanted));
 static_assert(offsetof(VkhReport, witnessPosition) == offsetof(gpu::Report, witness));
 static_assert(offsetof(VkhReport, witnessFaceB) == offsetof(gpu::Report, witness_face));
-static_assert(offsetof(VkhReport, wanted) == offsetof(gpu::Report, wanted));
-static_assert(offsetof(VkhReport, culled) == offsetof(gpu::Report, culled));
-static_assert(offsetof(VkhReport, waveRecords) == offsetof(gpu::Report, waves));
-static_assert(offsetof(VkhReport, certified) == offsetof(gpu::Report, certified));
+static_assert(offsetof(VkhReport, witnessBarycentric) == offsetof(gpu::Report, witness_j));
+static_assert(offsetof(VkhReport, witnessBarycentricLow) == offsetof(gpu::Report, witness_low_j));
 #define VKH_SAME_SWITCH(constant, bit, api, name) static_assert(VKH_SWITCH_##api == gpu::constant);
 VKH_SWITCHES(VKH_SAME_SWITCH)
 #undef VKH_SAME_SWITCH
@@ -203,6 +202,22 @@ Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
   return {buffer, offset, sizeof(VkhReport)};
 }
 
+// The words of the statistics.
+Slice<uint32_t> statistics_at(VkBuffer buffer, VkDeviceSize offset) {
+  check_statistics(buffer, offset);
+  return {buffer, offset, sizeof(VkhStatistics)};
+}
+
+// `order`: of the first command.
+void record_any_statistics(Recorder& rec, const Problem& p, const Slice<uint32_t>& to,
+                           Order order) {
+  if (is_built(p)) {
+    record_statistics(rec, p, to, order);
+  } else {
+    rec.fill(to, 0, order);
+  }
+}
+
 void record_any_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   if (is_built(p)) {
     record_report(rec, p, report);
@@ -225,6 +240,10 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
   record_waves(rec, p, task.waves);
   if (task.reportBuffer != VK_NULL_HANDLE)
     record_any_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
+  if (task.statisticsBuffer == VK_NULL_HANDLE) return;
+  // A report changes nothing of what is copied, so that no barrier is needed behind it.
+  const Order order = task.reportBuffer != VK_NULL_HANDLE ? Order::kIndependent : Order::kAfterAll;
+  record_any_statistics(rec, p, statistics_at(task.statisticsBuffer, task.statisticsOffset), order);
 }
 
 // Returns false if the host has no memory to keep the commands in.
@@ -380,6 +399,16 @@ void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const 
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_any_report(rec, vkh::view_problem(*context, *problem),
                          vkh::report_at(buffer, offset));
+}
+
+// NOLINTNEXTLINE(readability-function-size)
+void vkhCmdWriteStatistics(VkhContext context, VkCommandBuffer commandBuffer,
+                           const VkhProblem* problem, VkBuffer buffer, VkDeviceSize offset,
+                           VkhProfile* profile) {
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_any_statistics(rec, vkh::view_problem(*context, *problem),
+                             vkh::statistics_at(buffer, offset), vkh::Order::kAfterAll);
+  rec.stage("statistics");
 }
 
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,

@@ -123,6 +123,11 @@ void check_report(VkBuffer buffer, VkDeviceSize offset) {
   VKH_RULE("vkhCmdWriteReport: an offset that is a multiple of 256 bytes", offset % 256 == 0);
 }
 
+void check_statistics(VkBuffer buffer, VkDeviceSize offset) {
+  VKH_RULE("vkhCmdWriteStatistics: a buffer that is not null", buffer != VK_NULL_HANDLE);
+  VKH_RULE("vkhCmdWriteStatistics: an offset that is a multiple of 4 bytes", offset % 4 == 0);
+}
+
 void check_cells(const VkhContext_T& context, const VkhProblem& p, const VkhCells& cells) {
   VKH_RULE("vkhCmdBoundCells: a context of VKH_CONTEXT_CELLS",
            gpu::bounds_cells(context.limits.switches, context.limits.wide));

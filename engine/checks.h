@@ -13,6 +13,7 @@ inline void check_task(const VkhTask&) {}
 inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
 inline void check_move(const VkhProblem&, const VkhMemory&) {}
 inline void check_report(VkBuffer, VkDeviceSize) {}
+inline void check_statistics(VkBuffer, VkDeviceSize) {}
 inline void check_cells(const VkhContext_T&, const VkhProblem&, const VkhCells&) {}
 inline void check_closest(const VkhContext_T&, const VkhHierarchy&, const VkhClosestQuery&) {}
 inline void check_profile(const VkhProfile*) {}
@@ -27,6 +28,7 @@ void check_problem(const VkhContext_T& context, const VkhProblem& problem);
 // The rules of a move into `to`.
 void check_move(const VkhProblem& problem, const VkhMemory& to);
 void check_report(VkBuffer buffer, VkDeviceSize offset);
+void check_statistics(VkBuffer buffer, VkDeviceSize offset);
 void check_cells(const VkhContext_T& context, const VkhProblem& problem, const VkhCells& cells);
 void check_closest(const VkhContext_T& context, const VkhHierarchy& b,
                    const VkhClosestQuery& query);

@@ -117,6 +117,8 @@ struct AskedPoints {
 };
 void record_closest(Recorder& rec, const Hierarchy& b, const AskedPoints& points);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
+// Copies what the run has counted, as VkhStatistics; `order`: of the first copy.
+void record_statistics(Recorder& rec, const Problem& p, const Slice<uint32_t>& to, Order order);
 // Reports only that A or B is no mesh, where nothing was built.
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 

@@ -27,8 +27,8 @@
  *
  * Threads: a context is immutable and may be used from several threads at once. A command buffer,
  * as always in Vulkan, is recorded by one thread at a time. Two recordings that run at the same
- * time on the device must not share a workspace, a scratch, a report or a coverage buffer, and a
- * BVH must not be built or refitted while a run reads it.
+ * time on the device must not share a workspace, a scratch, a report, statistics or a coverage
+ * buffer, and a BVH must not be built or refitted while a run reads it.
  *
  * Recording: outside a render pass, into a primary or secondary command buffer whose pool's queue
  * family has VK_QUEUE_COMPUTE_BIT. The command buffer may be submitted any number of times, one at
@@ -439,7 +439,7 @@ typedef enum VkhStatus {
   VKH_STATUS_MEMORY = 3,    /* no room for some, and none could wait: their u is in upper */
   VKH_STATUS_WITHIN = 4,    /* with VkhRunOptions::limit: upper is at most that */
   VKH_STATUS_BEYOND = 5,    /* with VkhRunOptions::limit: lower is more than limit and limitUp */
-  /* A or B is no mesh, and nothing is known: lower 0, upper infinite, certified 0. Always where a
+  /* A or B is no mesh, and nothing is known: lower 0, upper infinite. Always where a
    * count is 0 or above 2^28, a buffer is null, a stride is under 12 or makes more than 8 GiB, a
    * stride or offset is no multiple of what it must be, an index type is unknown, or the options'
    * `size` is of no known version; where a refit
@@ -449,13 +449,6 @@ typedef enum VkhStatus {
    * 0xfffffffe: the VkhMesh is, or b. */
   VKH_STATUS_INPUT = 6
 } VkhStatus;
-
-enum { VKH_MAX_WAVE_RECORDS = 64, VKH_MAX_CULLS = 16 };
-
-typedef struct VkhWaveRecord {
-  uint32_t parents, candidates, queries, survivors, deferred;
-  float lower, upper; /* as they steer the run; not certified */
-} VkhWaveRecord;
 
 /* The output of vkhCmdWriteReport: sizeof(VkhReport) bytes of 4-byte words, in the device's byte
  * order, no padding. Your shader reads it by vkhausdorff_report.glsl, which lies beside this header
@@ -467,22 +460,13 @@ typedef struct VkhReport {
    * h(A, B) <= base + upperAbove, the sums taken exactly (in double). */
   float base, lowerAbove, upperAbove;
   uint32_t status; /* VkhStatus */
-  uint32_t
-      certified; /* 0 with VKH_SWITCH_UNCERTIFIED or VKH_STATUS_INPUT: neither end is; else 1 */
   uint32_t waves;
-  float witnessPosition[3]; /* the point of A that proves `lower`, rounded */
-  float witnessDistance;
-  uint32_t witnessFaceA;
-  uint32_t witnessBarycentric[2]; /* of the face's second and third corner, in units of 2^-20 */
-  uint32_t reserved;              /* for the engine alone */
-  uint32_t witnessFaceB;          /* the face of B closest to it */
-  uint32_t remaining;             /* candidates still open */
-  uint32_t candidateTotal;
-  uint32_t queryTotal;
-  uint32_t peakFrontier;
+  uint32_t remaining; /* candidates still open */
   uint32_t wanted; /* the run pauses: vkhGetWorkspaceSize of so many candidates would do; else 0 */
-  uint32_t culled[VKH_MAX_CULLS]; /* by exact, u1, u2, ha, u3, u4, lower raised, precision */
-  VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
+  float witnessPosition[3]; /* the point of A that proves `lower`, rounded */
+  uint32_t witnessFaceA;
+  uint32_t witnessFaceB;             /* the face of B closest to it */
+  uint32_t witnessBarycentric[2];    /* of the face's second and third corner, in units of 2^-20 */
   uint32_t witnessBarycentricLow[2]; /* to be added, in units of 2^-40: VKH_CONTEXT_FINE */
 } VkhReport;
 
@@ -493,6 +477,31 @@ typedef struct VkhReport {
 VKH_API void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, VkBuffer buffer, VkDeviceSize offset,
                                VkhProfile* profile);
+
+enum { VKH_MAX_WAVE_RECORDS = 64, VKH_MAX_CULLS = 16 };
+
+typedef struct VkhWaveRecord {
+  uint32_t parents, candidates, queries, survivors, deferred;
+  float lower, upper; /* as they steer the run; not certified */
+} VkhWaveRecord;
+
+/* What a run has counted, for those who tune it: 4-byte words without padding, as VkhReport.
+ * Nothing is certified here. */
+typedef struct VkhStatistics {
+  uint32_t certified; /* 0: a part of the run was recorded with VKH_SWITCH_UNCERTIFIED */
+  uint32_t culled[VKH_MAX_CULLS]; /* by exact, u1, u2, ha, u3, u4, lower raised, precision */
+  uint32_t candidateTotal;
+  uint32_t queryTotal;
+  uint32_t peakFrontier;
+  VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
+} VkhStatistics;
+
+/* Copies what the run has counted so far to `offset` (a multiple of 4 bytes) of `buffer` (usage
+ * TRANSFER_DST), in ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use of it.
+ * Zeros where nothing was built. Takes no kernel, and changes nothing of the run. */
+VKH_API void vkhCmdWriteStatistics(VkhContext context, VkCommandBuffer commandBuffer,
+                                   const VkhProblem* problem, VkBuffer buffer, VkDeviceSize offset,
+                                   VkhProfile* profile);
 
 /* A cell: a triangle within a face of A. Its corners are in barycentric coordinates of the face,
  * that of the face's second corner and that of its third, in units of 2^-20, their sum at most
@@ -584,6 +593,8 @@ typedef struct VkhTask {
   uint32_t waves; /* as vkhCmdAdvance; may be 0 */
   VkBuffer reportBuffer;
   VkDeviceSize reportOffset; /* as vkhCmdWriteReport; a null buffer: none */
+  VkBuffer statisticsBuffer;
+  VkDeviceSize statisticsOffset; /* as vkhCmdWriteStatistics; a null buffer: none */
 } VkhTask;
 
 /* Records the tasks side by side: each does what the functions above would do one after the other,

@@ -1,4 +1,5 @@
-// VkhReport (vkhausdorff.h) as your shader reads it, in a scalar or std430 block:
+// VkhReport and VkhStatistics (vkhausdorff.h) as your shader reads them, in a scalar or std430
+// block:
 //   layout(std430, binding = 0) readonly buffer Reports { VkhReport report; };
 #ifndef VKHAUSDORFF_REPORT_GLSL
 #define VKHAUSDORFF_REPORT_GLSL
@@ -13,32 +14,33 @@
 #define VKH_MAX_WAVE_RECORDS 64
 #define VKH_MAX_CULLS 16
 
-struct VkhWaveRecord {
-  uint parents, candidates, queries, survivors, deferred;
-  float lower, upper;
-};
-
 struct VkhReport {
   float lower;
   float upper;
   float base, lowerAbove, upperAbove;
   uint status;
-  uint certified;
   uint waves;
-  float witnessPosition[3];
-  float witnessDistance;
-  uint witnessFaceA;
-  uint witnessBarycentric[2];
-  uint reserved;
-  uint witnessFaceB;
   uint remaining;
+  uint wanted;
+  float witnessPosition[3];
+  uint witnessFaceA;
+  uint witnessFaceB;
+  uint witnessBarycentric[2];
+  uint witnessBarycentricLow[2];
+};
+
+struct VkhWaveRecord {
+  uint parents, candidates, queries, survivors, deferred;
+  float lower, upper;
+};
+
+struct VkhStatistics {
+  uint certified;
+  uint culled[VKH_MAX_CULLS];
   uint candidateTotal;
   uint queryTotal;
   uint peakFrontier;
-  uint wanted;
-  uint culled[VKH_MAX_CULLS];
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS];
-  uint witnessBarycentricLow[2];
 };
 
 #endif

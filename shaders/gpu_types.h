@@ -380,6 +380,7 @@ struct Control {
   Witness witness;
   uint capacity;    // of each half of the frontier
   uint face_count;  // of A
+  // From here on as in VkhStatistics, to which they are copied.
   uint candidate_total;
   uint query_total;
   uint peak_frontier;
@@ -405,18 +406,14 @@ struct Report {
   // The same, with more bits: base + lower_above <= h(A,B) <= base + upper_above.
   float base, lower_above, upper_above;
   uint status;
-  uint certified;  // 0: bounds were plain floats, and nothing is certified
   uint wave;
-  Witness witness;
-  uint witness_face;  // of B, as given
   uint remaining;     // candidates left, faces of A not yet admitted included
-  uint candidate_total;
-  uint query_total;
-  uint peak_frontier;
-  uint wanted;  // places in each half of the frontier that the paused run asks for; else 0
-  uint culled[kMostCulls];
-  WaveRecord waves[64];
-  uint witness_low_j, witness_low_k;  // 20 more bits of the witness's barycentrics
+  uint wanted;        // places in each half of the frontier that the paused run asks for; else 0
+  vec3 witness;       // as rounded to float32
+  uint witness_root;  // face of A
+  uint witness_face;  // of B, as given
+  uint witness_j, witness_k;          // dyadic barycentrics of the face's second and third corner
+  uint witness_low_j, witness_low_k;  // 20 more bits of them
 };
 
 // A sub-triangle of a face of A whose distances are bounded, in words.

@@ -12,6 +12,9 @@
 namespace vkh {
 namespace {
 
+// Bytes of a report and of the statistics behind it.
+constexpr VkDeviceSize kReportBytes = PairBuffers::kStatisticsOffset + sizeof(VkhStatistics);
+
 constexpr VkBufferUsageFlags kWorking =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -240,9 +243,8 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   VkhHierarchyRequirements hierarchy{};
   if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
   place_meshes(in.a, b, budget.policy);
-  take_buffer(report_, device_, sizeof(VkhReport), budget.policy);
-  grow(readback_, device_, sizeof(VkhReport), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-       Placement::kReadback);
+  take_buffer(report_, device_, kReportBytes, budget.policy);
+  grow(readback_, device_, kReportBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
   place_areas(in, out, budget.policy);
   const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, budget);
   place_b(hierarchy, in, budget.policy);
@@ -331,7 +333,7 @@ void PairBuffers::record_upload(VkCommandBuffer commands) const {
 }
 
 void PairBuffers::record_readback(VkCommandBuffer commands, const RunOutput& out) const {
-  const VkBufferCopy copy{0, 0, sizeof(VkhReport)};
+  const VkBufferCopy copy{0, 0, kReportBytes};
   device_.vk().CmdCopyBuffer(commands, report_.handle(), readback_.handle(), 1, &copy);
   if (out.areas.empty()) return;
   const VkBufferCopy areas{0, 0, out.areas.size() * sizeof(uint64_t)};
@@ -340,6 +342,7 @@ void PairBuffers::record_readback(VkCommandBuffer commands, const RunOutput& out
 
 void PairBuffers::read(RunOutput& out) const {
   std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
+  std::memcpy(&out.statistics, readback_.mapped() + kStatisticsOffset, sizeof(out.statistics));
   if (!out.areas.empty())
     std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
 }

@@ -82,6 +82,7 @@ struct StageTime {
 
 struct RunOutput {
   VkhReport report{};
+  VkhStatistics statistics{};
   std::vector<StageTime> stages;  ///< one per timestamp interval, in order
   uint64_t workspace_bytes = 0;
   uint64_t host_memory_bytes = 0;  ///< bytes in the host's memory, for want of room on the device
@@ -108,6 +109,9 @@ class PairBuffers {
   const VkhMesh* mesh_b() const { return is_resident_ ? nullptr : &mesh_b_; }
   const VkhMemory* scratch() const { return &scratch_; }
   VkBuffer report() const { return report_.handle(); }
+  /// The statistics' place behind the report, in the same buffer.
+  static constexpr VkDeviceSize kStatisticsOffset = 128;
+  static_assert(sizeof(VkhReport) <= kStatisticsOffset);
 
   /// Copies the meshes to where the device reads them, unless they were written there; the caller
   /// records a barrier to compute shaders.

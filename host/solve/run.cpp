@@ -61,7 +61,6 @@ uint64_t bytes_of(std::span<const RunInput> inputs) {
 VkhReport nothing_known() {
   VkhReport report{};
   report.upper = report.upperAbove = std::numeric_limits<float>::max();
-  report.certified = 1;
   report.witnessFaceA = report.witnessFaceB = UINT32_MAX;
   return report;
 }
@@ -196,6 +195,8 @@ void Runner::record_one(VkCommandBuffer commands, const Submission& submission) 
       submission.begins ? submission.waves - 1 : submission.waves;  // the begin has one
   vkhCmdAdvance(context_, commands, &problem, waves, profile());
   vkhCmdWriteReport(context_, commands, &problem, buffers.report(), 0, profile());
+  vkhCmdWriteStatistics(context_, commands, &problem, buffers.report(),
+                        PairBuffers::kStatisticsOffset, nullptr);
   stamp(commands, "solve");
 }
 
@@ -212,7 +213,9 @@ void Runner::record_together(VkCommandBuffer commands, const Submission& submiss
                      .begin = submission.begins ? VK_TRUE : VK_FALSE,
                      .waves = submission.begins ? submission.waves - 1 : submission.waves,
                      .reportBuffer = buffers.report(),
-                     .reportOffset = 0});
+                     .reportOffset = 0,
+                     .statisticsBuffer = buffers.report(),
+                     .statisticsOffset = PairBuffers::kStatisticsOffset});
   }
   vkhCmdRunTasks(context_, commands, static_cast<uint32_t>(tasks.size()), tasks.data(), nullptr);
   stamp(commands, "solve");

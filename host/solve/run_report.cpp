@@ -7,17 +7,19 @@
 
 namespace vkh {
 
-void fill_counts(const VkhReport& r, const Frame& frame, Report& out) {
+void fill_counts(const RunOutput& run, const Frame& frame, Report& out) {
+  const VkhReport& r = run.report;
+  const VkhStatistics& counted = run.statistics;
   out.waves = r.waves;
-  out.candidates = r.candidateTotal;
-  out.queries = r.queryTotal;
-  out.peak_frontier = r.peakFrontier;
-#define VKH_COUNT(constant, value, name) {#name, r.culled[value]},
+  out.candidates = counted.candidateTotal;
+  out.queries = counted.queryTotal;
+  out.peak_frontier = counted.peakFrontier;
+#define VKH_COUNT(constant, value, name) {#name, counted.culled[value]},
   out.culled = {VKH_CULLS(VKH_COUNT)};
 #undef VKH_COUNT
   const uint32_t first = r.waves > VKH_MAX_WAVE_RECORDS ? r.waves - VKH_MAX_WAVE_RECORDS : 0;
   for (uint32_t w = first; w < r.waves; ++w) {
-    const VkhWaveRecord& rec = r.waveRecords[w % VKH_MAX_WAVE_RECORDS];
+    const VkhWaveRecord& rec = counted.waveRecords[w % VKH_MAX_WAVE_RECORDS];
     out.wave_stats.push_back({w, rec.parents, rec.candidates, rec.queries, rec.survivors,
                               rec.deferred, frame.length_down(static_cast<double>(rec.lower)),
                               frame.length_up(static_cast<double>(rec.upper))});

@@ -7,7 +7,7 @@
 
 namespace vkh {
 
-void fill_counts(const VkhReport& r, const Frame& frame, Report& out);
+void fill_counts(const RunOutput& r, const Frame& frame, Report& out);
 void fill_stages(const RunOutput& run, Report& out);
 void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out);
 

@@ -152,7 +152,7 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   out.workspace_bytes = run.workspace_bytes;
   out.host_memory_bytes = run.host_memory_bytes;
   out.preset = options.preset.empty() ? "default" : options.preset;
-  fill_counts(run.report, pair.frame, out);
+  fill_counts(run, pair.frame, out);
   fill_stages(run, out);
   fill_witness(run.report, pair.a, pair.b, out);
   // Before every face of A has a bound, `upper` is 3e38.

@@ -1,11 +1,11 @@
 // Writes the report, with the certified lower bound: the smallest distance of the witness from any
 // face of B, each rounded down. Every triangle is visited, so nothing rests on the BVH or on the
-// traversals that found the witness. The last workgroup to end writes, one invocation all but the
-// waves. In: control, A, B as given. Out: report. lower: that distance, less how far the witness's
-// 48-bit position can lie from the point of A that it stands for. upper: the largest u of
-// everything that was closed, spilled or is still open; without bound while faces of A wait. Both
-// as float32, and to more bits above the base. If an input is no mesh the status shows it, and no
-// bound is valid. lower_bits, ordered bits (math/morton.h), and groups_done are kNone and 0 again.
+// traversals that found the witness. One invocation of the last workgroup to end writes. In:
+// control, A, B as given. Out: report. lower: that distance, less how far the witness's 48-bit
+// position can lie from the point of A that it stands for. upper: the largest u of everything that
+// was closed, spilled or is still open; without bound while faces of A wait. Both as float32, and
+// to more bits above the base. If an input is no mesh the status shows it, and no bound is valid.
+// lower_bits, ordered bits (math/morton.h), and groups_done are kNone and 0 again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -93,8 +93,10 @@ void write_witness(Witness w) {
     report.witness_low_j = low.x;
     report.witness_low_k = low.y;
   }
-  w.distance = control.base + (w.distance == kUnmeasured ? 0.0 : w.distance);
-  report.witness = w;
+  report.witness = w.position;
+  report.witness_root = w.root;
+  report.witness_j = w.j;
+  report.witness_k = w.k;
   report.witness_face = triangles[min(w.nearest, push.count - 1u)].face;
 }
 
@@ -142,16 +144,11 @@ void write_report() {
   report.lower = max(lowered(control.base + lower), 0.0);
   report.upper = raised(control.base + upper);
   report.status = proven_status(lower, upper);
-  report.certified = control.certified;
   bool is_planned = is_running() && control.wanted == 0u;
   report.wave = is_planned ? control.wave - 1u : control.wave;
   write_witness(w);
   report.remaining = remaining();
-  report.candidate_total = control.candidate_total;
-  report.query_total = control.query_total;
-  report.peak_frontier = control.peak_frontier;
   report.wanted = control.wanted;
-  for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = control.culled[i];
 }
 
 // No bound is known: the inputs were no meshes. The faces at fault stand as the witness's.
@@ -163,8 +160,7 @@ void write_fault(uint a_fault, uint fault_of_b) {
   report.upper = infinity;
   report.upper_above = infinity;
   report.status = kStatusInput;
-  report.certified = 0u;
-  report.witness.root = a_fault;
+  report.witness_root = a_fault;
   report.witness_face = fault_of_b;
 }
 
@@ -172,17 +168,13 @@ void write_fault(uint a_fault, uint fault_of_b) {
 // is A, 2 is B, 3 is both.
 void write_unbuilt() {
   report.wave = 0u;
-  report.witness = Witness(vec3(0.0), 0.0, kNone, 0u, 0u, kNone);
   report.remaining = 0u;
-  report.candidate_total = 0u;
-  report.query_total = 0u;
-  report.peak_frontier = 0u;
   report.wanted = 0u;
+  report.witness = vec3(0.0);
+  report.witness_j = 0u;
+  report.witness_k = 0u;
   report.witness_low_j = 0u;
   report.witness_low_k = 0u;
-  for (uint i = 0u; i < kMostCulls; ++i) report.culled[i] = 0u;
-  for (uint w = 0u; w < kMaxWaveRecords; ++w)
-    report.waves[w] = WaveRecord(0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
   write_fault((push.count & 1u) != 0u ? kFaultLayout : kNone,
               (push.count & 2u) != 0u ? kFaultLayout : kNone);
 }
@@ -195,9 +187,7 @@ void main() {
   float smallest = subgroupMin(certified_distance());
   if (subgroupElect()) atomicMin(lower_bits, ordered_bits(floatBitsToUint(smallest)));
   if (!is_last_group()) return;
-  uint lane = gl_LocalInvocationID.x;
-  for (uint w = lane; w < kMaxWaveRecords; w += kGroupSize) report.waves[w] = control.waves[w];
-  if (lane != 0u) return;
+  if (gl_LocalInvocationID.x != 0u) return;
   write_report();
   if (control.input_fault != kNone || b_fault != kNone) write_fault(control.input_fault, b_fault);
 }

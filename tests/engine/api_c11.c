@@ -172,7 +172,8 @@ static void check_names(void) {
 
 int main(void) {
   VkhDeviceInfo info = {NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE};
-  static_assert(sizeof(VkhReport) == 4 * (4 + 3 + 17 + VKH_MAX_CULLS + 7 * VKH_MAX_WAVE_RECORDS),
+  static_assert(sizeof(VkhReport) == 72, "no padding, and what a frame reads");
+  static_assert(sizeof(VkhStatistics) == 4 * (4 + VKH_MAX_CULLS + 7 * VKH_MAX_WAVE_RECORDS),
                 "no padding");
   check_names();
   info.getInstanceProcAddr = open_loader();

@@ -20,10 +20,12 @@ KERNEL = """#version 460
 #extension GL_GOOGLE_include_directive : require
 #include "engine/vkhausdorff_report.glsl"
 layout(local_size_x = 1) in;
-layout(%s, binding = 0) buffer Block { VkhReport report; };
-void main() { if (report.status == VKH_STATUS_MEMORY) report.upper = report.lower; }
+layout(%s, binding = 0) buffer Block { VkhReport report; VkhStatistics statistics; };
+void main() {
+  report.waves = statistics.waveRecords[1].queries;
+  if (report.status == VKH_STATUS_MEMORY) report.upper = report.lower; }
 """
-STRUCTS = ("VkhReport", "VkhWaveRecord")
+STRUCTS = ("VkhReport", "VkhStatistics", "VkhWaveRecord")
 
 
 def glsl_offsets(layout, text):

@@ -13,7 +13,9 @@ namespace vkh::test {
 namespace {
 
 constexpr int kGarbage = 0xa5;
-constexpr VkDeviceSize kReportStride = (sizeof(VkhReport) + 255) / 256 * 256;
+constexpr VkDeviceSize kStatistics = 132;  // behind a report, at a multiple of 4
+constexpr VkDeviceSize kReportStride = (kStatistics + sizeof(VkhStatistics) + 255) / 256 * 256;
+static_assert(sizeof(VkhReport) <= kStatistics);
 constexpr VkDeviceSize kFirstReport = 512;  // not at the start, where an offset left out would pass
 constexpr VkBufferUsageFlags kWorking =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
@@ -140,7 +142,8 @@ ApiPair::ApiPair(ApiMesh& a, ApiMesh& b, float cull_tolerance, VkhContext contex
   }
   scratch_ = garbage(hierarchy.scratchSize, kWorking);
   workspace_ = garbage(bytes, kWorking);
-  reports_ = garbage(kFirstReport + 4 * kReportStride, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  reports_ = garbage(kFirstReport + 4 * kReportStride,
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   problem_.a = a.view();
   problem_.workspace = {workspace_.handle(), 0, bytes};
   problem_.options.size = sizeof(problem_.options);
@@ -173,6 +176,8 @@ void ApiPair::advance(VkCommandBuffer commands, uint32_t waves) {
 
 void ApiPair::report(VkCommandBuffer commands, uint32_t slot) {
   vkhCmdWriteReport(context_, commands, &problem_, reports_.handle(), report_offset(slot), nullptr);
+  vkhCmdWriteStatistics(context_, commands, &problem_, reports_.handle(),
+                        report_offset(slot) + kStatistics, nullptr);
   record_host_barrier(commands);
 }
 
@@ -193,7 +198,9 @@ VkhTask ApiPair::task(uint32_t waves) {
           .begin = VK_TRUE,
           .waves = waves,
           .reportBuffer = reports_.handle(),
-          .reportOffset = report_offset(0)};
+          .reportOffset = report_offset(0),
+          .statisticsBuffer = reports_.handle(),
+          .statisticsOffset = report_offset(0) + kStatistics};
 }
 
 void ApiPairs::add(const Mesh& a, const Mesh& b, float cull_tolerance) {
@@ -208,11 +215,11 @@ bool is_same(const VkhReport& a, const VkhReport& b) { return std::memcmp(&a, &b
 void record_host_barrier(VkCommandBuffer commands) {
   VkMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-  barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+  barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
   barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-  test_device().vk().CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                        VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
-                                        nullptr);
+  test_device().vk().CmdPipelineBarrier(
+      commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+      VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 VkDeviceSize ApiPair::report_offset(uint32_t slot) { return kFirstReport + slot * kReportStride; }
@@ -221,6 +228,13 @@ VkhReport ApiPair::read(uint32_t slot) const {
   VkhReport report;
   std::memcpy(&report, reports_.mapped() + report_offset(slot), sizeof(report));
   return report;
+}
+
+VkhStatistics ApiPair::statistics(uint32_t slot) const {
+  VkhStatistics statistics;
+  std::memcpy(&statistics, reports_.mapped() + report_offset(slot) + kStatistics,
+              sizeof(statistics));
+  return statistics;
 }
 
 VkhReport ApiPair::run(const std::function<void(VkCommandBuffer)>& record) {

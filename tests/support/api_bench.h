@@ -65,9 +65,11 @@ class ApiPair {
   /// A cold begin with a's vertices, as many as before, at another place.
   void begin_at(VkCommandBuffer commands, VkBuffer vertices, VkDeviceSize offset);
   void advance(VkCommandBuffer commands, uint32_t waves);
-  /// Writes report `slot` (0..3), and makes it visible to the host.
+  /// Writes report `slot` (0..3) and its statistics, and makes them visible to the host.
   void report(VkCommandBuffer commands, uint32_t slot = 0);
   VkhReport read(uint32_t slot = 0) const;
+  /// The statistics that were written with it.
+  VkhStatistics statistics(uint32_t slot = 0) const;
   /// Fills it with garbage, as at first, and clears the counts.
   void spoil_report();
   void spoil_hierarchy();
