@@ -49,7 +49,7 @@ static_assert(gpu::kCullCount <= gpu::kMostCulls);
 // The flags that kernels see, as bits beside the switches; and all flags.
 constexpr uint32_t kKernelFlags = VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE |
                                   VKH_CONTEXT_CHECK_INPUT | VKH_CONTEXT_CLOSEST;
-constexpr uint32_t kFlags = kKernelFlags | VKH_CONTEXT_BY_ADDRESS;
+constexpr uint32_t kFlags = kKernelFlags | VKH_CONTEXT_BY_ADDRESS | VKH_CONTEXT_CHECK_CALLS;
 
 bool is_known(const VkhContextCreateInfo& info) {
   return info.size == sizeof(info) && (info.flags & ~kFlags) == 0 && (info.switches & kFlags) == 0;
@@ -123,7 +123,6 @@ Hierarchy view_built(const VkhContext_T& context, VkhHierarchy b) {
 // Replaces counts that no mesh has by those of a mesh of one face, or of a B that was not built:
 // such a run records only a report of VKH_STATUS_INPUT.
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
-  check_problem(context, p);
   const bool has_options = p.options.size == sizeof(VkhRunOptions);
   const VkhRunOptions options = has_options ? p.options : VkhRunOptions{};
   const bool has_a = has_options && counts_fit(p.a.vertexCount, p.a.faceCount);
@@ -153,21 +152,22 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
 
 // Sets the counts of the BVH, before anything reads them. A mesh without faces or vertices
 // leaves it as one that was not built.
-void record_hierarchy(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
-                      VkhHierarchy& hierarchy, const VkhMemory& scratch) {
-  check_build(limits, mesh, hierarchy, &scratch);
+void record_hierarchy(Recorder& rec, Rules& rules, const VkhMesh& mesh, VkhHierarchy& hierarchy,
+                      const VkhMemory& scratch) {
+  if (!rules.build(mesh, hierarchy, &scratch)) return;
   const bool fits = counts_fit(mesh.vertexCount, mesh.faceCount);
   hierarchy.faceCount = fits ? mesh.faceCount : 0;
   hierarchy.vertexCount = fits ? mesh.vertexCount : 0;
   if (!fits) return;
-  record_build(rec, mesh, view_scratch(scratch, mesh.faceCount), view_hierarchy(hierarchy, limits));
+  record_build(rec, mesh, view_scratch(scratch, mesh.faceCount),
+               view_hierarchy(hierarchy, rules.context().limits));
 }
 
-void record_any_refit(Recorder& rec, const Limits& limits, const VkhMesh& mesh,
+void record_any_refit(Recorder& rec, Rules& rules, const VkhMesh& mesh,
                       const VkhHierarchy& hierarchy) {
-  check_build(limits, mesh, hierarchy, nullptr);
+  if (!rules.build(mesh, hierarchy, nullptr)) return;
   if (!counts_fit(hierarchy.vertexCount, hierarchy.faceCount)) return;  // a run's report shows it
-  const Hierarchy h = view_hierarchy(hierarchy, limits);
+  const Hierarchy h = view_hierarchy(hierarchy, rules.context().limits);
   if (mesh.vertexCount == hierarchy.vertexCount && mesh.faceCount == hierarchy.faceCount) {
     record_refit(rec, mesh, h);
   } else {
@@ -182,7 +182,6 @@ bool is_built(const Problem& p) { return p.has_a && p.b.face_count > 0; }
 void record_begin(Recorder& rec, const VkhProblem& problem, const Problem& p) {
   if (!is_built(p)) return;
   // Without twoFloat, B is measured by its high parts alone: A must be, too.
-  check_begin(problem);
   VkhMesh a = problem.a;
   if (problem.options.twoFloat == VK_FALSE) a.vertexLowBuffer = VK_NULL_HANDLE;
   record_load(rec, a, p.ws.vertices, p.ws.faces);
@@ -198,13 +197,11 @@ void record_waves(Recorder& rec, const Problem& p, uint32_t waves) {
 }
 
 Slice<gpu::Report> report_at(VkBuffer buffer, VkDeviceSize offset) {
-  check_report(buffer, offset);
   return {buffer, offset, sizeof(VkhReport)};
 }
 
 // The words of the statistics.
 Slice<uint32_t> statistics_at(VkBuffer buffer, VkDeviceSize offset) {
-  check_statistics(buffer, offset);
   return {buffer, offset, sizeof(VkhStatistics)};
 }
 
@@ -226,18 +223,16 @@ void record_any_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>
   }
 }
 
-void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task) {
-  check_task(task);
-  if (task.size != sizeof(VkhTask)) return;
-  VkhProblem& problem = *task.problem;
-  if (task.mesh != nullptr && task.scratch != nullptr) {
-    record_hierarchy(rec, context.limits, *task.mesh, problem.b, *task.scratch);
-  } else if (task.mesh != nullptr) {
-    record_any_refit(rec, context.limits, *task.mesh, problem.b);
-  }
-  const Problem p = view_problem(context, problem);
-  if (task.begin != VK_FALSE) record_begin(rec, problem, p);
-  record_waves(rec, p, task.waves);
+bool keeps_rules(Rules& rules, const VkhTask& task) {
+  const VkhProblem& problem = *task.problem;
+  return rules.problem(problem) && (task.begin == VK_FALSE || rules.begin(problem)) &&
+         (task.reportBuffer == VK_NULL_HANDLE ||
+          rules.report(task.reportBuffer, task.reportOffset)) &&
+         (task.statisticsBuffer == VK_NULL_HANDLE ||
+          rules.statistics(task.statisticsBuffer, task.statisticsOffset));
+}
+
+void record_output(Recorder& rec, const Problem& p, const VkhTask& task) {
   if (task.reportBuffer != VK_NULL_HANDLE)
     record_any_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
   if (task.statisticsBuffer == VK_NULL_HANDLE) return;
@@ -246,15 +241,29 @@ void record_task(Recorder& rec, const VkhContext_T& context, const VkhTask& task
   record_any_statistics(rec, p, statistics_at(task.statisticsBuffer, task.statisticsOffset), order);
 }
 
+void record_task(Recorder& rec, Rules rules, const VkhTask& task) {
+  if (!rules.task(task) || task.size != sizeof(VkhTask)) return;
+  VkhProblem& problem = *task.problem;
+  if (task.mesh != nullptr && task.scratch != nullptr) {
+    record_hierarchy(rec, rules, *task.mesh, problem.b, *task.scratch);
+  } else if (task.mesh != nullptr) {
+    record_any_refit(rec, rules, *task.mesh, problem.b);
+  }
+  if (!keeps_rules(rules, task)) return;
+  const Problem p = view_problem(rules.context(), problem);
+  if (task.begin != VK_FALSE) record_begin(rec, problem, p);
+  record_waves(rec, p, task.waves);
+  record_output(rec, p, task);
+}
+
 // Returns false if the host has no memory to keep the commands in.
-bool record_in_step(Recorder& together, const VkhContext_T& context, const VkhTask* tasks,
-                    uint32_t count) {
+bool record_in_step(Recorder& together, const Rules& rules, const VkhTask* tasks, uint32_t count) {
   std::vector<Track> tracks;
   try {
     tracks.resize(count);
     for (uint32_t i = 0; i < count; ++i) {
-      Recorder rec(context, tracks[i]);
-      record_task(rec, context, tasks[i]);
+      Recorder rec(rules.context(), tracks[i]);
+      record_task(rec, rules, tasks[i]);
     }
     together.put_in_step(tracks);
   } catch (...) {  // no exception may cross a C interface; nothing has been written yet
@@ -294,6 +303,8 @@ VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext* context
       return VKH_ERROR_UNSUPPORTED;
     if (!vkh::load_functions(info->device, created->limits, created->vk))
       return VKH_ERROR_NOT_ENABLED;
+    if ((info->flags & VKH_CONTEXT_CHECK_CALLS) != 0)
+      created->misuses = std::make_shared<vkh::Misuses>(info->onMisuse, info->misuseUser);
     if (!created->limits.pushes) created->sets = std::make_shared<vkh::SetStore>(*created);
     if (vkh::create_kernels(*created, info->pipelineCache, vkh::threads_of(*info)) != VK_SUCCESS) {
       vkh::destroy_kernels(*created);
@@ -313,12 +324,14 @@ void vkhDestroyContext(VkhContext context) {
 }
 
 VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer) {
+  if (context->misuses != nullptr && context->misuses->has(commandBuffer)) return VKH_ERROR_MISUSE;
   const bool complete = context->sets == nullptr || context->sets->is_complete(commandBuffer);
   return complete ? VKH_SUCCESS : VKH_ERROR_MEMORY;
 }
 
 void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer) {
   if (context->sets != nullptr) context->sets->release(commandBuffer);
+  if (context->misuses != nullptr) context->misuses->forget(commandBuffer);
 }
 
 VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t vertexCount, uint32_t faceCount,
@@ -360,31 +373,53 @@ VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount, uint3
 // NOLINTNEXTLINE(readability-function-size)
 void vkhCmdBuildHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           VkhHierarchy* hierarchy, const VkhMemory* scratch, VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdBuildHierarchy: mesh, hierarchy and scratch: not null",
+                    mesh != nullptr && hierarchy != nullptr && scratch != nullptr) ||
+      !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_hierarchy(rec, context->limits, *mesh, *hierarchy, *scratch);
+  vkh::record_hierarchy(rec, rules, *mesh, *hierarchy, *scratch);
 }
 
 void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuffer, const VkhMesh* mesh,
                           const VkhHierarchy* hierarchy, VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdRefitHierarchy: mesh and hierarchy: not null",
+                    mesh != nullptr && hierarchy != nullptr) ||
+      !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
-  vkh::record_any_refit(rec, context->limits, *mesh, *hierarchy);
+  vkh::record_any_refit(rec, rules, *mesh, *hierarchy);
 }
 
 void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                  VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdBegin: problem: not null", problem != nullptr) ||
+      !rules.problem(*problem) || !rules.begin(*problem) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_begin(rec, *problem, vkh::view_problem(*context, *problem));
 }
 
 void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                    uint32_t waves, VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdAdvance: problem: not null", problem != nullptr) ||
+      !rules.problem(*problem) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_waves(rec, vkh::view_problem(*context, *problem), waves);
 }
 
 void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem* problem,
                    const VkhMemory* workspace, VkhProfile* profile) {
-  vkh::check_move(*problem, *workspace);
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdMoveRun: problem and workspace: not null",
+                    problem != nullptr && workspace != nullptr) ||
+      !rules.move(*problem, *workspace) || !rules.problem(*problem) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem from = vkh::view_problem(*context, *problem);
   if (!vkh::can_move(*problem, *workspace)) return;
@@ -396,6 +431,10 @@ void vkhCmdMoveRun(VkhContext context, VkCommandBuffer commandBuffer, VkhProblem
 // NOLINTNEXTLINE(readability-function-size)
 void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdWriteReport: problem: not null", problem != nullptr) ||
+      !rules.problem(*problem) || !rules.report(buffer, offset) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_any_report(rec, vkh::view_problem(*context, *problem),
                          vkh::report_at(buffer, offset));
@@ -405,6 +444,10 @@ void vkhCmdWriteReport(VkhContext context, VkCommandBuffer commandBuffer, const 
 void vkhCmdWriteStatistics(VkhContext context, VkCommandBuffer commandBuffer,
                            const VkhProblem* problem, VkBuffer buffer, VkDeviceSize offset,
                            VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdWriteStatistics: problem: not null", problem != nullptr) ||
+      !rules.problem(*problem) || !rules.statistics(buffer, offset) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_any_statistics(rec, vkh::view_problem(*context, *problem),
                              vkh::statistics_at(buffer, offset), vkh::Order::kAfterAll);
@@ -413,7 +456,11 @@ void vkhCmdWriteStatistics(VkhContext context, VkCommandBuffer commandBuffer,
 
 void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhCells* cells, VkhProfile* profile) {
-  vkh::check_cells(*context, *problem, *cells);
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdBoundCells: problem and cells: not null",
+                    problem != nullptr && cells != nullptr) ||
+      !rules.cells(*problem, *cells) || !rules.problem(*problem) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   const vkh::Problem p = vkh::view_problem(*context, *problem);
   const bool has_kernel = vkh::gpu::bounds_cells(context->limits.switches, context->limits.wide);
@@ -430,7 +477,11 @@ void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer, const V
 
 void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer, const VkhHierarchy* b,
                        const VkhClosestQuery* query, VkhProfile* profile) {
-  vkh::check_closest(*context, *b, *query);
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdFindClosest: b and query: not null",
+                    b != nullptr && query != nullptr) ||
+      !rules.closest(*b, *query) || !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   const bool has_kernel = vkh::gpu::finds_closest(context->limits.switches, context->limits.wide);
   if (!has_kernel || query->count == 0) return;
@@ -445,11 +496,15 @@ void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer, const 
 
 void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t taskCount,
                     const VkhTask* tasks, VkhProfile* profile) {
+  vkh::Rules rules(*context, commandBuffer);
+  if (!VKH_POINTERS(rules, "vkhCmdRunTasks: tasks: not null", tasks != nullptr || taskCount == 0) ||
+      !rules.profile(profile))
+    return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   const auto scope = rec.scope("tasks");
-  if (taskCount > 1 && vkh::record_in_step(rec, *context, tasks, taskCount)) {
+  if (taskCount > 1 && vkh::record_in_step(rec, rules, tasks, taskCount)) {
     rec.stage("tasks");
     return;
   }
-  for (uint32_t i = 0; i < taskCount; ++i) vkh::record_task(rec, *context, tasks[i]);
+  for (uint32_t i = 0; i < taskCount; ++i) vkh::record_task(rec, rules, tasks[i]);
 }

@@ -1,38 +1,71 @@
-// The rules of vkhausdorff.h that the caller must keep, asserted: a debug build names the rule that
-// is broken, and a build with NDEBUG has none of this.
+// The rules of vkhausdorff.h that the caller must keep. With VKH_CONTEXT_CHECK_CALLS any build
+// tells the caller which one is broken; otherwise a debug build asserts them, and a build with
+// NDEBUG does not look.
 #pragma once
 
-#include "engine/context.h"
+#include <cassert>
+#include <mutex>
+#include <unordered_set>
+
+#include "engine/workspace.h"
 
 namespace vkh {
 
-#ifdef NDEBUG
-inline void check_build(const Limits&, const VkhMesh&, const VkhHierarchy&, const VkhMemory*) {}
-inline void check_begin(const VkhProblem&) {}
-inline void check_task(const VkhTask&) {}
-inline void check_problem(const VkhContext_T&, const VkhProblem&) {}
-inline void check_move(const VkhProblem&, const VkhMemory&) {}
-inline void check_report(VkBuffer, VkDeviceSize) {}
-inline void check_statistics(VkBuffer, VkDeviceSize) {}
-inline void check_cells(const VkhContext_T&, const VkhProblem&, const VkhCells&) {}
-inline void check_closest(const VkhContext_T&, const VkhHierarchy&, const VkhClosestQuery&) {}
-inline void check_profile(const VkhProfile*) {}
-#else
-// `scratch`: null for a refit, whose BVH has been built.
-void check_build(const Limits& limits, const VkhMesh& mesh, const VkhHierarchy& hierarchy,
-                 const VkhMemory* scratch);
-// The rules of what the begin alone reads, and of what the rest of a run reads, too.
-void check_begin(const VkhProblem& problem);
-void check_task(const VkhTask& task);
-void check_problem(const VkhContext_T& context, const VkhProblem& problem);
-// The rules of a move into `to`.
-void check_move(const VkhProblem& problem, const VkhMemory& to);
-void check_report(VkBuffer buffer, VkDeviceSize offset);
-void check_statistics(VkBuffer buffer, VkDeviceSize offset);
-void check_cells(const VkhContext_T& context, const VkhProblem& problem, const VkhCells& cells);
-void check_closest(const VkhContext_T& context, const VkhHierarchy& b,
-                   const VkhClosestQuery& query);
-void check_profile(const VkhProfile* profile);
-#endif
+// Whether the pointers of a call are given; the rule is a part of the asserted expression, so that
+// assert prints it.
+#define VKH_POINTERS(rules, rule, are_given) \
+  (assert((rules).are_told() || ((rule) && (are_given))), (rules).pointers(rule, are_given))
+
+// The misuse that a context has been told of; its command buffers must not be submitted.
+class Misuses {
+ public:
+  Misuses(VkhMisuse tell, void* user) : tell_(tell), user_(user) {}
+  void add(VkCommandBuffer commands, const char* rule);
+  bool has(VkCommandBuffer commands);
+  void forget(VkCommandBuffer commands);
+
+ private:
+  VkhMisuse tell_;
+  void* user_;
+  std::mutex mutex_;
+  std::unordered_set<VkCommandBuffer> commands_;
+};
+
+// The rules of one call. Each check looks at some of them, and returns whether all have been kept
+// so far; a call whose rules are not kept records nothing.
+class Rules {
+ public:
+  Rules(const VkhContext_T& context, VkCommandBuffer commands)
+      : context_(context), commands_(commands) {}
+
+  bool are_told() const { return context_.misuses != nullptr; }
+  bool pointers(const char* rule, bool are_given);
+  // `scratch`: null for a refit, whose BVH has been built.
+  bool build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch);
+  // The rules of what the begin alone reads, and of what the rest of a run reads, too.
+  bool begin(const VkhProblem& problem);
+  bool problem(const VkhProblem& problem);
+  bool task(const VkhTask& task);
+  // The rules of a move into `to`.
+  bool move(const VkhProblem& problem, const VkhMemory& to);
+  bool report(VkBuffer buffer, VkDeviceSize offset);
+  bool statistics(VkBuffer buffer, VkDeviceSize offset);
+  bool cells(const VkhProblem& problem, const VkhCells& cells);
+  bool closest(const VkhHierarchy& b, const VkhClosestQuery& query);
+  bool profile(const VkhProfile* profile);
+
+  const VkhContext_T& context() const { return context_; }
+
+ private:
+  bool are_checked() const;
+  void broken(const char* rule);
+  void memory(const VkhMemory& memory);
+  void ranges(const VkhHierarchy& hierarchy, const StreamSizes& needed);
+  void mesh(const VkhMesh& mesh);
+
+  const VkhContext_T& context_;
+  VkCommandBuffer commands_;
+  bool kept_ = true;
+};
 
 }  // namespace vkh

@@ -79,6 +79,7 @@ struct Limits {
 };
 
 class SetStore;  // engine/descriptors.h
+class Misuses;   // engine/checks.h
 
 }  // namespace vkh
 
@@ -90,4 +91,5 @@ struct VkhContext_T {
   // Null if descriptors are pushed. A shared_ptr can destroy a type that is incomplete here:
   // members that are not inline would be exported with the C interface.
   std::shared_ptr<vkh::SetStore> sets;
+  std::shared_ptr<vkh::Misuses> misuses;  // null if calls are not checked for the caller
 };

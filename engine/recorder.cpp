@@ -6,7 +6,6 @@ namespace vkh {
 
 Recorder::Recorder(const VkhContext_T& context, VkCommandBuffer commands, VkhProfile* profile)
     : context_(context), binder_(context, commands), profile_(profile) {
-  check_profile(profile_);
   stage(nullptr);
 }
 

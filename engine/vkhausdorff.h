@@ -60,15 +60,15 @@
  * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
  *
- * Structs that may grow have their size first: set it to sizeof, as compiled. A library of a later
- * version takes what is missing for 0.
+ * Structs that may grow have their size first: set it to sizeof, as compiled. A library that does
+ * not know a struct's size refuses it.
  *
  * Errors: functions that can fail return VkhResult and then leave their output as it was (a context
  * becomes null). Recording cannot fail (but see vkhGetRecordingResult): what could go wrong is
- * refused before, or is a rule below, and breaking a rule is undefined as in Vulkan. A build of the
- * engine without NDEBUG asserts the rules that it can see (strides, offsets, sizes, counts, types)
- * and names the one that is broken. Some are found in any build, and end as VKH_STATUS_INPUT. The
- * validation layers see the engine's commands as yours. */
+ * refused before, or is a rule below, and breaking a rule is undefined as in Vulkan. With
+ * VKH_CONTEXT_CHECK_CALLS any build names the broken rule (strides, offsets, sizes, counts, types);
+ * without it a build of the engine without NDEBUG asserts the same. Some are found in any build,
+ * and end as VKH_STATUS_INPUT. The validation layers see the engine's commands as yours. */
 #ifndef VKHAUSDORFF_H
 #define VKHAUSDORFF_H
 
@@ -112,7 +112,10 @@ typedef enum VkhResult {
                              * VKH_CONTEXT_BY_ADDRESS); or is empty */
   VKH_ERROR_MEMORY = -4,    /* no host or device memory for descriptor sets */
   VKH_ERROR_NOT_ENABLED = -5, /* the device has what is needed, and was created without it */
-  VKH_ERROR_MISUSE = -6 /* a struct's `size` is of no version that the library knows, or a flag */
+  /* A struct's `size` or a flag that no known version has; with VKH_CONTEXT_CHECK_CALLS a broken
+   * rule.
+   */
+  VKH_ERROR_MISUSE = -6
 } VkhResult;
 
 /* The constant's name, such as "VKH_ERROR_PIPELINE", a static string; never null. */
@@ -150,7 +153,12 @@ typedef enum VkhContextFlagBits {
    * and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
    * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
    * at most 8 GiB. robustBufferAccess does not hold for addresses. */
-  VKH_CONTEXT_BY_ADDRESS = 0x200000
+  VKH_CONTEXT_BY_ADDRESS = 0x200000,
+  /* Any build looks for broken rules in the calls that record: pointers, strides, offsets, sizes,
+   * counts, types, ranges. A call that breaks one tells it to VkhContextCreateInfo::onMisuse and
+   * records nothing; vkhGetRecordingResult then returns VKH_ERROR_MISUSE for the command buffer,
+   * which must not be submitted. */
+  VKH_CONTEXT_CHECK_CALLS = 0x400000
 } VkhContextFlagBits;
 typedef uint32_t VkhContextFlags; /* VkhContextFlagBits that are on */
 
@@ -183,6 +191,10 @@ VKH_API VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size
 typedef void (*VkhParallelFor)(void* user, uint32_t count, void (*work)(void* data, uint32_t i),
                                void* data);
 
+/* Hears the first rule that a call breaks, a static string such as "VkhMesh::vertexStride: at least
+ * 12 bytes", on the thread that records. */
+typedef void (*VkhMisuse)(void* user, VkCommandBuffer commandBuffer, const char* rule);
+
 typedef struct VkhContextCreateInfo {
   size_t size; /* sizeof(VkhContextCreateInfo) */
   VkhDeviceInfo device;
@@ -197,6 +209,8 @@ typedef struct VkhContextCreateInfo {
   /* Null, or what calls on threads of yours; the engine then starts none. */
   VkhParallelFor parallelFor;
   void* parallelUser;
+  VkhMisuse onMisuse; /* with VKH_CONTEXT_CHECK_CALLS; may be null */
+  void* misuseUser;   /* the first argument of onMisuse */
 } VkhContextCreateInfo;
 
 /* Zeros in all but `size` and `device` are right: certified, and what pays on the device. Creates
@@ -227,24 +241,24 @@ VKH_API VkhResult vkhCreateContext(const VkhContextCreateInfo* info, VkhContext*
 /* No command buffer that was recorded with the context may still be pending. Null is fine. */
 VKH_API void vkhDestroyContext(VkhContext context);
 
-/* For devices without VK_KHR_push_descriptor; on others both do nothing. There a command buffer
- * binds descriptor sets, which the context keeps. The first, after recording: VKH_ERROR_MEMORY if
- * one could not be allocated; dispatches are missing, do not submit. The second frees them: once
- * the command buffer has run, and is freed or to be recorded anew. */
+/* For devices without VK_KHR_push_descriptor, and with VKH_CONTEXT_CHECK_CALLS; elsewhere both do
+ * nothing. Without the extension a command buffer binds descriptor sets, which the context keeps.
+ * The first, after recording: VKH_ERROR_MEMORY if one could not be allocated; VKH_ERROR_MISUSE if a
+ * checked call broke a rule. Commands are then missing: do not submit. The second frees the sets
+ * and forgets broken rules: once the command buffer has run, and is freed or to be recorded anew.
+ */
 VKH_API VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
 VKH_API void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
 /* A triangle mesh in the caller's buffers. Positions are three float32 at vertexOffset + i *
  * vertexStride; offset and stride are multiples of 4 bytes. Indices are VK_INDEX_TYPE_UINT16
  * (indexOffset a multiple of 2) or _UINT32 (a multiple of 4), three a face, each below vertexCount.
- * Without VKH_CONTEXT_CHECK_INPUT the GPU checks nothing: coordinates not finite and
- * indices out of range give an untrue interval; the latter are taken for the last vertex. Unused
- * vertices are no part of the mesh. Degenerate faces are segments or points. Both buffers: usage
- * STORAGE_BUFFER; each range is at most maxStorageBufferRange less 256 bytes, but for
- * VKH_CONTEXT_BY_ADDRESS, and
+ * Without VKH_CONTEXT_CHECK_INPUT the GPU checks nothing: coordinates not finite and indices out of
+ * range give an untrue interval; the latter are taken for the last vertex. Unused vertices are no
+ * part of the mesh. Degenerate faces are segments or points. Both buffers: usage STORAGE_BUFFER;
+ * each range is at most maxStorageBufferRange less 256 bytes, but for VKH_CONTEXT_BY_ADDRESS, and
  * with 16-bit indices it must reach to the end of the last index's 4-byte word. A and B may share
- * buffers. The engine never writes them.
- */
+ * buffers. The engine never writes them. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */

@@ -65,7 +65,8 @@ VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind, VkBool32
                                  VkBool32 checks) {
   VkhContextCreateInfo info{};
   constexpr uint32_t flags = VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE |
-                             VKH_CONTEXT_CHECK_INPUT | VKH_CONTEXT_CLOSEST | VKH_CONTEXT_BY_ADDRESS;
+                             VKH_CONTEXT_CHECK_INPUT | VKH_CONTEXT_CLOSEST |
+                             VKH_CONTEXT_BY_ADDRESS | VKH_CONTEXT_CHECK_CALLS;
   info.size = sizeof(info);
   info.device = test_device().engine_info();
   info.flags = switches & flags;
