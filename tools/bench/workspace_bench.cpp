@@ -1,0 +1,139 @@
+// The time of a run in workspaces of each named size, and of any number of candidates, against that
+// in the recommended one: three families of pairs, whose A has 12 to 100,000 faces. Runs alternate
+// between the sizes; the least of their times on the device counts, the BVH apart.
+//
+//   vkh_workspace_bench [--device D] [--faces N] [--runs 5] [--tol 1e-6] [--candidates 256,1024]
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/vkhausdorff.h"
+#include "host/base/error.h"
+#include "host/solve/solver.h"
+#include "tests/shapes/shapes.h"
+
+namespace vkh::bench {
+namespace {
+
+using Context = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
+
+struct Arguments {
+  std::string device;
+  uint32_t faces = 100'000;
+  int runs = 5;
+  double tolerance = 1e-6;
+  std::vector<uint32_t> candidates;
+};
+
+struct Pair {
+  std::string family;
+  Mesh a, b;
+};
+
+// A workspace, and the least time of a run in it.
+struct Size {
+  std::string name;
+  VkDeviceSize bytes;
+  double ms = std::numeric_limits<double>::infinity();
+  Report report = {};
+};
+
+// A context of the device's defaults, which knows what workspaces it needs.
+Context context_on(const Device& device) {
+  VkhContextCreateInfo info{};
+  info.size = sizeof(info);
+  info.device = device.engine_info();
+  VkhContext context = nullptr;
+  const VkhResult result = vkhCreateContext(&info, &context);
+  if (result != VKH_SUCCESS) throw DeviceError(vkhResultString(result));
+  return {context, vkhDestroyContext};
+}
+
+// A mesh beside itself, coarser, where few candidates stay; a mesh whose every face is about as far
+// from a fine ball, where many do; and a ball within another one.
+std::vector<Pair> pairs(uint32_t most_faces) {
+  std::vector<Pair> all;
+  const Mesh ball = test::translated(test::icosphere(1.1, 5), {0.003, 0.002, 0.001});
+  all.push_back({"coarse", test::cube(0.6), ball});
+  for (const uint32_t halvings : {1u, 3u, 4u, 6u})
+    all.push_back({"coarse", test::icosphere(1, halvings), ball});
+  for (const uint32_t cells : {8u, 22u, 72u, 224u})
+    all.push_back({"twins", test::height_field(cells, 1), test::height_field(cells, 2)});
+  for (const uint32_t halvings : {1u, 3u, 4u, 6u})
+    all.push_back({"balls", test::icosphere(1, halvings), test::icosphere(1.01, halvings)});
+  std::erase_if(all, [&](const Pair& pair) { return pair.a.faces.size() > most_faces; });
+  return all;
+}
+
+std::vector<Size> sizes_of(VkhContext context, const Mesh& a, const Arguments& arguments) {
+  const auto vertices = static_cast<uint32_t>(a.vertices.size());
+  const auto faces = static_cast<uint32_t>(a.faces.size());
+  VkhWorkspaceRequirements needed{};
+  const VkhResult result = vkhGetWorkspaceRequirements(context, vertices, faces, &needed);
+  if (result != VKH_SUCCESS) throw DeviceError(vkhResultString(result));
+  std::vector<Size> sizes = {{"recommended", needed.recommended}, {"minimum", needed.minimum}};
+  for (const uint32_t count : arguments.candidates)
+    sizes.push_back({std::to_string(count), vkhGetWorkspaceSize(context, vertices, faces, count)});
+  return sizes;
+}
+
+void measure(Solver& solver, const Pair& pair, const Arguments& arguments,
+             std::vector<Size>& sizes) {
+  for (int run = 0; run <= arguments.runs; ++run) {  // the first one warms up
+    for (Size& size : sizes) {
+      SolveOptions options;
+      options.tolerance = arguments.tolerance;
+      options.time_limit_s = 60;
+      options.memory_bytes = size.bytes;
+      options.stage_times = false;
+      size.report = solver.distance(pair.a, pair.b, options);
+      if (run > 0) size.ms = std::min(size.ms, size.report.times.solve_ms);
+    }
+  }
+}
+
+void print(const Pair& pair, const std::vector<Size>& sizes) {
+  for (const Size& size : sizes)
+    std::printf("%s,%zu,%s,%llu,%.3f,%.2f,%u,%llu,%llu,%.3g\n", pair.family.c_str(),
+                pair.a.faces.size(), size.name.c_str(), static_cast<unsigned long long>(size.bytes),
+                size.ms, size.ms / sizes[0].ms, size.report.waves,
+                static_cast<unsigned long long>(size.report.candidates),
+                static_cast<unsigned long long>(size.report.peak_frontier), size.report.gap());
+  std::fflush(stdout);
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("what a smaller workspace costs", "vkh_workspace_bench");
+  app.add_option("--device", arguments.device);
+  app.add_option("--faces", arguments.faces, "the most faces of A");
+  app.add_option("--runs", arguments.runs);
+  app.add_option("--tol", arguments.tolerance);
+  app.add_option("--candidates", arguments.candidates)->delimiter(',');
+  CLI11_PARSE(app, argc, argv);
+  Device device({.selector = arguments.device});
+  const Context context = context_on(device);
+  Solver solver(device);
+  std::printf("family,faces,size,bytes,ms,times_recommended,waves,candidates,peak,gap\n");
+  for (const Pair& pair : pairs(arguments.faces)) {
+    std::vector<Size> sizes = sizes_of(context.get(), pair.a, arguments);
+    measure(solver, pair, arguments, sizes);
+    print(pair, sizes);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace vkh::bench
+
+int main(int argc, char** argv) try {
+  return vkh::bench::run(argc, argv);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "vkh_workspace_bench: %s\n", error.what());
+  return 1;
+}
