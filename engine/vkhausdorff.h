@@ -313,13 +313,16 @@ VKH_API VkhResult vkhGetHierarchyRequirements(VkhContext context, uint32_t verte
                                               VkhHierarchyRequirements* requirements);
 
 typedef struct VkhWorkspaceRequirements {
-  VkDeviceSize minimum;     /* bytes; works, slowly */
+  VkDeviceSize minimum; /* bytes; works, in many more waves */
+  VkDeviceSize compact; /* bytes; room to bound and split all faces of A once, and for 1024 more */
   VkDeviceSize recommended; /* bytes; the frontier seldom has to be regulated */
   VkDeviceSize maximum;     /* bytes; more is not used, because of device limits */
 } VkhWorkspaceRequirements;
 
 /* Sizes for A. Anything from minimum to maximum is right: a smaller workspace costs time, never
- * truth. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
+ * truth. A pair that holds more candidates than there is room for takes more waves; pauseWhenFull
+ * gives it more room when it wants some. tools/bench/workspace_bench.cpp measures what each size
+ * costs. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
 VKH_API VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount,
                                               uint32_t faceCount,
                                               VkhWorkspaceRequirements* requirements);

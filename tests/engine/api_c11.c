@@ -98,13 +98,15 @@ static VkDevice create_device(VkhDeviceInfo info, int bare) {
 
 static void check_sizes(VkhContext context) {
   VkhHierarchyRequirements hierarchy = {0}, larger = {0};
-  VkhWorkspaceRequirements workspace = {0, 0, 0};
+  VkhWorkspaceRequirements workspace = {0, 0, 0, 0};
   CHECK(vkhGetHierarchyRequirements(context, 3, 1, &hierarchy) == VKH_SUCCESS);
   CHECK(vkhGetHierarchyRequirements(context, 30000, 60000, &larger) == VKH_SUCCESS);
   CHECK(hierarchy.hierarchySize > 0 && hierarchy.scratchSize > 0);
   CHECK(larger.hierarchySize > hierarchy.hierarchySize);
   CHECK(vkhGetWorkspaceRequirements(context, 3, 1, &workspace) == VKH_SUCCESS);
-  CHECK(workspace.minimum > 0 && workspace.minimum <= workspace.recommended);
+  CHECK(workspace.minimum > 0 && workspace.minimum <= workspace.compact);
+  CHECK(workspace.compact <= workspace.recommended);
+  CHECK(workspace.compact < 256 * 1024); /* of a triangle */
   CHECK(workspace.recommended <= workspace.maximum);
   CHECK(vkhGetHierarchyRequirements(context, 3, 0, &hierarchy) == VKH_ERROR_TOO_LARGE);
   CHECK(vkhGetWorkspaceRequirements(context, UINT32_MAX, 1, &workspace) == VKH_ERROR_TOO_LARGE);

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/api_bench.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
 
@@ -203,6 +204,29 @@ TEST_CASE("the pyramid has room for every level") {
   CHECK(quads_size(2) == 1);
   CHECK(quads_size(17) == 5 + 1);
   CHECK(quads_size(257) == 65 + 5 + 1);
+}
+
+TEST_CASE("a compact workspace bounds all faces of A at once, and gives the same answer") {
+  for (const uint32_t halvings : {0u, 2u, 3u}) {
+    CAPTURE(halvings);
+    ApiMesh a(icosphere(1.0, halvings)), b(translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}));
+    ApiPair pair(a, b, 1e-4f);
+    VkhWorkspaceRequirements needed{};
+    REQUIRE(vkhGetWorkspaceRequirements(pair.context(), a.view().vertexCount, a.view().faceCount,
+                                        &needed) == VKH_SUCCESS);
+    REQUIRE(needed.compact <= pair.workspace_size());
+    pair.problem().workspace.size = needed.compact;
+    pair.run([&](VkCommandBuffer commands) {
+      pair.build(commands);
+      pair.begin(commands);
+      pair.report(commands, 1);
+      pair.advance(commands, 20);
+      pair.report(commands);
+    });
+    CHECK(pair.read(1).upper < 1e38f);  // no face waits
+    CHECK(pair.read().status == VKH_STATUS_DECIDED);
+    check_true(pair.read(), a, b);
+  }
 }
 
 // --- Waves and time ---

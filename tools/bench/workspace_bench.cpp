@@ -76,7 +76,9 @@ std::vector<Size> sizes_of(VkhContext context, const Mesh& a, const Arguments& a
   VkhWorkspaceRequirements needed{};
   const VkhResult result = vkhGetWorkspaceRequirements(context, vertices, faces, &needed);
   if (result != VKH_SUCCESS) throw DeviceError(vkhResultString(result));
-  std::vector<Size> sizes = {{"recommended", needed.recommended}, {"minimum", needed.minimum}};
+  std::vector<Size> sizes = {{"recommended", needed.recommended},
+                             {"compact", needed.compact},
+                             {"minimum", needed.minimum}};
   for (const uint32_t count : arguments.candidates)
     sizes.push_back({std::to_string(count), vkhGetWorkspaceSize(context, vertices, faces, count)});
   return sizes;
