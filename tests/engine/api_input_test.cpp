@@ -345,6 +345,27 @@ TEST_CASE("a run of what is no mesh stays one where it is moved") {
   }
 }
 
+#ifdef NDEBUG
+TEST_CASE(
+    "options of a size that no version has are refused, and a task of such a size is left out") {
+  const Context context = checking(VKH_DEVICE_KIND_NARROW, VK_FALSE);
+  ApiMesh a(icosphere(1, 1)), b(icosphere(1.1, 1));
+  ApiPair pair(a, b, 1e-3f, context.get());
+  pair.problem().options.size -= 1;
+  check_refused(whole_run(pair), kDescription, kNothing);
+  pair.problem().options.size += 1;
+  const VkhReport right = whole_run(pair);
+  CHECK(right.status == VKH_STATUS_DECIDED);
+  VkhTask task = pair.task(8);
+  task.size += 1;
+  pair.run([&](VkCommandBuffer commands) {
+    vkhCmdRunTasks(pair.context(), commands, 1, &task, nullptr);
+    record_host_barrier(commands);
+  });
+  CHECK(is_same(pair.read(), right));
+}
+#endif
+
 TEST_CASE("numbers that are none change no truth") {
   const Context context = checking(VKH_DEVICE_KIND_NARROW, VK_FALSE);
   ApiMesh a(icosphere(1, 1)), b(icosphere(1.1, 1));
