@@ -9,6 +9,15 @@
 
 namespace vkh {
 
+/// Splits |x|, which is result * 2^exponent: exponent in [-1074, 971], result < 2^53.
+inline uint64_t mantissa_of(double x, int& exponent) {
+  const auto bits = std::bit_cast<uint64_t>(x);
+  const auto field = static_cast<int>(bits >> 52 & 0x7ff);
+  const uint64_t fraction = bits & ((uint64_t{1} << 52) - 1);
+  exponent = std::max(field, 1) - 1075;
+  return field == 0 ? fraction : fraction | uint64_t{1} << 52;
+}
+
 /// Sums products of doubles without rounding, whatever their exponents. Every finite double is an
 /// integer times 2^-1074, so a product is one times 2^-2148, less than 2^2048 in size; the sum is
 /// held in two's complement with bit 0 worth 2^-2148 and at least 60 bits to spare at the top.
@@ -16,8 +25,8 @@ class ExactSum {
  public:
   void add_product(double a, double b, bool negative) {
     int exponent_a = 0, exponent_b = 0;
-    const auto mantissa_a = mantissa(a, exponent_a);
-    const auto mantissa_b = mantissa(b, exponent_b);
+    const auto mantissa_a = mantissa_of(a, exponent_a);
+    const auto mantissa_b = mantissa_of(b, exponent_b);
     const unsigned __int128 product = static_cast<unsigned __int128>(mantissa_a) * mantissa_b;
     add(product, static_cast<unsigned>(exponent_a + exponent_b + 2148),
         negative != (std::signbit(a) != std::signbit(b)));
@@ -30,15 +39,6 @@ class ExactSum {
   int sign() const { return limbs_.back() >> 63 != 0 ? -1 : is_zero() ? 0 : 1; }
 
  private:
-  // |x| = result * 2^exponent, exponent in [-1074, 971], result < 2^53.
-  static uint64_t mantissa(double x, int& exponent) {
-    const auto bits = std::bit_cast<uint64_t>(x);
-    const auto field = static_cast<int>(bits >> 52 & 0x7ff);
-    const uint64_t fraction = bits & ((uint64_t{1} << 52) - 1);
-    exponent = std::max(field, 1) - 1075;
-    return field == 0 ? fraction : fraction | uint64_t{1} << 52;
-  }
-
   // A product has at most 106 bits; shifted by up to 63 it covers three limbs.
   void add(unsigned __int128 product, unsigned shift, bool negative) {
     const unsigned bit = shift % 64;

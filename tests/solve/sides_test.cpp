@@ -1,0 +1,368 @@
+// Sides of cells and insides of meshes against exact integers: winding numbers where there is an
+// inside, planes of all closest faces otherwise. Hard meshes, closed and open, hard cells about
+// them.
+#include "host/survey/sides.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "host/base/error.h"
+#include "host/survey/cell_corners.h"
+#include "tests/shapes/adversarial.h"
+#include "tests/shapes/shapes.h"
+#include "tests/support/tally.h"
+#include "tests/verification/oracle/exact_side.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+using glm::dvec3;
+
+Mesh reversed(Mesh mesh) {
+  for (UVec3& f : mesh.faces) std::swap(f.y, f.z);
+  return mesh;
+}
+
+Mesh tetrahedron(const std::array<dvec3, 4>& p) {
+  const bool is_left = glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) < 0;
+  Mesh mesh = make_mesh("tetrahedron", {p[0], p[1], p[2], p[3]},
+                        {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}});
+  return is_left ? mesh : reversed(std::move(mesh));
+}
+
+Mesh moved(Mesh mesh, const std::function<dvec3(const dvec3&)>& to) {
+  for (DVec3& v : mesh.vertices) v = to(v);
+  return mesh;
+}
+
+// A tetrahedron whose edges are as sharp as 2^-14, or whose faces are needles.
+Mesh sharp(Random& random) {
+  const double thin = std::ldexp(1.0, -static_cast<int>(random.below(15)));
+  const double narrow = std::ldexp(1.0, -static_cast<int>(random.below(10)));
+  return tetrahedron({dvec3(-1, random.range(-0.1, 0.1), 0), dvec3(1, 0, 0),
+                      dvec3(random.range(-0.5, 0.5), narrow, thin),
+                      dvec3(random.range(-0.5, 0.5), narrow, -thin)});
+}
+
+// A sphere with spikes, in and out: edges of every angle.
+Mesh spiky(Random& random) {
+  Mesh mesh = icosphere(1.0, random.below(3));
+  for (DVec3& v : mesh.vertices) v *= std::exp2(random.range(-2.0, 0.5));
+  return mesh;
+}
+
+// The mesh with a corner on the middle of an edge of one face, and a face without area that closes
+// the gap: edges are used as often in both directions as before.
+Mesh with_flat_face(const Mesh& mesh, Random& random) {
+  std::vector<dvec3> vertices(mesh.vertices.begin(), mesh.vertices.end());
+  std::vector<glm::uvec3> faces(mesh.faces.begin(), mesh.faces.end());
+  const uint32_t f = random.below(static_cast<uint32_t>(faces.size()));
+  const glm::uvec3 t = faces[f];
+  const auto m = static_cast<uint32_t>(vertices.size());
+  vertices.push_back((vertices[t.x] + vertices[t.y]) * 0.5);
+  faces[f] = {t.x, m, t.z};
+  faces.push_back({m, t.y, t.z});
+  faces.push_back({t.x, t.y, m});
+  return make_mesh("flat", std::move(vertices), std::move(faces));
+}
+
+Mesh without_a_face(Mesh mesh, Random& random) {
+  mesh.faces.erase(mesh.faces.begin() + random.below(static_cast<uint32_t>(mesh.faces.size())));
+  return mesh;
+}
+
+Mesh cube_at(const dvec3& at, double half = 0.5) { return translated(cube(half), at); }
+
+// Boxes and tetrahedra with corners on a coarse lattice touch and cross in all ways.
+Mesh lattice_box(Random& random) {
+  const dvec3 lo(random.below(4), random.below(4), random.below(4));
+  const dvec3 size(1 + random.below(2), 1 + random.below(2), 1 + random.below(2));
+  return moved(cube(0.5), [&](const dvec3& p) { return lo + (p + dvec3(0.5)) * size; });
+}
+Mesh lattice_tetrahedron(Random& random) {
+  for (;;) {
+    std::array<dvec3, 4> p{};
+    for (dvec3& v : p) v = dvec3(random.below(4), random.below(4), random.below(3));
+    if (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) != 0) return tetrahedron(p);
+  }
+}
+
+struct ClosedCase {
+  const char* name;
+  Mesh mesh;
+  std::optional<Inside> inside = {};  // where it is known
+};
+
+ClosedCase closed_case(uint32_t family, Random& random) {
+  const double by = std::ldexp(1.0, -static_cast<int>(random.below(30)));
+  switch (family) {
+    case 0:
+      return {"cube", cube(random.range(0.1, 1)), Inside::kProven};
+    case 1:
+      return {"sphere", icosphere(random.range(0.1, 1), random.below(3)), Inside::kProven};
+    case 2:
+      return {"torus", torus(1, random.range(0.1, 0.7), 9, 6), Inside::kProven};
+    case 3:
+      return {"sharp", sharp(random), Inside::kProven};
+    case 4:
+      return {"spiky", spiky(random), {}};
+    case 5:
+      return {"reversed", reversed(spiky(random)), {}};
+    case 6:
+      return {"needles",
+              moved(icosphere(1, 1), [by](const dvec3& p) { return dvec3(p.x, p.y * by, p.z); }),
+              {}};
+    case 7:
+      return {"cavity", joined(cube(1), reversed(icosphere(random.range(0.2, 0.9), 1))),
+              Inside::kProven};
+    case 8:
+      return {"nested", joined(cube(1), icosphere(random.range(0.2, 0.9), 1)), Inside::kWinding};
+    case 9:
+      return {"apart", joined(cube_at({0, 0, 0}), cube_at({1 + by, 0.3, 0.1})), Inside::kProven};
+    case 10:
+      return {"touching in a face", joined(cube_at({0, 0, 0}), cube_at({1, 0.25, 0})),
+              Inside::kCrossing};
+    case 11:
+      return {"touching in an edge", joined(cube_at({0, 0, 0}), cube_at({1, 1, 0})),
+              Inside::kProven};
+    case 12:
+      return {"touching in part of an edge", joined(cube_at({0, 0, 0}), cube_at({1, 1, 0.25})),
+              Inside::kProven};
+    case 13:
+      return {"touching in a corner", joined(cube_at({0, 0, 0}), cube_at({1, 1, 1})),
+              Inside::kProven};
+    case 14:
+      return {"a corner on a face",
+              joined(cube(1), tetrahedron({dvec3(1, 0.125, 0.25), dvec3(2, 0, 0), dvec3(2, 1, 0),
+                                           dvec3(2, 0, 1)})),
+              Inside::kProven};
+    case 15:
+      return {"crossing", joined(cube_at({0, 0, 0}), cube_at({random.range(0.1, 0.9), 0.2, 0.3})),
+              Inside::kCrossing};
+    case 16:
+      return {"crossing by little", joined(cube_at({0, 0, 0}), cube_at({1 - by, 0.2, 0.3})),
+              Inside::kCrossing};
+    case 17:
+      return {"both kinds", joined(cube_at({0, 0, 0}), reversed(cube_at({3, 0, 0}))),
+              Inside::kWinding};
+    case 18:
+      return {"a flat face",
+              with_flat_face(random.below(2) == 0 ? cube(1) : sharp(random), random),
+              {}};
+    case 19: {
+      Mesh mesh = with_flat_face(with_flat_face(icosphere(1, 1), random), random);
+      return {"flat faces", std::move(mesh), {}};
+    }
+    case 20:
+      return {"twice", joined(cube(1), cube(1)), Inside::kCrossing};
+    case 21:
+      return {"there and back", joined(cube(1), reversed(cube(1))), Inside::kCrossing};
+    case 22:
+      return {"a bare point",
+              joined(cube(1), single_triangle(dvec3(1.5, 0.2, 0.1), dvec3(1.5, 0.2, 0.1),
+                                              dvec3(1.5, 0.2, 0.1))),
+              Inside::kProven};
+    case 23:
+      return {"a wall",
+              joined(cube(1), joined(single_triangle({1, 0, 0}, {2, 0, 0}, {1, 0.5, 0}),
+                                     single_triangle({1, 0, 0}, {1, 0.5, 0}, {2, 0, 0}))),
+              Inside::kCrossing};
+    case 24:
+      return {"far away", translated(spiky(random), dvec3(1e6, -3e5, 7)), {}};
+    case 25:
+      return {"shells in cavities",
+              joined(joined(cube(1), reversed(cube(0.75))), icosphere(0.5, 1)), Inside::kProven};
+    case 26: {
+      Mesh wall = joined(cube(1), reversed(cube(1 - by)));
+      return {"a thin wall", std::move(wall), Inside::kProven};
+    }
+    case 27: {
+      Mesh boxes = lattice_box(random);
+      for (uint32_t k = 1 + random.below(2); k > 0; --k) boxes = joined(boxes, lattice_box(random));
+      return {"boxes of a lattice", std::move(boxes), {}};
+    }
+    case 28:
+      return {"tetrahedra of a lattice",
+              joined(lattice_tetrahedron(random), lattice_tetrahedron(random)),
+              {}};
+    default:
+      return {"open", without_a_face(spiky(random), random), Inside::kOpen};
+  }
+}
+constexpr uint32_t kFamilies = 30;
+
+// A small triangle somewhere about a mesh: at a corner, an edge or a face of it, or anywhere.
+std::array<dvec3, 3> triangle_about(const Mesh& mesh, Random& random) {
+  const auto t = corners(mesh, random.below(static_cast<uint32_t>(mesh.faces.size())));
+  const double size = diagonal(mesh) * std::ldexp(1.0, -static_cast<int>(random.below(24)));
+  const double away = size * std::exp2(random.range(-3, 4));
+  const dvec3 weights = barycentrics(random);
+  const dvec3 at = t[0] * weights.x + t[1] * weights.y + t[2] * weights.z +
+                   (random.below(8) == 0 ? dvec3(0) : random.direction() * away);
+  std::array<dvec3, 3> corners{};
+  for (dvec3& p : corners) p = at + random.in_cube(size);
+  if (random.below(8) == 0) corners[1] = corners[0];
+  return corners;
+}
+
+gpu::Cell random_cell(uint32_t face, Random& random) {
+  lib::Bary3 t = lib::whole_root();
+  for (uint32_t k = random.below(10); k > 0; --k) {
+    const uint32_t opposite = random.below(3);
+    const lib::Halves h = lib::halves_of(t, opposite, lib::middle_opposite(t, opposite));
+    t = random.below(2) == 0 ? h.first : h.second;
+  }
+  gpu::Cell cell{};
+  set_corners(cell, t);
+  cell.face = face;
+  return cell;
+}
+
+// The corners of a cell, and random points of it, as barycentrics with the sum 2^24.
+std::vector<glm::uvec3> points_of(const gpu::Cell& cell, Random& random) {
+  const lib::Bary3 t = corners_of(cell);
+  const auto mixed = [&](const glm::uvec3& w) {
+    const glm::uvec2 sum = t.a * w.x + t.b * w.y + t.c * w.z;
+    return glm::uvec3((1u << ExactSides::kBits) - sum.x - sum.y, sum.x, sum.y);
+  };
+  std::vector<glm::uvec3> points = {mixed({16, 0, 0}), mixed({0, 16, 0}), mixed({0, 0, 16}),
+                                    mixed({5, 5, 6})};
+  const uint32_t x = random.below(17), y = random.below(17 - x);
+  points.push_back(mixed({x, y, 16 - x - y}));
+  return points;
+}
+
+// Bounds as a device might give them: the distance of the middle, less the cell's radius.
+gpu::CellBounds bounds_of(const ExactSides& oracle, const Mesh& a, const gpu::Cell& cell,
+                          const SurveyedPair& pair) {
+  const glm::uvec3& f = a.faces[cell.face];
+  const lib::Bary3 t = corners_of(cell);
+  const auto point = [&](const glm::uvec2& w) {
+    const dvec3 ab = a.vertices[f.y] - a.vertices[f.x], ac = a.vertices[f.z] - a.vertices[f.x];
+    return dvec3(a.vertices[f.x]) + (ab * double(w.x) + ac * double(w.y)) * 0x1p-20;
+  };
+  const dvec3 p = point(t.a), q = point(t.b), r = point(t.c), middle = (p + q + r) / 3.0;
+  const double radius =
+      std::max({glm::length(p - middle), glm::length(q - middle), glm::length(r - middle)});
+  Nearest nearest;
+  oracle.tree().query(middle, nearest);
+  const double lower = (std::sqrt(nearest.squared) - radius) * (1 - 1e-6);
+  gpu::CellBounds bounds{};
+  bounds.lower_a = bounds.lower_b = bounds.lower_c = static_cast<float>(pair.frame.to_frame(lower));
+  bounds.face = nearest.face;
+  return bounds;
+}
+
+struct Attack {
+  Tally tally;
+  std::map<std::string, std::array<int, 2>> of_family = {};  // cells, and those with a side
+};
+
+// Checks one claim at some points of the cell.
+void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b,
+                const gpu::Cell& cell, const Sides& sides, const SurveyedPair& pair,
+                Random& random) {
+  const gpu::CellBounds bounds = bounds_of(oracle, pair.a, cell, pair);
+  const CellSide by_faces = sides.by_faces(cell, bounds.face), told = sides.of(cell, bounds);
+  auto& counts = attack.of_family[b.name];
+  ++counts[0];
+  counts[1] += told.side != Side::kUnsigned ? 1 : 0;
+  Tally& tally = attack.tally;
+  const auto describe = [&] { return std::string(b.name); };
+  tally.require((told.side == Side::kUnsigned) == (told.doubt != Doubt::kNone),
+                "a doubt where there is no side", describe);
+  tally.require(by_faces.side == Side::kUnsigned || by_faces.side == told.side,
+                "sides by faces and by winding agree", describe);
+  const double off = 1e-12 * (diagonal(pair.b) + glm::length(dvec3(pair.b.vertices[0])));
+  for (const glm::uvec3& w : points_of(cell, random)) {
+    const exact::Vector p = oracle.point(cell.face, w);
+    if (sides.is_shared()) {
+      const std::optional<int> winding = oracle.winding(p);
+      tally.count("points on B, or behind edges along all axes", !winding);
+      if (!winding) continue;
+      const bool is_outward = b.name != std::string("reversed");
+      tally.require(*winding == 0 || *winding == (is_outward ? 1 : -1), "an inside", describe);
+      const bool is_over = *winding == (is_outward ? 0 : -1);
+      tally.require(told.side == Side::kUnsigned || (told.side == Side::kOver) == is_over,
+                    "the side by parity", describe);
+    }
+    if (by_faces.side == Side::kUnsigned) continue;
+    const glm::uvec3& f = pair.a.faces[cell.face];
+    const dvec3 near = (pair.a.vertices[f.x] * double(w.x) + pair.a.vertices[f.y] * double(w.y) +
+                        pair.a.vertices[f.z] * double(w.z)) *
+                       0x1p-24;
+    const ExactSides::Closest closest = oracle.closest(p, near, off);
+    const bool is_over = by_faces.side == Side::kOver;
+    tally.require((is_over ? closest.below : closest.above) == 0 && closest.in_plane == 0 &&
+                      (is_over ? closest.above : closest.below) > 0,
+                  "the side by all closest faces", describe);
+  }
+}
+
+void attack(Attack& attack, uint64_t seed, int cells) {
+  Random random(seed);
+  const ClosedCase b = closed_case(static_cast<uint32_t>(seed % kFamilies), random);
+  std::vector<dvec3> vertices;
+  std::vector<glm::uvec3> faces;
+  for (uint32_t k = 0; k < 40; ++k) {
+    for (const dvec3& p : triangle_about(b.mesh, random)) vertices.push_back(p);
+    faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  const Mesh a = make_mesh("cells", std::move(vertices), std::move(faces));
+  const FramedPair framed = frame_pair(a, b.mesh);
+  const SurveyedPair pair{a,    b.mesh, framed.frame, framed.a.displacement + framed.b.displacement,
+                          1e30, true};
+  const Sides sides(pair);
+  attack.tally.require(
+      !b.inside || sides.shells().inside() == *b.inside, "the kind of inside",
+      [&] { return std::string(b.name) + ": " + inside_name(sides.shells().inside()); });
+  const ExactSides oracle(a, b.mesh);
+  for (int k = 0; k < cells; ++k)
+    check_cell(attack, oracle, b, random_cell(static_cast<uint32_t>(k) % 40, random), sides, pair,
+               random);
+}
+
+TEST_CASE("sides of cells about hard meshes, by exact integers") {
+  const char* count = std::getenv("VKH_SIDES_MESHES");
+  const int meshes = count != nullptr ? std::atoi(count) : 112;
+  Attack all{Tally("sides")};
+  for (int seed = 0; seed < meshes && !all.tally.hopeless(); ++seed)
+    attack(all, static_cast<uint64_t>(seed), 60);
+  for (const auto& [name, counts] : all.of_family)
+    MESSAGE(name << ": " << counts[1] << " of " << counts[0] << " cells have a side");
+  all.tally.conclude(static_cast<uint64_t>(meshes) * 60);
+}
+
+TEST_CASE("an edge of two faces in one direction is refused, by its faces") {
+  Mesh b = cube(1);
+  std::swap(b.faces[5].y, b.faces[5].z);
+  const Mesh a = single_triangle({2, 0, 0}, {2, 1, 0}, {2, 0, 1});
+  const FramedPair framed = frame_pair(a, b);
+  const Sides sides({a, b, framed.frame, 0, 10, true});
+  CHECK(sides.shells().edges().conflicts == 3);
+  CHECK_FALSE(sides.is_shared());
+  REQUIRE(sides.shells().edges().first);
+  const auto [first, second] = sides.shells().edges().first->faces;
+  CHECK((first == 5 || second == 5));
+  CHECK_THROWS_AS(sides.refuse_conflicts(), UsageError);
+}
+
+// Three faces at an edge, or four, are no conflict.
+TEST_CASE("edges of three faces leave no inside, of four they may") {
+  const Mesh fin = joined(cube(1), single_triangle({1, 1, 1}, {1, 1, -1}, {3, 3, 0}));
+  const Mesh a = single_triangle({2, 0, 0}, {2, 1, 0}, {2, 0, 1});
+  const FramedPair framed = frame_pair(a, fin);
+  const Sides sides({a, fin, framed.frame, 0, 10, true});
+  CHECK(sides.shells().edges().uneven == 1);
+  CHECK(sides.shells().edges().conflicts == 0);
+  CHECK(sides.shells().inside() == Inside::kOpen);
+  CHECK_NOTHROW(sides.refuse_conflicts());
+}
+
+}  // namespace
