@@ -54,6 +54,12 @@ struct FaceLimits {
   Verdict verdict = Verdict::kUndecided;
 };
 
+/// Limits that differ by side of B.
+struct AskedSides {
+  Length over, under;
+  SidedLimits limits;
+};
+
 /// The question about a limit (`gate`).
 struct Asked {
   Length length;
@@ -61,7 +67,8 @@ struct Asked {
   std::optional<FaceLimits> faces_a = {}, faces_b = {};
   /// The share of a mesh's area that is to be within, in [0, 1]; none: all of it, every point.
   std::optional<double> area = {};
-  std::string area_requested = {};  ///< the share as the user typed it
+  std::string area_requested = {};       ///< the share as the user typed it
+  std::optional<AskedSides> sides = {};  ///< if set, `length` and `limit` are the larger ones
 };
 
 /// The times that a user waited, in milliseconds; parts that ran side by side overlap.
@@ -104,6 +111,12 @@ Verdict verdict_of(const Answer& answer);
 
 /// The share of a mesh's area that is within the limit, for an answer with `area`.
 Enclosure share_within(const Answer& answer, bool back);
+
+/// The sides of a mesh, where its survey found them.
+const SignedFigures* sides_of(const Answer& answer, bool back);
+
+/// The summary of a survey's field, by the limits that were asked about.
+FieldSummary summary_of(const Answer& answer, const SurveyResult& survey);
 
 /// One sentence for each status.
 const char* stop_reason(Status status);

@@ -20,6 +20,9 @@ constexpr std::array kEveryVerdict{Verdict::kWithin, Verdict::kBeyond, Verdict::
 constexpr std::array kEverySurveyEnd{SurveyEnd::kMet,  SurveyEnd::kBits,      SurveyEnd::kEffort,
                                      SurveyEnd::kTime, SurveyEnd::kCancelled, SurveyEnd::kMemory};
 
+constexpr std::array kEveryInside{Inside::kProven, Inside::kOpen, Inside::kCrossing,
+                                  Inside::kWinding, Inside::kUndecided};
+
 const Json& member_at(const Json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (found == object.end()) throw InputError(std::string("no ") + key);
@@ -276,6 +279,47 @@ Statistics statistics_of(const Json& json) {
   return s;
 }
 
+// Its ends may be negative.
+Enclosure signed_enclosure_of(const Json& json) {
+  const Enclosure e{signed_bound_in(json, "lower"), signed_bound_in(json, "upper")};
+  if (e.lower > e.upper) throw InputError("an interval whose lower end is above its upper");
+  return e;
+}
+
+std::optional<uint64_t> count_or_none_in(const Json& object, const char* key) {
+  if (member_at(object, key).is_null()) return std::nullopt;
+  return count_in(object, key);
+}
+
+SignedFigures::Areas side_areas_of(const Json& json) {
+  SignedFigures::Areas areas;
+  areas.over = enclosure_of(member_at(json, "over"));
+  areas.under = enclosure_of(member_at(json, "under"));
+  const Json& doubts = member_at(json, "unsigned");
+  for (size_t k = 1; k < kDoubts; ++k)
+    areas.doubts[k] = enclosure_of(member_at(doubts, doubt_name(static_cast<Doubt>(k))));
+  return areas;
+}
+
+SignedFigures signed_of(const Json& json) {
+  SignedFigures s;
+  s.over = enclosure_of(member_at(json, "over"));
+  s.under = enclosure_of(member_at(json, "under"));
+  s.over_face = count_or_none_in(json, "over_face");
+  s.under_face = count_or_none_in(json, "under_face");
+  s.inside = enumerator_at(json, "inside", kEveryInside, inside_name);
+  const Json& edges = member_at(json, "edges");
+  s.edges.open = count_in(edges, "open");
+  s.edges.uneven = count_in(edges, "uneven");
+  if (!member_at(json, "areas").is_null()) s.areas = side_areas_of(json.at("areas"));
+  if (!member_at(json, "mean").is_null()) s.mean = signed_enclosure_of(json.at("mean"));
+  for (const Json& one : array_at(json, "percentiles"))
+    s.percentiles.push_back(
+        {number_at(one, "share"), signed_enclosure_of(member_at(one, "distance"))});
+  s.ms = number_at(json, "wall_ms");
+  return s;
+}
+
 FieldSummary field_of(const Json& json, bool has_limit) {
   FieldSummary summary;
   summary.faces = count_in(json, "faces");
@@ -301,6 +345,7 @@ std::optional<SurveyResult> survey_at(const Json& direction, bool has_limit) {
   if (result.faces) result.summary = field_of(direction.at("field"), has_limit);
   if (direction.contains("statistics"))
     result.statistics = statistics_of(direction.at("statistics"));
+  if (direction.contains("signed")) result.sides = signed_of(direction.at("signed"));
   return result;
 }
 
@@ -329,12 +374,21 @@ std::optional<FaceLimits> face_limits_at(const Json& max, const char* key) {
                     .verdict = verdict_at(json)};
 }
 
+AskedSides asked_sides_of(const Json& json) {
+  const Json &over = member_at(json, "over"), &under = member_at(json, "under");
+  return {length_of(over),
+          length_of(under),
+          {{number_at(over, "within"), number_at(over, "beyond")},
+           {number_at(under, "within"), number_at(under, "beyond")}}};
+}
+
 Asked asked_of(const Json& json) {
   Asked max{.length = length_of(json),
             .limit = {number_at(json, "within"), number_at(json, "beyond")},
             .faces_a = face_limits_at(json, "faces_a"),
             .faces_b = face_limits_at(json, "faces_b")};
   if (json.contains("area")) max.area = number_at(json, "area");
+  if (json.contains("sides")) max.sides = asked_sides_of(json.at("sides"));
   return max;
 }
 

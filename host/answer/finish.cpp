@@ -56,7 +56,9 @@ SurveyOptions survey_options(const Finishing& at, size_t left) {
   if (question.face_tolerance)
     options.field_tolerance =
         resolved(*question.face_tolerance, question.option("field-tol").c_str(), at.answer).within;
-  if (at.answer.max) options.limit = at.answer.max->limit;
+  if (at.answer.max && !at.answer.max->sides) options.limit = at.answer.max->limit;
+  options.is_signed = question.is_signed;
+  if (at.answer.max && at.answer.max->sides) options.sided = at.answer.max->sides->limits;
   options.statistics = question.statistics || question.area;
   for (const Limit& band : bands_of(question, at.answer))
     options.bands.insert(options.bands.end(), {band.within, band.beyond});
@@ -91,6 +93,9 @@ void join(Report& report, SurveyResult& survey, size_t face_count) {
   if (field.face_count() != face_count) field = field_within(face_count, report.upper);
   report.upper = std::min(report.upper, *std::max_element(field.upper.begin(), field.upper.end()));
   if (survey.statistics) join_bands(*survey.statistics);
+  if (!survey.sides) return;
+  survey.sides->over.upper = std::min(survey.sides->over.upper, report.upper);
+  survey.sides->under.upper = std::min(survey.sides->under.upper, report.upper);
 }
 
 /// A direction, and what is to be found of the mesh that it begins at.
@@ -177,6 +182,8 @@ std::optional<Proof> prove_side(const Finishing& at, const Side& side) {
   } catch (const MemoryError&) {
     note(at, NoteCode::kCertificate, "the device had no memory for a certificate");
   }
+  if (proof && at.question.asks_for_sides())
+    note(at, NoteCode::kCertificate, "the certificate proves distances, not sides");
   if (proof && proof->upper > side.report.upper)
     note(at, NoteCode::kCertificate,
          "the certificate proves less: " + side.from.name + " is within " +

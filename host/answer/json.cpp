@@ -131,6 +131,17 @@ Json faces_json(const FaceLimits& faces) {
           {"runs", faces.runs},   {"verdict", verdict_name(faces.verdict)}};
 }
 
+Json sides_json(const AskedSides& sides) {
+  const auto one = [](const Length& length, const Limit& limit) {
+    return Json{{"requested", length.requested},
+                {"within", limit.within},
+                {"beyond", limit.beyond},
+                {"diagonal_of", diagonal_of(length)}};
+  };
+  return {{"over", one(sides.over, sides.limits.over)},
+          {"under", one(sides.under, sides.limits.under)}};
+}
+
 std::string max_json(const Answer& answer) {
   JsonObject json;
   json.add("requested", answer.max->length.requested);
@@ -139,6 +150,7 @@ std::string max_json(const Answer& answer) {
   json.add("unit", text_or_null(answer.unit));
   json.add("diagonal_of", diagonal_of(answer.max->length));
   if (answer.max->area) json.add("area", *answer.max->area);
+  if (answer.max->sides) json.add("sides", sides_json(*answer.max->sides));
   if (answer.max->faces_a) json.add("faces_a", faces_json(*answer.max->faces_a));
   if (answer.max->faces_b) json.add("faces_b", faces_json(*answer.max->faces_b));
   return json.text();

@@ -52,7 +52,10 @@ std::vector<Note> notes_in(const Json& object);
 /// itself. Throws InputError where they are missing or malformed, negative or another double than
 /// the decimal beside them.
 double bound_in(const Json& interval, const std::string& key);
-/// Checks every bound of an answer that was read, as bound_in does.
+/// The same for a bound of signed distances, which may be negative.
+double signed_bound_in(const Json& interval, const std::string& key);
+/// Checks every bound of an answer that was read, as bound_in does, and as signed_bound_in does
+/// within a member `signed`.
 void check_bounds(const Json& answer);
 /// The answer of a document that is parsed, as answer_from_json().
 Answer answer_from(const Json& json);

@@ -116,6 +116,24 @@ double parse_time(const std::string& text) {
   return seconds;
 }
 
+std::optional<SidedMax> parse_sided(const char* option, const std::string& text) {
+  const bool is_sided = text.starts_with('+') || text.starts_with('-');
+  if (!is_sided) return {};
+  const size_t comma = text.find(',');
+  const std::string first = text.substr(0, comma);
+  const std::string second = comma == std::string::npos ? "" : text.substr(comma + 1);
+  const bool is_both =
+      (first[0] == '+' && second.starts_with('-')) || (first[0] == '-' && second.starts_with('+'));
+  if (!is_both)
+    refuse(option, text,
+           "a limit for both sides, such as 0.1mm, or one over B and one under it, such as "
+           "+0.1mm,-0.05mm");
+  const std::string& over = first[0] == '+' ? first : second;
+  const std::string& under = first[0] == '+' ? second : first;
+  return SidedMax{parse_length(option, over.substr(1), PlainNumber::kRefused),
+                  parse_length(option, under.substr(1), PlainNumber::kRefused)};
+}
+
 double parse_share(const char* option, const std::string& text) {
   const bool is_percent = text.ends_with('%');
   const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));

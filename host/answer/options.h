@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "host/answer/answer.h"
@@ -22,6 +23,10 @@ uint64_t parse_effort(const std::string& text);
 
 /// Seconds: "10s", "250ms", "2min", "1h", or a plain number of seconds; more than zero.
 double parse_time(const std::string& text);
+
+/// "+0.25mm,-0.4mm": the limits over B and under it, in either order. Nothing for a text that has
+/// no sign before a number.
+std::optional<SidedMax> parse_sided(const char* option, const std::string& text);
 
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);

@@ -19,6 +19,11 @@ struct PartOf {
   uint64_t index = 0, count = 1;
 };
 
+/// Limits of points over B, in front of its faces, and of points under it.
+struct SidedMax {
+  Length over, under;
+};
+
 struct Question {
   std::string command;             ///< Answer::command
   std::vector<std::string> words;  ///< Answer::words
@@ -44,6 +49,7 @@ struct Question {
 
   // A limit.
   std::optional<Length> max;
+  std::optional<SidedMax> max_sides;   ///< in place of `max`, which is then either of them
   std::string face_max_a, face_max_b;  ///< files with limits per face; empty: none
   std::optional<std::vector<Limit>>
       face_limits_a;           ///< limits of A's faces; none: those of the file
@@ -55,6 +61,7 @@ struct Question {
   bool faces = false;                    ///< bounds of each face: for a picture, or a file
   std::optional<Length> face_tolerance;  ///< the width of those
   bool statistics = false;
+  bool is_signed = false;               ///< the sides of B on which A lies
   std::vector<Length> bands;            ///< shares of A's area within these distances
   std::optional<uint64_t> effort;       ///< SurveyOptions::effort
   std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
@@ -67,7 +74,10 @@ struct Question {
   bool caches = true;            ///< keeps compiled pipelines in the user's folder
 
   bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
-  bool asks_for_survey() const { return faces || statistics || !bands.empty() || area; }
+  bool asks_for_sides() const { return is_signed || max_sides; }
+  bool asks_for_survey() const {
+    return faces || statistics || !bands.empty() || area || asks_for_sides();
+  }
   std::string option(const char* name) const { return std::string(dashes) + name; }
   bool asks_for_cells() const { return certificate || asks_for_survey(); }
 };

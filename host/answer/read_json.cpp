@@ -14,8 +14,12 @@ namespace {
 constexpr std::string_view kHexEnd = "_hex";
 
 /// Reads the text of hex_float() with from_chars, which no locale changes.
-double double_of_hex(const std::string& key, const std::string& text) {
+double double_of_hex(const std::string& key, const std::string& text, bool is_signed) {
   if (text == "inf") return std::numeric_limits<double>::infinity();
+  if (is_signed && text.starts_with('-')) {
+    if (text == "-inf") return -std::numeric_limits<double>::infinity();
+    return -double_of_hex(key, text.substr(1), false);
+  }
   const std::string digits = text.starts_with("0x") ? text.substr(2) : "";
   const char* end = digits.data() + digits.size();
   double value = 0;
@@ -39,28 +43,43 @@ std::string as_written(const Json& value) {
 
 }  // namespace
 
-double bound_in(const Json& interval, const std::string& key) {
+namespace {
+
+double read_bound(const Json& interval, const std::string& key, bool is_signed) {
   const std::string hex_key = key + std::string(kHexEnd);
   const auto hex = interval.find(hex_key), decimal = interval.find(key);
   if (hex == interval.end() || decimal == interval.end() || !hex->is_string())
     throw InputError("no " + key + " with its " + hex_key);
   const auto& text = hex->get_ref<const std::string&>();
-  const double value = double_of_hex(hex_key, text);
+  const double value = double_of_hex(hex_key, text, is_signed);
   if (!is_double(*decimal, value))
     throw InputError(hex_key + " '" + text + "' is another number than " + key + " " +
                      as_written(*decimal));
   return value;
 }
 
+}  // namespace
+
+double bound_in(const Json& interval, const std::string& key) {
+  return read_bound(interval, key, false);
+}
+double signed_bound_in(const Json& interval, const std::string& key) {
+  return read_bound(interval, key, true);
+}
+
 void check_bounds(const Json& answer) {
-  std::vector<const Json*> left{&answer};  // no recursion: a line may be nested deep
+  struct Part {
+    const Json* json;
+    bool is_signed;
+  };
+  std::vector<Part> left{{&answer, false}};  // no recursion: a line may be nested deep
   while (!left.empty()) {
-    const Json& at = *left.back();
+    const Part at = left.back();
     left.pop_back();
-    for (const auto& [key, value] : at.items()) {
-      if (value.is_structured()) left.push_back(&value);
-      if (at.is_object() && key.ends_with(kHexEnd))
-        (void)bound_in(at, key.substr(0, key.size() - kHexEnd.size()));
+    for (const auto& [key, value] : at.json->items()) {
+      if (value.is_structured()) left.push_back({&value, at.is_signed || key == "signed"});
+      if (at.json->is_object() && key.ends_with(kHexEnd))
+        (void)read_bound(*at.json, key.substr(0, key.size() - kHexEnd.size()), at.is_signed);
     }
   }
 }

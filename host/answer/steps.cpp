@@ -93,6 +93,8 @@ Answer unread_answer(const Question& question) {
                       .limit = {},
                       .area = question.area,
                       .area_requested = question.area_requested};
+  if (question.max_sides)
+    known.max->sides = AskedSides{question.max_sides->over, question.max_sides->under, {}};
   // The limits are undecided until more is known: an earlier answer must not forget them.
   if (!question.face_max_a.empty()) known.max->faces_a = FaceLimits{.path = question.face_max_a};
   if (!question.face_max_b.empty()) known.max->faces_b = FaceLimits{.path = question.face_max_b};
@@ -138,6 +140,20 @@ void add_note_on_stretch(const Box& box, Answer& answer) {
           decimal(100 * stretch, 3, Rounding::kUp) + " %, which moves its points by up to " +
           decimal(moved, 3, Rounding::kUp) + (answer.unit.empty() ? "" : " " + answer.unit),
       {moved, answer.unit}));
+}
+
+}  // namespace
+
+namespace {
+
+/// Resolves limits that differ by side: the larger one is what no point may exceed.
+void take_sides(const Question& question, double diagonal_a, Answer& answer) {
+  AskedSides& sides = *answer.max->sides;
+  const std::string option = question.option("max");
+  sides.limits = {limit_in_files(sides.over, option.c_str(), answer.unit, diagonal_a),
+                  limit_in_files(sides.under, option.c_str(), answer.unit, diagonal_a)};
+  answer.max->limit = sides.limits.larger();
+  answer.max->length = &sides.limits.larger() == &sides.limits.over ? sides.over : sides.under;
 }
 
 }  // namespace
@@ -211,6 +227,7 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   if (question.max)
     answer.max->limit =
         limit_in_files(*question.max, question.option("max").c_str(), answer.unit, diagonal_a);
+  if (question.max_sides) take_sides(question, diagonal_a, answer);
   if (!question.face_max_a.empty()) answer.max->faces_a->faces = a.faces.size();
   if (!question.face_max_b.empty()) answer.max->faces_b->faces = b.faces.size();
   return farthest;

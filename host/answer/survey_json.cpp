@@ -48,10 +48,36 @@ std::string statistics_json(const Statistics& s, const Json& unit) {
   return json.text();
 }
 
+std::string areas_json(const SignedFigures::Areas& areas) {
+  JsonObject json;
+  json.add_text("over", enclosure_json(areas.over, nullptr));
+  json.add_text("under", enclosure_json(areas.under, nullptr));
+  JsonObject doubts;
+  for (size_t k = 1; k < kDoubts; ++k)
+    doubts.add_text(doubt_name(static_cast<Doubt>(k)), enclosure_json(areas.doubts[k], nullptr));
+  json.add_text("unsigned", doubts.text());
+  return json.text();
+}
+
+std::string signed_json(const SignedFigures& s, const Json& unit) {
+  JsonObject json;
+  json.add_text("over", enclosure_json(s.over, unit));
+  json.add_text("under", enclosure_json(s.under, unit));
+  json.add("over_face", s.over_face ? Json(*s.over_face) : Json());
+  json.add("under_face", s.under_face ? Json(*s.under_face) : Json());
+  json.add("inside", inside_name(s.inside));
+  json.add("edges", {{"open", s.edges.open}, {"uneven", s.edges.uneven}});
+  json.add_text("areas", s.areas ? areas_json(*s.areas) : "null");
+  json.add_text("mean", s.mean ? enclosure_json(*s.mean, unit) : "null");
+  json.add_text("percentiles", array_json(s.percentiles, [&](const Percentile& one) {
+                  return percentile_json(one, unit);
+                }));
+  json.add("wall_ms", s.ms);
+  return json.text();
+}
+
 Json faces_json(const SurveyResult& survey, const Answer& answer) {
-  const FieldSummary summary =
-      survey.summary ? *survey.summary
-                     : summary_of(survey.field, answer.max ? answer.max->limit : Limit{});
+  const FieldSummary summary = survey.summary ? *survey.summary : summary_of(answer, survey);
   Json json = {{"faces", summary.faces}, {"width", summary.width}};
   if (!answer.max) return json;
   json["within"] = summary.within;
@@ -72,6 +98,7 @@ void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answ
   if (survey.faces) json.add("field", faces_json(survey, answer));
   if (survey.statistics)
     json.add_text("statistics", statistics_json(*survey.statistics, text_or_null(answer.unit)));
+  if (survey.sides) json.add_text("signed", signed_json(*survey.sides, text_or_null(answer.unit)));
 }
 
 }  // namespace vkh

@@ -29,9 +29,9 @@ Enclosure in_percent(const Enclosure& share) {
           share.upper > 0 && share.upper < 1 ? up : 100 * share.upper};
 }
 
-std::string field_text(const Field& field, const Answer& answer) {
-  const FieldSummary summary = summary_of(field, answer.max ? answer.max->limit : Limit{});
-  const std::string faces = std::to_string(field.face_count()) + " faces";
+std::string field_text(const SurveyResult& survey, const Answer& answer) {
+  const FieldSummary summary = summary_of(answer, survey);
+  const std::string faces = std::to_string(survey.field.face_count()) + " faces";
   if (!answer.max)
     return faces + " bounded to " + length_up(answer, summary.width, summary.width) + " or closer";
   return faces + ": " + std::to_string(summary.within) + " within the limit, " +
@@ -45,6 +45,46 @@ std::string percentiles_text(const std::vector<Percentile>& percentiles, const s
     text += (text.empty() ? "p" : ", p") + shortest_decimal(100 * p.share) + " " +
             enclosure(p.distance, unit);
   return text;
+}
+
+// "61.2 % of A's area over B, 38.1 % under it", and why the rest has no side.
+std::string area_of_sides(const SignedFigures::Areas& areas) {
+  std::string text = enclosure(in_percent(areas.over), "%") + " of the area over, " +
+                     enclosure(in_percent(areas.under), "%") + " under";
+  for (size_t k = 1; k < kDoubts; ++k) {
+    if (areas.doubts[k].upper > 0)
+      text += ", " + enclosure(in_percent(areas.doubts[k]), "%") + " unsigned (" +
+              doubt_name(static_cast<Doubt>(k)) + ")";
+  }
+  return text;
+}
+
+std::string inside_in_words(const SignedFigures& sides) {
+  switch (sides.inside) {
+    case Inside::kProven:
+      return "it has an inside, which decides";
+    case Inside::kOpen:
+      return "it is open at " + std::to_string(sides.edges.open) +
+             " edges: the closest faces decide";
+    case Inside::kCrossing:
+      return "faces of it cross or lie on each other: the closest faces decide";
+    case Inside::kWinding:
+      return "its shells are in each other, or of both kinds: the closest faces decide";
+    case Inside::kUndecided:
+      return "whether it has an inside was not decided: the closest faces decide";
+  }
+  return "";
+}
+
+void add_sides(const SignedFigures& sides, const std::string& unit, std::vector<TableRow>& rows) {
+  rows.push_back({"sides", "farthest over " + enclosure(sides.over, unit) + ", under " +
+                               enclosure(sides.under, unit)});
+  if (sides.areas) rows.push_back({"side area", area_of_sides(*sides.areas)});
+  if (sides.mean) {
+    rows.push_back({"signed", "mean " + enclosure(*sides.mean, unit)});
+    rows.push_back({"signed", percentiles_text(sides.percentiles, unit)});
+  }
+  rows.push_back({"side of B", inside_in_words(sides)});
 }
 
 const char* reason_of(SurveyEnd end) {
@@ -72,7 +112,7 @@ std::string end_text(const SurveyResult& survey) {
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey) {
   std::vector<TableRow> rows;
   const std::string& unit = answer.unit;
-  if (survey.faces) rows.push_back({"faces", field_text(survey.field, answer)});
+  if (survey.faces) rows.push_back({"faces", field_text(survey, answer)});
   if (survey.statistics) {
     const Statistics& s = *survey.statistics;
     rows.push_back(
@@ -84,6 +124,7 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
     if (!s.percentiles.empty())
       rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
   }
+  if (survey.sides) add_sides(*survey.sides, unit, rows);
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
   if (!survey.is_met()) work += end_text(survey);

@@ -172,10 +172,60 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
   return "largest deviation in " + interval_text(answer, whole) + "; --worst narrows it";
 }
 
+std::string limits_in_words(const Answer& answer) {
+  const AskedSides& sides = *answer.max->sides;
+  return limit_text(answer, sides.over) + " over B and " + limit_text(answer, sides.under) +
+         " under it";
+}
+
+/// One side of a verdict: "0.21 mm over B on face 12, limit 0.2 mm".
+std::string side_failure(const Answer& answer, bool is_over, const SignedFigures& found) {
+  const AskedSides& sides = *answer.max->sides;
+  const double lower = is_over ? found.over.lower : found.under.lower;
+  const double upper = is_over ? found.over.upper : found.under.upper;
+  const Limit& limit = is_over ? sides.limits.over : sides.limits.under;
+  const std::optional<uint64_t>& face = is_over ? found.over_face : found.under_face;
+  return "FAIL  at least " +
+         length_down(answer, lower, std::min(lower - limit.beyond, upper - lower)) +
+         (is_over ? " over B" : " under B") +
+         (face ? " on face " + std::to_string(*face) + " of A" : std::string()) + ", limit " +
+         limit_text(answer, is_over ? sides.over : sides.under);
+}
+
+std::string side_interval(const Answer& answer, const Enclosure& e) {
+  return interval_text(answer, {.lower = e.lower, .upper = e.upper});
+}
+
+std::string sides_in_words(const Answer& answer) {
+  const SidedLimits& limits = answer.max->sides->limits;
+  const Verdict verdict = verdict_of(answer, false);
+  const SignedFigures* found = sides_of(answer, false);
+  if (verdict == Verdict::kWithin)
+    return "PASS  every point of A is within " + limits_in_words(answer) + ", proven" +
+           (found == nullptr ? ""
+                             : " (over B: " + side_interval(answer, found->over) +
+                                   ", under it: " + side_interval(answer, found->under) + ")");
+  if (verdict == Verdict::kBeyond) {
+    if (found != nullptr && found->over.lower > limits.over.beyond)
+      return side_failure(answer, true, *found);
+    if (found != nullptr && found->under.lower > limits.under.beyond)
+      return side_failure(answer, false, *found);
+    return failure_in_words(answer, false);
+  }
+  if (found == nullptr)
+    return "UNDECIDED  sides are not known: the limits are " + limits_in_words(answer) +
+           hint(answer, answer.a_to_b.status);
+  return "UNDECIDED  the limits are " + limits_in_words(answer) +
+         "; the farthest point over B is " + side_interval(answer, found->over) +
+         " away, under it " + side_interval(answer, found->under) +
+         ", where points without a side count as either";
+}
+
 std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const Asked& max = *answer.max;
   if (max.area) return area_in_words(answer);
+  if (max.sides) return sides_in_words(answer);
   const std::string asked = limit_text(answer, max.length);
   const bool by_face = max.faces_a || max.faces_b;
   const Verdict verdict = verdict_of(answer);
@@ -202,7 +252,10 @@ bool is_one_way_pass(const Answer& answer) {
   return answer.max && !answer.b_to_a && !answer.part && verdict_of(answer) == Verdict::kWithin;
 }
 
-constexpr const char* kOneWay = "A to B only; --symmetric also finds what A lacks of B";
+const char* one_way_text(const Answer& answer) {
+  return answer.max->sides ? "A to B only: what A lacks of B is a question from B to A"
+                           : "A to B only; --symmetric also finds what A lacks of B";
+}
 
 /// What is odd about the pair, in a few words; empty: nothing.
 std::string oddities(const Answer& answer) {
@@ -239,6 +292,23 @@ Enclosure share_within(const Answer& answer, bool back) {
   return survey->statistics->bands[0].share;
 }
 
+const SignedFigures* sides_of(const Answer& answer, bool back) {
+  const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
+  return survey && survey->sides ? &*survey->sides : nullptr;
+}
+
+namespace {
+
+// What no side matters for is decided by the interval alone.
+Verdict verdict_of_sides(const Answer& answer, const Report& r, const SignedFigures* found) {
+  const SidedLimits& limits = answer.max->sides->limits;
+  if (r.upper <= limits.smaller().within) return Verdict::kWithin;
+  if (r.lower > limits.larger().beyond) return Verdict::kBeyond;
+  return found == nullptr ? Verdict::kUndecided : verdict_of(found->over, found->under, limits);
+}
+
+}  // namespace
+
 Verdict verdict_of(const Answer& answer, bool back) {
   if (answer.max->area) {
     const Enclosure share = share_within(answer, back);
@@ -249,6 +319,7 @@ Verdict verdict_of(const Answer& answer, bool back) {
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
   if (faces) return faces->verdict;
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+  if (answer.max->sides) return verdict_of_sides(answer, r, sides_of(answer, back));
   return verdict_of(r.lower, r.upper, answer.max->limit);
 }
 
@@ -257,6 +328,12 @@ Verdict verdict_of(const Answer& answer) {
   if (!answer.b_to_a || there == Verdict::kBeyond) return there;
   const Verdict back = verdict_of(answer, true);
   return back == Verdict::kWithin ? there : back;
+}
+
+FieldSummary summary_of(const Answer& answer, const SurveyResult& survey) {
+  if (answer.max && answer.max->sides && survey.sides)
+    return summary_of(survey.field, *survey.sides, answer.max->sides->limits);
+  return summary_of(survey.field, answer.max ? answer.max->limit : Limit{});
 }
 
 const char* stop_reason(Status status) {
@@ -324,12 +401,12 @@ std::string in_words(const Answer& answer) {
   if (!answer.first_line.empty()) return answer.first_line;
   if (!answer.max) return warned(answer, distance_in_words(answer));
   return warned(answer, gate_in_words(answer)) +
-         (is_one_way_pass(answer) ? std::string(". ") + kOneWay : "");
+         (is_one_way_pass(answer) ? std::string(". ") + one_way_text(answer) : "");
 }
 
 std::vector<Note> notes_of(const Answer& answer) {
   std::vector<Note> notes = answer.notes;
-  if (is_one_way_pass(answer)) notes.push_back(note_of(NoteCode::kOneWay, kOneWay));
+  if (is_one_way_pass(answer)) notes.push_back(note_of(NoteCode::kOneWay, one_way_text(answer)));
   return notes;
 }
 

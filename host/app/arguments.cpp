@@ -87,7 +87,11 @@ struct Program {
 
   void add_gate(CLI::App& command) {
     add_pair(command, gate);
-    command.add_option("--max", gate.max, std::string("The limit: ") + kLengths)
+    command
+        .add_option("--max", gate.max,
+                    std::string("The limit: ") + kLengths +
+                        "; or one over B, in front of its faces, and one under it: "
+                        "+0.25mm,-0.4mm")
         ->type_name("LENGTH")
         ->required();
     command
@@ -235,8 +239,8 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
   line.question.statistics = line.question.statistics || line.outputs.pictures.report.has_value();
   if (line.question.effort && !line.question.asks_for_survey())
     throw UsageError(
-        "--effort: is of figures and faces' bounds: ask for --stats, --bands, --area, --field-tol, "
-        "--field, --image or --report");
+        "--effort: is of figures and faces' bounds: ask for --stats, --signed, --bands, --area, "
+        "--field-tol, --field, --image or --report");
   return line;
 }
 

@@ -70,7 +70,7 @@ const std::vector<HelpGroup>& help_groups() {
   static const std::vector<HelpGroup> known{
       {"What is asked",
        {"max", "face-max", "face-max-b", "area", "worst", "tol", "symmetric", "polygons", "bodies",
-        "part", "known-lower", "stats", "bands", "field-tol", "effort", "against",
+        "part", "known-lower", "stats", "signed", "bands", "field-tol", "effort", "against",
         "allow-unpaired"}},
       {"What the meshes are in, and where A lies",
        {"unit", "unit-a", "unit-b", "transform", "scale"}},

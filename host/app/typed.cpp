@@ -45,7 +45,14 @@ void add_survey_of(const Typed& typed, Question& question) {
   question.statistics = typed.statistics || !typed.bands.empty();
   if (!typed.area.empty()) question.area = parse_share("--area", typed.area);
   question.area_requested = typed.area;
+  question.is_signed = typed.is_signed;
   if (typed.effort) question.effort = parse_effort(*typed.effort);
+}
+
+void add_max_of(const Typed& typed, Question& question) {
+  question.max_sides = parse_sided("--max", typed.max);
+  question.max = question.max_sides ? question.max_sides->over
+                                    : parse_length("--max", typed.max, PlainNumber::kRefused);
 }
 
 void add_placement_of(const Typed& typed, Question& question) {
@@ -72,23 +79,24 @@ void check_together(const Typed& typed) {
     throw UsageError("--area: faces with limits of their own are asked about whole");
   if (!typed.pictures.certificate.empty() && (by_face || !typed.area.empty()))
     throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
-  const bool is_of_triangles = typed.statistics || !typed.bands.empty() || !typed.area.empty() ||
-                               typed.pictures.is_of_triangles();
+  const bool is_of_triangles = typed.statistics || typed.is_signed || !typed.bands.empty() ||
+                               !typed.area.empty() || typed.pictures.is_of_triangles();
   if (typed.polygons == "any" && is_of_triangles)
     throw UsageError(
-        "--polygons any: areas and certificates are of one triangulation: no --stats, --bands, "
-        "--area, --report or --certificate");
+        "--polygons any: areas and certificates are of one triangulation: no --stats, --signed, "
+        "--bands, --area, --report or --certificate");
 }
 
 void check_part(const Typed& typed) {
   if (typed.known_lower && !typed.part)
     throw UsageError("--known-lower: is what other parts have shown: ask for a --part");
-  const bool asks_more = typed.symmetric || typed.statistics || !typed.bands.empty() ||
-                         !typed.field_tolerance.empty() || typed.pictures.any();
+  const bool asks_more = typed.symmetric || typed.statistics || typed.is_signed ||
+                         !typed.bands.empty() || !typed.field_tolerance.empty() ||
+                         typed.pictures.any();
   if (typed.part && asks_more)
     throw UsageError(
         "--part: one direction's interval is all that is to be had of a part: no --symmetric, "
-        "--stats, --bands, --field-tol, --field, --image, --report or --certificate");
+        "--stats, --signed, --bands, --field-tol, --field, --image, --report or --certificate");
 }
 
 }  // namespace
@@ -106,7 +114,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   question.file_b = typed.file_b;
   add_placement_of(typed, question);
   question.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kSmallFraction);
-  if (!typed.max.empty()) question.max = parse_length("--max", typed.max, PlainNumber::kRefused);
+  if (!typed.max.empty()) add_max_of(typed, question);
   question.face_max_a = typed.face_max_a;
   question.face_max_b = typed.face_max_b;
   question.certificate = !typed.pictures.certificate.empty();
@@ -203,6 +211,10 @@ void add_output_options(CLI::App& command, Typed& typed) {
 void add_survey_options(CLI::App& command, Typed& typed) {
   command.add_flag("--stats", typed.statistics,
                    "Also enclose the mean over A's area, the root mean square and percentiles");
+  command.add_flag("--signed", typed.is_signed,
+                   "Also tell where A is over B, in front of its faces as they are oriented, and "
+                   "where under it, as far as that is proven; with --stats the signed mean and "
+                   "percentiles");
   command
       .add_option("--bands", typed.bands,
                   "And the shares of A's area within these distances: 0.1mm,0.5mm")

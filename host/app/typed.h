@@ -27,7 +27,7 @@ struct Typed {
   bool may_stretch = false;  ///< --scale
   bool worst = false;
   bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
-       statistics = false;
+       statistics = false, is_signed = false;
 };
 
 /// The forms of a length, for help.

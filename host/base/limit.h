@@ -9,4 +9,13 @@ struct Limit {
   double within = 0, beyond = 0;
 };
 
+/// Limits of points over B and of points under it.
+struct SidedLimits {
+  Limit over, under;
+  /// The limit of points whose side is not known.
+  const Limit& smaller() const { return over.within <= under.within ? over : under; }
+  /// The limit that no point may exceed.
+  const Limit& larger() const { return over.within <= under.within ? under : over; }
+};
+
 }  // namespace vkh

@@ -1,10 +1,13 @@
 // The known bounds of d(x, B) over all of A: by faces, and in figures of the whole surface.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "host/solve/report.h"
+#include "host/survey/side.h"
 
 namespace vkh {
 
@@ -56,5 +59,34 @@ struct Statistics {
   /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.
   std::vector<AreaWithin> curve;
 };
+
+/// The sides of A: over B, in front of its faces as they are oriented, or under it. A cell has a
+/// side where that is proven; the rest is counted as unsigned. The signed distance is negative
+/// under B; where there is no side, it may be either.
+struct SignedFigures {
+  /// The largest distance of a point over B, and of one under it: `upper` covers what has no side,
+  /// `lower` does not. [0, 0]: there is none.
+  Enclosure over, under;
+  /// Faces of A on which a point is `over.lower` or `under.lower` away, as its file counts them.
+  std::optional<uint64_t> over_face, under_face;
+  Inside inside = Inside::kUndecided;  ///< whether B has an inside, so that cells share sides
+  EdgeCounts edges;                    ///< of B
+  struct Areas {
+    Enclosure over, under;                  ///< shares of A's area
+    std::array<Enclosure, kDoubts> doubts;  ///< those without a side, by Doubt
+  };
+  std::optional<Areas> areas;           ///< none if A has no area
+  std::optional<Enclosure> mean;        ///< of the signed distance; with statistics
+  std::vector<Percentile> percentiles;  ///< of the signed distance; with statistics
+  /// The same as `over` and `under` for each face, with SurveyOptions::faces.
+  Field over_of_faces, under_of_faces;
+  double ms = 0;  ///< the time that sides took
+};
+
+/// The verdict on a surface with limits that differ by side: within if each side is within its
+/// own, what has no side within both; beyond if some point with a side is beyond that.
+Verdict verdict_of(const Enclosure& over, const Enclosure& under, const SidedLimits& limits);
+/// The summary of all faces by such limits.
+FieldSummary summary_of(const Field& field, const SignedFigures& sides, const SidedLimits& limits);
 
 }  // namespace vkh

@@ -13,12 +13,21 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <string>
 
+#include "host/base/decimal.h"
+#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/mesh/make_mesh.h"
+#include "host/survey/sets.h"
 
 namespace vkh {
 namespace {
+
+std::string in_brackets(const DVec3& p) {
+  return "(" + shortest_decimal(p.x) + ", " + shortest_decimal(p.y) + ", " + shortest_decimal(p.z) +
+         ")";
+}
 
 // The parts of the work on all faces: each face may take as long as a search.
 constexpr size_t kFacesOfPart = 512;
@@ -39,23 +48,6 @@ bool precedes(const glm::dvec3& p, const glm::dvec3& q) {
 uint64_t edge_key(uint32_t u, uint32_t v) {
   return uint64_t{std::min(u, v)} << 32 | std::max(u, v);
 }
-
-// The first element of each element's set.
-class Sets {
- public:
-  explicit Sets(size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0u); }
-  uint32_t of(uint32_t i) {
-    while (first_[i] != i) i = first_[i] = first_[first_[i]];
-    return i;
-  }
-  void join(uint32_t i, uint32_t j) {
-    const uint32_t a = of(i), b = of(j);
-    first_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> first_;
-};
 
 // Whether all corners of one triangle lie on an edge's line of the other or beyond it, in the plane
 // of both: their insides are then apart, and of two convex sets that are, an edge says so.
@@ -205,6 +197,27 @@ Shells::Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces
   } else {
     inside_ = wind(uses);
   }
+}
+
+Shells::Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces, OnlyEdges)
+    : vertices_(std::move(vertices)), faces_(faces), tree_({}, {}) {
+  set_positions();
+  count_edges(edge_uses());
+}
+
+EdgeCounts Shells::edges_of(const Mesh& mesh) {
+  return Shells({mesh.vertices.begin(), mesh.vertices.end()}, mesh.faces, OnlyEdges()).edges_;
+}
+
+void refuse_conflicts(const Mesh& mesh) {
+  const std::optional<EdgeConflict> first = Shells::edges_of(mesh).first;
+  if (!first) return;
+  const auto face = [&](size_t i) { return std::to_string(mesh.file_faces.of(first->faces[i])); };
+  throw UsageError(mesh.name + ": faces " + face(0) + " and " + face(1) +
+                   " are oriented against each other at the edge from " +
+                   in_brackets(mesh.vertices[first->vertices[0]]) + " to " +
+                   in_brackets(mesh.vertices[first->vertices[1]]) +
+                   ": there are no sides of it; orient its faces alike first");
 }
 
 void Shells::set_positions() {
@@ -510,10 +523,10 @@ std::optional<int> Shells::winding(const glm::dvec3& p) const {
   return {};
 }
 
-std::optional<Side> Shells::side_of(const glm::dvec3& p) const {
+std::optional<SurfaceSide> Shells::side_of(const glm::dvec3& p) const {
   const std::optional<int> found = winding(p);
   if (!found) return {};
-  return *found == front_ ? Side::kOver : Side::kUnder;
+  return *found == front_ ? SurfaceSide::kOver : SurfaceSide::kUnder;
 }
 
 }  // namespace vkh

@@ -4,40 +4,18 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "host/mesh/mesh.h"
 #include "host/mesh/orientation.h"
 #include "host/mesh/triangle_tree.h"
+#include "host/survey/side.h"
 
 namespace vkh {
 
-/// The side of B, as its faces are oriented: over is in front of them.
-enum class Side : int8_t { kUnder = -1, kUnsigned = 0, kOver = 1 };
-
-/// Whether B has an inside, or the first reason why it has none.
-enum class Inside {
-  kProven,     ///< closed, no two faces cross, and it winds round each point once or not at all
-  kOpen,       ///< an edge has not as many faces on both sides
-  kCrossing,   ///< two faces cross, or lie on each other
-  kWinding,    ///< it winds round some point otherwise: shells in each other, or of both kinds
-  kUndecided,  ///< no point was found beside some part of it at which that could be counted
-};
-const char* inside_name(Inside inside);  ///< "proven", "open", "crossing", "winding", "undecided"
-
-/// An edge, and two faces that both use it in one direction, as no orientation would have them.
-struct EdgeConflict {
-  std::array<uint32_t, 2> vertices{}, faces{};
-};
-
-/// The number of edges that are no closed, oriented surface's.
-struct EdgeCounts {
-  uint64_t open = 0;       ///< edges with more faces in one direction than in the other
-  uint64_t uneven = 0;     ///< open edges of three faces or more
-  uint64_t conflicts = 0;  ///< edges of two faces, both in one direction
-  std::optional<EdgeConflict> first = {};  ///< the first conflict
-};
+/// Throws UsageError that names the edge if two faces of the mesh use one in the same direction,
+/// and no other faces use it.
+void refuse_conflicts(const Mesh& mesh);
 
 /// Triangles of a mesh, by corners that any power of two may scale: no statement here depends on
 /// it.
@@ -45,6 +23,9 @@ class Shells {
  public:
   /// `faces` index into `vertices`, which are all finite.
   Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces);
+
+  /// Counts edges, and does nothing else.
+  static EdgeCounts edges_of(const Mesh& mesh);
 
   const EdgeCounts& edges() const { return edges_; }
   Inside inside() const { return inside_; }
@@ -63,9 +44,12 @@ class Shells {
   /// along all three axes pass through edges.
   std::optional<int> winding(const glm::dvec3& p) const;
   /// The side of a point that is not on B, where inside() is kProven: nothing as for winding().
-  std::optional<Side> side_of(const glm::dvec3& p) const;
+  std::optional<SurfaceSide> side_of(const glm::dvec3& p) const;
 
  private:
+  struct OnlyEdges {};
+  Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces, OnlyEdges only);
+
   enum class Kind : uint8_t { kArea, kCovered, kBare };
   struct EdgeUse;
 

@@ -4,15 +4,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
-#include <string>
 
-#include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/float128.h"
 #include "host/base/parallel.h"
 #include "host/mesh/closest.h"
 #include "host/survey/cell_corners.h"
+#include "host/survey/sets.h"
 
 namespace vkh {
 namespace {
@@ -163,11 +160,6 @@ int sign_of_height(const Vector& s, const Vector& t, const Vector& v, const Vect
   return size_of(sum) > error ? (sum > 0 ? 1 : -1) : 0;
 }
 
-std::string in_brackets(const DVec3& p) {
-  return "(" + shortest_decimal(p.x) + ", " + shortest_decimal(p.y) + ", " + shortest_decimal(p.z) +
-         ")";
-}
-
 }  // namespace
 
 const char* doubt_name(Doubt doubt) {
@@ -194,17 +186,6 @@ Sides::Sides(const SurveyedPair& pair)
       displacement_(pair.displacement),
       vertices_(scaled(pair.a, pair.frame, is_exact_)),
       shells_(scaled(pair.b, pair.frame, is_exact_), pair.b.faces) {}
-
-void Sides::refuse_conflicts() const {
-  const std::optional<EdgeConflict>& first = shells_.edges().first;
-  if (!first) return;
-  const auto face = [&](size_t i) { return std::to_string(b_.file_faces.of(first->faces[i])); };
-  throw UsageError(b_.name + ": faces " + face(0) + " and " + face(1) +
-                   " are oriented against each other at the edge from " +
-                   in_brackets(b_.vertices[first->vertices[0]]) + " to " +
-                   in_brackets(b_.vertices[first->vertices[1]]) +
-                   ": there is no side of it; orient its faces alike first");
-}
 
 Sides::Placed Sides::placed(const gpu::Cell& cell) const {
   const UVec3& f = a_.faces[cell.face];
@@ -265,16 +246,17 @@ CellSide Sides::by_faces(const gpu::Cell& cell, uint32_t hint) const {
     } else if ((side = side_of_plane<double>(cell, plane)) == 0 &&
                (side = side_of_plane<Float128>(cell, plane)) == 0) {
       found.doubt = Doubt::kEdge;
-    } else if (found.side != Side::kUnsigned && found.side != static_cast<Side>(side)) {
+    } else if (found.side != SurfaceSide::kUnsigned &&
+               found.side != static_cast<SurfaceSide>(side)) {
       found.doubt = Doubt::kEdge;
     }
-    found.side = static_cast<Side>(side);
+    found.side = static_cast<SurfaceSide>(side);
     if (found.doubt == Doubt::kEdge && shells_.is_two_sided(face)) found.doubt = Doubt::kTwoSided;
     return found.doubt == Doubt::kNone;
   };
   const bool is_sure = shells_.tree().walk(
       [&](const TriangleBox& box) { return distance2(centre, box) <= reach2; }, look);
-  if (!is_sure) found.side = Side::kUnsigned;
+  if (!is_sure) found.side = SurfaceSide::kUnsigned;
   return found;
 }
 
@@ -293,7 +275,7 @@ CellSide Sides::by_winding(const gpu::Cell& cell) const {
   for (const glm::dvec3& w :
        {glm::dvec3(0.3391, 0.3187, 0.3422), glm::dvec3(0.2713, 0.4129, 0.3158),
         glm::dvec3(0.5017, 0.2271, 0.2712)}) {
-    const std::optional<Side> side = shells_.side_of(t[0] * w.x + t[1] * w.y + t[2] * w.z);
+    const std::optional<SurfaceSide> side = shells_.side_of(t[0] * w.x + t[1] * w.y + t[2] * w.z);
     if (side) return {*side, Doubt::kNone};
   }
   return {};
@@ -303,7 +285,7 @@ CellSide Sides::of(const gpu::Cell& cell, const gpu::CellBounds& bounds) const {
   const bool off = is_off(cell, bounds);
   if (is_shared() && off) {
     const CellSide found = by_winding(cell);
-    if (found.side != Side::kUnsigned) return found;
+    if (found.side != SurfaceSide::kUnsigned) return found;
   }
   CellSide found = by_faces(cell, bounds.face);
   if (found.doubt == Doubt::kEdge && !off) found.doubt = Doubt::kMeets;
@@ -376,7 +358,7 @@ std::vector<CellSide> Sides::shared(const CellStore& cells) const {
   each_cell(sides.size(), [&](size_t i) {
     const uint32_t f = cells.face(i);
     if (pure[f] != 0) sides[i] = of_face[first[f]];
-    if (sides[i].side == Side::kUnsigned) sides[i] = of(cells.cell(i), cells.bounds(i));
+    if (sides[i].side == SurfaceSide::kUnsigned) sides[i] = of(cells.cell(i), cells.bounds(i));
   });
   return sides;
 }
@@ -392,7 +374,7 @@ std::vector<CellSide> Sides::each_alone(const CellStore& cells) const {
   std::vector<CellSide> sides(cells.count());
   each_cell(sides.size(), [&](size_t i) {
     sides[i] = of_face[cells.face(i)];
-    if (sides[i].side == Side::kUnsigned) sides[i] = of(cells.cell(i), cells.bounds(i));
+    if (sides[i].side == SurfaceSide::kUnsigned) sides[i] = of(cells.cell(i), cells.bounds(i));
   });
   return sides;
 }

@@ -11,23 +11,6 @@
 
 namespace vkh {
 
-/// The reason why a cell has no side.
-enum class Doubt : uint8_t {
-  kNone,        ///< it has one
-  kMeets,       ///< it meets B, or is nearer than the bounds of its distance tell
-  kEdge,        ///< faces that may be closest somewhere on it do not agree: it is over an edge
-  kDegenerate,  ///< a segment or a point may be closest
-  kTwoSided,    ///< a face may be closest that lies on one of the opposite orientation
-  kMany,        ///< more faces may be closest than were looked at
-};
-constexpr size_t kDoubts = 6;
-const char* doubt_name(Doubt doubt);  ///< "none", "meets", "edge", "degenerate", ...
-
-struct CellSide {
-  Side side = Side::kUnsigned;
-  Doubt doubt = Doubt::kNone;
-};
-
 /// Finds sides of cells of a pair. All statements are of the corners as the meshes hold them;
 /// Mesh::delta is no part of them.
 class Sides {
@@ -35,8 +18,6 @@ class Sides {
   /// Keeps references to the pair's meshes.
   explicit Sides(const SurveyedPair& pair);
 
-  /// Throws UsageError that names the edge if two faces of B use one in the same direction.
-  void refuse_conflicts() const;
   const Shells& shells() const { return shells_; }
   /// Whether sides are shared: shells().inside() is proven, of the corners as given.
   bool is_shared() const { return is_exact_ && shells_.inside() == Inside::kProven; }

@@ -117,14 +117,40 @@ struct Within {
 // it is at most t is within, and from `most` on the whole cell is.
 struct Slope {
   float a, b, c, most;
-  double least() const { return static_cast<double>(std::min({a, b, c})); }
-  double share(double t) const { return share_within(a, b, c, t); }
+  /// Nothing of the cell is within less, whatever the function says.
+  float floor = -std::numeric_limits<float>::infinity();
+  double least() const { return static_cast<double>(std::max(std::min({a, b, c}), floor)); }
+  double share(double t) const {
+    return t < static_cast<double>(floor) ? 0 : share_within(a, b, c, t);
+  }
 };
-Slope surely_within(const gpu::CellBounds& b) {
+
+// Cells, and what is counted on them: distances, where there are no sides; otherwise signed ones,
+// which are the distances over B, less than none under it, and of either sign where there is no
+// side.
+struct Counted {
+  const CellStore& cells;
+  std::span<const CellSide> sides = {};
+
+  size_t count() const { return cells.count(); }
+  const gpu::CellBounds& bounds(size_t i) const { return cells.bounds(i); }
+  SurfaceSide side(size_t i) const { return sides.empty() ? SurfaceSide::kOver : sides[i].side; }
+};
+
+Slope surely_within(const Counted& counted, size_t i) {
+  const gpu::CellBounds& b = counted.bounds(i);
+  if (counted.side(i) == SurfaceSide::kUnder)
+    return {-b.lower_a, -b.lower_b, -b.lower_c, -lowest(b)};
   return {b.upper_a, b.upper_b, b.upper_c, b.highest};
 }
-Slope perhaps_within(const gpu::CellBounds& b) {
-  return {b.lower_a, b.lower_b, b.lower_c, std::max({b.lower_a, b.lower_b, b.lower_c})};
+Slope perhaps_within(const Counted& counted, size_t i) {
+  const gpu::CellBounds& b = counted.bounds(i);
+  if (counted.side(i) != SurfaceSide::kOver)
+    return {-b.upper_a, -b.upper_b, -b.upper_c, -std::min({b.upper_a, b.upper_b, b.upper_c}),
+            -b.highest};
+  const Slope slope{b.lower_a, b.lower_b, b.lower_c, std::max({b.lower_a, b.lower_b, b.lower_c})};
+  if (counted.sides.empty()) return slope;
+  return {slope.a, slope.b, slope.c, std::max(slope.most, 0.0f), 0.0f};
 }
 
 // Adds a part to what is within each: nothing, a share of it, or all of it from some distance on.
@@ -161,25 +187,24 @@ double part_of(const CellStore& cells, const Areas& areas, size_t i) {
   return cells.share(i) * areas.of_face[cells.face(i)];
 }
 
-Within block_within(const CellStore& cells, const Areas& areas, const Thresholds& at, size_t begin,
+Within block_within(const Counted& counted, const Areas& areas, const Thresholds& at, size_t begin,
                     size_t end) {
   Within within(at.surely.size());
   Adder from_below(at.surely, within.surely), from_above(at.perhaps, within.perhaps);
   for (size_t i = begin; i < end; ++i) {
-    const gpu::CellBounds& b = cells.bounds(i);
-    const double area = part_of(cells, areas, i);
-    from_below.add(area, surely_within(b));
-    from_above.add(area, perhaps_within(b));
+    const double area = part_of(counted.cells, areas, i);
+    from_below.add(area, surely_within(counted, i));
+    from_above.add(area, perhaps_within(counted, i));
   }
   from_below.finish();
   from_above.finish();
   return within;
 }
 
-Within areas_within(const CellStore& cells, const Areas& areas, const Thresholds& at) {
-  std::vector<Within> blocks(block_count(cells.count()), Within(0));
-  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
-    blocks[block] = block_within(cells, areas, at, begin, end);
+Within areas_within(const Counted& counted, const Areas& areas, const Thresholds& at) {
+  std::vector<Within> blocks(block_count(counted.count()), Within(0));
+  for_each_block(counted.count(), [&](size_t block, size_t begin, size_t end) {
+    blocks[block] = block_within(counted, areas, at, begin, end);
   });
   Within all(at.surely.size());
   for (const Within& block : blocks) {
@@ -194,13 +219,13 @@ Within areas_within(const CellStore& cells, const Areas& areas, const Thresholds
 struct Extremes {
   double lowest = 3e38, highest = 0;
 };
-Extremes extremes_of(const CellStore& cells) {
-  std::vector<Extremes> blocks(block_count(cells.count()));
-  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+Extremes extremes_of(const Counted& counted) {
+  std::vector<Extremes> blocks(block_count(counted.count()));
+  for_each_block(counted.count(), [&](size_t block, size_t begin, size_t end) {
     Extremes& e = blocks[block];
     for (size_t i = begin; i < end; ++i) {
-      e.lowest = std::min(e.lowest, static_cast<double>(lowest(cells.bounds(i))));
-      e.highest = std::max(e.highest, static_cast<double>(cells.bounds(i).highest));
+      e.lowest = std::min(e.lowest, static_cast<double>(lowest(counted.bounds(i))));
+      e.highest = std::max(e.highest, static_cast<double>(counted.bounds(i).highest));
     }
   });
   Extremes all;
@@ -208,6 +233,7 @@ Extremes extremes_of(const CellStore& cells) {
     all.lowest = std::min(all.lowest, e.lowest);
     all.highest = std::max(all.highest, e.highest);
   }
+  if (!counted.sides.empty()) all.lowest = -all.highest;
   return all;
 }
 
@@ -231,8 +257,8 @@ std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
     up.push_back(thresholds[i].up);
   }
   std::sort(up.begin(), up.end());  // in the same order: they are apart by as much
-  const Within within = areas_within(cells, areas, {down, up});
-  const Extremes extremes = extremes_of(cells);
+  const Within within = areas_within({cells}, areas, {down, up});
+  const Extremes extremes = extremes_of({cells});
   std::vector<Enclosure> shares(thresholds.size());
   for (size_t k = 0; k < order.size(); ++k) {
     Enclosure& share = shares[order[k]];
@@ -276,16 +302,16 @@ struct Bracket {
 
 // The area within the cuts of some brackets. Cells that are to one side of a bracket, which only
 // gets narrower, are looked at once for it. `slope_of`: surely_within or perhaps_within.
-template <Slope (*slope_of)(const gpu::CellBounds&)>
+template <Slope (*slope_of)(const Counted&, size_t)>
 class BracketSums {
  public:
-  BracketSums(const CellStore& cells, const Areas& areas)
-      : cells_(cells), areas_(areas), blocks_(block_count(cells.count())) {}
+  BracketSums(const Counted& counted, const Areas& areas)
+      : counted_(counted), areas_(areas), blocks_(block_count(counted.count())) {}
 
   // The sums at each bracket's cuts: the brackets are as many as before, and within those.
   std::vector<std::vector<Sum>> at(const std::vector<Bracket>& brackets) {
     std::vector<std::vector<std::vector<Sum>>> sums(blocks_.size());
-    for_each_block(cells_.count(), [&](size_t block, size_t begin, size_t end) {
+    for_each_block(counted_.count(), [&](size_t block, size_t begin, size_t end) {
       std::vector<Part>& parts = blocks_[block];
       if (parts.empty()) look_at_all(parts, brackets, begin, end);
       for (size_t b = 0; b < brackets.size(); ++b)
@@ -320,8 +346,8 @@ class BracketSums {
                    size_t end) const {
     parts.resize(brackets.size());
     for (size_t i = begin; i < end; ++i) {
-      const Slope slope = slope_of(cells_.bounds(i));
-      const double area = part_of(cells_, areas_, i);
+      const Slope slope = slope_of(counted_, i);
+      const double area = part_of(counted_.cells, areas_, i);
       for (size_t b = 0; b < parts.size(); ++b) {
         if (is_open(slope, area, brackets[b], parts[b].whole))
           parts[b].open.push_back(static_cast<uint16_t>(i - begin));
@@ -333,8 +359,8 @@ class BracketSums {
     const std::vector<double> cuts = bracket.cuts(kSections);
     std::vector<Sum> sums(cuts.size());
     std::erase_if(part.open, [&](uint16_t offset) {
-      const Slope slope = slope_of(cells_.bounds(begin + offset));
-      const double area = part_of(cells_, areas_, begin + offset);
+      const Slope slope = slope_of(counted_, begin + offset);
+      const double area = part_of(counted_.cells, areas_, begin + offset);
       if (!is_open(slope, area, bracket, part.whole)) return true;
       add(slope, area, cuts, sums);
       return false;
@@ -351,7 +377,7 @@ class BracketSums {
     }
   }
 
-  const CellStore& cells_;
+  const Counted counted_;
   const Areas& areas_;
   std::vector<std::vector<Part>> blocks_;
 };
@@ -396,12 +422,12 @@ class Reached {
 };
 
 // All cells are looked at once for all shares.
-Brackets first_brackets(const CellStore& cells, const Areas& areas, const Reached& reached,
+Brackets first_brackets(const Counted& counted, const Areas& areas, const Reached& reached,
                         size_t count) {
-  const Extremes e = extremes_of(cells);
+  const Extremes e = extremes_of(counted);
   const std::vector<Bracket> whole(count, {e.lowest, e.highest});
   const std::vector<double> cuts = whole[0].cuts(kFirstSections);
-  const Within within = areas_within(cells, areas, {cuts, cuts});
+  const Within within = areas_within(counted, areas, {cuts, cuts});
   Brackets all{whole, whole};
   for (size_t b = 0; b < count; ++b) {
     all.lower[b].narrow(cuts, within.perhaps,
@@ -418,22 +444,32 @@ Brackets brackets_of(std::span<const Enclosure> known) {
   return all;
 }
 
-}  // namespace
-
-std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
-                                   const PercentileSearch& search) {
+std::vector<Enclosure> percentiles_of(const Counted& counted, const Areas& areas,
+                                      const PercentileSearch& search) {
   const auto& [shares, resolution, known] = search;
   if (shares.empty()) return {};
   const Reached reached(areas, shares);
   Brackets at =
-      known.empty() ? first_brackets(cells, areas, reached, shares.size()) : brackets_of(known);
-  narrow(at.lower, resolution, BracketSums<perhaps_within>(cells, areas),
+      known.empty() ? first_brackets(counted, areas, reached, shares.size()) : brackets_of(known);
+  narrow(at.lower, resolution, BracketSums<perhaps_within>(counted, areas),
          [&](size_t b, double area) { return reached.perhaps(b, area); });
-  narrow(at.upper, resolution, BracketSums<surely_within>(cells, areas),
+  narrow(at.upper, resolution, BracketSums<surely_within>(counted, areas),
          [&](size_t b, double area) { return reached.surely(b, area); });
   std::vector<Enclosure> all;
   for (size_t b = 0; b < shares.size(); ++b) all.push_back({at.lower[b].low, at.upper[b].high});
   return all;
+}
+
+}  // namespace
+
+std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
+                                   const PercentileSearch& search) {
+  return percentiles_of({cells}, areas, search);
+}
+
+std::vector<Enclosure> signed_percentiles(const CellStore& cells, std::span<const CellSide> sides,
+                                          const Areas& areas, const PercentileSearch& search) {
+  return percentiles_of({cells, sides}, areas, search);
 }
 
 namespace {
@@ -505,6 +541,68 @@ Moments moments_of(const CellStore& cells, const Areas& areas) {
   const double rms_up = std::sqrt(mean_up(sums.square_upper, square, areas)) * (1 + 2 * kUnit);
   return {{mean_down(sums.lower, sums.largest, areas), mean_up(sums.upper, sums.largest, areas)},
           {rms_down, rms_up}};
+}
+
+namespace {
+
+// Sums over the parts of A: of the positive part of the signed distance and of its negative part,
+// each from below and above, since what a sum loses is a share of what is added without signs.
+struct SignedSums {
+  Sum over_lower, over_upper, under_lower, under_upper;
+  double largest = 0;
+
+  void add(const gpu::CellBounds& b, SurfaceSide side, double area) {
+    const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
+    if (side == SurfaceSide::kOver) over_lower.add(area * down);
+    if (side == SurfaceSide::kUnder) under_lower.add(area * down);
+    if (side != SurfaceSide::kUnder) over_upper.add(area * up);
+    if (side != SurfaceSide::kOver) under_upper.add(area * up);
+    largest = std::max(largest, static_cast<double>(b.highest));
+  }
+  void add(const SignedSums& other) {
+    over_lower.add(other.over_lower.value());
+    over_upper.add(other.over_upper.value());
+    under_lower.add(other.under_lower.value());
+    under_upper.add(other.under_upper.value());
+    largest = std::max(largest, other.largest);
+  }
+};
+
+}  // namespace
+
+// The positive and the negative part are means over all of A, each of which is not negative, and
+// their difference rounds by kUnit of itself.
+Enclosure signed_mean(const CellStore& cells, std::span<const CellSide> sides, const Areas& areas) {
+  std::vector<SignedSums> blocks(block_count(cells.count()));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      blocks[block].add(cells.bounds(i), sides[i].side, part_of(cells, areas, i));
+  });
+  SignedSums all;
+  for (const SignedSums& block : blocks) all.add(block);
+  return {add_down(mean_down(all.over_lower, all.largest, areas),
+                   -mean_up(all.under_upper, all.largest, areas)),
+          add_up(mean_up(all.over_upper, all.largest, areas),
+                 -mean_down(all.under_lower, all.largest, areas))};
+}
+
+std::array<Enclosure, kDoubts + 2> shares_of_sides(const CellStore& cells,
+                                                   std::span<const CellSide> sides,
+                                                   const Areas& areas) {
+  std::array<Sum, kDoubts + 2> sums;
+  for (size_t i = 0; i < cells.count(); ++i) {
+    const CellSide& side = sides[i];
+    const size_t kind = side.side == SurfaceSide::kOver    ? kDoubts
+                        : side.side == SurfaceSide::kUnder ? kDoubts + 1
+                                                           : static_cast<size_t>(side.doubt);
+    sums[kind].add(part_of(cells, areas, i));
+  }
+  std::array<Enclosure, kDoubts + 2> shares;
+  for (size_t k = 0; k < sums.size(); ++k) {
+    const double sum = sums[k].value();
+    if (sum > 0) shares[k] = share_of(sum * (1 - kSumError), sum * (1 + kSumError), areas);
+  }
+  return shares;
 }
 
 }  // namespace vkh

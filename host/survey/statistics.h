@@ -1,11 +1,13 @@
 // Certified figures of all of A from its cells.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "host/survey/cell_store.h"
 #include "host/survey/field.h"
+#include "host/survey/sides.h"
 
 namespace vkh {
 
@@ -47,6 +49,19 @@ struct PercentileSearch {
 /// The least distance that each share of A's area is within, in the frame.
 std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
                                    const PercentileSearch& search);
+
+/// The same of the signed distance, which is negative under B; `sides` has one for each cell.
+std::vector<Enclosure> signed_percentiles(const CellStore& cells, std::span<const CellSide> sides,
+                                          const Areas& areas, const PercentileSearch& search);
+
+/// The mean of the signed distance over A, in the frame.
+Enclosure signed_mean(const CellStore& cells, std::span<const CellSide> sides, const Areas& areas);
+
+/// The shares of A's area that have no side, for each Doubt, then those over B and under it. A kind
+/// that no cell is of has none, exactly.
+std::array<Enclosure, kDoubts + 2> shares_of_sides(const CellStore& cells,
+                                                   std::span<const CellSide> sides,
+                                                   const Areas& areas);
 
 /// The mean of d(x, B) over the cell, from below.
 double mean_lower(const gpu::CellBounds& bounds);

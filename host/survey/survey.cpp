@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host/survey/goals.h"
+#include "host/survey/signed_figures.h"
 
 namespace vkh {
 namespace {
@@ -187,6 +188,14 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
   return field;
 }
 
+// Nothing unless sides are asked for.
+std::optional<SidedCells> sided_cells(const SurveyedPair& pair, const SurveyOptions& options) {
+  if (!options.is_signed && !options.sided) return {};
+  refuse_any_triangulation(pair.a, pair.b, "sides");
+  refuse_conflicts(pair.b);
+  return std::optional<SidedCells>(pair);
+}
+
 }  // namespace
 
 const char* survey_end_name(SurveyEnd end) {
@@ -221,6 +230,26 @@ FieldSummary summary_of(const Field& field, const Limit& limit) {
   return summary;
 }
 
+Verdict verdict_of(const Enclosure& over, const Enclosure& under, const SidedLimits& limits) {
+  const Verdict of_over = verdict_of(over.lower, over.upper, limits.over);
+  const Verdict of_under = verdict_of(under.lower, under.upper, limits.under);
+  if (of_over == Verdict::kBeyond || of_under == Verdict::kBeyond) return Verdict::kBeyond;
+  return of_over == Verdict::kWithin ? of_under : of_over;
+}
+
+FieldSummary summary_of(const Field& field, const SignedFigures& sides, const SidedLimits& limits) {
+  FieldSummary summary = summary_of(field, limits.larger());
+  summary.within = summary.beyond = summary.undecided = 0;
+  for (size_t f = 0; f < sides.over_of_faces.face_count(); ++f) {
+    const Verdict verdict =
+        verdict_of(sides.over_of_faces.of(f), sides.under_of_faces.of(f), limits);
+    ++(verdict == Verdict::kWithin   ? summary.within
+       : verdict == Verdict::kBeyond ? summary.beyond
+                                     : summary.undecided);
+  }
+  return summary;
+}
+
 Field field_within(size_t face_count, double upper) {
   return {std::vector<double>(face_count, 0.0), std::vector<double>(face_count, upper)};
 }
@@ -231,17 +260,27 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
       refuse_any_triangulation(on_device.a, on_device.b, "statistics of an area");
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
+    std::optional<SidedCells> sided = sided_cells(pair, options);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
     CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
     Bounding bounding(pair, bound, options);
     bounding.faces(store);
     const Areas areas = areas_of(pair.a);
     std::vector<Enclosure> percentiles;
-    result.ended = refine_all(store, bounding, goals_of(options, pair, areas, percentiles));
+    std::vector<Goal> goals = goals_of(options, pair, areas, percentiles);
+    if (options.sided)
+      goals.insert(goals.begin(), [&](const CellStore& cells) {
+        return sided->score_limits(cells, *options.sided);
+      });
+    if (options.is_signed && !options.sided && areas.is_positive())
+      goals.emplace_back(
+          [&](const CellStore& cells) { return sided->score_unsigned(cells, areas); });
+    result.ended = refine_all(store, bounding, goals);
     result.field = field_of(store, pair);
     result.faces = options.faces;
     if (options.statistics)
       result.statistics = statistics_of({store, areas, percentiles}, pair, options);
+    if (sided) result.sides = sided->figures({store, areas, percentiles}, options);
     if (options.statistics && !result.statistics)
       result.ended = std::max(result.ended, SurveyEnd::kBits);
     result.effort = bounding.effort();

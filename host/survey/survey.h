@@ -47,6 +47,9 @@ struct SurveyOptions {
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
+  bool is_signed = false;  ///< the sides of A are wanted, and of 99 % of its area: result.sides
+  /// If set: A is only to be proven within the limits of its sides, or beyond. Sides are wanted.
+  std::optional<SidedLimits> sided = {};
   /// No distance is above it, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
   /// The number of cells that the device may bound besides each face once: two for each split.
@@ -67,6 +70,7 @@ struct SurveyResult {
   /// The summary of a field that is not held, since the answer was read from JSON.
   std::optional<FieldSummary> summary = {};
   std::optional<Statistics> statistics;
+  std::optional<SignedFigures> sides = {};
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default
@@ -81,7 +85,8 @@ struct SurveyResult {
 Field field_within(size_t face_count, double upper);
 
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The
-/// survey throws UsageError for statistics of meshes of any triangulation.
+/// survey throws UsageError for statistics or sides of meshes of any triangulation, and for sides
+/// of a B with two faces that use an edge in one direction.
 Survey survey_with(const SurveyOptions& options, SurveyResult& result);
 
 }  // namespace vkh

@@ -272,12 +272,12 @@ void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b,
   const CellSide by_faces = sides.by_faces(cell, bounds.face), told = sides.of(cell, bounds);
   auto& counts = attack.of_family[b.name];
   ++counts[0];
-  counts[1] += told.side != Side::kUnsigned ? 1 : 0;
+  counts[1] += told.side != SurfaceSide::kUnsigned ? 1 : 0;
   Tally& tally = attack.tally;
   const auto describe = [&] { return std::string(b.name); };
-  tally.require((told.side == Side::kUnsigned) == (told.doubt != Doubt::kNone),
+  tally.require((told.side == SurfaceSide::kUnsigned) == (told.doubt != Doubt::kNone),
                 "a doubt where there is no side", describe);
-  tally.require(by_faces.side == Side::kUnsigned || by_faces.side == told.side,
+  tally.require(by_faces.side == SurfaceSide::kUnsigned || by_faces.side == told.side,
                 "sides by faces and by winding agree", describe);
   const double off = 1e-12 * (diagonal(pair.b) + glm::length(dvec3(pair.b.vertices[0])));
   for (const glm::uvec3& w : points_of(cell, random)) {
@@ -289,19 +289,62 @@ void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b,
       const bool is_outward = b.name != std::string("reversed");
       tally.require(*winding == 0 || *winding == (is_outward ? 1 : -1), "an inside", describe);
       const bool is_over = *winding == (is_outward ? 0 : -1);
-      tally.require(told.side == Side::kUnsigned || (told.side == Side::kOver) == is_over,
-                    "the side by parity", describe);
+      tally.require(
+          told.side == SurfaceSide::kUnsigned || (told.side == SurfaceSide::kOver) == is_over,
+          "the side by parity", describe);
     }
-    if (by_faces.side == Side::kUnsigned) continue;
+    if (by_faces.side == SurfaceSide::kUnsigned) continue;
     const glm::uvec3& f = pair.a.faces[cell.face];
     const dvec3 near = (pair.a.vertices[f.x] * double(w.x) + pair.a.vertices[f.y] * double(w.y) +
                         pair.a.vertices[f.z] * double(w.z)) *
                        0x1p-24;
     const ExactSides::Closest closest = oracle.closest(p, near, off);
-    const bool is_over = by_faces.side == Side::kOver;
+    const bool is_over = by_faces.side == SurfaceSide::kOver;
     tally.require((is_over ? closest.below : closest.above) == 0 && closest.in_plane == 0 &&
                       (is_over ? closest.above : closest.below) > 0,
                   "the side by all closest faces", describe);
+  }
+}
+
+// Checks the sides of all cells of a surface that is cut at random.
+void check_list(Attack& attack, const ClosedCase& b, Random& random) {
+  const Mesh a = translated(
+      moved(icosphere(1, 1),
+            [&](const dvec3& p) { return p * (0.6 * diagonal(b.mesh) * random.range(0.3, 0.6)); }),
+      dvec3(b.mesh.vertices[0]) * random.range(-1, 1));
+  const FramedPair framed = frame_pair(a, b.mesh);
+  const SurveyedPair pair{a,    b.mesh, framed.frame, framed.a.displacement + framed.b.displacement,
+                          1e30, true};
+  const ExactSides oracle(a, b.mesh);
+  CellStore store(a, 1e30f);
+  for (int pass = 0; pass < 3; ++pass) {
+    std::vector<size_t> which;
+    for (size_t i = 0; i < store.count(); ++i) {
+      if (random.below(2) == 0) which.push_back(i);
+    }
+    store.split(which);
+  }
+  std::vector<size_t> all(store.count());
+  std::vector<gpu::CellBounds> bounds;
+  for (size_t i = 0; i < all.size(); ++i) {
+    all[i] = i;
+    bounds.push_back(bounds_of(oracle, a, store.cell(i), pair));
+  }
+  store.narrow(all, bounds);
+  const Sides sides(pair);
+  const std::vector<CellSide> told = sides.of(store);
+  for (size_t i = 0; i < told.size(); i += 7) {
+    const glm::uvec3 w = points_of(store.cell(i), random).back();
+    const std::optional<int> winding = oracle.winding(oracle.point(store.face(i), w));
+    const CellSide alone = sides.of(store.cell(i), store.bounds(i));
+    const auto describe = [&] { return std::string(b.name); };
+    attack.tally.require(alone.side == SurfaceSide::kUnsigned || alone.side == told[i].side,
+                         "a cell alone and in a list", describe);
+    if (!winding || !sides.is_shared() || told[i].side == SurfaceSide::kUnsigned) continue;
+    attack.tally.require((told[i].side == SurfaceSide::kOver) ==
+                             (*winding == (b.name == std::string("reversed") ? -1 : 0)),
+                         "the side by parity, shared", describe);
+    attack.tally.count("cells of lists", true);
   }
 }
 
@@ -326,6 +369,7 @@ void attack(Attack& attack, uint64_t seed, int cells) {
   for (int k = 0; k < cells; ++k)
     check_cell(attack, oracle, b, random_cell(static_cast<uint32_t>(k) % 40, random), sides, pair,
                random);
+  check_list(attack, b, random);
 }
 
 TEST_CASE("sides of cells about hard meshes, by exact integers") {
@@ -350,7 +394,7 @@ TEST_CASE("an edge of two faces in one direction is refused, by its faces") {
   REQUIRE(sides.shells().edges().first);
   const auto [first, second] = sides.shells().edges().first->faces;
   CHECK((first == 5 || second == 5));
-  CHECK_THROWS_AS(sides.refuse_conflicts(), UsageError);
+  CHECK_THROWS_AS(refuse_conflicts(b), UsageError);
 }
 
 // Three faces at an edge, or four, are no conflict.
@@ -362,7 +406,7 @@ TEST_CASE("edges of three faces leave no inside, of four they may") {
   CHECK(sides.shells().edges().uneven == 1);
   CHECK(sides.shells().edges().conflicts == 0);
   CHECK(sides.shells().inside() == Inside::kOpen);
-  CHECK_NOTHROW(sides.refuse_conflicts());
+  CHECK_NOTHROW(refuse_conflicts(fin));
 }
 
 }  // namespace
