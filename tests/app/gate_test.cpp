@@ -41,6 +41,40 @@ bool starts_with(const std::string& text, const std::string& begin) {
   return text.starts_with(begin);
 }
 
+// A is a quarter under B, which looks up.
+TEST_CASE("limits over B and under it") {
+  const Outcome pass = gate("+0.1abs,-0.3abs");
+  CHECK(pass.exit_code == 0);
+  CHECK(starts_with(pass.out, "PASS  every point of A is within 0.1 over B and 0.3 under it, "));
+  CHECK(pass.out.find("A to B only: what A lacks of B is a question from B to A") !=
+        std::string::npos);
+  const Outcome fail = gate("+0.3abs,-0.2abs");
+  CHECK(fail.exit_code == 1);
+  CHECK(starts_with(fail.out, "FAIL  at least 0.2"));
+  CHECK(fail.out.find(" under B on face ") != std::string::npos);
+  CHECK(fail.out.find(" of A, limit 0.2\n") != std::string::npos);
+  CHECK(gate("-0.3abs,+0.1abs", {"--signed"}).exit_code != 2);
+  for (const char* both : {"--symmetric", "--area=99%", "--face-max=limits.csv"}) {
+    const Outcome refused = gate("+0.1abs,-0.3abs", {both});
+    CHECK(refused.exit_code != 0);
+    CHECK(refused.exit_code != 1);
+  }
+  CHECK(gate("+0.1abs,-0.3abs", {"--symmetric"}).err.find("ask for each direction by itself") !=
+        std::string::npos);
+  CHECK(gate("+0.1abs").exit_code == 2);
+  CHECK(gate("+0.1abs,+0.3abs").exit_code == 2);
+}
+
+TEST_CASE("faces of B that are against each other have no sides") {
+  const std::string b =
+      write_file("against.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n");
+  const Outcome refused = run({"distance", square_a(), b, "--signed"});
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.err.find("faces 0 and 1 are oriented against each other at the edge from (") !=
+        std::string::npos);
+  CHECK(run({"distance", square_a(), b}).exit_code == 0);
+}
+
 TEST_CASE("PASS, FAIL and UNDECIDED: words first, and the exit code") {
   const Outcome pass = gate("0.3abs");
   CHECK(pass.exit_code == 0);

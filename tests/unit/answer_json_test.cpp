@@ -129,6 +129,33 @@ Answer surveyed() {
   return answer;
 }
 
+SignedFigures sides() {
+  SignedFigures s;
+  s.over = {0.1, 0.15};
+  s.under = {0, 0.03};
+  s.over_face = 7;
+  s.inside = Inside::kOpen;
+  s.edges = {.open = 3, .uneven = 1};
+  s.areas.emplace();
+  s.areas->over = {0.4, 0.5};
+  s.areas->doubts[2] = {0.1, 0.2};
+  s.mean = {-0.1, 0.2};
+  s.percentiles = {{.share = 0.01, .distance = {-kInfinity, -0.125}}};
+  s.ms = 0.25;
+  return s;
+}
+
+Answer on_sides() {
+  Answer answer = gate("0.2mm", 0.2, 0.15);
+  answer.max->sides = AskedSides{parse_length("max", "0.2mm", PlainNumber::kRefused),
+                                 parse_length("max", "0.1mm", PlainNumber::kRefused),
+                                 {{0.2, 0.2}, {0.1, 0.1}}};
+  answer.survey_a.emplace();
+  answer.survey_a->ended = SurveyEnd::kMet;
+  answer.survey_a->sides = sides();
+  return answer;
+}
+
 Answer proven() {
   Answer answer = distance();
   answer.proof_a = Proof{.upper = 0.2, .blocks = "leaves", .bytes = 6, .leaves = 3, .ms = 0.3};
@@ -181,6 +208,7 @@ std::vector<Answer> all_kinds() {
           gate("0.12mm", 0.12, 0.15),
           by_face(),
           surveyed(),
+          on_sides(),
           proven(),
           on_devices(),
           part(),

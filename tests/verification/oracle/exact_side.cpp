@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
 
 namespace vkh::test {
 namespace {
@@ -47,6 +48,9 @@ bool has_area(const std::array<Vector, 3>& t) {
   return sgn(n.x) != 0 || sgn(n.y) != 0 || sgn(n.z) != 0;
 }
 
+// Above what get_d() cuts off, twice over, and an integer more.
+double rounding(const Integer& x) { return 0x1p-50 * std::abs(x.get_d()) + 1; }
+
 }  // namespace
 
 ExactSides::ExactSides(const Mesh& a, const Mesh& b)
@@ -58,12 +62,16 @@ ExactSides::ExactSides(const Mesh& a, const Mesh& b)
   std::vector<Vector> vertices;
   for (const glm::dvec3& v : b.vertices) vertices.push_back(vector(v, exponent, kBits));
   for (const glm::uvec3& f : b.faces) {
-    Face face{{vertices[f.x], vertices[f.y], vertices[f.z]}, {}, {}};
+    Face face{{vertices[f.x], vertices[f.y], vertices[f.z]}, {}, {}, {}, {}};
     for (size_t i = 0; i < 3; ++i) {
       face.lo[i] =
           std::min({at(face.corners[0], i), at(face.corners[1], i), at(face.corners[2], i)});
       face.hi[i] =
           std::max({at(face.corners[0], i), at(face.corners[1], i), at(face.corners[2], i)});
+    }
+    for (size_t i = 0; i < 3; ++i) {
+      face.below[i] = face.lo[i].get_d() - rounding(face.lo[i]);
+      face.above[i] = face.hi[i].get_d() + rounding(face.hi[i]);
     }
     b_.push_back(std::move(face));
     near_b_.push_back({b.vertices[f.x], b.vertices[f.y], b.vertices[f.z]});
@@ -81,7 +89,12 @@ Vector ExactSides::point(uint32_t face, const glm::uvec3& weights) const {
 std::optional<int> ExactSides::winding_along(size_t axis, const Vector& p) const {
   const size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
   int winding = 0;
+  const double near_i = at(p, i).get_d(), near_j = at(p, j).get_d();
+  const double off_i = rounding(at(p, i)), off_j = rounding(at(p, j));
   for (const Face& face : b_) {
+    if (near_i + off_i < face.below[i] || near_i - off_i > face.above[i] ||
+        near_j + off_j < face.below[j] || near_j - off_j > face.above[j])
+      continue;
     if (at(p, i) < face.lo[i] || at(p, i) > face.hi[i] || at(p, j) < face.lo[j] ||
         at(p, j) > face.hi[j] || at(p, axis) > face.hi[axis])
       continue;

@@ -37,6 +37,7 @@ class ExactSides {
   struct Face {
     std::array<exact::Vector, 3> corners;
     std::array<Integer, 3> lo, hi;
+    std::array<double, 3> below, above;  // of these, by more than they are rounded
   };
   std::optional<int> winding_along(size_t axis, const exact::Vector& p) const;
 

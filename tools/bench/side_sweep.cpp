@@ -1,0 +1,256 @@
+// Holds the sides of a pair's cells against exact integers, and signed figures against area samples
+// with exact parity. It prints one line, of tab-separated columns, and exits with 1 for a wrong
+// side.
+//
+//   vkh_side_sweep A B [--effort N] [--cells N] [--samples N] [--device D] [--head]
+//
+// Points of cells are judged by winding numbers, in integers, where B has a proven inside,
+// otherwise by the planes of all faces that are exactly closest. A figure is counted as off only
+// where it is farther from the samples' than five of their standard errors.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numeric>
+
+#include "host/base/parallel.h"
+#include "host/read/mesh_io.h"
+#include "host/solve/solver.h"
+#include "host/survey/cell_corners.h"
+#include "host/survey/signed_figures.h"
+#include "host/survey/survey.h"
+#include "tests/shapes/shapes.h"
+#include "tests/verification/oracle/exact_side.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+using glm::dvec3;
+
+struct Arguments {
+  std::string a, b, device;
+  size_t effort = 200'000, cells = 5000, samples = 0;
+  bool head = false;
+};
+
+struct Checked {
+  uint64_t cells = 0, with_side = 0, points = 0, wrong = 0, skipped = 0;
+};
+
+glm::uvec3 random_point(const gpu::Cell& cell, Random& random) {
+  const lib::Bary3 t = corners_of(cell);
+  const uint32_t x = random.below(17), y = random.below(17 - x), z = 16 - x - y;
+  const glm::uvec2 sum = t.a * x + t.b * y + t.c * z;
+  return {(1u << ExactSides::kBits) - sum.x - sum.y, sum.x, sum.y};
+}
+
+dvec3 near_point(const Mesh& a, uint32_t face, const glm::uvec3& w) {
+  const glm::uvec3& f = a.faces[face];
+  return (a.vertices[f.x] * double(w.x) + a.vertices[f.y] * double(w.y) +
+          a.vertices[f.z] * double(w.z)) *
+         0x1p-24;
+}
+
+// Whether a point of the cell is on the side that was told; nothing if the oracle cannot tell.
+std::optional<bool> is_right(const SurveyedPair& pair, const ExactSides& oracle, const Sides& sides,
+                             const gpu::Cell& cell, SurfaceSide told, Random& random) {
+  const glm::uvec3 w = random_point(cell, random);
+  const exact::Vector p = oracle.point(cell.face, w);
+  const bool is_over = told == SurfaceSide::kOver;
+  if (sides.is_shared()) {
+    const std::optional<int> winding = oracle.winding(p);
+    if (!winding) return std::nullopt;
+    return (*winding <= 0) == is_over;
+  }
+  const double off = 1e-12 * (diagonal(pair.b) + glm::length(dvec3(pair.b.vertices[0])));
+  const ExactSides::Closest closest = oracle.closest(p, near_point(pair.a, cell.face, w), off);
+  return (is_over ? closest.below : closest.above) == 0 && closest.in_plane == 0;
+}
+
+Checked check_cells(const SurveyedPair& pair, const CellStore& store, const Sides& sides,
+                    const std::vector<CellSide>& told, size_t count) {
+  const ExactSides oracle(pair.a, pair.b);
+  std::vector<Checked> parts(64);
+  for_each_index(parts.size(), [&](size_t part) {
+    Random random(part + 1);
+    Checked& mine = parts[part];
+    for (size_t k = 0; k < count / parts.size() + 1; ++k) {
+      const size_t i = random.below(static_cast<uint32_t>(store.count()));
+      ++mine.cells;
+      if (told[i].side == SurfaceSide::kUnsigned) continue;
+      ++mine.with_side;
+      for (int point = 0; point < 2; ++point) {
+        const auto right = is_right(pair, oracle, sides, store.cell(i), told[i].side, random);
+        mine.skipped += right ? 0 : 1;
+        mine.points += right ? 1 : 0;
+        mine.wrong += right && !*right ? 1 : 0;
+      }
+    }
+  });
+  Checked all;
+  for (const Checked& one : parts) {
+    all.cells += one.cells;
+    all.with_side += one.with_side;
+    all.points += one.points;
+    all.wrong += one.wrong;
+    all.skipped += one.skipped;
+  }
+  return all;
+}
+
+// Signed distances of random points of A, uniform in area, that ascend, in the files' unit.
+std::vector<double> sampled(const Mesh& a, const Mesh& b, size_t count) {
+  std::vector<double> area_to{0};
+  for (uint32_t f = 0; f < a.faces.size(); ++f) {
+    const auto t = corners(a, f);
+    area_to.push_back(area_to.back() + glm::length(glm::cross(t[1] - t[0], t[2] - t[0])));
+  }
+  const ClosestTree tree({b.vertices.begin(), b.vertices.end()}, {b.faces.begin(), b.faces.end()});
+  const Shells shells({b.vertices.begin(), b.vertices.end()}, b.faces);
+  std::vector<std::vector<double>> parts(64);
+  for_each_index(parts.size(), [&](size_t part) {
+    Random random(1000 + part);
+    for (size_t k = 0; k < count / parts.size(); ++k) {
+      const double at = random.range(0, area_to.back());
+      const auto f = std::upper_bound(area_to.begin(), area_to.end(), at) - area_to.begin() - 1;
+      const auto t = corners(a, static_cast<uint32_t>(f));
+      double v = random.unit(), w = random.unit();
+      if (v + w > 1) v = 1 - v, w = 1 - w;
+      const dvec3 p = t[0] + v * (t[1] - t[0]) + w * (t[2] - t[0]);
+      Nearest nearest;
+      tree.query(p, nearest);
+      const std::optional<SurfaceSide> side = shells.side_of(p);
+      const double d = std::sqrt(nearest.squared);
+      parts[part].push_back(!side ? 0 : *side == SurfaceSide::kOver ? d : -d);
+    }
+  });
+  std::vector<double> all;
+  for (const std::vector<double>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Whether the figures are within five standard errors of the samples; a percentile is between those
+// of shares that are off by as much.
+int figures_off(const SignedFigures& s, const std::vector<double>& all) {
+  const double n = static_cast<double>(all.size());
+  const double mean = std::accumulate(all.begin(), all.end(), 0.0) / n;
+  double squares = 0;
+  for (const double x : all) squares += (x - mean) * (x - mean);
+  const double error = 5 * std::sqrt(squares / n / n);
+  int off = s.mean->lower > mean + error || s.mean->upper < mean - error ? 1 : 0;
+  for (const Percentile& p : s.percentiles) {
+    const double share_error = 5 * std::sqrt(p.share * (1 - p.share) / n);
+    const auto at = [&](double share) {
+      return all[static_cast<size_t>(std::clamp(share * n, 0.0, n - 1))];
+    };
+    off += p.distance.lower > at(p.share + share_error) ||
+           p.distance.upper < at(p.share - share_error);
+  }
+  return off;
+}
+
+double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const Arguments& args,
+                 bool is_signed, SurveyResult& result) {
+  SurveyOptions survey;
+  survey.faces = survey.statistics = true;
+  survey.is_signed = is_signed;
+  survey.effort = args.effort;
+  SolveOptions options;
+  options.survey = survey_with(survey, result);
+  solver.distance(a, b, options);
+  return result.ms;
+}
+
+// Halves the largest cells until there are so many, and tells the sides of all.
+Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const Arguments& args) {
+  Checked checked;
+  SolveOptions options;
+  options.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+    CellStore store(a, 3e38f);
+    for (bool is_first = true; is_first || store.count() < args.effort / 2; is_first = false) {
+      std::vector<size_t> which;
+      for (size_t i = 0; !is_first && i < store.count(); ++i) {
+        if (store.can_split(i)) which.push_back(i);
+      }
+      if (!is_first && which.empty()) break;
+      store.split(which);
+      std::vector<gpu::Cell> cells;
+      std::vector<size_t> all(store.count());
+      std::iota(all.begin(), all.end(), size_t{0});
+      for (const size_t i : all) cells.push_back(store.cell(i));
+      std::vector<gpu::CellBounds> bounds(all.size());
+      for (size_t at = 0; at < all.size(); at += 4096) {
+        const size_t end = std::min(all.size(), at + 4096);
+        bound({.cells = std::span(cells).subspan(at, end - at),
+               .first = 0,
+               .bounds = std::span(bounds).subspan(at, end - at)});
+      }
+      store.narrow(all, bounds);
+    }
+    const Sides sides(pair);
+    checked = check_cells(pair, store, sides, sides.of(store), args.cells);
+  };
+  solver.distance(a, b, options);
+  return checked;
+}
+
+double percent_up(const Enclosure& share) { return 100 * share.upper; }
+
+int sweep(const Arguments& args) {
+  if (args.head)
+    std::printf(
+        "pair\tfaces_a\tfaces_b\tinside\tcells\twith_side\tpoints\tskipped\twrong\tover\tunder\t"
+        "meets\tedge\tdegenerate\ttwo_sided\tmany\tmean_lower\tmean_upper\tsamples\toff\t"
+        "plain_ms\tsigned_ms\tsides_ms\n");
+  const Mesh a = read_mesh(args.a), b = read_mesh(args.b);
+  Device device({.selector = args.device});
+  Solver solver(device);
+  const Checked checked = args.cells > 0 ? check_pair(solver, a, b, args) : Checked();
+  SurveyResult plain, found;
+  const double plain_ms = survey_ms(solver, a, b, args, false, plain);
+  const double signed_ms = survey_ms(solver, a, b, args, true, found);
+  const SignedFigures& s = *found.sides;
+  int off = -1;
+  if (args.samples > 0 && s.inside == Inside::kProven && s.mean)
+    off = figures_off(s, sampled(a, b, args.samples));
+  const std::string name = args.a.substr(args.a.find_last_of('/') + 1);
+  std::printf("%s\t%zu\t%zu\t%s\t%llu\t%llu\t%llu\t%llu\t%llu", name.c_str(), a.faces.size(),
+              b.faces.size(), inside_name(s.inside), static_cast<unsigned long long>(checked.cells),
+              static_cast<unsigned long long>(checked.with_side),
+              static_cast<unsigned long long>(checked.points),
+              static_cast<unsigned long long>(checked.skipped),
+              static_cast<unsigned long long>(checked.wrong));
+  const SignedFigures::Areas areas = s.areas.value_or(SignedFigures::Areas{});
+  std::printf("\t%.3f\t%.3f", percent_up(areas.over), percent_up(areas.under));
+  for (size_t k = 1; k < kDoubts; ++k) std::printf("\t%.3f", percent_up(areas.doubts[k]));
+  const Enclosure mean = s.mean.value_or(Enclosure{});
+  std::printf("\t%.6g\t%.6g\t%zu\t%d\t%.0f\t%.0f\t%.0f\n", mean.lower, mean.upper, args.samples,
+              off, plain_ms, signed_ms, s.ms);
+  return checked.wrong > 0 || off > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments args;
+  CLI::App app("Sides of a pair's cells, against exact integers.", "vkh_side_sweep");
+  app.add_option("a", args.a, "Mesh file")->required();
+  app.add_option("b", args.b, "Mesh file")->required();
+  app.add_option("--effort", args.effort, "Of the surveys; the cells checked are half as many");
+  app.add_option("--cells", args.cells, "Random cells that are checked");
+  app.add_option("--samples", args.samples, "Area samples for the figures");
+  app.add_option("--device", args.device, "As for vkhausdorff");
+  app.add_flag("--head", args.head, "Print the columns' names first");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return sweep(args);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vkh_side_sweep: %s\n", error.what());
+    return 2;
+  }
+}
