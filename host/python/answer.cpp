@@ -74,17 +74,45 @@ py::dict statistics_of(const Question& question, const Statistics& s) {
                   "percentiles"_a = percentiles, "curve"_a = curve);
 }
 
+py::tuple interval_of(const Enclosure& e) { return py::make_tuple(e.lower, e.upper); }
+
+py::dict areas_of(const SignedFigures::Areas& areas) {
+  py::dict without;
+  for (size_t k = 1; k < kDoubts; ++k)
+    without[doubt_name(static_cast<Doubt>(k))] = interval_of(areas.doubts[k]);
+  return py::dict("over"_a = interval_of(areas.over), "under"_a = interval_of(areas.under),
+                  "unsigned"_a = without);
+}
+
+py::object signed_of(const Question& question, const SignedFigures& s) {
+  py::object areas = py::none(), mean = py::none(), over = py::none(), under = py::none();
+  if (s.areas) areas = areas_of(*s.areas);
+  if (s.mean) mean = interval_of(*s.mean);
+  if (question.faces) {
+    over = py::make_tuple(array_of(s.over_of_faces.lower), array_of(s.over_of_faces.upper));
+    under = py::make_tuple(array_of(s.under_of_faces.lower), array_of(s.under_of_faces.upper));
+  }
+  py::list percentiles;
+  for (const Percentile& p : s.percentiles)
+    percentiles.append(py::make_tuple(p.share, p.distance.lower, p.distance.upper));
+  return py::dict("over"_a = interval_of(s.over), "under"_a = interval_of(s.under),
+                  "inside"_a = inside_name(s.inside), "open_edges"_a = s.edges.open,
+                  "areas"_a = areas, "mean"_a = mean, "percentiles"_a = percentiles,
+                  "over_field"_a = over, "under_field"_a = under);
+}
+
 py::object survey_of(const Question& question, const Report& report,
                      const std::optional<SurveyResult>& found) {
   if (!found) return py::none();
-  py::object field = py::none(), statistics = py::none();
+  py::object field = py::none(), statistics = py::none(), sides = py::none();
   if (question.faces)
     field = py::make_tuple(array_of(found->field.lower), array_of(found->field.upper));
   if (found->statistics) statistics = statistics_of(question, *found->statistics);
+  if (found->sides) sides = signed_of(question, *found->sides);
   const py::dict stats("cells"_a = found->cells, "bounded"_a = found->bounded,
                        "effort"_a = found->effort, "wall_ms"_a = found->ms);
   return py::module_::import("vkhausdorff._survey")
-      .attr("made")(field, statistics, report.upper, survey_end_name(found->ended), stats);
+      .attr("made")(field, statistics, report.upper, survey_end_name(found->ended), stats, sides);
 }
 
 py::dict note_dict(const Note& note) {

@@ -89,10 +89,10 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "distances",
-      {"against",     "tol",      "symmetric", "max",       "device",     "time",  "waves",
-       "memory",      "disable",  "enable",    "preset",    "together",   "lanes", "ahead",
-       "max_input",   "polygons", "bodies",    "field",     "statistics", "bands", "effort",
-       "survey_time", "unit_a",   "unit_b",    "transform", "scale"},
+      {"against",   "tol",         "symmetric", "max",    "device",     "time",   "waves",
+       "memory",    "disable",     "enable",    "preset", "together",   "lanes",  "ahead",
+       "max_input", "polygons",    "bodies",    "field",  "statistics", "signed", "bands",
+       "effort",    "survey_time", "unit_a",    "unit_b", "transform",  "scale"},
       0,
       0};
   const Call call;

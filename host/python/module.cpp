@@ -20,8 +20,8 @@ void define_distance(py::module_& m) {
       "distance", distance,
       "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
-      "         statistics=False, bands=(), effort=None, survey_time=None, certificate=None,\n"
-      "         unit_a=None, unit_b=None, transform=None, scale=False)\n--\n\n"
+      "         statistics=False, signed=False, bands=(), effort=None, survey_time=None,\n"
+      "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
@@ -38,6 +38,9 @@ void define_distance(py::module_& m) {
       "in\n"
       "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
       "each.\n"
+      "signed: also tell where A is over B, in front of its faces as they are oriented, and where\n"
+      "under it; with statistics also the signed mean and percentiles. ValueError where two faces\n"
+      "of B are oriented against each other.\n"
       "effort: the cells of each mesh that these may bound, besides each face once; the same\n"
       "number gives the same bits on a device. None: 4000000 on a CPU, 10000000 on a GPU.\n"
       "survey_time: the seconds that they may take of each mesh, besides time; None for no "
@@ -82,8 +85,9 @@ void define_gate(py::module_& m) {
   m.def("gate", gate,
         "gate(a, b, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
         "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
-        "     field=False, statistics=False, bands=(), area=None, effort=None, survey_time=None,\n"
-        "     certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
+        "     field=False, statistics=False, signed=False, bands=(), area=None, effort=None,\n"
+        "     survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, "
+        "scale=False,\n"
         "     worst=False)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
@@ -113,7 +117,8 @@ void define_solver(py::module_& m) {
           },
           "distance(self, va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
-          "         bands=(), effort=None, survey_time=None, certificate=None, unit_a=None,\n"
+          "         signed=False, bands=(), effort=None, survey_time=None, certificate=None, "
+          "unit_a=None,\n"
           "         unit_b=None, transform=None, scale=False)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(

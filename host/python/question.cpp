@@ -108,7 +108,11 @@ void read_max(const Arguments& given, Question& question) {
       std::string(kOne) + (by_face ? ", or a number for each face of A" : ", or None");
   const py::object* max = given.find("max");
   if (max == nullptr || (max->is_none() && !by_face)) return;
-  if (by_face && is_row(*max)) {
+  if (by_face && py::isinstance<py::str>(*max))
+    question.max_sides = parse_sided("max", text_from("max", expected.c_str(), *max));
+  if (question.max_sides) {
+    question.max = question.max_sides->over;
+  } else if (by_face && is_row(*max)) {
     read_face_limits(*max, expected.c_str(), question);
   } else {
     question.max = length_from("max", expected.c_str(), *max, Length::Of::kFiles);
@@ -173,6 +177,7 @@ void read_survey(const Arguments& given, Question& question) {
   read_field(given, question);
   read_bands(given, question);
   question.statistics = given.flag("statistics") || !question.bands.empty();
+  question.is_signed = given.flag("signed");
   question.effort = given.whole("effort", kEffort);
   question.survey_time_s =
       given.number("survey_time", kTime).value_or(std::numeric_limits<double>::infinity());

@@ -189,6 +189,10 @@ void define_surveys(py::class_<Result>& result) {
           "percentiles", of_survey("percentiles"),
           "with statistics: {share: Interval} of the least distance that so much of A's area is\n"
           "within, for 0.5, 0.9, 0.95 and 0.99; else None")
+      .def_property_readonly(
+          "signed", of_survey("signed"),
+          "with signed, or limits of two sides: the Signed of A, which says where it is over B,\n"
+          "in front of its faces, and where under it; else None")
       .def(
           "area_within", area_within, "distance"_a,
           "area_within(self, distance)\n--\n\n"

@@ -183,14 +183,14 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distance",
-                    {"va",          "fa",          "vb",     "fb",         "tol",       "symmetric",
-                     "device",      "time",        "waves",  "memory",     "disable",   "progress",
-                     "enable",      "preset",      "field",  "statistics", "bands",     "effort",
-                     "survey_time", "certificate", "unit_a", "unit_b",     "transform", "scale"},
-                    4,
-                    6};
+  static const auto* signature = new Signature{
+      "distance",
+      {"va",     "fa",         "vb",        "fb",      "tol",      "symmetric",   "device",
+       "time",   "waves",      "memory",    "disable", "progress", "enable",      "preset",
+       "field",  "statistics", "signed",    "bands",   "effort",   "survey_time", "certificate",
+       "unit_a", "unit_b",     "transform", "scale"},
+      4,
+      6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments arguments(*signature, all, named);
@@ -202,10 +202,10 @@ Result distance(const py::args& positional, const py::kwargs& named) {
 Result gate(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "gate",
-      {"a",          "b",         "max",     "tol",      "symmetric",   "device",      "time",
-       "waves",      "memory",    "disable", "progress", "enable",      "preset",      "field",
-       "statistics", "bands",     "area",    "effort",   "survey_time", "certificate", "unit_a",
-       "unit_b",     "transform", "scale",   "worst"},
+      {"a",          "b",      "max",       "tol",      "symmetric", "device",      "time",
+       "waves",      "memory", "disable",   "progress", "enable",    "preset",      "field",
+       "statistics", "signed", "bands",     "area",     "effort",    "survey_time", "certificate",
+       "unit_a",     "unit_b", "transform", "scale",    "worst"},
       3,
       3};
   const Call call;
@@ -232,9 +232,9 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "Solver.distance",
-      {"va",          "fa",          "tol",    "time",   "waves",      "memory", "disable",
-       "progress",    "enable",      "preset", "field",  "statistics", "bands",  "effort",
-       "survey_time", "certificate", "unit_a", "unit_b", "transform",  "scale"},
+      {"va",       "fa",          "tol",         "time",   "waves",      "memory",    "disable",
+       "progress", "enable",      "preset",      "field",  "statistics", "signed",    "bands",
+       "effort",   "survey_time", "certificate", "unit_a", "unit_b",     "transform", "scale"},
       2,
       3};
   const Call call;

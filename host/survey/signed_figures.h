@@ -1,7 +1,6 @@
 // Figures of sides, and the goal of limits that differ by side.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "host/survey/goals.h"
@@ -13,7 +12,7 @@ namespace vkh {
 /// split does not change them.
 class SidedCells {
  public:
-  explicit SidedCells(const SurveyedPair& pair) : pair_(pair), sides_(pair) {}
+  explicit SidedCells(const SurveyedPair& pair);
 
   const Sides& sides() const { return sides_; }
 
@@ -35,6 +34,7 @@ class SidedCells {
   void look_at(const CellStore& cells, double above);
 
   SurveyedPair pair_;
+  double ms_;  // the time that was spent on sides so far; it must be before sides_
   Sides sides_;
   std::vector<Known> known_;
 };

@@ -5,20 +5,22 @@ from vkhausdorff._closest import Closest
 from vkhausdorff._core import DeviceError, Mesh, Result, Solver, __version__, closest, devices, distance, read
 from vkhausdorff._many import distances
 from vkhausdorff._result import Witness
-from vkhausdorff._survey import Field, Interval, Survey
+from vkhausdorff._survey import Field, Interval, Signed, Survey
 
-__all__ = ["Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__",
-           "assert_within", "closest", "devices", "distance", "distances", "gate", "read"]
+__all__ = ["Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Signed", "Solver", "Survey", "Witness",
+           "__version__", "assert_within", "closest", "devices", "distance", "distances", "gate", "read"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
-         progress=None, enable=(), preset="", field=False, statistics=False, bands=(), area=None, effort=None,
-         survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False, worst=False):
+         progress=None, enable=(), preset="", field=False, statistics=False, signed=False, bands=(), area=None,
+         effort=None, survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,
+         worst=False):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
     returns, or paths of files. max: a positive number in the coordinates' own unit, a string such as '0.1%' of A's
-    diagonal, or a number for each face of A. symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail'
+    diagonal, or a number for each face of A; or '+0.25mm,-0.4mm', for points over B, in front of its
+    faces, and for points under it. symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail'
     (lower > max; the witness shows where) or 'undecided': h is within tol, a fraction of A's diagonal, of max, or time,
     waves or memory ended. The run ends as soon as either is proven. area: the share of A's area that is to be within max,
     such as 0.995 or '99.5%', instead of all of it; in a symmetric run of B's, too. With field, each face is to be proven
@@ -27,7 +29,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
     """
     return _core.gate(a, b, max, tol=tol, symmetric=symmetric, device=device, time=time, waves=waves, memory=memory,
                       disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
-                      bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
+                      signed=signed, bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
                       unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale, worst=worst)
 
 

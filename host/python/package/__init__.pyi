@@ -92,6 +92,20 @@ class Closest:
     def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, points: npt.ArrayLike, faces: npt.ArrayLike) -> None: ...
     def __iter__(self) -> Iterator[npt.NDArray[Any]]: ...
 
+class Signed:
+    """The sides of the other mesh on which a mesh lies."""
+
+    over: Interval
+    under: Interval
+    inside: Literal["proven", "open", "crossing", "winding", "undecided"]
+    open_edges: int
+    areas: dict[str, Any] | None
+    mean: Interval | None
+    percentiles: dict[float, Interval]
+    over_field: Field | None
+    under_field: Field | None
+    def to_dict(self) -> dict[str, Any]: ...
+
 class Survey:
     """The known bounds of the distances of all of a mesh from the other one."""
 
@@ -106,6 +120,7 @@ class Survey:
     met: bool
     ended: Literal["met", "effort", "bits", "time", "cancelled", "memory"]
     stats: dict[str, Any]
+    signed: Signed | None
     def area_within(self, distance: _Number | str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
 
@@ -181,6 +196,8 @@ class Result:
     def rms(self) -> Interval | None: ...
     @property
     def percentiles(self) -> dict[float, Interval] | None: ...
+    @property
+    def signed(self) -> Signed | None: ...
     def area_within(self, distance: _Number | str) -> Interval: ...
     @property
     def survey_met(self) -> bool | None: ...
@@ -219,6 +236,7 @@ class Solver:
         preset: _Preset = "",
         field: bool | _Number | str = False,
         statistics: bool = False,
+        signed: bool = False,
         bands: _Bands = (),
         effort: SupportsIndex | None = None,
         survey_time: _Number | None = None,
@@ -244,6 +262,7 @@ class Solver:
         preset: _Preset = "",
         field: bool | _Number | str = False,
         statistics: bool = False,
+        signed: bool = False,
         bands: _Bands = (),
         effort: SupportsIndex | None = None,
         survey_time: _Number | None = None,
@@ -279,6 +298,7 @@ def distance(
     preset: _Preset = "",
     field: bool | _Number | str = False,
     statistics: bool = False,
+    signed: bool = False,
     bands: _Bands = (),
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
@@ -307,6 +327,7 @@ def distance(
     preset: _Preset = "",
     field: bool | _Number | str = False,
     statistics: bool = False,
+    signed: bool = False,
     bands: _Bands = (),
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
@@ -349,6 +370,7 @@ def distances(
     bodies: Literal["solid", "all"] = "solid",
     field: bool | _Number | str = False,
     statistics: bool = False,
+    signed: bool = False,
     bands: _Bands = (),
     effort: SupportsIndex | None = None,
     survey_time: _Number | None = None,
@@ -374,6 +396,7 @@ def gate(
     preset: _Preset = "",
     field: bool | _Number | str = False,
     statistics: bool = False,
+    signed: bool = False,
     bands: _Bands = (),
     area: _Number | str | None = None,
     effort: SupportsIndex | None = None,

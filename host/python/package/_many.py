@@ -5,8 +5,8 @@ from vkhausdorff import _core
 
 def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, device="", time=None, waves=None, memory=None,
               disable=(), enable=(), preset="", together=None, lanes=None, ahead=None, max_input=None,
-              polygons="refuse", bodies="solid", field=False, statistics=False, bands=(), effort=None,
-              survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False):
+              polygons="refuse", bodies="solid", field=False, statistics=False, signed=False, bands=(),
+              effort=None, survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False):
     """The distance of each of many pairs: an iterator of results, in the order in which pairs end.
 
     pairs: an iterable, which may be endless, of (a, b) or (id, a, b). Each of a and b is a mesh: what read() returns, the
@@ -20,7 +20,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     have verdict, and tol is 1e-7, otherwise 1e-6. tol, symmetric, memory, waves, disable, enable and preset are those of
     distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
-    pays there. max_input, polygons and bodies are those of read(); field, statistics, bands, effort, survey_time,
+    pays there. max_input, polygons and bodies are those of read(); field, statistics, signed, bands, effort, survey_time,
     unit_a, unit_b, transform and scale those of distance(), for each pair.
 
     Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or
@@ -36,7 +36,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     named = {} if tol is None else {"tol": tol}
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
-                           max_input=max_input, polygons=polygons, bodies=bodies, field=field, statistics=statistics, bands=bands,
+                           max_input=max_input, polygons=polygons, bodies=bodies, field=field, statistics=statistics, signed=signed, bands=bands,
                            effort=effort, survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
                            **named)
     first = getattr(pairs, "first_index", 0)  # vkhausdorff.dask's shards have it

@@ -51,6 +51,40 @@ class Field:
         return f"<vkhausdorff.Field of {len(self)} faces>"
 
 
+@dataclass(frozen=True, eq=True)
+class Signed:
+    """The sides of the other mesh on which a mesh lies: over it, in front of its faces as they are oriented, or under it.
+
+    over, under: Intervals of the largest distance of a point on that side; upper covers what has no side. inside: whether
+    the other mesh has a proven inside, or why not: 'open', 'crossing', 'winding' or 'undecided'; open_edges: of it. areas:
+    Intervals of shares of the area, {'over', 'under', 'unsigned': {reason: Interval}}, or None. mean, percentiles: of the
+    signed distance, which is negative under the other mesh; with statistics. over_field, under_field: with field, a Field of
+    each side.
+    """
+
+    over: Interval
+    under: Interval
+    inside: str
+    open_edges: int
+    areas: Any
+    mean: Any
+    percentiles: Any
+    over_field: Any
+    under_field: Any
+
+    __hash__ = None
+
+    def to_dict(self):
+        """All of it as plain values, which json.dumps takes."""
+        plain = {"over": list(self.over), "under": list(self.under), "inside": self.inside, "open_edges": self.open_edges,
+                 "areas": None, "mean": list(self.mean) if self.mean is not None else None,
+                 "percentiles": [{"share": share, "distance": list(d)} for share, d in self.percentiles.items()]}
+        if self.areas is not None:
+            plain["areas"] = {"over": list(self.areas["over"]), "under": list(self.areas["under"]),
+                              "unsigned": {why: list(share) for why, share in self.areas["unsigned"].items()}}
+        return plain
+
+
 @dataclass(frozen=True, repr=False)
 class Survey:
     """The known bounds of the distances of all of a mesh from the other one. Lengths are in the coordinates' unit.
@@ -60,7 +94,7 @@ class Survey:
     within; bands, {distance as it was given: Interval} of the share of the area within it; curve, [(distance, Interval)],
     the same for distances that ascend from 0 to the largest. met: whether all is as narrow as was asked. ended: why the
     survey ended, 'met', 'effort' (that many cells were bounded), 'bits' (no split would narrow more), 'time' (survey_time
-    ended it early: the next run may differ), 'cancelled' or 'memory'. stats: its effort and cost.
+    ended it early: the next run may differ), 'cancelled' or 'memory'. stats: its effort and cost. signed: a Signed, or None.
     """
 
     upper: float
@@ -74,6 +108,7 @@ class Survey:
     met: bool
     ended: str
     stats: Any = _member(compare=False)
+    signed: Any = None
 
     __hash__ = None
 
@@ -120,6 +155,8 @@ class Survey:
                 "bands": [{"distance": d, "share": list(share)} for d, share in self.bands.items()],
                 "percentiles": [{"share": share, "distance": list(d)} for share, d in self.percentiles.items()],
                 "curve": [{"distance": d, "share": list(share)} for d, share in self.curve]}
+        if self.signed is not None:
+            plain["signed"] = self.signed.to_dict()
         return plain
 
     def __repr__(self):
@@ -128,19 +165,33 @@ class Survey:
         return f"<vkhausdorff.Survey {', '.join(words)}{'' if self.met else ', not met'}>"
 
 
-for _cls in (Interval, Field, Survey):
+for _cls in (Interval, Field, Signed, Survey):
     _cls.__module__ = "vkhausdorff"  # the package's names, for pickles too
 
 
-def made(field, statistics, upper, ended, stats):
+def _signed(found):
+    if found is None:
+        return None
+    areas = found["areas"]
+    if areas is not None:
+        areas = {"over": Interval(*areas["over"]), "under": Interval(*areas["under"]),
+                 "unsigned": {why: Interval(*share) for why, share in areas["unsigned"].items()}}
+    fields = [Field(*found[name]) if found[name] is not None else None for name in ("over_field", "under_field")]
+    return Signed(Interval(*found["over"]), Interval(*found["under"]), found["inside"], found["open_edges"], areas,
+                  Interval(*found["mean"]) if found["mean"] is not None else None,
+                  {share: Interval(lower, upper) for share, lower, upper in found["percentiles"]}, *fields)
+
+
+def made(field, statistics, upper, ended, stats, signed=None):
     """Makes a Survey from the results of C++."""
     field = Field(*field) if field is not None else None
+    signed = _signed(signed)
     met = ended == "met"
     if statistics is None:
-        return Survey(upper, field, None, None, None, None, None, None, met, ended, stats)
+        return Survey(upper, field, None, None, None, None, None, None, met, ended, stats, signed)
 
     def pairs(name):
         return [(key, Interval(*bounds)) for key, bounds in statistics[name]]
 
     return Survey(upper, field, statistics["area"], Interval(*statistics["mean"]), Interval(*statistics["rms"]),
-                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, ended, stats)
+                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, ended, stats, signed)

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Sides in the Python module: signed figures, fields of both sides, and limits that differ by side."""
+
+import json
+import pickle
+import unittest
+
+import numpy as np
+
+import vkhausdorff as vkh
+
+FLOOR = (np.array([[-2, -2, 0], [3, -2, 0], [3, 3, 0], [-2, 3, 0]], float), np.array([[0, 1, 2], [0, 2, 3]]))
+# From 0.1 under the floor to 0.15 over it, evenly.
+RAMP = (np.array([[0, 0, -0.1], [1, 0, 0.15], [1, 1, 0.15], [0, 1, -0.1]], float), np.array([[0, 1, 2], [0, 2, 3]]))
+TURNED = (FLOOR[0], FLOOR[1][:, ::-1])
+
+
+class Signed(unittest.TestCase):
+    def test_a_ramp_through_a_floor(self):
+        r = vkh.distance(RAMP, FLOOR, field=True, statistics=True, signed=True)
+        s = r.signed
+        self.assertIs(s, r.survey.signed)
+        self.assertEqual(s.inside, "open")
+        self.assertEqual(s.open_edges, 4)
+        self.assertIn(0.15, vkh.Interval(s.over.lower, s.over.upper + 1e-12))
+        self.assertIn(0.1, vkh.Interval(s.under.lower, s.under.upper + 1e-12))
+        self.assertIn(0.025, s.mean)
+        self.assertIn(0.025, s.percentiles[0.5])
+        self.assertLess(s.percentiles[0.01].upper, 0)
+        self.assertGreater(s.areas["over"].lower, 0.55)
+        self.assertGreater(s.areas["under"].lower, 0.35)
+        self.assertLess(s.areas["unsigned"]["meets"].upper, 0.05)
+        self.assertEqual(len(s.over_field), 2)
+        self.assertTrue((s.over_field.upper <= r.field.upper).all())
+
+    def test_the_other_side_of_the_floor(self):
+        s = vkh.distance(RAMP, FLOOR, statistics=True, signed=True).signed
+        t = vkh.distance(RAMP, TURNED, statistics=True, signed=True).signed
+        self.assertEqual(s.over, t.under)
+        self.assertIn(-0.025, t.mean)
+
+    def test_plain_values_and_pickles(self):
+        survey = vkh.distance(RAMP, FLOOR, statistics=True, signed=True).survey
+        self.assertEqual(pickle.loads(pickle.dumps(survey)), survey)
+        self.assertEqual(json.loads(json.dumps(survey.to_dict()))["signed"]["inside"], "open")
+        self.assertIsNone(vkh.distance(RAMP, FLOOR, statistics=True).signed)
+
+    def test_limits_of_two_sides(self):
+        for limits, verdict in (("+0.16abs,-0.11abs", "pass"), ("+0.14abs,-0.11abs", "fail"), ("-0.09abs,+0.2abs", "fail")):
+            with self.subTest(limits):
+                self.assertEqual(vkh.gate(RAMP, FLOOR, limits).verdict, verdict)
+        self.assertEqual(vkh.gate(RAMP, TURNED, "+0.11abs,-0.16abs").verdict, "pass")
+        with self.assertRaisesRegex(ValueError, "symmetric: limits of two sides"):
+            vkh.gate(RAMP, FLOOR, "+0.16abs,-0.11abs", symmetric=True)
+
+    def test_faces_against_each_other_are_refused(self):
+        bad = (FLOOR[0], np.array([[0, 1, 2], [0, 3, 2]]))
+        with self.assertRaisesRegex(ValueError, "oriented against each other"):
+            vkh.distance(RAMP, bad, signed=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
