@@ -55,6 +55,16 @@ dvec3 near_point(const Mesh& a, uint32_t face, const glm::uvec3& w) {
          0x1p-24;
 }
 
+// Whether the faces of a closed mesh look outward: by its volume.
+bool is_outward(const Mesh& b) {
+  double volume = 0;
+  const dvec3 from = b.vertices[0];
+  for (const glm::uvec3& f : b.faces)
+    volume += glm::dot(b.vertices[f.x] - from,
+                       glm::cross(b.vertices[f.y] - from, b.vertices[f.z] - from));
+  return volume > 0;
+}
+
 // Whether a point of the cell is on the side that was told; nothing if the oracle cannot tell.
 std::optional<bool> is_right(const SurveyedPair& pair, const ExactSides& oracle, const Sides& sides,
                              const gpu::Cell& cell, SurfaceSide told, Random& random) {
@@ -64,7 +74,9 @@ std::optional<bool> is_right(const SurveyedPair& pair, const ExactSides& oracle,
   if (sides.is_shared()) {
     const std::optional<int> winding = oracle.winding(p);
     if (!winding) return std::nullopt;
-    return (*winding <= 0) == is_over;
+    const bool is_outside = *winding == 0;
+    if (!is_outside && *winding != (is_outward(pair.b) ? 1 : -1)) return false;
+    return (is_outside == is_outward(pair.b)) == is_over;
   }
   const double off = 1e-12 * (diagonal(pair.b) + glm::length(dvec3(pair.b.vertices[0])));
   const ExactSides::Closest closest = oracle.closest(p, near_point(pair.a, cell.face, w), off);
