@@ -47,13 +47,21 @@ std::string percentiles_text(const std::vector<Percentile>& percentiles, const s
   return text;
 }
 
+// Shares are known to 1e-12, which nobody wants to read: a hundredth of a percent is shown.
+std::string share_text(const Enclosure& share) {
+  const Enclosure percent = in_percent(share);
+  constexpr double kShown = 0.01;
+  return "[" + number(percent.lower, kShown, Rounding::kDown) + ", " +
+         number(percent.upper, kShown, Rounding::kUp) + "] %";
+}
+
 // "61.2 % of A's area over B, 38.1 % under it", and why the rest has no side.
 std::string area_of_sides(const SignedFigures::Areas& areas) {
-  std::string text = enclosure(in_percent(areas.over), "%") + " of the area over, " +
-                     enclosure(in_percent(areas.under), "%") + " under";
+  std::string text =
+      share_text(areas.over) + " of the area over, " + share_text(areas.under) + " under";
   for (size_t k = 1; k < kDoubts; ++k) {
     if (areas.doubts[k].upper > 0)
-      text += ", " + enclosure(in_percent(areas.doubts[k]), "%") + " unsigned (" +
+      text += ", " + share_text(areas.doubts[k]) + " unsigned (" +
               doubt_name(static_cast<Doubt>(k)) + ")";
   }
   return text;

@@ -153,7 +153,7 @@ Scores SidedCells::score_limits(const CellStore& cells, const SidedLimits& limit
 // Neither segments nor points of B, nor faces on each other, nor a cell's whole surroundings get
 // clearer by splits.
 Scores SidedCells::score_unsigned(const CellStore& cells, const Areas& areas) {
-  constexpr double kEnough = 0.01;
+  constexpr double kEnough = 0.05;
   look_at(cells, -1);
   Scores scores{{}, true};
   double open = 0;

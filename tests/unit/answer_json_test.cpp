@@ -132,7 +132,7 @@ Answer surveyed() {
 SignedFigures sides() {
   SignedFigures s;
   s.over = {0.1, 0.15};
-  s.under = {0, 0.03};
+  s.under = {0.12, 0.15};
   s.over_face = 7;
   s.inside = Inside::kOpen;
   s.edges = {.open = 3, .uneven = 1};
