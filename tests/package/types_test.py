@@ -92,7 +92,7 @@ class Types(unittest.TestCase):
         core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
         said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
         self.assertEqual(said, public)
-        in_python = {"Closest", "Field", "Interval", "Survey", "Witness", "assert_within", "distances"}
+        in_python = {"Closest", "Field", "Interval", "Signed", "Survey", "Witness", "assert_within", "distances"}
         self.assertEqual(core | in_python, public, "the package does not pass on what the module has")
         self.assertEqual(set(vkh.__all__), public | {"__version__"})
 
@@ -129,7 +129,7 @@ class Types(unittest.TestCase):
                 self.assertEqual(sorted(taken), sorted(inspect.signature(said).parameters), function)
 
     def test_properties_have_the_types_that_they_say(self):
-        result = vkh.distance(*SQUARE, *SQUARE, field=True, statistics=True, symmetric=True)
+        result = vkh.distance(*SQUARE, *SQUARE, field=True, statistics=True, signed=True, symmetric=True)
         bare = vkh.distance(*SQUARE, *SQUARE)
         for key, member in stub_of(stub_of(STUB.body)["Result"].body).items():
             if not is_property(member) or key in ("index", "id", "error"):  # of distances()
