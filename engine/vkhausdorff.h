@@ -111,7 +111,8 @@ typedef enum VkhResult {
   VKH_ERROR_TOO_LARGE = -3, /* a mesh exceeds 2^28, or one storage buffer binding (but see
                              * VKH_CONTEXT_BY_ADDRESS); or is empty */
   VKH_ERROR_MEMORY = -4,    /* no host or device memory for descriptor sets */
-  VKH_ERROR_NOT_ENABLED = -5, /* the device has what is needed, and was created without it */
+  VKH_ERROR_NOT_ENABLED = -5, /* the device has what is needed, and was created without it; known
+                                 only where the driver gives no function of it then */
   /* A struct's `size` or a flag that no known version has; with VKH_CONTEXT_CHECK_CALLS a broken
    * rule.
    */

@@ -151,15 +151,18 @@ Scores SidedCells::score_limits(const CellStore& cells, const SidedLimits& limit
 }
 
 // Neither segments nor points of B, nor faces on each other, nor a cell's whole surroundings get
-// clearer by splits.
+// clearer by splits. Cells that are no farther than a hundredth of the largest distance have signed
+// distances that are known as well without a side.
 Scores SidedCells::score_unsigned(const CellStore& cells, const Areas& areas) {
-  constexpr double kEnough = 0.05;
+  constexpr double kEnough = 0.05, kNear = 0.01;
   look_at(cells, -1);
   Scores scores{{}, true};
+  const double near = kNear * static_cast<double>(cells.reached());
   double open = 0;
   for (size_t i = 0; i < cells.count(); ++i) {
     const CellSide& side = known_[i].side;
     if (side.doubt != Doubt::kMeets && side.doubt != Doubt::kEdge) continue;
+    if (static_cast<double>(cells.bounds(i).highest) <= near) continue;
     const double area = cells.share(i) * areas.of_face[cells.face(i)];
     open += area;
     if (area > 0 && cells.can_split(i)) scores.cells.push_back({area, i});

@@ -20,7 +20,8 @@ class SidedCells {
   /// smaller one. Met, too, as soon as some point is beyond.
   Scores score_limits(const CellStore& cells, const SidedLimits& limits);
 
-  /// A cell without a side scores by its area, until a twentieth of A's is left.
+  /// A cell without a side scores by its area, until a twentieth of A's is left that has none and
+  /// is farther from B than a hundredth of the largest distance.
   Scores score_unsigned(const CellStore& cells, const Areas& areas);
 
   SignedFigures figures(const SurveyedArea& surface, const SurveyOptions& options) const;

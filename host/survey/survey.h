@@ -47,7 +47,9 @@ struct SurveyOptions {
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
-  bool is_signed = false;  ///< the sides of A are wanted, of 95 % of its area: result.sides
+  /// The sides of A are wanted, of 95 % of its area that is farther from B than a hundredth of the
+  /// largest distance: result.sides.
+  bool is_signed = false;
   /// If set: A is only to be proven within the limits of its sides, or beyond. Sides are wanted.
   std::optional<SidedLimits> sided = {};
   /// No distance is above it, in the files' units.

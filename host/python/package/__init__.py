@@ -19,7 +19,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
     returns, or paths of files. max: a positive number in the coordinates' own unit, a string such as '0.1%' of A's
-    diagonal, or a number for each face of A; or '+0.25mm,-0.4mm', for points over B, in front of its
+    diagonal, or a number for each face of A; or '+0.25abs,-0.4abs', for points over B, in front of its
     faces, and for points under it. symmetric: B within max of A, too. verdict: 'pass' (upper <= max), 'fail'
     (lower > max; the witness shows where) or 'undecided': h is within tol, a fraction of A's diagonal, of max, or time,
     waves or memory ended. The run ends as soon as either is proven. area: the share of A's area that is to be within max,
