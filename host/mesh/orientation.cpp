@@ -47,7 +47,7 @@ std::optional<std::array<int64_t, 3>> integers_of(double x, double y, double z) 
   for (size_t i = 0; i < 3; ++i) {
     if (mantissa[i] == 0) continue;
     const int up = exponent[i] - least;
-    if (up + std::bit_width(static_cast<uint64_t>(mantissa[i])) > 40) return {};
+    if (up + static_cast<int>(std::bit_width(static_cast<uint64_t>(mantissa[i]))) > 40) return {};
     result[i] = std::signbit(all[i]) ? -(mantissa[i] << up) : mantissa[i] << up;
   }
   return result;

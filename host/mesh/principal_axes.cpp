@@ -4,21 +4,20 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <numeric>
 
 #include "host/base/parallel.h"
 
 namespace vkh {
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
+using Matrix = glm::dmat3;  // symmetric, or of axes: [i] is one
 
 /// Sums of the area, and of the area times each coordinate and product of coordinates about a
 /// point.
 struct Sums {
   double area = 0;
   glm::dvec3 first{};
-  Matrix second{};
+  Matrix second{0};
 
   /// The integral of x_i x_j over a triangle with corners c_k is area / 12 times
   /// sum_k c_ki c_kj + (sum_k c_ki) (sum_k c_kj).
@@ -60,7 +59,7 @@ Sums sums_of(const Mesh& mesh) {
   return all;
 }
 
-/// Turns `m` and the rows of `axes` in the plane of i and j so that m_ij becomes 0.
+/// Turns `m` and the axes in the plane of i and j so that m_ij becomes 0.
 void rotate(Matrix& m, Matrix& axes, int i, int j) {
   if (m[i][j] == 0) return;
   const double angle = 0.5 * std::atan2(2 * m[i][j], m[j][j] - m[i][i]);
@@ -78,7 +77,7 @@ void rotate(Matrix& m, Matrix& axes, int i, int j) {
 /// Finds the eigenvectors of a symmetric matrix by Jacobi's rotations: eight sweeps are more than
 /// doubles of three by three need.
 Matrix diagonalize(Matrix& m) {
-  Matrix axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Matrix axes{1};
   for (int sweep = 0; sweep < 8; ++sweep) {
     rotate(m, axes, 0, 1);
     rotate(m, axes, 0, 2);
@@ -107,18 +106,18 @@ PrincipalAxes principal_axes_of(const Mesh& mesh) {
   if (!(sums.area > 0) || !std::isfinite(sums.area)) return of_mesh;
   const glm::dvec3 centre = sums.first / sums.area;
   of_mesh.centroid = glm::dvec3(mesh.vertices[0]) + centre;
-  Matrix m{};
+  Matrix m{0};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j)
       m[i][j] = m[j][i] = sums.second[i][j] / sums.area - centre[i] * centre[j];
   }
   if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return of_mesh;
   const Matrix axes = diagonalize(m);
-  std::array<int, 3> order{0, 1, 2};
-  std::sort(order.begin(), order.end(), [&](int x, int y) { return m[x][x] < m[y][y]; });
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int x, int y) { return m[x][x] < m[y][y]; });
   for (int i = 0; i < 3; ++i) {
     of_mesh.variances[i] = m[order[i]][order[i]];
-    for (int k = 0; k < 3; ++k) of_mesh.axes[i][k] = axes[order[i]][k];
+    of_mesh.axes[i] = axes[order[i]];
   }
   return of_mesh;
 }

@@ -1,7 +1,7 @@
 // A surface's area, centroid and principal axes: figures for notes, in ordinary double arithmetic.
 #pragma once
 
-#include <array>
+#include <glm/mat3x3.hpp>
 #include <optional>
 
 #include "host/mesh/mesh.h"
@@ -16,7 +16,8 @@ struct PrincipalAxes {
   /// The mean squared distances from the centroid along each axis, the least first; zeros where
   /// there is no area, or a figure is too large for a double.
   DVec3 variances{};
-  std::array<DVec3, 3> axes{};  ///< principal axes, of length 1 and of either sign
+  glm::mat<3, 3, double, glm::packed_highp> axes{
+      0};  ///< [i]: an axis, of length 1 and of either sign
 };
 /// The same figures to the bit whatever the number of threads is.
 PrincipalAxes principal_axes_of(const Mesh& mesh);

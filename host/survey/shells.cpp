@@ -421,7 +421,7 @@ std::vector<uint32_t> Shells::patches(const std::vector<EdgeUse>& uses) const {
 }
 
 Inside Shells::wind(const std::vector<EdgeUse>& uses) {
-  constexpr int kUnknown = INT32_MAX, kTried = 16;
+  constexpr int kUnknown = INT32_MAX, kTriedFaces = 16;
   const std::vector<uint32_t> first = patches(uses);
   std::vector<uint32_t> members(faces_.size());  // the faces, those of a patch together
   std::iota(members.begin(), members.end(), 0u);
@@ -435,7 +435,7 @@ Inside Shells::wind(const std::vector<EdgeUse>& uses) {
   }
   each_part(begins.size(), [&](size_t, size_t k) {
     const size_t begin = begins[k];
-    for (size_t i = begin; i < std::min(begin + kTried, members.size()); ++i) {
+    for (size_t i = begin; i < std::min(begin + kTriedFaces, members.size()); ++i) {
       if (first[members[i]] != first[members[begin]]) return;
       const std::optional<int> found = front_winding(members[i]);
       if (found) front[begin] = *found;
