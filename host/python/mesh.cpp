@@ -139,7 +139,7 @@ py::tuple named_arrays_of(const char* argument, const py::object& object) {
 }
 
 py::tuple checked_arrays(const char* argument, const py::object& object) {
-  const py::tuple arrays = named_arrays_of(argument, object);
+  py::tuple arrays = named_arrays_of(argument, object);
   if (!has_arrays(arrays))
     throw py::type_error(std::string(argument) +
                          ": expected (vertices, faces), an object that has .vertices and .faces, "

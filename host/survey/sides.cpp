@@ -243,12 +243,12 @@ CellSide Sides::by_faces(const gpu::Cell& cell, uint32_t hint) const {
       found.doubt = Doubt::kDegenerate;
     } else if (++seen > kMostFaces) {
       found.doubt = Doubt::kMany;
-    } else if ((side = side_of_plane<double>(cell, plane)) == 0 &&
-               (side = side_of_plane<Float128>(cell, plane)) == 0) {
-      found.doubt = Doubt::kEdge;
-    } else if (found.side != SurfaceSide::kUnsigned &&
-               found.side != static_cast<SurfaceSide>(side)) {
-      found.doubt = Doubt::kEdge;
+    } else {
+      side = side_of_plane<double>(cell, plane);
+      if (side == 0) side = side_of_plane<Float128>(cell, plane);
+      const bool is_other =
+          found.side != SurfaceSide::kUnsigned && found.side != static_cast<SurfaceSide>(side);
+      if (side == 0 || is_other) found.doubt = Doubt::kEdge;
     }
     found.side = static_cast<SurfaceSide>(side);
     if (found.doubt == Doubt::kEdge && shells_.is_two_sided(face)) found.doubt = Doubt::kTwoSided;
