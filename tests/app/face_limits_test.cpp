@@ -75,7 +75,10 @@ TEST_CASE("--face-max: each face its own limit") {
   };
   CHECK(ask("face,max\n0,0.3\n1,0.26abs\n", "0.1abs").exit_code == 0);
   const Outcome pass = ask("# wide\n0,0.3\n", "0.26abs");
-  CHECK(pass.out.starts_with("PASS  2 of 2 faces of A are proven to be within their own limits"));
+  // Its squares are far apart for their size.
+  CHECK(pass.out.starts_with("PASS  if the inputs are right (the boxes"));
+  CHECK(pass.out.find("): 2 of 2 faces of A are proven to be within their own limits") <
+        pass.out.find('\n'));
   const Outcome fail = ask("1,0.2\n", "0.3abs", {"--json"});
   CHECK(fail.exit_code == 1);
   const json r = json::parse(fail.out);
@@ -150,7 +153,9 @@ TEST_CASE("a limit of a polygon holds for all of it") {
   };
   const Outcome pass = ask("3,1.6\n", "0.3abs");
   CHECK(pass.exit_code == 0);
-  CHECK(json::parse(pass.out)["words"].get<std::string>().starts_with("PASS  4 of 4 triangles"));
+  const std::string words = json::parse(pass.out)["words"];
+  CHECK(words.starts_with("PASS  "));
+  CHECK(words.find("4 of 4 triangles") != std::string::npos);
   CHECK(ask("0,0.3\n1,0.001\n4,0.3\n", "1.6abs").exit_code == 0);
   for (const int near : {0, 4}) {
     CAPTURE(near);
