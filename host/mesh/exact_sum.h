@@ -18,35 +18,29 @@ inline uint64_t mantissa_of(double x, int& exponent) {
   return field == 0 ? fraction : fraction | uint64_t{1} << 52;
 }
 
-/// Sums products of doubles without rounding, whatever their exponents. Every finite double is an
-/// integer times 2^-1074, so a product is one times 2^-2148, less than 2^2048 in size; the sum is
-/// held in two's complement with bit 0 worth 2^-2148 and at least 60 bits to spare at the top.
-class ExactSum {
+/// An integer of 64 kLimbs bits in two's complement, which begins as 0.
+template <size_t kLimbs>
+class WideInteger {
  public:
-  void add_product(double a, double b, bool negative) {
-    int exponent_a = 0, exponent_b = 0;
-    const auto mantissa_a = mantissa_of(a, exponent_a);
-    const auto mantissa_b = mantissa_of(b, exponent_b);
-    const unsigned __int128 product = static_cast<unsigned __int128>(mantissa_a) * mantissa_b;
-    add(product, static_cast<unsigned>(exponent_a + exponent_b + 2148),
-        negative != (std::signbit(a) != std::signbit(b)));
-  }
-
   bool is_zero() const {
     return std::all_of(limbs_.begin(), limbs_.end(), [](uint64_t limb) { return limb == 0; });
   }
   /// -1, 0 or 1.
   int sign() const { return limbs_.back() >> 63 != 0 ? -1 : is_zero() ? 0 : 1; }
 
- private:
-  // A product has at most 106 bits; shifted by up to 63 it covers three limbs.
-  void add(unsigned __int128 product, unsigned shift, bool negative) {
+ protected:
+  /// Adds `value` * 2^shift, or subtracts it. The value's parts are its words of 64 bits, the least
+  /// first; shifted by up to 63 bits it covers one more.
+  template <size_t kParts>
+  void add(const std::array<uint64_t, kParts>& value, unsigned shift, bool negative) {
     const unsigned bit = shift % 64;
-    const std::array<uint64_t, 3> parts = {
-        static_cast<uint64_t>(product << bit), static_cast<uint64_t>(product >> (64 - bit)),
-        bit == 0 ? 0 : static_cast<uint64_t>(product >> 64 >> (64 - bit))};
+    std::array<uint64_t, kParts + 1> parts{};
+    for (size_t i = 0; i < kParts; ++i) {
+      parts[i] |= value[i] << bit;
+      if (bit != 0) parts[i + 1] = value[i] >> (64 - bit);
+    }
     uint64_t carry = negative ? 1 : 0;
-    for (size_t i = shift / 64, part = 0; i < limbs_.size(); ++i, ++part) {
+    for (size_t i = shift / 64, part = 0; i < kLimbs; ++i, ++part) {
       const uint64_t added = part < parts.size() ? parts[part] : 0;
       const unsigned __int128 sum =
           static_cast<unsigned __int128>(limbs_[i]) + (negative ? ~added : added) + carry;
@@ -55,7 +49,25 @@ class ExactSum {
     }
   }
 
-  std::array<uint64_t, 67> limbs_{};
+ private:
+  std::array<uint64_t, kLimbs> limbs_{};
+};
+
+/// Sums products of doubles without rounding, whatever their exponents. Every finite double is an
+/// integer times 2^-1074, so a product is one times 2^-2148, less than 2^2048 in size; bit 0 is
+/// worth 2^-2148, and at least 60 bits are left at the top.
+class ExactSum : public WideInteger<67> {
+ public:
+  void add_product(double a, double b, bool negative) {
+    int exponent_a = 0, exponent_b = 0;
+    const auto mantissa_a = mantissa_of(a, exponent_a);
+    const auto mantissa_b = mantissa_of(b, exponent_b);
+    const unsigned __int128 product = static_cast<unsigned __int128>(mantissa_a) * mantissa_b;
+    add(std::array<uint64_t, 2>{static_cast<uint64_t>(product),
+                                static_cast<uint64_t>(product >> 64)},
+        static_cast<unsigned>(exponent_a + exponent_b + 2148),
+        negative != (std::signbit(a) != std::signbit(b)));
+  }
 };
 
 using Point2 = std::array<double, 2>;

@@ -78,7 +78,7 @@ std::optional<int> short_orientation(const Corners3& from_d) {
 
 // Sums products of three doubles without rounding, as ExactSum does those of two: bit 0 is worth
 // 2^-3222, a product is under 2^3072, and 100 limbs leave 106 bits at the top.
-class ExactVolume {
+class ExactVolume : public WideInteger<100> {
  public:
   void add_product(double a, double b, double c, bool negative) {
     int ea = 0, eb = 0, ec = 0;
@@ -91,31 +91,6 @@ class ExactVolume {
     add(product, static_cast<unsigned>(ea + eb + ec + 3222),
         negative != (std::signbit(a) != (std::signbit(b) != std::signbit(c))));
   }
-
-  int sign() const {
-    if (limbs_.back() >> 63 != 0) return -1;
-    return std::all_of(limbs_.begin(), limbs_.end(), [](uint64_t l) { return l == 0; }) ? 0 : 1;
-  }
-
- private:
-  void add(const std::array<uint64_t, 3>& product, unsigned shift, bool negative) {
-    const unsigned bit = shift % 64;
-    std::array<uint64_t, 4> parts{};
-    for (size_t i = 0; i < 3; ++i) {
-      parts[i] |= product[i] << bit;
-      if (bit != 0) parts[i + 1] = product[i] >> (64 - bit);
-    }
-    uint64_t carry = negative ? 1 : 0;
-    for (size_t i = shift / 64, part = 0; i < limbs_.size(); ++i, ++part) {
-      const uint64_t added = part < parts.size() ? parts[part] : 0;
-      const unsigned __int128 sum =
-          static_cast<unsigned __int128>(limbs_[i]) + (negative ? ~added : added) + carry;
-      limbs_[i] = static_cast<uint64_t>(sum);
-      carry = static_cast<uint64_t>(sum >> 64);
-    }
-  }
-
-  std::array<uint64_t, 100> limbs_{};
 };
 
 // Adds p . (q x r).
