@@ -257,7 +257,7 @@ const char* one_way_text(const Answer& answer) {
                            : "A to B only; --symmetric also finds what A lacks of B";
 }
 
-/// What is odd about the pair, in a few words; empty: nothing.
+/// Says in a few words why the pair is odd; empty: it is not.
 std::string oddities(const Answer& answer) {
   std::string text;
   for (const Note& note : answer.notes) {
@@ -299,7 +299,7 @@ const SignedFigures* sides_of(const Answer& answer, bool back) {
 
 namespace {
 
-// What no side matters for is decided by the interval alone.
+// The interval alone decides where both limits agree, whatever the sides are.
 Verdict verdict_of_sides(const Answer& answer, const Report& r, const SignedFigures* found) {
   const SidedLimits& limits = answer.max->sides->limits;
   if (r.upper <= limits.smaller().within) return Verdict::kWithin;

@@ -60,17 +60,16 @@ void for_each_index(size_t count, const std::function<void(size_t)>& work, size_
   if (error) std::rethrow_exception(error);
 }
 
-void for_each_block(size_t count, const RangeWork& work) {
-  for_each_index(block_count(count),
-                 [&](size_t i) { work(i, i * kBlock, std::min((i + 1) * kBlock, count)); });
+void for_each_range_of(size_t size, size_t count, const RangeWork& work) {
+  for_each_index((count + size - 1) / size,
+                 [&](size_t i) { work(i, i * size, std::min((i + 1) * size, count)); });
 }
 
 void copy_together(void* to, const void* from, size_t bytes) {
   constexpr size_t kPiece = size_t{1} << 22;  // 0.4 ms
-  for_each_index((bytes + kPiece - 1) / kPiece, [&](size_t i) {
-    const size_t at = i * kPiece;
-    std::memcpy(static_cast<std::byte*>(to) + at, static_cast<const std::byte*>(from) + at,
-                std::min(kPiece, bytes - at));
+  for_each_range_of(kPiece, bytes, [&](size_t, size_t begin, size_t end) {
+    std::memcpy(static_cast<std::byte*>(to) + begin, static_cast<const std::byte*>(from) + begin,
+                end - begin);
   });
 }
 

@@ -23,11 +23,16 @@ size_t threads_for(uint64_t bytes);
 void for_each_index(size_t count, const std::function<void(size_t)>& work,
                     size_t threads = thread_count());
 
+/// Calls work(number, begin, end) for all ranges of `size` of `count` items, the last one perhaps
+/// of fewer, as for_each_index does.
+using RangeWork = std::function<void(size_t number, size_t begin, size_t end)>;
+void for_each_range_of(size_t size, size_t count, const RangeWork& work);
+
 constexpr size_t kBlock = size_t{1} << 15;
 inline size_t block_count(size_t count) { return (count + kBlock - 1) / kBlock; }
-/// Calls work(block, begin, end) for all blocks of kBlock of `count` items, as for_each_index does.
-using RangeWork = std::function<void(size_t number, size_t begin, size_t end)>;
-void for_each_block(size_t count, const RangeWork& work);
+inline void for_each_block(size_t count, const RangeWork& work) {
+  for_each_range_of(kBlock, count, work);
+}
 
 /// Copies as memcpy does, on several threads if it is worth them.
 void copy_together(void* to, const void* from, size_t bytes);

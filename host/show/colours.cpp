@@ -95,9 +95,8 @@ FillFaces faces_for(const Picture& picture, const Scale& scale, const Camera& ca
   return
       [writer = FaceWriter(picture, scale, camera)](size_t first, size_t count, Corner* corners) {
         constexpr size_t kPiece = 4096;
-        for_each_index((count + kPiece - 1) / kPiece, [&](size_t piece) {
-          const size_t end = std::min(count, (piece + 1) * kPiece);
-          for (size_t i = piece * kPiece; i < end; ++i) writer(first + i, corners + 3 * i);
+        for_each_range_of(kPiece, count, [&](size_t, size_t begin, size_t end) {
+          for (size_t i = begin; i < end; ++i) writer(first + i, corners + 3 * i);
         });
       };
 }

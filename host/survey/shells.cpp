@@ -34,9 +34,8 @@ constexpr size_t kFacesOfPart = 512;
 
 template <class Work>
 void each_part(size_t count, const Work& work) {
-  for_each_index((count + kFacesOfPart - 1) / kFacesOfPart, [&](size_t part) {
-    for (size_t i = part * kFacesOfPart; i < std::min(count, (part + 1) * kFacesOfPart); ++i)
-      work(part, i);
+  for_each_range_of(kFacesOfPart, count, [&](size_t part, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) work(part, i);
   });
 }
 
@@ -366,10 +365,8 @@ int Shells::shared_corners(uint32_t f, uint32_t g) const {
 // Looks at all pairs of faces with areas whose boxes meet; returns whether some cross. Each pair is
 // looked at from its first face. Bare faces are segments without an area, and bound nothing.
 bool Shells::find_contacts() {
-  constexpr uint32_t kNobody = UINT32_MAX;
   touches_.assign(faces_.size(), 0);
-  std::vector<std::array<uint32_t, 2>> crossing(faces_.size() / kFacesOfPart + 1,
-                                                {kNobody, kNobody});
+  std::vector<uint8_t> crossing(faces_.size() / kFacesOfPart + 1);
   const auto first_at = [&](uint32_t f, uint32_t g, int shared) {
     Corners3 t = triangles_[f];
     const UVec3 &p = positions_[f], &q = positions_[g];
@@ -391,18 +388,18 @@ bool Shells::find_contacts() {
   };
   each_part(faces_.size(), [&](size_t part, size_t i) {
     const auto f = static_cast<uint32_t>(i);
-    if (kind_[f] != Kind::kArea || crossing[part][0] != kNobody) return;
+    if (kind_[f] != Kind::kArea || crossing[part] != 0) return;
     const TriangleBox mine = box_of(triangles_[f]);
     tree_.walk([&](const TriangleBox& box) { return overlap(box, mine); },
                [&](uint32_t g) {
                  if (g <= f || kind_[g] != Kind::kArea) return true;
                  if (!overlap(box_of(triangles_[g]), mine) || look(f, g)) return true;
-                 crossing[part] = {f, g};
+                 crossing[part] = 1;
                  return false;
                });
   });
-  crossing_ = *std::min_element(crossing.begin(), crossing.end());
-  return crossing_[0] != kNobody;
+  return std::any_of(crossing.begin(), crossing.end(),
+                     [](uint8_t crosses) { return crosses != 0; });
 }
 
 // Joins faces at edges that they alone use, if no other face touches them elsewhere: by the first

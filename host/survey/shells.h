@@ -29,8 +29,6 @@ class Shells {
 
   const EdgeCounts& edges() const { return edges_; }
   Inside inside() const { return inside_; }
-  /// The two faces of the first crossing, where inside() is kCrossing.
-  std::array<uint32_t, 2> crossing() const { return crossing_; }
 
   const Corners3& corners(uint32_t face) const { return triangles_[face]; }
   /// Whether the face is a segment or a point that no other face covers.
@@ -59,7 +57,6 @@ class Shells {
   void mark_two_sided();
   std::vector<EdgeUse> edge_uses() const;
   void count_edges(const std::vector<EdgeUse>& uses);
-  std::vector<uint32_t> with_area() const;
   std::vector<uint32_t> in_tree() const;
   bool find_contacts();
   std::vector<uint32_t> patches(const std::vector<EdgeUse>& uses) const;
@@ -80,7 +77,6 @@ class Shells {
   EdgeCounts edges_;
   TriangleTree tree_;
   Inside inside_ = Inside::kUndecided;
-  std::array<uint32_t, 2> crossing_{};
   int front_ = 0;  // the winding number in front of every face, where inside_ is kProven
 };
 

@@ -302,9 +302,8 @@ constexpr size_t kCellsOfPart = 1024;
 
 template <class Work>
 void each_cell(size_t count, const Work& work) {
-  for_each_index((count + kCellsOfPart - 1) / kCellsOfPart, [&](size_t part) {
-    for (size_t i = part * kCellsOfPart; i < std::min(count, (part + 1) * kCellsOfPart); ++i)
-      work(i);
+  for_each_range_of(kCellsOfPart, count, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) work(i);
   });
 }
 
@@ -324,13 +323,13 @@ std::vector<uint32_t> cells_of_faces(const CellStore& cells, size_t face_count) 
 
 // The first face of each set of faces that are joined at corners: of those that are `pure`.
 std::vector<uint32_t> first_of_joined(const Mesh& a, const std::vector<uint8_t>& pure) {
-  constexpr uint32_t kNobody = UINT32_MAX;
-  std::vector<uint32_t> at_vertex(a.vertices.size(), kNobody);
+  constexpr uint32_t kNoFace = UINT32_MAX;
+  std::vector<uint32_t> at_vertex(a.vertices.size(), kNoFace);
   Sets sets(a.faces.size());
   for (uint32_t f = 0; f < a.faces.size(); ++f) {
     if (pure[f] == 0) continue;
     for (const uint32_t v : {a.faces[f].x, a.faces[f].y, a.faces[f].z}) {
-      if (at_vertex[v] == kNobody) at_vertex[v] = f;
+      if (at_vertex[v] == kNoFace) at_vertex[v] = f;
       sets.join(at_vertex[v], f);
     }
   }

@@ -110,9 +110,9 @@ SidedCells::SidedCells(const SurveyedPair& pair) : pair_(pair), ms_(-now_ms()), 
 void SidedCells::look_at(const CellStore& cells, double above) {
   const double start = now_ms();
   known_.resize(cells.count());
-  constexpr size_t kPart = 1024;
-  for_each_index((cells.count() + kPart - 1) / kPart, [&](size_t part) {
-    for (size_t i = part * kPart; i < std::min(cells.count(), (part + 1) * kPart); ++i) {
+  constexpr size_t kCellsOfRange = 1024;
+  for_each_range_of(kCellsOfRange, cells.count(), [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
       Known& known = known_[i];
       if (static_cast<double>(cells.bounds(i).highest) <= above) continue;
       const gpu::uvec4& now = cells.cell(i).corners;
@@ -150,9 +150,9 @@ Scores SidedCells::score_limits(const CellStore& cells, const SidedLimits& limit
   return scores;
 }
 
-// Neither segments nor points of B, nor faces on each other, nor a cell's whole surroundings get
-// clearer by splits. Cells that are no farther than a hundredth of the largest distance have signed
-// distances that are known as well without a side.
+// Splits help cells that meet B or are over an edge; segments and points of B, faces on each other
+// and too many faces stay in the way however small a cell is. Cells that are no farther than a
+// hundredth of the largest distance have signed distances that are known as well without a side.
 Scores SidedCells::score_unsigned(const CellStore& cells, const Areas& areas) {
   constexpr double kEnough = 0.05, kNear = 0.01;
   look_at(cells, -1);

@@ -188,7 +188,7 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
   return field;
 }
 
-// Nothing unless sides are asked for.
+// Returns nothing unless sides are asked for.
 std::optional<SidedCells> sided_cells(const SurveyedPair& pair, const SurveyOptions& options) {
   if (!options.is_signed && !options.sided) return {};
   refuse_any_triangulation(pair.a, pair.b, "sides");
