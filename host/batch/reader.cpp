@@ -178,10 +178,10 @@ void EntryReader::drop_old() {
   }
 }
 
-EntryReader::MeshPointer EntryReader::shared_mesh_of(const std::string& file,
-                                                     const ReadLimits& limits) {
-  std::promise<MeshPointer> mine;
-  std::shared_future<MeshPointer> theirs;
+EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
+                                                  const ReadLimits& limits) {
+  std::promise<SharedMesh> mine;
+  std::shared_future<SharedMesh> theirs;
   {
     const std::lock_guard lock(mutex_);
     const auto [known, is_new] = meshes_.try_emplace(file);
@@ -193,13 +193,20 @@ EntryReader::MeshPointer EntryReader::shared_mesh_of(const std::string& file,
   }
   if (theirs.valid()) return theirs.get();
   try {
-    MeshPointer mesh = mesh_of(file, limits);
-    mine.set_value(mesh);
-    return mesh;
+    const std::shared_ptr<const Mesh> mesh = mesh_of(file, limits);
+    const SharedMesh made{mesh, shape_of(*mesh)};
+    mine.set_value(made);
+    return made;
   } catch (...) {
     mine.set_exception(std::current_exception());
     throw;
   }
+}
+
+EntryReader::SharedMesh EntryReader::b_of(const Question& question, bool is_shared) {
+  if (is_shared) return kept_mesh_of(question.file_b, question.limits);
+  const std::shared_ptr<const Mesh> mesh = mesh_of(question.file_b, question.limits);
+  return {mesh, shape_of(*mesh)};
 }
 
 EntryMeshes EntryReader::read(NamedEntry& entry) {
@@ -207,12 +214,12 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   EntryMeshes meshes;
   meshes.shares_b = shared_.count(entry.question.file_b) > 0;
   const std::shared_ptr<Mesh> a = mesh_of(entry.question.file_a, entry.question.limits);
-  meshes.b = meshes.shares_b ? shared_mesh_of(entry.question.file_b, entry.question.limits)
-                             : mesh_of(entry.question.file_b, entry.question.limits);
+  const SharedMesh b = b_of(entry.question, meshes.shares_b);
+  meshes.b = b.mesh;
   place_a(entry.question, *a, *meshes.b);
   meshes.a = a;
   Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
-  take_meshes(entry.question, *meshes.a, *meshes.b, known);
+  take_meshes(entry.question, {*meshes.a, shape_of(*meshes.a)}, {*meshes.b, b.shape}, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {
     known.inputs[i].path = entry.known.inputs[i].path;
     known.inputs[i].sha256 = entry.known.inputs[i].sha256;

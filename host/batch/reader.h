@@ -51,14 +51,19 @@ class EntryReader {
   EntryMeshes read(NamedEntry& entry);
 
  private:
-  using MeshPointer = std::shared_ptr<const Mesh>;
+  /// A mesh of several pairs, and its shape, which is found once.
+  struct SharedMesh {
+    std::shared_ptr<const Mesh> mesh;
+    MeshShape shape;
+  };
   struct Kept {
-    std::shared_future<MeshPointer> mesh;
+    std::shared_future<SharedMesh> mesh;
     uint64_t last_use = 0, bytes = 0;
   };
   InputHashes hashes_of(const std::string& file, bool is_shared);
   std::shared_ptr<Mesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
-  MeshPointer shared_mesh_of(const std::string& file, const ReadLimits& limits);
+  SharedMesh b_of(const Question& question, bool is_shared);
+  SharedMesh kept_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();
 
   Question base_;
