@@ -194,7 +194,7 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
   if (theirs.valid()) return theirs.get();
   try {
     const std::shared_ptr<const Mesh> mesh = mesh_of(file, limits);
-    const SharedMesh made{mesh, shape_of(*mesh)};
+    SharedMesh made{mesh, shape_of(*mesh)};
     mine.set_value(made);
     return made;
   } catch (...) {
