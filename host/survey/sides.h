@@ -49,8 +49,8 @@ class Sides {
 
   const Mesh &a_, &b_;
   const double displacement_;
+  bool is_exact_ = true;  // scaling rounded nothing; before the members whose scaling tells it
   std::vector<glm::dvec3> vertices_;  // A's, scaled
-  bool is_exact_ = true;              // scaling rounded nothing
   Shells shells_;
 };
 

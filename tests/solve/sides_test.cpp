@@ -397,6 +397,20 @@ TEST_CASE("an edge of two faces in one direction is refused, by its faces") {
   CHECK_THROWS_AS(refuse_conflicts(b), UsageError);
 }
 
+// A's coordinate of 2^-1074 is lost where both meshes are scaled by 2^-500.
+TEST_CASE("no side is shared where scaling rounds a coordinate of A") {
+  const double large = std::ldexp(1.0, 500), least = std::ldexp(1.0, -1074);
+  const auto is_shared = [&](double of_a) {
+    const Mesh b = moved(cube(1), [&](const dvec3& p) { return p * large; });
+    const Mesh a = single_triangle({2 * large, of_a, 0}, {2 * large, large, 0},
+                                   {2 * large, 0, large});
+    const FramedPair framed = frame_pair(a, b);
+    return Sides({a, b, framed.frame, 0, 10 * large, true}).is_shared();
+  };
+  CHECK(is_shared(0));
+  CHECK_FALSE(is_shared(least));
+}
+
 // Three faces at an edge, or four, are no conflict.
 TEST_CASE("edges of three faces leave no inside, of four they may") {
   const Mesh fin = joined(cube(1), single_triangle({1, 1, 1}, {1, 1, -1}, {3, 3, 0}));
