@@ -48,12 +48,21 @@ std::string bounds(double lower, double upper, double gap) {
   return text + "]";
 }
 
-std::string ending(Status status) {
+/// The reason of a precision's end: the wider of both surfaces' deltas, or the arithmetic.
+std::string reason(const Answer& answer, Status status) {
+  const double delta = std::max(answer.inputs[0].place.delta, answer.inputs[1].place.delta);
+  if (status != Status::kPrecision || !(2 * delta > answer.a_to_b.tolerance))
+    return stop_reason(status);
+  return "a surface is known to within " + decimal(delta, 3, Rounding::kUp) +
+         ", which no smaller --tol narrows";
+}
+
+std::string ending(const Answer& answer, Status status) {
   if (status == Status::kPruned || status == Status::kLimit)
     return std::string(status == Status::kPruned ? "pruned: " : "decided: ") + stop_reason(status);
   return std::string(status == Status::kClosed ? "closed" : "NOT CLOSED (") +
          (status == Status::kClosed ? "" : std::string(status_name(status)) + ")") + ": " +
-         stop_reason(status);
+         reason(answer, status);
 }
 
 std::string at(const SurfacePoint& p) {
@@ -265,7 +274,7 @@ std::string enclosed(const Answer& answer, double lower, double upper, Status st
   const double gap = gap_as_printed(answer, lower, upper);
   return (is_upper_sought(answer, lower, upper) ? bounds(lower, upper, gap)
                                                 : "at least " + length_down(answer, lower, gap)) +
-         "  " + ending(status);
+         "  " + ending(answer, status);
 }
 
 std::string direction_text(const Answer& answer, const Report& r) {

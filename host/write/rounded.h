@@ -5,16 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "host/mesh/round_to_float.h"
 #include "host/write/field_file.h"
 
 namespace vkh {
 
 inline float float_down(double x) {
-  const auto f = static_cast<float>(x);
+  const float f = nearest_float(x);
   return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
 }
 inline float float_up(double x) {
-  const auto f = static_cast<float>(x);
+  const float f = nearest_float(x);
   return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/mesh/round_to_float.h"
+
 namespace vkh::test {
 namespace {
 
@@ -372,7 +374,7 @@ Mesh noisy(const Mesh& mesh, double amplitude, uint64_t seed) {
 }
 
 Mesh in_float32(const Mesh& mesh) {
-  return with_vertices(mesh, [](const glm::dvec3& v) { return glm::dvec3(glm::vec3(v)); });
+  return with_vertices(mesh, [](const glm::dvec3& v) { return round_to_float(v); });
 }
 
 std::pair<glm::dvec3, glm::dvec3> bounding_box(const Mesh& mesh) {

@@ -223,6 +223,12 @@ TEST_CASE("a number that is rounded to float stays so beside another") {
   }
 }
 
+TEST_CASE("the tests' meshes in float32 have no low part") {
+  const Mesh sphere = icosphere(1, 1);
+  CHECK(store_in(Frame{}, sphere).has_low);
+  CHECK_FALSE(store_in(Frame{}, in_float32(sphere)).has_low);
+}
+
 TEST_CASE("nothing that a device may flush is stored: it is displaced by so much") {
   for (const double low : {0x1p-140, 0x1p-127, 0x1.8p-126}) {
     const auto mesh = [](double z) {
