@@ -408,11 +408,18 @@ std::string sphere(const std::string& name, double radius) {
 }
 
 TEST_CASE("Ctrl-C and SIGTERM are heard at any time, and leave a true interval") {
-  // Every facet of a sphere is as far from another about it, and in little memory they are refined a
-  // few at a time: half a minute on a fast machine. The processor time shows how soon it
-  // ends: other programs do not lengthen it.
-  const Words words = {"distance", sphere("inner.obj", 1), sphere("outer.obj", 2), "--tol", "1e-13",
-                       "--memory", "1", "--json", "--no-cache"};
+  // Every facet of a sphere is as far from another about it, and in little memory they are refined
+  // a few at a time: half a minute on a fast machine. The processor time shows how soon it ends:
+  // other programs do not lengthen it.
+  const Words words = {"distance",
+                       sphere("inner.obj", 1),
+                       sphere("outer.obj", 2),
+                       "--tol",
+                       "1e-13",
+                       "--memory",
+                       "1",
+                       "--json",
+                       "--no-cache"};
   for (const int signal : {SIGINT, SIGTERM}) {
     for (const int after : {0, 500, 2000}) {
       CAPTURE(after);

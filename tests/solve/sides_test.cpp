@@ -402,8 +402,8 @@ TEST_CASE("no side is shared where scaling rounds a coordinate of A") {
   const double large = std::ldexp(1.0, 500), least = std::ldexp(1.0, -1074);
   const auto is_shared = [&](double of_a) {
     const Mesh b = moved(cube(1), [&](const dvec3& p) { return p * large; });
-    const Mesh a = single_triangle({2 * large, of_a, 0}, {2 * large, large, 0},
-                                   {2 * large, 0, large});
+    const Mesh a =
+        single_triangle({2 * large, of_a, 0}, {2 * large, large, 0}, {2 * large, 0, large});
     const FramedPair framed = frame_pair(a, b);
     return Sides({a, b, framed.frame, 0, 10 * large, true}).is_shared();
   };
