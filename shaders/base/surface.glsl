@@ -48,6 +48,8 @@ bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
 }
 
 // A surface for measuring one point as precisely as possible.
-View view_from(Two3 p, float base) { return View(p, norm_up(p.hi), base, true, false, 0.0); }
+View view_from(Two3 p, float base, bool fine) {
+  return View(p, norm_up(p.hi), base, true, false, 0.0, fine);
+}
 
 #endif

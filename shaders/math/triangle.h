@@ -138,6 +138,7 @@ struct View {
   bool sharp;    // a distance's own rounding matters: it is taken to 48 bits instead of 20
   bool plain;    // nothing is certified: plain floats, to measure what the certificate costs
   float enough;  // a surface may be coarse if its slack is no more than this; 0: none may
+  bool fine;     // a point next to a triangle is measured to 48 bits of its size: see is_near
 };
 
 // A triangle of B around a local origin. `a`, `b` and `c` hold its corners to 48 bits, unless it is
@@ -148,6 +149,7 @@ struct Surface {
   float base;   // as View::base
   bool sharp;   // as View::sharp
   bool plain;   // as View::plain
+  bool fine;    // as View::fine
   bool coarse;  // it is `at` alone, and distances are taken in plain floats: they err by the slack
   float slack;  // what distances leave out: see make_surface and coarse_slack
 };
@@ -172,6 +174,7 @@ VKH_FN Surface make_surface(Two3 a, Two3 b, Two3 c, View from) {
   s.base = from.base;
   s.sharp = from.sharp;
   s.plain = from.plain;
+  s.fine = from.fine;
   s.coarse = false;
   if (from.plain) {
     s.at.a = a.hi - from.origin.hi;
@@ -210,10 +213,80 @@ VKH_FN Two3 offset_from(Two3 p, Surface s, Closest c) {
   return two_combination(from_base, -c.v, u, -c.w, v);
 }
 
+// A step of the point that a Closest names: along its edge, and towards the corner off that edge.
+struct Step {
+  float v, w;
+};
+
+// The longest step: longer ones would cost digits, and are never due.
+VKH_CONST float kLongestStep = 0.00390625f;  // 2^-8
+
+// The step that takes the point of `c` to the foot of `offset`, which is p less that point; u and v
+// are edges_from_base(). It stays in the triangle, whatever rounding did to it: v
+// and w remain >= 0 exactly, and v + w <= 1 holds for their floats' exact sum, since it does not
+// grow or three roundings of up to kUlp are under 8 kUlp. Otherwise there is no step.
+VKH_FN Step step_to_foot(vec3 offset, vec3 u, vec3 v, Closest c) {
+  float uu = dot3(u, u);
+  float x = ratio(dot3(offset, u), uu);
+  float s = ratio(dot3(v, u), uu);
+  vec3 h = v - s * u;
+  float w = ratio(dot3(offset - x * u, h), dot3(h, h));
+  Step step;
+  step.w = clamp(w, -min(c.w, kLongestStep), kLongestStep);
+  step.v = clamp(x - step.w * s, -min(c.v, kLongestStep), kLongestStep);
+  float sum = step.v + step.w;
+  bool stays = either(sum <= 0.0f, (c.v + c.w) + sum <= 1.0f - 8.0f * kUlp);
+  step.v = choose(stays, step.v, 0.0f);
+  step.w = choose(stays, step.w, 0.0f);
+  return step;
+}
+
+// The edges of S from the base of `c`: to its end, and to the third corner.
+struct Edges {
+  Two3 to_end, to_third;
+};
+
+VKH_FN Edges edges_from_base(Surface s, Closest c) {
+  Two3 base = s.a;
+  Two3 end = s.b;
+  Two3 third = s.c;
+  if (c.feature == kEdgeBc) {
+    base = s.b;
+    third = s.a;
+  }
+  if (c.feature == kEdgeAc) third = s.b;
+  if (c.feature == kEdgeAc || c.feature == kEdgeBc) end = s.c;
+  Edges e;
+  e.to_end = two_difference(end, base);
+  e.to_third = two_difference(third, base);
+  return e;
+}
+
+// p - q for a point q of S that is nearer than the one `c` names, which is off the foot of p by
+// some kUlp R, since v and w are plain floats: `offset` is p less that point. It is off by another
+// 4 kUlp2 of the offset and of both steps along their edges: with steps of up to 2^-8, and an
+// offset under 2^-17 R, less than 0.1 kUlp2 R, which Surface::slack has left. On slivers a step may
+// lead away: there `offset` remains.
+VKH_FN Two3 nearer_offset(Two3 offset, Surface s, Closest c) {
+  Edges e = edges_from_base(s, c);
+  Step step = step_to_foot(rounded(offset), e.to_end.hi, e.to_third.hi, c);
+  Two3 stepped = two_combination(offset, -step.v, e.to_end, -step.w, e.to_third);
+  if (dot3(stepped.hi, stepped.hi) < dot3(offset.hi, offset.hi)) return stepped;
+  return offset;
+}
+
+// Whether p is so near, under some 2^-17 R, that a foot that is off by some kUlp R lengthens its
+// distance by much: a distance d becomes sqrt(d^2 + (4 kUlp R)^2), 2^-8 of itself more at 2^-17 R.
+VKH_FN bool is_near(Two3 offset, Surface s) {
+  float near = 8388608.0f * s.slack;  // 2^23: the slack is 15 kUlp2 R and more
+  return dot3(offset.hi, offset.hi) < near * near;
+}
+
 // >= d(p, S) - base, for p taken as it is and the point of S that `c` names.
 VKH_FN float distance_to_up(Two3 p, Surface s, Closest c) {
   if (s.plain) return root(c.distance2) - s.base;  // uncertified: View::plain is set
   Two3 offset = offset_from(p, s, c);
+  if (s.fine && is_near(offset, s)) offset = nearer_offset(offset, s, c);
   if (s.sharp) return raised(sharp_norm_above_up(offset, s.base) + s.slack);
   return raised(round_up(norm_up(rounded(offset)) + s.slack, 1.0f) - s.base);
 }

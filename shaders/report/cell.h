@@ -55,6 +55,7 @@ VKH_FN View cell_view(CellFrame cell) {
   v.sharp = false;
   v.plain = false;
   v.enough = 3.0e38f;
+  v.fine = false;
   return v;
 }
 

@@ -80,7 +80,7 @@ Gathered with_boxes(Gathered g, CellFrame t, float reach, inout uint to_go) {
 // the loops' work is counted, and not by the variable that ends them, which compilers take as known
 // behind them.
 Gathered gather(CellFrame t, uint start) {
-  Query middle = Query(t.origin, 0.0, false);
+  Query middle = Query(t.origin, 0.0, false, false);
   if (start != kNone) start = min(start, push.triangle_count - 1u);
   uint nearest = min(nearest_triangle(middle, start).triangle, push.triangle_count - 1u);
   Gathered g = begin_gathering(t, load_surface(nearest, cell_view(t)), nearest);

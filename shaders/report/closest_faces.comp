@@ -109,13 +109,13 @@ Bounds bounds_within(View from, float within, uint nearest) {
 }
 
 ClosestFace closest_of(Two3 p) {
-  Nearest near = nearest_triangle(Query(p, 0.0, false), kNone);
+  Nearest near = nearest_triangle(Query(p, 0.0, false, false), kNone);
   uint nearest = min(near.triangle, push.triangle_count - 1u);
-  View coarse = View(p, norm_up(p.hi), 0.0, false, false, 3.0e38);
+  View coarse = View(p, norm_up(p.hi), 0.0, false, false, 3.0e38, false);
   float within = surface_distance_up(two(kHere), load_surface(nearest, coarse));
   // The base is next to the distance; any is right.
   float base = min(root(near.distance2), within);  // uncertified: steers
-  Bounds b = bounds_within(view_from(p, base), within, nearest);
+  Bounds b = bounds_within(view_from(p, base, false), within, nearest);
   return ClosestFace(base, b.lower, b.upper, triangles[kTriangleWords * b.triangle].w);
 }
 

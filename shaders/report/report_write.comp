@@ -57,7 +57,7 @@ float certified_distance() {
   Two3 p = position_of(root, uvec2(w.j, w.k));
   uvec3 f = b_faces[i];
   Surface s = make_surface(b_corner(f.x), b_corner(f.y), b_corner(f.z),
-                           View(p, norm_up(p.hi), control.base, true, false, 0.0));
+                           View(p, norm_up(p.hi), control.base, true, false, 0.0, false));
   // A triangle farther than the steering distance by a margin does not decide the minimum.
   float enough = w.distance + 1.0e-4 * (control.base + w.distance);
   return triangle_distance_down(s, enough);

@@ -3,6 +3,7 @@
 #ifndef VKH_SHADERS_TRAVERSAL_QUERY_GLSL
 #define VKH_SHADERS_TRAVERSAL_QUERY_GLSL
 
+#include "shaders/base/switches.glsl"
 #include "shaders/traversal/traversal.glsl"
 
 // An invocation's knowledge of its item, and whether a traversal must find more.
@@ -15,7 +16,8 @@ struct Item {
 };
 
 Query query_at(uint i) {
-  return Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u);
+  return Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u,
+               has_subroots());
 }
 
 Item point_item(uint i, bool mine) {

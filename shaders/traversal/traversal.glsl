@@ -55,13 +55,6 @@ float reach_of(Nearest best) {
   return d * d;
 }
 
-void try_tight(Two3 p, uint i, float base, inout Nearest best) {
-  Surface s = load_surface(i, view_from(p, base));
-  float above = surface_distance_up(two(vec3(0.0)), s);
-  bool closer = above < best.above || (above == best.above && i < best.triangle);
-  if (closer) best = Nearest(i, best.distance2, above);
-}
-
 // The largest error of a distance in plain floats, in a frame of order 1: 1.04e-6 seen.
 const float kPlainDoubt = 4.0e-6;
 
@@ -69,7 +62,15 @@ struct Query {
   Two3 p;
   float base;
   bool tight;
+  bool fine;  // View::fine
 };
+
+void try_tight(Query q, uint i, inout Nearest best) {
+  Surface s = load_surface(i, view_from(q.p, q.base, q.fine));
+  float above = surface_distance_up(two(vec3(0.0)), s);
+  bool closer = above < best.above || (above == best.above && i < best.triangle);
+  if (closer) best = Nearest(i, best.distance2, above);
+}
 
 // Triangles that a tight traversal cannot tell from the nearest so far wait here, to be measured
 // when there are many and at the end, when others of the subgroup do so too: in between, they would
@@ -100,7 +101,7 @@ void measure_tied(Query q, inout Nearest best) {
   while (tied_count > 0u) {
     --tied_count;
     if (tied_distance2[tied_count] <= reach_of(best))
-      try_tight(q.p, tied[tied_count], q.base, best);
+      try_tight(q, tied[tied_count], best);
   }
 }
 
@@ -126,7 +127,7 @@ Nearest measured(Query q, Nearest best, float than) {
   }
   float next = next_to_surface(q.tight) - q.base;
   if (q.tight && best.above > next) return best;
-  Surface s = load_surface(best.triangle, view_from(q.p, q.base));
+  Surface s = load_surface(best.triangle, view_from(q.p, q.base, q.fine));
   Closest c = closest_point(vec3(0.0), s.at);
   if (!q.tight) best.above = distance_to_up(two(vec3(0.0)), s, c);
   bool matters = best.above > than;

@@ -100,7 +100,8 @@ Item new_item(bool by_group, out uint i) {
   keep_split(r, first, group);
   i = each * r.slot + k;
   mine = mine && (!by_group || lane == 0u);
-  return Item(mine, mine && n.asked, n.start, -1.0, Query(n.p, control.base, control.tight != 0u));
+  return Item(mine, mine && n.asked, n.start, -1.0,
+              Query(n.p, control.base, control.tight != 0u, has_subroots()));
 }
 
 void main() {

@@ -51,7 +51,7 @@ void settle(uint i, uint state) {
   vertex_distance[i] = 0u;
 }
 
-Item no_item() { return Item(false, false, kNone, 0.0, Query(two(vec3(0.0)), 0.0, false)); }
+Item no_item() { return Item(false, false, kNone, 0.0, Query(two(vec3(0.0)), 0.0, false, false)); }
 
 // `mine`: one of the invocations that have the item alone: others may read the state after it is
 // written.
@@ -82,7 +82,7 @@ Item known_item(uint i, bool mine) {
   item.nearest = is_vertex ? vertex_nearest[i] : control.witness.nearest;
   float distance = is_vertex ? uintBitsToFloat(vertex_distance[i]) : control.witness.distance;
   item.distance = max(distance - base, 0.0);
-  item.query = Query(seed_point(i), base, is_tight(base) || control.tight != 0u);
+  item.query = Query(seed_point(i), base, is_tight(base) || control.tight != 0u, has_subroots());
   item.asked = item.query.tight && item.distance > 0.0;
   return item;
 }

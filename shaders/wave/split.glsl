@@ -134,18 +134,18 @@ uint shared_slot_of(uint item, bool held, bool first, Refined r, uint group) {
   return slot_in_group[group];
 }
 
-// Whether rounding holds u up, so that no split helps: the candidate is tiny; or it lies on B,
-// where float32 barycentrics, of 24 bits, place closest points no nearer than 2^-23 of a triangle,
-// taken to be as large as A's.
-bool is_noise(Bary3 corners, uint number, Root root, float upper) {
+// Whether rounding holds u up, so that no split helps: the candidate is tiny; or it lies on B in a
+// run that is not fine (math/triangle.h), where float32 barycentrics, of 24 bits, place closest
+// points no nearer than 2^-23 of a triangle, taken to be as large as A's.
+bool is_noise(Bary3 corners, Root root, float upper) {
   Corners t = plain_corners(root, corners);
-  if (is_subroot(number)) root = load_root(face_of(number));
   float size2 = max(dot3(t.b, t.b), dot3(t.c, t.c));
+  float tiny = 0.0625 * effective_tolerance(adopted_lower());
+  if (size2 < tiny * tiny) return true;
   float root_size2 = max(dot3(root.ab.hi, root.ab.hi), dot3(root.ac.hi, root.ac.hi));
   float left = upper - adopted_lower();
-  float tiny = 0.0625 * effective_tolerance(adopted_lower());
-  return size2 < tiny * tiny ||
-         (control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2);
+  return !has_subroots() && control.base == 0.0 &&
+         left * left <= 0.25 * kUlp * kUlp * root_size2;
 }
 
 // Called by every invocation of the workgroup, the first of a candidate's among them once.
@@ -163,7 +163,7 @@ Refined refine(uint item, bool first, uint group) {
   if (r.slot != kNone) {
     r.at = unpack_corners(r.c.corners);
     r.root = root_at(r.c.root);
-    if (!r.closed && !is_noise(r.at, r.c.root, r.root, r.upper))
+    if (!r.closed && !is_noise(r.at, r.root, r.upper))
       r.split = choose_split(r.at, r.root);
   }
   return r;

@@ -20,11 +20,17 @@ double longest_edge(const StoredTriangle& t) {
                    glm::length(t.at(2) - t.at(1))});
 }
 
+/// Twice the area over the square of the longest edge.
+double quality_of(const StoredTriangle& t) {
+  const double longest = longest_edge(t);
+  return glm::length(glm::cross(t.at(1) - t.at(0), t.at(2) - t.at(0))) / (longest * longest);
+}
+
 struct UpperCase {
   StoredTriangle triangle;
   Stored origin, p;  ///< p is relative to the origin
   float base;
-  bool sharp, coarse;
+  bool sharp, coarse, fine;
 };
 
 /// Local origins like the kernels', close to p, and anywhere.
@@ -53,37 +59,52 @@ UpperCase hard_upper_case(Random& random) {
           stored(p - o.value()),
           hard_base(random, t, p),
           random.below(2) == 0,
+          random.below(2) == 0,
           random.below(2) == 0};
 }
 
 std::string describe_upper(const UpperCase& c) {
   return hex(c.triangle) + " around " + hex(c.origin) + " p " + hex(c.p) +
-         (c.sharp ? " sharp" : "") + (c.coarse ? " coarse" : "") + " base " +
-         hex(static_cast<double>(c.base));
+         (c.sharp ? " sharp" : "") + (c.coarse ? " coarse" : "") + (c.fine ? " fine" : "") +
+         " base " + hex(static_cast<double>(c.base));
 }
 
 struct UpperAnswer {
   double distance, slack, radius, plain;
-  Stored offset;
+  Stored offset, nearer;
   float v, w;
   uint32_t feature;
+  float step_v, step_w;
+  bool near;
 };
 
 UpperAnswer distance_up(const UpperCase& c, const Device& device) {
   const float reach = std::max(length_up(c.origin), length_up(c.p));
   return device.run([&]() -> UpperAnswer {
-    const math::Surface s =
-        math::surface_around(c.triangle, c.origin, reach, c.sharp, c.base, c.coarse ? 1e30f : 0.0f);
+    const math::Surface s = math::surface_around(c.triangle, c.origin, reach, c.sharp, c.base,
+                                                 c.coarse ? 1e30f : 0.0f, c.fine);
     const math::Two3 p = math::given(c.p);
     const math::Closest at = math::closest_point(math::rounded(p), s.at);
+    math::Two3 offset{}, nearer{};
+    math::Step step{};
+    if (!c.coarse) {
+      offset = math::offset_from(p, s, at);
+      nearer = math::nearer_offset(offset, s, at);
+      const math::Edges e = math::edges_from_base(s, at);
+      step = math::step_to_foot(math::rounded(offset), e.to_end.hi, e.to_third.hi, at);
+    }
     return {math::wide(math::surface_distance_up(p, s)),
             math::wide(s.slack),
             math::wide(math::radius_up(s.at)),
             math::wide(math::plain_distance2(math::rounded(p), s.at)),
-            c.coarse ? Stored{} : math::answer(math::offset_from(p, s, at)),
+            math::answer(offset),
+            math::answer(nearer),
             math::answer(at.v),
             math::answer(at.w),
-            at.feature};
+            at.feature,
+            math::answer(step.v),
+            math::answer(step.w),
+            !c.coarse && math::is_near(offset, s)};
   });
 }
 
@@ -95,6 +116,32 @@ exact::Vector named_point(const UpperAnswer& got, const ExactTriangle& local) {
   const bool ends_at_c = got.feature == math::kEdgeBc || got.feature == math::kEdgeAc;
   const exact::Vector& end = ends_at_c ? local.c : local.b;
   return one * base + v * (end - base) + w * (local.c - base);
+}
+
+/// The same after the step.
+exact::Vector stepped_point(const UpperAnswer& got, const ExactTriangle& local) {
+  const Integer one = fixed(1.0),
+                v = fixed(static_cast<double>(got.v)) + fixed(static_cast<double>(got.step_v)),
+                w = fixed(static_cast<double>(got.w)) + fixed(static_cast<double>(got.step_w));
+  const bool on_bc = got.feature == math::kEdgeBc, on_ac = got.feature == math::kEdgeAc;
+  const exact::Vector& base = on_bc ? local.b : local.a;
+  const exact::Vector& end = on_bc || on_ac ? local.c : local.b;
+  const exact::Vector& third = on_bc ? local.a : on_ac ? local.b : local.c;
+  return one * base + v * (end - base) + w * (third - base);
+}
+
+/// Checks the step of a point next to the triangle: it stays in it, and the slack holds its error.
+void check_step(const UpperCase& c, const UpperAnswer& got, const ExactTriangle& local,
+                Tally& tally, const auto& describe) {
+  const Integer v = fixed(static_cast<double>(got.v)) + fixed(static_cast<double>(got.step_v));
+  const Integer w = fixed(static_cast<double>(got.w)) + fixed(static_cast<double>(got.step_w));
+  tally.require(v >= 0 && w >= 0 && v + w <= fixed(1.0), "a step stays in the triangle", describe);
+  if (!got.near || got.nearer.hi == got.offset.hi) return;  // no step was taken
+  const double off = length_near(
+      fixed(1.0) * (fixed_vector(c.p) - fixed_vector(got.nearer)) - stepped_point(got, local),
+      2 * kFixedBits);
+  tally.require(off <= got.slack, "nearer_offset is off by at most slack", describe);
+  tally.measure("nearer_offset, error / slack", off / got.slack, describe);
 }
 
 void check_weights(const UpperAnswer& got, Tally& tally, const auto& describe) {
@@ -166,10 +213,53 @@ TEST_CASE("triangle.h: surface_distance_up is never below the distance, and is t
           fixed(1.0) * (p - fixed_vector(got.offset)) - named_point(got, local), 2 * kFixedBits);
       tally.require(off <= got.slack, "offset_from is off by at most slack", describe);
       tally.measure("offset_from, error / slack", off / got.slack, describe);
+      check_step(c, got, local, tally, describe);
     }
     check_loose(c, got, near, tally, describe);
   }
   tally.conclude(4 * count);
+}
+
+namespace {
+
+/// Above the inside of a triangle that is no sliver, by 2^-44 to 2^-18 of its size; seen from
+/// there.
+UpperCase near_case(Random& random) {
+  StoredTriangle t;
+  do {
+    t = hard_triangle(random);
+  } while (longest_edge(t) < 0x1p-10 || quality_of(t) < 0.05);
+  const glm::dvec3 n = glm::cross(t.at(1) - t.at(0), t.at(2) - t.at(0));
+  const double height = log_uniform(random, -44, -18) * longest_edge(t);
+  const glm::dvec3 p = on_triangle(t, barycentrics(random)) + height * glm::normalize(n);
+  return {t, stored(p), stored(p - stored(p).value()), 0.0f, false, false, true};
+}
+
+}  // namespace
+
+// In plain floats the foot is off by kUlp of the triangle: so long the shortest distance would be.
+TEST_CASE("triangle.h: in a fine run a point next to a triangle is as near as it is") {
+  const uint64_t count = case_count() / 4;
+  Random random(20261127);
+  Tally tally("a fine surface_distance_up next to a triangle");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    const UpperCase c = near_case(random);
+    const Device device(i);
+    const UpperAnswer got = distance_up(c, device);
+    const ExactTriangle local = ExactTriangle(c.triangle).moved(fixed_vector(c.origin));
+    const Rational exact = local.squared_distance(fixed_vector(c.p));
+    const double near = sqrt_near(exact);
+    const auto describe = [&] {
+      return std::string(device.name()) + ": " + describe_upper(c) + " got " + hex(got.distance) +
+             " exact " + hex(near);
+    };
+    tally.require(is_upper_bound(0.0, got.distance, exact), "upper >= d(p, S)", describe);
+    const double rest = got.distance - near * (1 + 24 * kTriangleUlp) - 2 * got.slack - 0x1p-46;
+    const double size = longest_edge(c.triangle);
+    tally.require(rest <= 0x1p-34 * size, "upper is tight", describe);
+    tally.measure("rest, 2^-34 of the triangle", rest / (0x1p-34 * size), describe);
+  }
+  tally.conclude(2 * count);
 }
 
 namespace {

@@ -95,7 +95,8 @@ double wide(F x) {
 /// The triangle around `origin`, for points within `reach` of it; coarse where its slack is then no
 /// more than `enough`.
 inline Surface surface_around(const test::StoredTriangle& t, const test::Stored& origin,
-                              float reach, bool sharp, float base = 0.0f, float enough = 0.0f) {
+                              float reach, bool sharp, float base = 0.0f, float enough = 0.0f,
+                              bool fine = false) {
   View from;
   from.origin = given(origin);
   from.reach = reach;
@@ -103,6 +104,7 @@ inline Surface surface_around(const test::StoredTriangle& t, const test::Stored&
   from.sharp = sharp;
   from.plain = false;
   from.enough = enough;
+  from.fine = fine;
   return make_surface(given(t.corner[0]), given(t.corner[1]), given(t.corner[2]), from);
 }
 
