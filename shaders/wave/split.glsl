@@ -144,8 +144,7 @@ bool is_noise(Bary3 corners, Root root, float upper) {
   if (size2 < tiny * tiny) return true;
   float root_size2 = max(dot3(root.ab.hi, root.ab.hi), dot3(root.ac.hi, root.ac.hi));
   float left = upper - adopted_lower();
-  return !has_subroots() && control.base == 0.0 &&
-         left * left <= 0.25 * kUlp * kUlp * root_size2;
+  return !has_subroots() && control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2;
 }
 
 // Called by every invocation of the workgroup, the first of a candidate's among them once.
@@ -163,8 +162,7 @@ Refined refine(uint item, bool first, uint group) {
   if (r.slot != kNone) {
     r.at = unpack_corners(r.c.corners);
     r.root = root_at(r.c.root);
-    if (!r.closed && !is_noise(r.at, r.root, r.upper))
-      r.split = choose_split(r.at, r.root);
+    if (!r.closed && !is_noise(r.at, r.root, r.upper)) r.split = choose_split(r.at, r.root);
   }
   return r;
 }
