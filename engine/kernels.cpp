@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/by_address.h"
+#include "engine/stages.h"
 
 namespace vkh {
 namespace {
@@ -133,40 +134,27 @@ std::array<uint32_t, kKernelCount> costliest_first(
   return order;
 }
 
-// The conditions for one kernel in the lines of shaders/stages.h.
-struct StageLines {
-  bool any = false, needed = false;
+// The kernels beside the waves that only some switches record.
+struct Extra {
+  uint32_t kernel;
+  Need needed;
 };
-
-StageLines lines_of(uint32_t kernel, uint32_t switches, bool wide) {
-  StageLines lines;
-  const auto see = [&](uint32_t other, bool needed) {
-    if (other != kernel) return;
-    lines.any = true;
-    lines.needed = lines.needed || needed;
-  };
-#define VKH_SEE_SIZED(kernel, given, size, needed, column, groups) \
-  see(kIndexOf##kernel, gpu::needed(switches, wide));
-#define VKH_SEE_ALONE(kernel, given, needed, column) \
-  see(kIndexOf##kernel, gpu::needed(switches, wide));
-  VKH_REFINE_STAGES(VKH_SEE_SIZED)
-  VKH_FILTER_STAGES(VKH_SEE_SIZED, VKH_SEE_ALONE)
-  VKH_BOUND_STAGES(VKH_SEE_SIZED, VKH_SEE_ALONE)
-#undef VKH_SEE_SIZED
-#undef VKH_SEE_ALONE
-  see(kIndexOfWaveSort, gpu::sorts_frontier(switches, wide));
-  see(kIndexOfMeshCheck, gpu::checks_input(switches, wide));
-  see(kIndexOfReportOpen, gpu::covers_area(switches, wide));
-  see(kIndexOfCellBounds, gpu::bounds_cells(switches, wide));
-  see(kIndexOfClosestFaces, gpu::finds_closest(switches, wide));
-  return lines;
-}
+constexpr std::array kExtras{
+    Extra{kIndexOfMeshCheck, gpu::checks_input}, Extra{kIndexOfReportOpen, gpu::covers_area},
+    Extra{kIndexOfCellBounds, gpu::bounds_cells}, Extra{kIndexOfClosestFaces, gpu::finds_closest}};
 
 // Whether a run needs this kernel. Others are not created: a driver takes tens of milliseconds for
-// some. A kernel that no line names is of the BVH, the seed or the report, and always needed.
+// some. A kernel that neither table names is of the BVH, the seed or the report, and always needed.
 bool is_needed(uint32_t kernel, const Limits& limits) {
-  const StageLines lines = lines_of(kernel, limits.switches, limits.wide);
-  return !lines.any || lines.needed;
+  bool is_named = false, is_used = false;
+  const auto see = [&](const auto& row) {
+    if (row.kernel != kernel) return;
+    is_named = true;
+    is_used = is_used || row.needed(limits.switches, limits.wide);
+  };
+  std::for_each(kStages.begin(), kStages.end(), see);
+  std::for_each(kExtras.begin(), kExtras.end(), see);
+  return !is_named || is_used;
 }
 
 // The work of create_kernels, one call of create() a kernel, from any threads. Drivers compile in

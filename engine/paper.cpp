@@ -19,10 +19,9 @@ void record_order(Recorder& rec, const RunBuffers& run) {
   static_assert(offsetof(gpu::Control, count) == 0 && gpu::kCountFrontier == 0);
   SortStreams streams = run.sort;
   streams.count = {run.control.buffer, run.control.offset, sizeof(uint32_t)};
-  rec.run_indirect<k::WaveSort>(OrderBuffers(run),
-                                size_at(run.sizes, offsetof(gpu::WaveSizes, sort_keys)));
-  record_sort(rec, streams, size_at(run.sizes, offsetof(gpu::WaveSizes, sort_blocks)),
-              size_at(run.sizes, offsetof(gpu::WaveSizes, sort_digits)));
+  rec.run_indirect<k::WaveSort>(OrderBuffers(run), size_at(run.sizes, &gpu::WaveSizes::sort_keys));
+  record_sort(rec, streams, size_at(run.sizes, &gpu::WaveSizes::sort_blocks),
+              size_at(run.sizes, &gpu::WaveSizes::sort_digits));
   rec.stage("order");
 }
 

@@ -78,9 +78,13 @@ struct Workspace {
   uint32_t capacity = 0;
 };
 
-// A stream of it: `offset` of its member.
-inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, size_t offset) {
-  return {sizes.buffer, sizes.offset + offset, sizeof(gpu::Dispatch)};
+// One of a wave's sizes, by its member.
+using WaveSize = gpu::Dispatch gpu::WaveSizes::*;
+inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, WaveSize size) {
+  static constexpr gpu::WaveSizes all{};
+  const auto offset =
+      reinterpret_cast<const std::byte*>(&(all.*size)) - reinterpret_cast<const std::byte*>(&all);
+  return {sizes.buffer, sizes.offset + static_cast<VkDeviceSize>(offset), sizeof(gpu::Dispatch)};
 }
 
 // Bytes of the frontier's stream.

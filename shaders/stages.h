@@ -1,14 +1,6 @@
-// The stages of a wave, one per line, in the order in which they run. These lines determine the
-// recorded commands (engine/wave.cpp), the pipelines that a context creates (engine/kernels.cpp),
-// the sizes that the plan writes (wave/sizes.glsl) and the columns of times (vkh_bench). A new
-// stage is its kernel and a line here.
-//
-//   SIZED(kernel, given, size, needed, column, groups)   an indirect dispatch
-//   ALONE(kernel, given, needed, column)                 one workgroup
-//
-// kernel: its type in C++. given: the buffers and push constants that engine/wave.cpp has for it.
-// size: its name in WaveSizes. needed: one of the predicates below. column: of the times. groups:
-// the workgroups, from the wave's counts in wave/sizes.glsl.
+// The needs of a wave's stages, and the sizes of its dispatches, for both languages. The stages
+// themselves, in the order in which they run, are recorded by engine/wave.cpp; engine/stages.h has
+// the need of each.
 #ifndef VKH_SHADERS_STAGES_H
 #define VKH_SHADERS_STAGES_H
 
@@ -50,42 +42,25 @@ VKH_PREDICATE(packs_points, (kSwitches & kUsePacket) != 0u)
 VKH_PREDICATE(bisects, (kSwitches & kUsePaperU3) != 0u)
 VKH_PREDICATE(bounds_besides, (kSwitches & kUseBesides) != 0u)
 
-// The stage that orders the frontier for refinement, for sizes and times only. engine/paper.cpp
-// records the sort, whose passes repeat, and engine/kernels.cpp names WaveSort.
-#define VKH_ORDER_STAGES(SIZED)                                                            \
-  SIZED(WaveSort, wave, sort_keys, sorts_frontier, order, groups_for(keys))                \
-  SIZED(SortCount, wave, sort_blocks, sorts_frontier, order, groups_of(sort_blocks(keys))) \
-  SIZED(SortScan, wave, sort_digits, sorts_frontier, order, groups_for_digits(keys))
-
-// The refined candidates, and their new points.
-#define VKH_REFINE_STAGES(SIZED)                                                                  \
-  SIZED(PaperSubdivide, wave, sorted, sorts_frontier, subdivide, groups_for(held* split_lanes())) \
-  SIZED(WaveSubdivide, wave, subdivide, splits_apart, subdivide, groups_for(held* split_lanes())) \
-  SIZED(WavePacket, wave, packet, packs_points, query, groups_for(packets))                       \
-  SIZED(Query, points, query_points, always, query, groups_for_new_points(held, queries))
-
-// The cheap bounds of all children, if more follows for those that they leave.
-#define VKH_FILTER_STAGES(SIZED, ALONE)                                          \
-  SIZED(WaveFilter, wave, filter_all, is_filtered, filter, groups_for(children)) \
-  ALONE(WaveSurvivors, wave, is_filtered, filter)
-
-// The bounds of all children, or of those past the filter, and the plan of the next wave.
-#define VKH_BOUND_STAGES(SIZED, ALONE)                                                          \
-  SIZED(Query, centroids, query_centroids, asks_centroids, query, groups_for_queries(children)) \
-  SIZED(WaveBisect, wave, bisect, bisects, bound, groups_for(children))                         \
-  SIZED(PaperBound, wave, bound_besides, bounds_besides, bound,                                 \
-        groups_to_bound(children, running))                                                     \
-  SIZED(WaveBound, wave, bound, bounds_plainly, bound, groups_to_bound(children, running))      \
-  ALONE(WavePlan, wave, is_apart, plan)
-
-// The sizes of a wave's indirect dispatches.
-#define VKH_SIZE_MEMBER(kernel, given, size, needed, column, groups) Dispatch size;
-#define VKH_NO_SIZE(kernel, given, needed, column)
+// The sizes of a wave's indirect dispatches, in the order in which they run. The plan writes each
+// that is needed (wave/sizes.glsl).
 struct WaveSizes {
-  VKH_ORDER_STAGES(VKH_SIZE_MEMBER)
-  VKH_REFINE_STAGES(VKH_SIZE_MEMBER)
-  VKH_FILTER_STAGES(VKH_SIZE_MEMBER, VKH_NO_SIZE)
-  VKH_BOUND_STAGES(VKH_SIZE_MEMBER, VKH_NO_SIZE)
+  // The order of the frontier: if sorts_frontier.
+  Dispatch sort_keys;
+  Dispatch sort_blocks;
+  Dispatch sort_digits;
+  // The refined candidates, and their new points.
+  Dispatch sorted;
+  Dispatch subdivide;
+  Dispatch packet;
+  Dispatch query_points;
+  // The cheap bounds of all children, if more follows for those that they leave.
+  Dispatch filter_all;
+  // The bounds of all children, or of those past the filter.
+  Dispatch query_centroids;
+  Dispatch bisect;
+  Dispatch bound_besides;
+  Dispatch bound;
 };
 
 #ifdef __cplusplus

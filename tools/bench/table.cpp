@@ -4,26 +4,19 @@
 #include <cstdio>
 #include <limits>
 
-#include "shaders/stages.h"
+#include "engine/stages.h"
 
 namespace vkh::bench {
 namespace {
 
-// The stages of the BVH, the seed, the moves to more room, those of the wave's lines, each once,
+// The stages of the BVH, the seed, the moves to more room, those of the waves, each once,
 // and the report.
 std::vector<std::string> stage_names() {
   std::vector<std::string> names = {"morton", "sort", "hierarchy", "seed", "move"};
   const auto add = [&](const char* name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
   };
-#define VKH_SIZED(kernel, given, size, needed, column, groups) add(#column);
-#define VKH_ALONE(kernel, given, needed, column) add(#column);
-  VKH_ORDER_STAGES(VKH_SIZED)
-  VKH_REFINE_STAGES(VKH_SIZED)
-  VKH_FILTER_STAGES(VKH_SIZED, VKH_ALONE)
-  VKH_BOUND_STAGES(VKH_SIZED, VKH_ALONE)
-#undef VKH_SIZED
-#undef VKH_ALONE
+  for (const Stage& stage : kStages) add(stage.column);
   add("report");
   return names;
 }

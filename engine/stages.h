@@ -1,0 +1,45 @@
+// The stages of a wave, in the order in which they run: when each is needed, and the column of its
+// times. The recording (engine/wave.cpp), the pipelines that a context creates (engine/kernels.cpp)
+// and the benchmark's table read them. The plan writes the sizes (shaders/wave/sizes.glsl).
+#pragma once
+
+#include <array>
+
+#include "engine/kernels.h"
+#include "engine/workspace.h"
+
+namespace vkh {
+
+// One of the predicates of shaders/stages.h.
+using Need = bool (*)(uint32_t switches, bool wide);
+
+struct Stage {
+  uint32_t kernel;  // KernelIndex
+  WaveSize size;    // null: one workgroup
+  Need needed;
+  const char* column;
+};
+
+// Of the sort, whose passes engine/paper.cpp records, only the kernel that no build of a BVH needs.
+inline constexpr std::array kStages{
+    Stage{kIndexOfWaveSort, &gpu::WaveSizes::sort_keys, gpu::sorts_frontier, "order"},
+    Stage{kIndexOfPaperSubdivide, &gpu::WaveSizes::sorted, gpu::sorts_frontier, "subdivide"},
+    Stage{kIndexOfWaveSubdivide, &gpu::WaveSizes::subdivide, gpu::splits_apart, "subdivide"},
+    Stage{kIndexOfWavePacket, &gpu::WaveSizes::packet, gpu::packs_points, "query"},
+    Stage{kIndexOfQuery, &gpu::WaveSizes::query_points, gpu::always, "query"},
+    Stage{kIndexOfWaveFilter, &gpu::WaveSizes::filter_all, gpu::is_filtered, "filter"},
+    Stage{kIndexOfWaveSurvivors, nullptr, gpu::is_filtered, "filter"},
+    Stage{kIndexOfQuery, &gpu::WaveSizes::query_centroids, gpu::asks_centroids, "query"},
+    Stage{kIndexOfWaveBisect, &gpu::WaveSizes::bisect, gpu::bisects, "bound"},
+    Stage{kIndexOfPaperBound, &gpu::WaveSizes::bound_besides, gpu::bounds_besides, "bound"},
+    Stage{kIndexOfWaveBound, &gpu::WaveSizes::bound, gpu::bounds_plainly, "bound"},
+    Stage{kIndexOfWavePlan, nullptr, gpu::is_apart, "plan"}};
+
+// The stage of a kernel and a size. As a constant: if there is none, it does not compile.
+constexpr const Stage& stage_of(uint32_t kernel, WaveSize size) {
+  size_t at = 0;
+  while (kStages.at(at).kernel != kernel || kStages.at(at).size != size) ++at;
+  return kStages.at(at);
+}
+
+}  // namespace vkh
