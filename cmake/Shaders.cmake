@@ -33,7 +33,7 @@ set(VKH_EMBED ${VKH_EMBED_DIR}/embed_shaders.py)
 set(VKH_RUN_EMBED ${Python3_EXECUTABLE} -B ${VKH_EMBED})  # -B: leave no __pycache__ in the sources
 # Everything between a kernel's GLSL and its C++ is one process; these are its modules.
 set(VKH_BUILD_KERNEL ${VKH_EMBED_DIR}/build_kernel.py)
-set(VKH_KERNEL_PASSES embed_shaders.py explicit_layout.py float_order.py kernel_templates.py shared_memory.py spirv_module.py)
+set(VKH_KERNEL_PASSES by_address.py embed_shaders.py explicit_layout.py float_order.py kernel_templates.py shared_memory.py spirv_module.py)
 list(TRANSFORM VKH_KERNEL_PASSES PREPEND ${VKH_EMBED_DIR}/)
 set(VKH_RUN_BUILD_KERNEL ${Python3_EXECUTABLE} -B ${VKH_BUILD_KERNEL} --root ${PROJECT_SOURCE_DIR} --glslang ${VKH_GLSLANG}
                          --spirv-val ${VKH_SPIRV_VAL})

@@ -17,6 +17,7 @@ enum class Order { kAfterAll, kIndependent };
 
 constexpr uint32_t kMaxBindings = 16;
 constexpr uint32_t kMaxPushBytes = 64;
+static_assert(kMaxPushBytes <= kAddressOffset);
 
 struct Command {
   enum class Kind { kDispatch, kDispatchIndirect, kFill, kCopy };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/by_address.h"
-
 namespace vkh {
 namespace {
 

@@ -17,15 +17,11 @@ namespace vkh {
 namespace {
 
 struct KernelSource {
-  std::span<const uint32_t> words;
+  std::span<const uint32_t> words, edits;
   std::span<const Binding> bindings;
   uint32_t push_bytes;
+  uint32_t by_address;  // bindings, as bits, that the edits give by address
 };
-
-#define VKH_ADDRESSES(K) \
-  static_assert(std::popcount(bindings_by_address(k::K::kBindings)) <= int{kMaxAddresses});
-VKH_KERNELS(VKH_ADDRESSES)
-#undef VKH_ADDRESSES
 
 template <class Push>
 constexpr uint32_t push_size() {
@@ -41,8 +37,10 @@ constexpr uint32_t push_size<NoPush>() {
 std::array<KernelSource, kKernelCount> kernel_sources(const Limits& limits) {
   const bool for_cpu = limits.cpu && !limits.wide;
   return {{
-#define VKH_SOURCE(K) \
-  {for_cpu ? k::K::words_for_cpu() : k::K::words(), k::K::kBindings, push_size<k::K::Push>()},
+#define VKH_SOURCE(K)                                                                         \
+  {for_cpu ? k::K::words_for_cpu() : k::K::words(),                                           \
+   for_cpu ? k::K::edits_for_cpu() : k::K::edits(), k::K::kBindings, push_size<k::K::Push>(), \
+   k::K::kByAddress},
       VKH_KERNELS(VKH_SOURCE)
 #undef VKH_SOURCE
   }};
@@ -66,7 +64,7 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
     return result;
   }
 
-  if (c.limits.by_address) out.by_address = bindings_by_address(source.bindings);
+  if (c.limits.by_address) out.by_address = source.by_address;
   const auto addresses = static_cast<uint32_t>(std::popcount(out.by_address));
   const VkPushConstantRange push{
       VK_SHADER_STAGE_COMPUTE_BIT, 0,
@@ -84,9 +82,9 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
 
 VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
                          KernelPipeline& out) {
-  std::vector<uint32_t> rewritten;
-  if (out.by_address != 0) rewritten = by_address(source.words, out.by_address);
-  const std::span<const uint32_t> words = rewritten.empty() ? source.words : rewritten;
+  std::vector<uint32_t> with_addresses;
+  if (out.by_address != 0) with_addresses = edited(source.words, source.edits);
+  const std::span<const uint32_t> words = out.by_address != 0 ? with_addresses : source.words;
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   module_info.codeSize = words.size_bytes();

@@ -50,6 +50,11 @@ VkDescriptorBufferInfo info(const Slice<T>& slice) {
 // The push type of a kernel without push constants.
 struct NoPush {};
 
+// The place of the addresses of large buffers among a kernel's push constants, in the order of the
+// bindings, 8 bytes each (engine/by_address.h).
+constexpr uint32_t kAddressOffset = 64;
+constexpr uint32_t kMaxAddresses = 8;  // 128 bytes of push constants are on every device
+
 struct Binding {
   uint32_t binding;
   const char* name;

@@ -17,7 +17,8 @@ ORDER = TOOLS / "float_order.py"
 LAYOUT = TOOLS / "explicit_layout.py"
 sys.path.insert(0, str(TOOLS))
 
-import explicit_layout  # noqa: E402: found only now
+import by_address  # noqa: E402: found only now
+import explicit_layout  # noqa: E402
 import spirv_module  # noqa: E402
 
 HEAD = """#version 460
@@ -95,6 +96,14 @@ BROKEN = {
         KEYS + "layout(scalar, push_constant) uniform PairBlock { Item push; uint more; };", "",
         "block PairBlock: has 2 members (push, more)"),
 }
+
+
+# Bindings that become addresses, in a kernel that reads an element's part, and one as a whole.
+LARGE = """struct Node { vec3 low; uint child; };
+layout(scalar, set = 0, binding = 0) readonly buffer NodesBlock { Node nodes[]; };
+layout(scalar, set = 0, binding = 1) buffer KeysBlock { uint keys[]; };
+layout(scalar, set = 0, binding = 2) coherent buffer FacesBlock { uint faces[]; };
+"""
 
 
 def words_in(array):
@@ -191,6 +200,48 @@ class EmbedShaders(unittest.TestCase):
         push = "layout(scalar, push_constant) uniform PushBlock { Item push; };"
         self.assertIn("using Push = NoPush;", self.header(KEYS))
         self.assertIn("using Push = gpu::Item;", self.header(KEYS + push))
+
+    def test_large_buffers_are_given_by_address(self):
+        """The edits make a valid module of the words, which binds the other buffers alone."""
+        push = "layout(scalar, push_constant) uniform PushBlock { Item push; };"
+        for declarations, body in [(LARGE, "faces[2] = nodes[keys[0]].child;"), (LARGE, ""),
+                                   (LARGE + push, "faces[int(keys[0])] = push.b; keys[1] = nodes[7].child;")]:
+            with self.subTest(body):
+                self.assertIn("kByAddress = 0x5;", self.header(declarations, body))
+                source = (self.dir / "try_it.cpp").read_text()
+                words, edits = (words_in(source.split(f"k{name}[] = {{")[1]) for name in ("Words", "Edits"))
+                given = self.dir / "by_address.spv"
+                spirv_module.write_words(given, by_address.applied(words, edits))
+                subprocess.run(["spirv-val", "--target-env", "vulkan1.2", "--scalar-block-layout", given], check=True)
+                bound = [d[spirv_module.BINDING] for d in spirv_module.Module(spirv_module.read_words(given)).decorations.values()
+                         if spirv_module.BINDING in d]
+                self.assertEqual(bound, [1])
+
+    def test_a_kernel_of_no_large_buffer_has_no_edits(self):
+        self.assertIn("kByAddress = 0x0;", self.header(KEYS, "keys[0] = 1;"))
+        self.assertIn("edits() { return {}; }", (self.dir / "try_it.cpp").read_text())
+
+    def test_addresses_that_do_not_fit_the_push_constants_stop_the_build(self):
+        names = sorted(by_address.LARGE)[:9]
+        many = "".join(f"layout(scalar, set = 0, binding = {i}) buffer B{i} {{ uint {name}[]; }};" for i, name in enumerate(names))
+        push = ("struct Large { uint words[17]; };"
+                "layout(scalar, push_constant) uniform LargeBlock { Large push; };")
+        for declarations, message in [(many, "has 9 large buffers, over 8"),
+                                      (LARGE + push, "has 68 bytes of push constants, over 64, before addresses")]:
+            with self.subTest(message):
+                result = self.embed(declarations)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertIn(f"try_it.comp: {message}", result.stderr)
+
+    def test_edits_say_what_was_kept_left_out_and_put(self):
+        edits = by_address.Edits()
+        edits.keep(2)
+        edits.replace(1, [70, 71])
+        edits.keep(1)
+        edits.keep(1)
+        edits.replace(0, [72])
+        self.assertEqual(edits.words(), (2, 1, 2, 70, 71, 2, 0, 1, 72))
+        self.assertEqual(by_address.applied(range(8), edits.words()), (0, 1, 70, 71, 3, 4, 72, 5, 6, 7))
 
     def test_cpu_devices_leave_loops_as_they_are(self):
         """The module marks each loop so, except those that the shader wants unrolled."""

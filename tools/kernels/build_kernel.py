@@ -5,8 +5,9 @@
 
 It writes OUT_DIR/NAME.h and NAME.cpp (embed_shaders.py), NAME.spv, and NAME.d, a depfile of NAME.cpp.
 glslang compiles; every float operation is decorated (float_order.py) and every layout that is not a
-buffer's removed (explicit_layout.py); spirv-val accepts each module that is embedded. With
---spirv-opt a kernel is embedded flattened, and a second time for devices that are not wide.
+buffer's removed (explicit_layout.py). With --spirv-opt a kernel is embedded flattened, and a second
+time for devices that are not wide. Each has edits that give large buffers by address
+(by_address.py). spirv-val accepts each module that is embedded, and what its edits make of it.
 """
 
 import argparse
@@ -71,6 +72,11 @@ class Builder:
     def validate(self, spv):
         run(self.options.spirv_val, *TARGET, LAYOUT, spv)
 
+    def validate_words(self, words):
+        spv = self.folder / "words.spv"
+        spirv.write_words(spv, words)
+        self.validate(spv)
+
     def optimised(self, words, name, passes):
         before, after = self.folder / f"{name}.in.spv", self.folder / f"{name}.spv"
         spirv.write_words(before, words)
@@ -94,8 +100,7 @@ def build(options):
     with tempfile.TemporaryDirectory() as folder:
         builder = Builder(options, folder)
         words = builder.compiled(spv)
-        flat, cpu = builder.variants(words)
-    embed_shaders.embed(spv.stem, options.out, words, (flat, cpu))
+        embed_shaders.embed(spv.stem, options.out, words, builder.variants(words), builder.validate_words)
 
 
 def main():

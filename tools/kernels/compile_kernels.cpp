@@ -15,7 +15,6 @@
 #include <set>
 #include <string>
 
-#include "engine/by_address.h"
 #include "engine/kernels.h"
 #include "engine/vkhausdorff_experimental.h"
 #include "host/app/self_test.h"
@@ -33,7 +32,7 @@ struct KernelForms {
   bool has_addresses;  // its words differ in a context that is byAddress
 };
 constexpr std::array kKernels{
-#define VKH_FORMS(K) KernelForms{#K, vkh::bindings_by_address(vkh::k::K::kBindings) != 0},
+#define VKH_FORMS(K) KernelForms{#K, vkh::k::K::kByAddress != 0},
     VKH_KERNELS(VKH_FORMS)
 #undef VKH_FORMS
 };

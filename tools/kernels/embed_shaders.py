@@ -11,7 +11,8 @@ The convention that a shader keeps: descriptor set 0, bindings 0, 1, 2, ... with
 buffers only, one member a block, and that member's name is the argument's name in C++. Push
 constants are one struct in a block of their own, 128 bytes at most. Everything is layout(scalar).
 Float operations have one order, which no driver may change (float_order.py). Nothing but buffers has
-an explicit layout (explicit_layout.py).
+an explicit layout (explicit_layout.py). Large buffers may also be given by address: the words of both
+are embedded with the edits that make such a kernel of them (by_address.py).
 """
 
 import struct
@@ -20,6 +21,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
+import by_address
 import explicit_layout
 import float_order
 import shared_memory
@@ -173,6 +175,7 @@ class Kernel:
     structs: dict
     vectors: dict
     shared_bytes: int
+    by_address: int  # bindings, as bits
 
     @property
     def type_name(self):
@@ -234,6 +237,16 @@ def check_buffers(buffers):
         raise ContractError(f"blocks share a member name: {[b.name for b in buffers]}")
 
 
+def addresses_of(buffers, push_bytes):
+    """The bindings, as bits, that may become addresses."""
+    bits = by_address.bindings_of((b.binding, b.name) for b in buffers)
+    if bits.bit_count() > by_address.MOST:
+        raise ContractError(f"has {bits.bit_count()} large buffers, over {by_address.MOST}, to be given by address")
+    if bits and push_bytes > by_address.OFFSET:
+        raise ContractError(f"has {push_bytes} bytes of push constants, over {by_address.OFFSET}, before addresses")
+    return bits
+
+
 def reflect(name, words):
     module = spirv.module_of(words)
     layouts, buffers, push = Layouts(module), [], "NoPush"
@@ -253,8 +266,9 @@ def reflect(name, words):
             raise ContractError(f"block {block}: {error}") from None
     buffers.sort(key=lambda b: b.binding)
     check_buffers(buffers)
+    push_bytes = layouts.structs[push][0].size if push != "NoPush" else 0
     return Kernel(name, module.local_size, buffers, push, layouts.structs, layouts.vectors,
-                  shared_memory.most_bytes(words))
+                  shared_memory.most_bytes(words), addresses_of(buffers, push_bytes))
 
 
 def layout_asserts(kernel):
@@ -282,6 +296,9 @@ def header_text(kernel):
         count=len(kernel.buffers),
         local_size=", ".join(str(n) for n in kernel.local_size),
         shared_bytes=kernel.shared_bytes,
+        by_address=kernel.by_address,
+        address_offset=by_address.OFFSET,
+        most_addresses=by_address.MOST,
         args="\n".join(f"    Argument<{b.item}> {b.name};" for b in kernel.buffers),
         named="\n".join(f"        .{b.name} = from.{b.name}," for b in kernel.buffers),
         bindings="\n".join(binding_text(b) for b in kernel.buffers),
@@ -296,14 +313,24 @@ def words_text(words):
     return "\n".join("    " + " ".join(f"{w:#010x}," for w in row) for row in rows)
 
 
-def source_text(kernel, words, cpu_words):
-    cpu = f"constexpr uint32_t kCpuWords[] = {{\n{words_text(cpu_words)}\n}};\n" if cpu_words else ""
+def array_text(name, words):
+    return f"constexpr uint32_t {name}[] = {{\n{words_text(words)}\n}};\n"
+
+
+def source_text(kernel, forms):
+    """`forms`: words and edits for the GPU profile, and for the CPU profile."""
+    (words, edits), (cpu_words, cpu_edits) = forms
+    has_cpu = cpu_words != words
+    arrays = {"kEdits": edits, "kCpuEdits": cpu_edits if has_cpu else ()}
     return SOURCE.format(
         name=kernel.name,
         type=kernel.type_name,
         words=words_text(words),
-        cpu_words=cpu,
-        cpu_name="kCpuWords" if cpu_words else "kWords",
+        cpu_words=array_text("kCpuWords", cpu_words) if has_cpu else "",
+        cpu_name="kCpuWords" if has_cpu else "kWords",
+        edits="".join(array_text(name, edits) for name, edits in arrays.items() if edits),
+        edits_name=f"of_{kernel.name}::kEdits" if edits else "{}",
+        cpu_edits_name=f"of_{kernel.name}::{'kCpuEdits' if has_cpu else 'kEdits'}" if edits else "{}",
         fingerprint=zlib.crc32(struct.pack(f"<{len(words)}I", *words)),
     )
 
@@ -322,20 +349,36 @@ def write_if_changed(path, text):
         path.write_text(text)
 
 
-def embed(name, out_dir, words, embedded):
+def check_words(name, words):
+    if breach := float_order.breach(words) or explicit_layout.breach(words):
+        sys.exit(f"{name}.comp: {breach}")
+
+
+def form_of(kernel, words, validate):
+    """Words that are embedded, and the edits that give their large buffers by address."""
+    check_words(kernel.name, words)
+    edits = by_address.edits(words, kernel.by_address)
+    if edits:
+        addressed = by_address.applied(words, edits)
+        check_words(f"by address, {kernel.name}", addressed)
+        validate(addressed)
+    return words, edits
+
+
+def embed(name, out_dir, words, embedded, validate=lambda words: None):
     """Writes NAME.h and NAME.cpp: `words`, as the compiler wrote them, describe the buffers; the
-    program holds the pair `embedded`, for the GPU profile and for the CPU profile."""
+    program holds the pair `embedded`, for the GPU profile and for the CPU profile, which are valid.
+    `validate` sees what their edits make of them."""
     try:
         kernel = reflect(name, words)
     except (ContractError, ValueError) as error:
         sys.exit(f"{name}.comp: {error}")
-    for one in embedded:
-        if breach := float_order.breach(one) or explicit_layout.breach(one):
-            sys.exit(f"{name}.comp: {breach}")
+    flat, cpu = embedded
+    flat_form = form_of(kernel, flat, validate)
+    forms = (flat_form, form_of(kernel, cpu, validate) if cpu != flat else flat_form)
     write_if_changed(out_dir / f"{name}.h", header_text(kernel))
     # Writes it always: from this output a Makefile knows that this ran.
-    flat, cpu = embedded
-    (out_dir / f"{name}.cpp").write_text(source_text(kernel, flat, cpu if cpu != flat else None))
+    (out_dir / f"{name}.cpp").write_text(source_text(kernel, forms))
 
 
 def embed_kernel(spv, out_dir, flat=None, cpu=None):

@@ -20,7 +20,11 @@ struct {type} {{
   static constexpr uint32_t kLocalSize[3] = {{{local_size}}};  // defaults, where specialised
   static std::span<const uint32_t> words();
   static std::span<const uint32_t> words_for_cpu();  // not wide: kWide is false
+  // Edits of either that give large buffers by address (engine/by_address.h).
+  static std::span<const uint32_t> edits();
+  static std::span<const uint32_t> edits_for_cpu();
   static uint32_t fingerprint();                     // of the words
+  static constexpr uint32_t kByAddress = {by_address:#x};  // bindings, as bits, that those edits replace
   static constexpr uint32_t kSharedBytes = {shared_bytes};  // of a workgroup, whatever the switches
 
   struct Args {{
@@ -47,6 +51,7 @@ struct {type} {{
   }}
 }};
 
+static_assert(kAddressOffset == {address_offset} && kMaxAddresses == {most_addresses});
 {asserts}
 
 }}  // namespace vkh::k
@@ -62,11 +67,12 @@ namespace of_{name} {{  // a name of its own: kernels may share a translation un
 constexpr uint32_t kWords[] = {{
 {words}
 }};
-{cpu_words}
-}}  // namespace of_{name}
+{cpu_words}{edits}}}  // namespace of_{name}
 
 std::span<const uint32_t> {type}::words() {{ return of_{name}::kWords; }}
 std::span<const uint32_t> {type}::words_for_cpu() {{ return of_{name}::{cpu_name}; }}
+std::span<const uint32_t> {type}::edits() {{ return {edits_name}; }}
+std::span<const uint32_t> {type}::edits_for_cpu() {{ return {cpu_edits_name}; }}
 uint32_t {type}::fingerprint() {{ return {fingerprint:#010x}; }}
 
 }}  // namespace vkh::k
