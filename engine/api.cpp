@@ -354,7 +354,7 @@ VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount, 
     return VKH_ERROR_TOO_LARGE;
   const uint32_t largest = vkh::largest_capacity(context->limits);
   const uint32_t recommended = std::min(largest, vkh::recommended_capacity(faceCount));
-  const uint32_t compact = std::min(largest, vkh::compact_capacity(faceCount));
+  const uint32_t compact = std::min(largest, vkh::compact_capacity(context->limits, faceCount));
   const auto workspace_size = [&](uint32_t capacity) {
     return vkh::workspace_size(vertexCount, faceCount, capacity, context->limits.switches);
   };

@@ -147,6 +147,12 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   w.capacity = capacity;
 }
 
+// As kMaySplitTwice of shaders/wave/split_counts.glsl.
+bool may_split_twice(uint32_t switches) {
+  return (switches & (gpu::kUseSplitTwice | gpu::kUseFilter | gpu::kUsePacket)) ==
+         gpu::kUseSplitTwice;
+}
+
 }  // namespace
 
 uint64_t frontier_places(uint64_t capacity, uint32_t switches) {
@@ -222,8 +228,19 @@ uint32_t recommended_capacity(uint32_t face_count) {
 // The first waves refine all of A's faces, as four children each, and twice as many. Measured on
 // lavapipe with tools/bench/workspace_bench.cpp: 3.2 places a face cost balls 1.25 times the time,
 // 12 places none.
-uint32_t compact_capacity(uint32_t face_count) {
-  return std::min(8 * face_count + 1024, recommended_capacity(face_count));
+//   A GPU splits up to kSplitTwiceParents candidates twice, which takes 20 places each
+// (shaders/wave/room.glsl). Without that room a small pair takes up to twice as many waves, and
+// waves are most of its time. Few faces may hold more candidates than faces: 80 faces of a coarse
+// ball against a fine one hold 1,052. By waves, --gpu-profile: 20,480 places cost that pair 1.2
+// times the waves and balls of 1,280 faces 1.57 times; 28,672 cost neither any.
+uint32_t compact_capacity(const Limits& limits, uint32_t face_count) {
+  constexpr uint32_t kOfFew = 512, kFew = 64, kOfFace = 24;
+  constexpr uint32_t kMostFaces = (20 * gpu::kSplitTwiceParents + 1024) / kOfFace;
+  const uint32_t once = 8 * face_count + 1024;
+  const uint32_t twice = std::max(kOfFew * std::min(face_count, kFew),  //
+                                  kOfFace * std::min(face_count, kMostFaces));
+  const uint32_t wanted = may_split_twice(limits.switches) ? std::max(once, twice) : once;
+  return std::min(wanted, recommended_capacity(face_count));
 }
 
 uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,

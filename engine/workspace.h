@@ -111,8 +111,9 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face_count,
                       VkDeviceSize bytes);
 uint32_t largest_capacity(const Limits& limits);
-// The capacity of a small workspace that costs most runs little time.
-uint32_t compact_capacity(uint32_t face_count);
+// The capacity of a small workspace that costs most runs little time: as a rule no more waves than
+// the recommended one.
+uint32_t compact_capacity(const Limits& limits, uint32_t face_count);
 // The capacity that a run starts well with.
 uint32_t recommended_capacity(uint32_t face_count);
 constexpr uint32_t kSmallestCapacity = 4 * gpu::kReserve;

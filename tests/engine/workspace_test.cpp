@@ -229,6 +229,43 @@ TEST_CASE("a compact workspace bounds all faces of A at once, and gives the same
   }
 }
 
+namespace {
+
+// Runs a pair on the GPU profile in so many bytes of its workspace.
+VkhReport run_in(ApiPair& pair, VkDeviceSize bytes) {
+  pair.problem().workspace.size = bytes;
+  return pair.run([&](VkCommandBuffer commands) {
+    pair.build(commands);
+    pair.begin(commands);
+    pair.advance(commands, 20);
+    pair.report(commands);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("on a GPU a compact workspace costs a small pair no wave") {
+  const std::vector<std::pair<Mesh, Mesh>> meshes = {
+      {icosphere(1.0, 1), translated(icosphere(1.1, 4), {0.003, 0.002, 0.001})},
+      {icosphere(1.0, 3), icosphere(1.01, 3)}};
+  for (const auto& [mesh_a, mesh_b] : meshes) {
+    CAPTURE(mesh_a.faces.size());
+    ApiMesh a(mesh_a), b(mesh_b);
+    ApiPair pair(a, b, 3e-6f);
+    VkhWorkspaceRequirements needed{};
+    REQUIRE(vkhGetWorkspaceRequirements(pair.context(), a.view().vertexCount, a.view().faceCount,
+                                        &needed) == VKH_SUCCESS);
+    CHECK(needed.compact < 4'000'000);
+    CHECK(needed.compact < pair.workspace_size());
+    const VkhReport ample = run_in(pair, pair.workspace_size());
+    const VkhReport compact = run_in(pair, needed.compact);
+    CHECK(ample.status == VKH_STATUS_DECIDED);
+    CHECK(compact.status == VKH_STATUS_DECIDED);
+    CHECK(compact.waves == ample.waves);
+    CHECK(ample.waves > 2);
+  }
+}
+
 // --- Waves and time ---
 
 TEST_CASE("after every wave the interval holds the distance, and never widens") {

@@ -1,8 +1,11 @@
 // The time of a run in workspaces of each named size, and of any number of candidates, against that
-// in the recommended one: three families of pairs, whose A has 12 to 100,000 faces. Runs alternate
+// in the recommended one: four families of pairs, whose A has 1 to 100,000 faces. Runs alternate
 // between the sizes; the least of their times on the device counts, the BVH apart.
 //
 //   vkh_workspace_bench [--device D] [--faces N] [--runs 5] [--tol 1e-6] [--candidates 256,1024]
+//                       [--gpu-profile]
+//
+// With --gpu-profile a CPU device runs the waves that a GPU runs.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -28,6 +31,7 @@ struct Arguments {
   int runs = 5;
   double tolerance = 1e-6;
   std::vector<uint32_t> candidates;
+  bool gpu_profile = false;
 };
 
 struct Pair {
@@ -43,21 +47,29 @@ struct Size {
   Report report = {};
 };
 
-// A context of the device's defaults, which knows what workspaces it needs.
-Context context_on(const Device& device) {
+// A context of the device's defaults, or of a GPU's, which knows what workspaces it needs.
+Context context_on(const Device& device, const Arguments& arguments) {
   VkhContextCreateInfo info{};
   info.size = sizeof(info);
   info.device = device.engine_info();
+  if (arguments.gpu_profile) info.deviceKind = VKH_DEVICE_KIND_WIDE;
   VkhContext context = nullptr;
   const VkhResult result = vkhCreateContext(&info, &context);
   if (result != VKH_SUCCESS) throw DeviceError(vkhResultString(result));
   return {context, vkhDestroyContext};
 }
 
-// A mesh beside itself, coarser, where few candidates stay; a mesh whose every face is about as far
-// from a fine ball, where many do; and a ball within another one.
+// A triangle, and a square of two, above a bumpy field; a mesh beside itself, coarser, where few
+// candidates stay; a mesh whose every face is about as far from a fine ball, where many do; and a
+// ball within another one.
 std::vector<Pair> pairs(uint32_t most_faces) {
   std::vector<Pair> all;
+  for (const uint32_t cells : {12u, 72u}) {
+    const Mesh field = test::height_field(cells, 1);
+    all.push_back(
+        {"few", test::single_triangle({0.1, 0.1, 0.3}, {0.9, 0.2, 0.3}, {0.4, 0.9, 0.3}), field});
+    all.push_back({"few", test::square_patch(1, 0.3), field});
+  }
   const Mesh ball = test::translated(test::icosphere(1.1, 5), {0.003, 0.002, 0.001});
   all.push_back({"coarse", test::cube(0.6), ball});
   for (const uint32_t halvings : {1u, 3u, 4u, 6u})
@@ -93,6 +105,10 @@ void measure(Solver& solver, const Pair& pair, const Arguments& arguments,
       options.time_limit_s = 60;
       options.memory_bytes = size.bytes;
       options.stage_times = false;
+      if (arguments.gpu_profile) {
+        options.enabled = {"wide", "group_walk", "split_twice"};
+        options.disabled = {"centroid", "parent_samples"};
+      }
       size.report = solver.distance(pair.a, pair.b, options);
       if (run > 0) size.ms = std::min(size.ms, size.report.times.solve_ms);
     }
@@ -117,9 +133,10 @@ int run(int argc, char** argv) {
   app.add_option("--runs", arguments.runs);
   app.add_option("--tol", arguments.tolerance);
   app.add_option("--candidates", arguments.candidates)->delimiter(',');
+  app.add_flag("--gpu-profile", arguments.gpu_profile, "the waves of a GPU, on any device");
   CLI11_PARSE(app, argc, argv);
   Device device({.selector = arguments.device});
-  const Context context = context_on(device);
+  const Context context = context_on(device, arguments);
   Solver solver(device);
   std::printf("family,faces,size,bytes,ms,times_recommended,waves,candidates,peak,gap\n");
   for (const Pair& pair : pairs(arguments.faces)) {
