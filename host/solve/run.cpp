@@ -194,9 +194,13 @@ void Runner::record_one(VkCommandBuffer commands, const Submission& submission) 
   const uint32_t waves =
       submission.begins ? submission.waves - 1 : submission.waves;  // the begin has one
   vkhCmdAdvance(context_, commands, &problem, waves, profile());
-  vkhCmdWriteReport(context_, commands, &problem, buffers.report(), 0, profile());
-  vkhCmdWriteStatistics(context_, commands, &problem, buffers.report(),
-                        PairBuffers::kStatisticsOffset, nullptr);
+  // A task's statistics wait for its waves alone, and are copied beside the report's dispatch.
+  VkhTask output{};
+  output.size = sizeof(output);
+  output.problem = &problem;
+  output.reportBuffer = output.statisticsBuffer = buffers.report();
+  output.statisticsOffset = PairBuffers::kStatisticsOffset;
+  vkhCmdRunTasks(context_, commands, 1, &output, profile());
   stamp(commands, "solve");
 }
 
