@@ -100,8 +100,7 @@ void try_query(Query q, uint i, inout Nearest best) {
 void measure_tied(Query q, inout Nearest best) {
   while (tied_count > 0u) {
     --tied_count;
-    if (tied_distance2[tied_count] <= reach_of(best))
-      try_tight(q, tied[tied_count], best);
+    if (tied_distance2[tied_count] <= reach_of(best)) try_tight(q, tied[tied_count], best);
   }
 }
 
