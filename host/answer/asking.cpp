@@ -94,8 +94,8 @@ Observer observer_of(Asking& at) {
                 at.advance(progress);
                 return !is_interrupted();
               },
-          .cells = [&at](size_t cells) { at.line.show_survey(cells); },
-          .leaves = [&at](size_t leaves) { at.line.show_proof(leaves); },
+          .cells = [&at](const SideCount& side) { at.line.show_survey(side.count); },
+          .leaves = [&at](const SideCount& side) { at.line.show_proof(side.count); },
           .found = [&at](const Answer& answer) { at.keep(answer); }};
 }
 

@@ -48,8 +48,18 @@ double survey_time(const Finishing& at, size_t left) {
   return kPartOfTime * std::max(time, 0.0) / static_cast<double>(left);
 }
 
+/// A direction, and what is to be found of the mesh that it begins at.
+struct Side {
+  const Mesh& from;
+  const Mesh& to;
+  const PreparedMesh* prepared;
+  const char* name;
+  bool back;
+  Report& report;
+};
+
 // `left`: the surveys that are still to come, this one among them.
-SurveyOptions survey_options(const Finishing& at, size_t left) {
+SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left) {
   const Question& question = at.question;
   SurveyOptions options;
   options.faces = question.faces;
@@ -67,8 +77,13 @@ SurveyOptions survey_options(const Finishing& at, size_t left) {
   if (!question.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
   options.time_limit_s = survey_time(at, left);
   if (question.effort) options.effort = *question.effort;
-  options.goes_on = [&observer = at.observer](size_t cells) {
-    if (observer.cells) observer.cells(cells);
+  const bool on_cpu = at.solver.device().description().type == "cpu";
+  SideCount heard{.back = side.back,
+                  .faces = side.from.faces.size(),
+                  .effort = question.effort.value_or(default_effort(on_cpu))};
+  options.goes_on = [&observer = at.observer, heard](size_t cells) mutable {
+    heard.count = cells;
+    if (observer.cells) observer.cells(heard);
     return observer.is_to_go_on();
   };
   return options;
@@ -97,15 +112,6 @@ void join(Report& report, SurveyResult& survey, size_t face_count) {
   survey.sides->over.upper = std::min(survey.sides->over.upper, report.upper);
   survey.sides->under.upper = std::min(survey.sides->under.upper, report.upper);
 }
-
-/// A direction, and what is to be found of the mesh that it begins at.
-struct Side {
-  const Mesh& from;
-  const Mesh& to;
-  const PreparedMesh* prepared;
-  const char* name;
-  Report& report;
-};
 
 void note(const Finishing& at, NoteCode code, const std::string& text) {
   at.answer.notes.push_back(note_of(code, text));
@@ -155,7 +161,7 @@ void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
 }
 
 SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
-  SurveyOptions options = survey_options(at, left);
+  SurveyOptions options = survey_options(at, side, left);
   options.upper = side.report.upper;
   const std::optional<double> beyond = uncovered_beyond(at, side);
   if (beyond) options.bands.insert(options.bands.end(), 2, *beyond);
@@ -173,10 +179,12 @@ std::optional<Proof> prove_side(const Finishing& at, const Side& side) {
   std::optional<Proof> proof;
   if (!std::isfinite(side.report.upper)) return proof;
   try {
-    proof = prove(at.solver, {side.from, side.to, side.report, at.options, [&](size_t leaves) {
-                                if (at.observer.leaves) at.observer.leaves(leaves);
-                                return at.observer.is_to_go_on();
-                              }});
+    const auto goes_on = [&](size_t leaves) {
+      const SideCount heard{.back = side.back, .count = leaves, .faces = side.from.faces.size()};
+      if (at.observer.leaves) at.observer.leaves(heard);
+      return at.observer.is_to_go_on();
+    };
+    proof = prove(at.solver, {side.from, side.to, side.report, at.options, goes_on});
   } catch (const std::bad_alloc&) {
     note(at, NoteCode::kCertificate, "there was no memory for a certificate");
   } catch (const MemoryError&) {
@@ -205,8 +213,8 @@ double Observer::time_left_s() const {
 void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
             const Observer& observer, Answer& answer) {
   const Finishing at{question, solver, observer, solve_options(question, answer), answer};
-  std::vector<Side> sides{{meshes.a, meshes.b, meshes.prepared, "A", answer.a_to_b}};
-  if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", *answer.b_to_a});
+  std::vector<Side> sides{{meshes.a, meshes.b, meshes.prepared, "A", false, answer.a_to_b}};
+  if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", true, *answer.b_to_a});
   for (size_t i = 0; question.asks_for_survey() && i < sides.size(); ++i)
     (i == 0 ? answer.survey_a : answer.survey_b) = survey_side(at, sides[i], sides.size() - i);
   if (observer.found) observer.found(answer);

@@ -8,6 +8,7 @@
 #include "host/answer/answer.h"
 #include "host/answer/pair_notes.h"
 #include "host/answer/question.h"
+#include "host/answer/work_meter.h"
 #include "host/solve/solver.h"
 #include "host/solve/stream.h"
 
@@ -15,11 +16,12 @@ namespace vkh {
 
 /// Hears how a question gets on, on the threads that work, and may end it. Any may be empty.
 struct Observer {
-  std::function<bool()> goes_on = {};                   ///< false: end, with a true answer
-  std::function<double()> left_s = {};                  ///< the seconds left for all of it
-  std::function<bool(const Progress&)> search = {};     ///< of the search; false: end
-  std::function<void(size_t)> cells = {}, leaves = {};  ///< of a survey; of a certificate
-  std::function<void(const Answer&)> found = {};        ///< what is known, after each step
+  std::function<bool()> goes_on = {};                ///< false: end, with a true answer
+  std::function<double()> left_s = {};               ///< the seconds left for all of it
+  std::function<bool(const Progress&)> search = {};  ///< of the search; false: end
+  std::function<void(const SideCount&)> cells = {}, leaves = {};  ///< of a survey; a certificate
+  /// What is known: after the search, after the search for the worst point, and after surveys.
+  std::function<void(const Answer&)> found = {};
 
   bool is_to_go_on() const { return !goes_on || goes_on(); }
   double time_left_s() const;  ///< infinite where there is no limit

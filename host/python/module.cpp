@@ -21,14 +21,18 @@ void define_distance(py::module_& m) {
       "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
       "         statistics=False, signed=False, bands=(), effort=None, survey_time=None,\n"
-      "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False)\n--\n\n"
+      "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
+      "         on_progress=None)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
       "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: a\n"
       "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
-      "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as '0' or\n"
-      "part of a name; progress(wave, lower, upper): return False to cancel. preset: 'default',\n"
+      "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as 0,\n"
+      "part of a name or a Device. progress(wave, lower, upper) hears the search alone;\n"
+      "on_progress(fraction, lower, upper) all work: the fraction grows to 1, which comes last, "
+      "and\n"
+      "the interval of the answer narrows. Either may return False to cancel. preset: 'default',\n"
       "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval is\n"
       "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError for\n"
       "the device. Ctrl-C ends a run.\n\n"
@@ -88,7 +92,7 @@ void define_gate(py::module_& m) {
         "     field=False, statistics=False, signed=False, bands=(), area=None, effort=None,\n"
         "     survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, "
         "scale=False,\n"
-        "     worst=False)\n--\n\n"
+        "     worst=False, on_progress=None)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
@@ -101,6 +105,47 @@ void define_closest(py::module_& m) {
       "in B's coordinates. Returns a Closest with arrays lower, upper, points and faces; also\n"
       "distances, points, faces = closest(b, points), the distances being upper. ValueError that\n"
       "names the row if a point is not finite. For many calls with one B: Solver(b).closest.");
+}
+
+py::dict info_of(const py::object& self) {
+  using py::literals::operator""_a;
+  const Call call;
+  const DeviceDescription d = made<PythonDevice>(self, "Device").session()->description();
+  return py::dict("index"_a = d.index, "name"_a = d.name, "type"_a = d.type, "driver"_a = d.driver,
+                  "api_version"_a = d.api_version);
+}
+
+void define_device(py::module_& m) {
+  py::class_<PythonDevice>(
+      m, "Device",
+      "A device that stays open, for many Solvers and calls, one run at a time:\n"
+      "with Device() as d: s = Solver(b, device=d); r = distance(a, b, device=d)\n"
+      "After a DeviceError that says that it was lost, the next call opens it anew, and each\n"
+      "Solver prepares its mesh again.")
+      .def(py::init<const py::args&, const py::kwargs&>(), "__init__(self, device='')\n--\n\n")
+      .def_property_readonly("info", info_of,
+                             "a dict of index, name, type, driver and api_version, as devices() "
+                             "has them")
+      .def(
+          "close", [](const py::object& self) { made<PythonDevice>(self, "Device").close(); },
+          "close(self)\n--\n\n"
+          "Frees the device and what its Solvers keep there; what is called later is a "
+          "ValueError.\n"
+          "Waits for runs of other threads. In a run's own callback it waits for nothing: that "
+          "run\n"
+          "is the last.")
+      .def(
+          "__enter__", [](py::object self) { return self; }, "__enter__(self)\n--\n\n")
+      .def(
+          "__exit__",
+          [](const py::object& self, const py::args&) {
+            made<PythonDevice>(self, "Device").close();
+          },
+          "__exit__(self, *error)\n--\n\n")
+      .def("__repr__", [](const py::object& self) {
+        return "<vkhausdorff.Device " + py::cast<std::string>(py::repr(info_of(self)["name"])) +
+               ">";
+      });
 }
 
 void define_solver(py::module_& m) {
@@ -119,7 +164,7 @@ void define_solver(py::module_& m) {
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
           "         signed=False, bands=(), effort=None, survey_time=None, certificate=None, "
           "unit_a=None,\n"
-          "         unit_b=None, transform=None, scale=False)\n--\n\n"
+          "         unit_b=None, transform=None, scale=False, on_progress=None)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "closest",
@@ -131,7 +176,8 @@ void define_solver(py::module_& m) {
           "close", [](const py::object& self) { made<PythonSolver>(self, "Solver").close(); },
           "close(self)\n--\n\n"
           "Frees the device; what is called later is a ValueError. Waits for runs of "
-          "other threads.\nIn a run's own callback it waits for nothing: that run is the last.")
+          "other threads.\nIn a run's own callback it waits for nothing: that run is the last. "
+          "On a Device\nthat it was given it frees B alone, after the runs that have it.")
       .def(
           "__enter__", [](py::object self) { return self; }, "__enter__(self)\n--\n\n")
       .def(
@@ -161,6 +207,7 @@ PYBIND11_MODULE(_core, m) {
   define_devices(m);
   define_gate(m);
   define_closest(m);
+  define_device(m);
   define_solver(m);
   define_mesh(m);
   define_many(m);

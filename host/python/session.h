@@ -3,12 +3,17 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "host/answer/work_meter.h"
+#include "host/gpu/device_description.h"
+#include "host/python/mesh.h"
 #include "host/solve/solver.h"
 
 namespace vkh::python {
@@ -16,28 +21,37 @@ namespace vkh::python {
 /// Made, used and closed within a Call. Freed by its last owner, or at the interpreter's end.
 class Session {
  public:
-  explicit Session(const std::string& device);
+  /// Opens the device. `owner`: "Device" or "Solver", for messages.
+  explicit Session(const std::string& device, const char* owner);
   /// Does not wait: a thread with a run in flight has a share of the session. In a forked process
   /// nothing is freed: the device is the parent's.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  void prepare(Mesh b);
+  /// Names a mesh that is kept on the device; 0 names none.
+  using Key = uint64_t;
+  /// Prepares `b` and keeps it until it is dropped. Throws as use() does, and keeps nothing then.
+  Key prepare(MeshPointer b);
+  /// Does not wait: a run that has the mesh goes on with it, and frees it. Needs no GIL.
+  void drop(Key key);
 
   /// Runs `work` without the GIL, one caller at a time. Between submissions of a run, the callback
   /// (hear) checks for signals. Throws a RuntimeError, not a
-  /// deadlock, if called from within itself, by a progress callback; a ValueError once closed; a
-  /// DeviceError if the device is lost meanwhile. The next call opens it anew, with what was
-  /// prepared.
+  /// deadlock, if called from within itself, by a progress callback; a ValueError once closed, or
+  /// if `key` was dropped; a DeviceError if the device is lost meanwhile. The next call opens it
+  /// anew, and each mesh that was prepared is prepared again by its next use.
   ///
-  /// The second argument is the mesh that was prepared, or null.
+  /// The second argument is the mesh that `key` names, or null.
   using Work = std::function<void(Solver&, const PreparedMesh*)>;
-  void use(const Work& work);
+  void use(const Work& work, Key key = 0);
 
-  /// Waits for the run of another thread. In a callback of its own run it waits for nothing: that
-  /// run goes on, and is the last.
+  /// Frees the device, after the run of another thread. In a callback of its own run it waits for
+  /// nothing: that run goes on, and is the last.
   void close();
+
+  /// Returns the open device's, or that of the one that was open last.
+  DeviceDescription description() const;
 
   /// Frees all at the end of the interpreter: no Session has a device afterwards.
   static void free_all();
@@ -45,20 +59,32 @@ class Session {
  private:
   struct Parts;
   class Turn;
-  void reopen();
-  void run(const Work& work);
+  void open();
+  void run(const Work& work, Key key);
+  std::shared_ptr<const PreparedMesh> prepared(Key key);
+  void end_turn();
+  pybind11::value_error closed() const;
 
-  std::string selector_;
-  std::unique_ptr<Parts> parts_;  // null if a lost device could not be opened anew
-  std::optional<Mesh> lost_b_;    // mesh that was prepared on a device that was lost
+  const std::string selector_;
+  const char* const owner_name_;
+  // These belong to the thread that has the turn.
+  std::unique_ptr<Parts> parts_;       // null if a lost device could not be opened anew
+  std::map<Key, MeshPointer> meshes_;  // those that were prepared and not dropped
   bool is_lost_ = false;
+  Key last_key_ = 0;
+  // These belong to the lock of change_now().
+  std::vector<Key> dropped_;
   std::thread::id owner_;
   bool is_closed_ = false;
+  DeviceDescription description_;
 };
 
 /// Calls `progress(wave, lower, upper)`, unless it is None, and returns false if that cancels.
 /// Called within a run, between its submissions; throws if a signal's handler raised.
 bool hear(const pybind11::object& progress, const Progress& p);
+
+/// Calls `on_progress(fraction, lower, upper)` in the same way.
+bool hear(const pybind11::object& on_progress, const WorkDone& done);
 
 /// Called the same way: throws if a signal's handler raised.
 void hear_signals();

@@ -1,6 +1,7 @@
 #include "host/python/solver.h"
 
 #include <chrono>
+#include <functional>
 #include <map>
 
 #include "host/answer/steps.h"
@@ -15,29 +16,42 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as 0 or part of a name";
+constexpr const char* kSelector = "'', 'gpu', 'cpu', an index such as 0 or part of a name";
+constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as 0, part of a name or a Device";
 
 // One session a device, kept between calls of distance(): making one takes longer than most runs.
 // It is never destroyed, but freed: see interpreter.cpp.
-std::map<std::string, std::unique_ptr<Session>>& sessions() {
-  static auto* kept = new std::map<std::string, std::unique_ptr<Session>>;
+std::map<std::string, std::shared_ptr<Session>>& sessions() {
+  static auto* kept = new std::map<std::string, std::shared_ptr<Session>>;
   return *kept;
 }
 
-Session& session_for(const std::string& device) {
+std::shared_ptr<Session> session_for(const std::string& device) {
   const auto known = sessions().find(device);
-  if (known != sessions().end()) return *known->second;
-  auto made = std::make_unique<Session>(device);  // without the GIL: another may be first
-  return *sessions().try_emplace(device, std::move(made)).first->second;
+  if (known != sessions().end()) return known->second;
+  auto made = std::make_shared<Session>(device, "Device");  // without the GIL: another may be first
+  return sessions().try_emplace(device, std::move(made)).first->second;
 }
 
-/// Reads the keyword `progress`: None if it was not given.
-py::object progress_of(const Arguments& given) {
-  const py::object* progress = given.find("progress");
-  if (progress == nullptr || progress->is_none()) return py::none();
-  if (PyCallable_Check(progress->ptr()) == 0)
-    refuse_type("progress", "a function of wave, lower and upper, or None", *progress);
-  return *progress;
+/// The session of a Device; null if `device` is none.
+std::shared_ptr<Session> shared_session(const Arguments& given) {
+  const py::object* device = given.find("device");
+  if (device == nullptr || !py::isinstance<PythonDevice>(*device)) return nullptr;
+  return made<PythonDevice>(*device, "Device").session();
+}
+
+/// Reads the keyword `device`, and keeps the session between calls.
+std::shared_ptr<Session> session_of(const Arguments& given) {
+  std::shared_ptr<Session> shared = shared_session(given);
+  return shared != nullptr ? shared : session_for(given.device(kDevice));
+}
+
+/// Reads a function's keyword: None if it was not given.
+py::object callback_of(const Arguments& given, const char* name, const char* expected) {
+  const py::object* callback = given.find(name);
+  if (callback == nullptr || callback->is_none()) return py::none();
+  if (PyCallable_Check(callback->ptr()) == 0) refuse_type(name, expected, *callback);
+  return *callback;
 }
 
 /// Reads the keyword `certificate`: a text, or an object from which os.fspath() makes one. Checks
@@ -56,14 +70,16 @@ std::unique_ptr<OutputFile> certificate_file(const Arguments& given) {
 /// A call: its question, its meshes, and the outputs besides the result.
 struct Given {
   Question question;
-  py::object progress;
+  py::object progress, on_progress;
   std::unique_ptr<OutputFile> certificate;
   MeshPointer a, b;
   MeshShape shape_b;
 
   Given(const char* command, const Arguments& given, MeshPointer mesh_a, KeptMesh mesh_b)
       : question(question_of(command, given)),
-        progress(progress_of(given)),
+        progress(callback_of(given, "progress", "a function of wave, lower and upper, or None")),
+        on_progress(
+            callback_of(given, "on_progress", "a function of fraction, lower and upper, or None")),
         certificate(certificate_file(given)),
         a(std::move(mesh_a)),
         b(std::move(mesh_b.mesh)),
@@ -78,17 +94,36 @@ struct Given {
 /// Asks Python between submissions, in the floating-point environment of the caller.
 class Listener {
  public:
-  explicit Listener(const Given& given) : given_(given) {}
+  /// `known` has its meshes.
+  Listener(const Given& given, const Answer& known)
+      : given_(given), meter_(given.question, known) {}
 
   Observer observer() {
     return {.goes_on = [this] { return goes_on(); },
             .search =
                 [this](const Progress& p) {
-                  const bool goes_on = ours_.outside([&] { return hear(given_.progress, p); });
-                  is_cancelled_ = is_cancelled_ || !goes_on;
-                  return goes_on;
+                  meter_.hear(p);
+                  take(ours_.outside([&] { return hear(given_.progress, p); }));
+                  tell();
+                  return !is_cancelled_;
                 },
-            .leaves = [this](size_t) { is_proving_ = true; }};
+            .cells =
+                [this](const SideCount& side) {
+                  meter_.hear_cells(side);
+                  tell();
+                },
+            .leaves =
+                [this](const SideCount& side) {
+                  is_proving_ = true;
+                  meter_.hear_leaves(side);
+                  tell();
+                },
+            .found = [this](const Answer& answer) { meter_.take(answer); }};
+  }
+  /// Tells that all work is done, unless the caller cancelled it.
+  void end(const Answer& answer) {
+    meter_.end(answer);
+    tell();
   }
 
  private:
@@ -99,8 +134,14 @@ class Listener {
     const bool is_late = is_proving_ && spent.count() >= given_.question.options.time_limit_s;
     return !is_cancelled_ && !is_late;
   }
+  void tell() {
+    if (is_cancelled_ || given_.on_progress.is_none()) return;
+    take(ours_.outside([&] { return hear(given_.on_progress, meter_.done()); }));
+  }
+  void take(bool goes_on) { is_cancelled_ = is_cancelled_ || !goes_on; }
 
   const Given& given_;
+  WorkMeter meter_;
   FloatEnvironment ours_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool is_cancelled_ = false, is_proving_ = false;
@@ -122,20 +163,22 @@ void write_certificate(Given& given, const Answer& answer, Result& result) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, warning, 1) != 0) throw py::error_already_set();
 }
 
-Result answered(Given given, Session& session) {
+Result answered(Given given, Session& session, Session::Key key = 0) {
   Answer answer = unread_answer(given.question);
   {
     const FloatEnvironment ours;
     given.a = placed(given.question, given.a, *given.b);
     take_meshes(given.question, {*given.a, shape_of(*given.a)}, {*given.b, given.shape_b}, answer);
   }
-  session.use([&](Solver& solver, const PreparedMesh* prepared) {
-    Listener listener(given);
+  const auto work = [&](Solver& solver, const PreparedMesh* prepared) {
+    Listener listener(given, answer);
     Solver* const solvers[] = {&solver};
     const AskedMeshes meshes{*given.a, *given.b, prepared};
     solve(given.question, solvers, meshes, listener.observer(), answer);
     finish(given.question, solver, meshes, listener.observer(), answer);
-  });
+    listener.end(answer);
+  };
+  session.use(work, key);
   // Raises a KeyboardInterrupt that came too late for a run after it.
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   Result result = result_of(given.question, answer);
@@ -173,22 +216,21 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{"closest", {"b", "points", "device"}, 2, 2};
   const Call call;
   const Arguments given(*signature, positional, named);
-  const std::string device = given.device(kDevice);
+  const std::shared_ptr<Session> session = session_of(given);
   const MeshPointer b = mesh_of("b", "B", given.at("b"));
   const std::vector<DVec3> points = points_from(given.at("points"));
   ClosestPoints found;
-  session_for(device).use(
-      [&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
+  session->use([&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
   return closest_of(found);
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "distance",
-      {"va",     "fa",         "vb",        "fb",      "tol",      "symmetric",   "device",
-       "time",   "waves",      "memory",    "disable", "progress", "enable",      "preset",
-       "field",  "statistics", "signed",    "bands",   "effort",   "survey_time", "certificate",
-       "unit_a", "unit_b",     "transform", "scale"},
+      {"va",     "fa",         "vb",        "fb",      "tol",        "symmetric",   "device",
+       "time",   "waves",      "memory",    "disable", "progress",   "enable",      "preset",
+       "field",  "statistics", "signed",    "bands",   "effort",     "survey_time", "certificate",
+       "unit_a", "unit_b",     "transform", "scale",   "on_progress"},
       4,
       6};
   const Call call;
@@ -196,7 +238,7 @@ Result distance(const py::args& positional, const py::kwargs& named) {
   const Arguments arguments(*signature, all, named);
   return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")),
                    kept(mesh_of("B", arguments.at("vb"), arguments.at("fb")))},
-                  session_for(arguments.device(kDevice)));
+                  *session_of(arguments));
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
@@ -205,57 +247,102 @@ Result gate(const py::args& positional, const py::kwargs& named) {
       {"a",          "b",      "max",       "tol",      "symmetric", "device",      "time",
        "waves",      "memory", "disable",   "progress", "enable",    "preset",      "field",
        "statistics", "signed", "bands",     "area",     "effort",    "survey_time", "certificate",
-       "unit_a",     "unit_b", "transform", "scale",    "worst"},
+       "unit_a",     "unit_b", "transform", "scale",    "worst",     "on_progress"},
       3,
       3};
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
                    kept(mesh_of("b", "B", arguments.at("b")))},
-                  session_for(arguments.device(kDevice)));
+                  *session_of(arguments));
 }
 
 void free_devices() { Session::free_all(); }
+
+namespace {
+
+// Frees what a Python object holds of a session, without the GIL. `drop` is not called at the
+// interpreter's end, and nothing is where the process was forked.
+void let_go(std::shared_ptr<Session> session, const std::function<void(Session&)>& drop) {
+  if (session == nullptr || is_forked()) return;
+  try {
+    const Call call;
+    const WithoutGil outside;
+    drop(*session);
+    session.reset();
+  } catch (const Ended&) {
+    session.reset();
+  }
+}
+
+}  // namespace
+
+PythonDevice::PythonDevice(const py::args& positional, const py::kwargs& named)
+    : session_([&] {
+        static const auto* signature = new Signature{"Device", {"device"}, 0, 1};
+        const Call call;
+        const Arguments given(*signature, positional, named);
+        return std::make_shared<Session>(given.device(kSelector), "Device");
+      }()) {}
+
+void PythonDevice::close() {
+  const Call call;
+  session_->close();
+}
+
+// Solvers may still have it.
+PythonDevice::~PythonDevice() {
+  let_go(std::move(session_), [](Session&) {});
+}
 
 PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{"Solver", {"vb", "fb", "device"}, 2, 3};
   const Call call;
   const py::args all = spread(positional, named, {"vb", "fb"});
   const Arguments given(*signature, all, named);
-  const std::string device = given.device(kDevice);
-  const MeshPointer b = mesh_of("B", given.at("vb"), given.at("fb"));
-  session_ = std::make_shared<Session>(device);
-  b_ = kept(b);
-  session_->prepare(*b);
+  std::shared_ptr<Session> session = shared_session(given);
+  shares_device_ = session != nullptr;
+  const std::string device = shares_device_ ? std::string() : given.device(kDevice);
+  b_ = kept(mesh_of("B", given.at("vb"), given.at("fb")));
+  if (!shares_device_) session = std::make_shared<Session>(device, "Solver");
+  key_ = session->prepare(b_.mesh);
+  session_ = std::move(session);
+}
+
+std::shared_ptr<Session> PythonSolver::open_session() const {
+  std::shared_ptr<Session> session = session_;  // it may be closed meanwhile
+  if (session == nullptr) throw py::value_error("this Solver is closed");
+  return session;
 }
 
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "Solver.distance",
-      {"va",       "fa",          "tol",         "time",   "waves",      "memory",    "disable",
-       "progress", "enable",      "preset",      "field",  "statistics", "signed",    "bands",
-       "effort",   "survey_time", "certificate", "unit_a", "unit_b",     "transform", "scale"},
-      2,
-      3};
+  static const auto* signature =
+      new Signature{"Solver.distance",
+                    {"va",      "fa",        "tol",    "time",        "waves",       "memory",
+                     "disable", "progress",  "enable", "preset",      "field",       "statistics",
+                     "signed",  "bands",     "effort", "survey_time", "certificate", "unit_a",
+                     "unit_b",  "transform", "scale",  "on_progress"},
+                    2,
+                    3};
   const Call call;
-  const std::shared_ptr<Session> session = session_;  // it may be closed meanwhile
-  if (session == nullptr) throw py::value_error("this Solver is closed");
+  const std::shared_ptr<Session> session = open_session();
   const py::args all = spread(positional, named, {"va", "fa"});
   const Arguments arguments(*signature, all, named);
   return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")), b_},
-                  *session);
+                  *session, key_);
 }
 
 py::object PythonSolver::closest(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{"Solver.closest", {"points"}, 1, 1};
   const Call call;
-  const std::shared_ptr<Session> session = session_;
-  if (session == nullptr) throw py::value_error("this Solver is closed");
+  const std::shared_ptr<Session> session = open_session();
   const Arguments given(*signature, positional, named);
   const std::vector<DVec3> points = points_from(given.at("points"));
   ClosestPoints found;
-  session->use(
-      [&](Solver& solver, const PreparedMesh* b) { found = solver.closest(*b, points, goes_on); });
+  const auto work = [&](Solver& solver, const PreparedMesh* b) {
+    found = solver.closest(*b, points, goes_on);
+  };
+  session->use(work, key_);
   return closest_of(found);
 }
 
@@ -263,21 +350,17 @@ void PythonSolver::close() {
   const Call call;
   std::shared_ptr<Session> session = std::move(session_);
   if (session == nullptr) return;
-  session->close();
+  if (!shares_device_) session->close();
   const WithoutGil outside;
+  if (shares_device_) session->drop(key_);
   session.reset();  // unless a run in flight has it, too
 }
 
-// No thread calls it any more: no run is in flight.
+// No thread calls it any more: no run of it is in flight.
 PythonSolver::~PythonSolver() {
-  if (session_ == nullptr || is_forked()) return;
-  try {
-    const Call call;
-    const WithoutGil outside;
-    session_.reset();
-  } catch (const Ended&) {
-    session_.reset();
-  }
+  let_go(std::move(session_), [this](Session& session) {
+    if (shares_device_) session.drop(key_);
+  });
 }
 
 }  // namespace vkh::python

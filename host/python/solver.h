@@ -18,7 +18,22 @@ pybind11::object closest(const pybind11::args& positional, const pybind11::kwarg
 /// Frees the devices that distance() keeps, and those of all Solvers.
 void free_devices();
 
-/// Mesh B, prepared on a device of its own session.
+/// A device that Solvers and calls share.
+class PythonDevice {
+ public:
+  PythonDevice(const pybind11::args& positional, const pybind11::kwargs& named);
+  ~PythonDevice();
+  PythonDevice(const PythonDevice&) = delete;
+  PythonDevice& operator=(const PythonDevice&) = delete;
+
+  const std::shared_ptr<Session>& session() const { return session_; }
+  void close();
+
+ private:
+  std::shared_ptr<Session> session_;
+};
+
+/// Mesh B, prepared on a device of its own, or on one that is shared.
 class PythonSolver {
  public:
   PythonSolver(const pybind11::args& positional, const pybind11::kwargs& named);
@@ -31,8 +46,12 @@ class PythonSolver {
   void close();
 
  private:
+  std::shared_ptr<Session> open_session() const;
+
   KeptMesh b_;
   std::shared_ptr<Session> session_;  // shared with the calls in flight on other threads
+  Session::Key key_ = 0;              // of b_
+  bool shares_device_ = false;
 };
 
 }  // namespace vkh::python

@@ -17,6 +17,7 @@ import unittest
 import numpy as np
 import vkhausdorff as vkh
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGE = pathlib.Path(vkh.__file__).parent
 STUB = ast.parse((PACKAGE / "__init__.pyi").read_text())
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64), np.array([[0, 1, 2]])
@@ -49,6 +50,15 @@ vkh.distance(v, f, v, f, certificate=pathlib.Path("out.vhc"))
 distances, points, rows = vkh.closest((v, f), v, device="cpu")
 with vkh.Solver(mesh) as solver:
     low: float = float(solver.closest([[0, 0, 1]]).lower[0])
+with vkh.Device("cpu") as device:
+    name: str = device.info["name"]
+    vkh.Solver(mesh, device=device).distance(mesh, on_progress=lambda fraction, lower, upper: fraction < 0.5)
+    vkh.gate(mesh, mesh, 0.1, device=device, on_progress=print)
+weights: tuple[float, float, float] = r.witness.barycentric
+width: float = r.gap + r.interval.upper
+vkh.distances([], device=vkh.Device())  # wrong
+vkh.distance(v, f, v, f, on_progress=lambda fraction: None)  # wrong
+vkh.Device(1.5)  # wrong
 vkh.distance(v, f, v, f, field=[1])  # wrong
 vkh.closest((v, f))  # wrong
 vkh.gate((v, f), (v, f), 0.1, certificate=1)  # wrong
@@ -80,6 +90,46 @@ def stub_of(body: list) -> dict:
 
 def is_property(node: ast.AST) -> bool:
     return any(isinstance(d, ast.Name) and d.id == "property" for d in node.decorator_list)
+
+
+# The names that the pages' sentences use.
+CALLS = """\
+import numpy as np
+import vkhausdorff as vkh
+from vkhausdorff import Solver, distance
+va, fa = np.zeros((3, 3)), np.array([[0, 1, 2]])
+a = b = vkh.read("part.stl")
+points = np.zeros((5, 3))
+solver = Solver(b)
+r = distance(a, b)
+d = vkh.Device()
+"""
+
+
+def documented() -> tuple[list[str], list[str]]:
+    """The blocks of Python in README and guide; the calls in their sentences that are whole: of a function or a method, with
+    arguments."""
+    blocks, calls = [], set()
+    for page in ("README.md", "docs/guide.md"):
+        text = (ROOT / page).read_text()
+        blocks += re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        python = text if page == "README.md" else text[text.index("\n## Python\n"):text.index("\n## C++\n")]
+        for code in re.findall(r"`([^`\n]+)`", re.sub(r"^```.*?^```", "", python, flags=re.M | re.S)):
+            if re.match(r"(vkh|solver|r|r\.field|d)\.\w+\(|(Solver|distance)\(", code):
+                calls.add(code)
+    return blocks, sorted(calls)
+
+
+def errors_of_mypy(test: unittest.TestCase, files: dict) -> str:
+    if importlib.util.find_spec("mypy") is None:
+        test.skipTest("no mypy here")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            (pathlib.Path(folder) / name).write_text(text)
+        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir", folder, *files],
+                              cwd=folder, capture_output=True, text=True)
+        test.assertEqual(done.stderr, "")
+        return "" if done.returncode == 0 else done.stdout
 
 
 # The names that every class of pybind11 has.
@@ -121,7 +171,7 @@ class Types(unittest.TestCase):
     def test_the_module_takes_what_its_signatures_say(self):
         """The signatures are texts: the parser's own list is in what it says to a stranger."""
         with vkh.Solver(*SQUARE) as solver:
-            for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance),
+            for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance), (vkh.Device, vkh.Device),
                                    (vkh.closest, vkh.closest), (solver.closest, solver.closest), (vkh.read, vkh.read)):
                 with self.assertRaises(TypeError) as refused:
                     function(stranger=1)
@@ -136,29 +186,32 @@ class Types(unittest.TestCase):
                 continue
             said, value = ast.unparse(member.returns), getattr(result, key)
             with self.subTest(key):
-                if said.endswith(" | None"):
+                if said.endswith((" | None", " | Any")):
                     self.assertIsNone(getattr(bare, key))
                 if said.startswith("_"):
                     name, _, none = said.partition(" | ")
                     literal = next(n for n in STUB.body if isinstance(n, ast.Assign) and n.targets[0].id == name)
                     self.assertIn(value, ast.literal_eval(literal.value.slice) + ((None,) if none else ()))
                 else:
-                    self.assertIs(type(value), eval(re.split(r"\[| \| None", said)[0], dict(vars(vkh))))
+                    self.assertIs(type(value), eval(re.split(r"\[| \| ", said)[0], dict(vars(vkh))))
 
     def test_it_is_marked_as_typed(self):
         self.assertTrue((PACKAGE / "py.typed").exists())
 
     def test_mypy_reads_it(self):
-        if importlib.util.find_spec("mypy") is None:
-            self.skipTest("no mypy here")
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder) / "uses.py"
-            file.write_text(USES)
-            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", folder, str(file)],
-                                  cwd=folder, capture_output=True, text=True)
-            wrong = {int(line) for line in re.findall(r"^uses\.py:(\d+): error", done.stdout, re.M)}
-            expected = {i for i, line in enumerate(USES.splitlines(), 1) if line.endswith("# wrong")}
-            self.assertEqual(wrong, expected, done.stdout + done.stderr)
+        found = errors_of_mypy(self, {"uses.py": USES})
+        wrong = {int(line) for line in re.findall(r"^uses\.py:(\d+): error", found, re.M)}
+        expected = {i for i, line in enumerate(USES.splitlines(), 1) if line.endswith("# wrong")}
+        self.assertEqual(wrong, expected, found)
+
+    def test_every_documented_call_passes_mypy(self):
+        """The code blocks of the pages, and the calls that stand in their sentences."""
+        blocks, calls = documented()
+        self.assertGreater(len(blocks), 6)
+        self.assertGreater(len(calls), 4)
+        files = {f"block_{i}.py": block for i, block in enumerate(blocks)}
+        files["calls.py"] = CALLS + "".join(f"{call}\n" for call in calls)
+        self.assertEqual(errors_of_mypy(self, files), "")
 
 
 if __name__ == "__main__":

@@ -94,6 +94,47 @@ class Close(Lives):
             print("done")
         """)
 
+    def test_a_shared_device_in_its_own_callback(self):
+        self.lives("""
+            d = vkh.Device()
+            s, t = vkh.Solver(vb, fb, device=d), vkh.Solver(va, fa, device=d)
+            seen = []
+            def progress(*p):
+                seen.append(p)
+                if len(seen) == 1:
+                    raises(RuntimeError, "a progress callback started another run", lambda: t.distance(vb, fb))
+                s.close()
+                t.close()
+                d.close()
+            assert s.distance(*dense, progress=progress, waves=6, **LONG).status != "cancelled"
+            assert len(seen) > 1
+            raises(ValueError, "this Solver is closed", lambda: s.distance(va, fa))
+            raises(ValueError, "this Device is closed", lambda: vkh.Solver(vb, fb, device=d))
+            print("done")
+        """)
+
+    def test_solvers_of_a_device_go_while_others_run(self):
+        self.lives("""
+            d = vkh.Device()
+            kept = vkh.Solver(vb, fb, device=d)
+            expected = kept.distance(va, fa)
+            ends = []
+            def work():
+                for _ in range(5):
+                    with vkh.Solver(vb, fb, device=d) as s:
+                        ends.append(s.distance(va, fa) == expected)
+                    vkh.Solver(vb, fb, device=d)  # goes with its last name
+                    ends.append(kept.distance(va, fa) == expected)
+            threads = [threading.Thread(target=work) for _ in range(4)]
+            [t.start() for t in threads]
+            [t.join() for t in threads]
+            assert ends == [True] * 40, ends
+            del d
+            gc.collect()
+            assert kept.distance(va, fa) == expected
+            print("done")
+        """)
+
     def test_in_another_order_than_made(self):
         self.lives("""
             solvers = [vkh.Solver(vb, fb) for _ in range(3)]

@@ -61,6 +61,23 @@ class Lost(Lives):
             print("done")
         """)
 
+    def test_a_shared_device_prepares_all_of_its_meshes_again(self):
+        self.lost("""
+            with vkh.Device() as d:
+                s, t = vkh.Solver(vb, fb, device=d), vkh.Solver(va, fa, device=d)
+                true = ends(s.distance(va, fa)), ends(t.distance(vb, fb))
+                lose("vkQueueSubmit:1")
+                raises(vkh.DeviceError, LOST, lambda: s.distance(va, fa))
+                assert (ends(s.distance(va, fa)), ends(t.distance(vb, fb))) == true
+                assert layer.vkhLayerCount(b"vkCreateDevice") == 1
+                lose("vkQueueSubmit:1")
+                raises(vkh.DeviceError, LOST, lambda: vkh.Solver(vb, fb, device=d))
+                t.close()
+                assert ends(s.distance(va, fa)) == true[0]
+                assert ends(vkh.Solver(va, fa, device=d).distance(vb, fb)) == true[1]
+            print("done")
+        """)
+
     def test_lost_at_any_submission(self):
         self.lost("""
             calls = {"symmetric": lambda: ends(vkh.distance(va, fa, vb, fb, symmetric=True)),

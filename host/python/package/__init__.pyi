@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "Closest", "DeviceError", "Field", "Interval", "Mesh", "Result", "Solver", "Survey", "Witness", "__version__",
+    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Result", "Signed", "Solver", "Survey", "Witness", "__version__",
     "assert_within", "closest", "devices", "distance", "distances", "gate", "read",
 ]
 __version__: str
@@ -24,6 +24,8 @@ _Preset = Literal["", "default", "paper", "baseline-gpu"]
 _Unit = Literal["um", "mm", "cm", "m", "in", "ft"]
 # progress(wave, lower, upper): False cancels the run.
 _Progress = Callable[[int, float, float], Any]
+# on_progress(fraction, lower, upper): False cancels all that is left.
+_OnProgress = Callable[[float, float, float], Any]
 
 class _WithFaces(Protocol):
     @property
@@ -99,28 +101,28 @@ class Signed:
     under: Interval
     inside: Literal["proven", "open", "crossing", "winding", "undecided"]
     open_edges: int
-    areas: dict[str, Any] | None
-    mean: Interval | None
+    areas: dict[str, Any] | Any
+    mean: Interval | Any
     percentiles: dict[float, Interval]
-    over_field: Field | None
-    under_field: Field | None
+    over_field: Field | Any
+    under_field: Field | Any
     def to_dict(self) -> dict[str, Any]: ...
 
 class Survey:
     """The known bounds of the distances of all of a mesh from the other one."""
 
     upper: float
-    field: Field | None
-    area: float | None
-    mean: Interval | None
-    rms: Interval | None
-    percentiles: dict[float, Interval] | None
-    bands: dict[float | str, Interval] | None
-    curve: list[tuple[float, Interval]] | None
+    field: Field | Any
+    area: float | Any
+    mean: Interval | Any
+    rms: Interval | Any
+    percentiles: dict[float, Interval] | Any
+    bands: dict[float | str, Interval] | Any
+    curve: list[tuple[float, Interval]] | Any
     met: bool
     ended: Literal["met", "effort", "bits", "time", "cancelled", "memory"]
     stats: dict[str, Any]
-    signed: Signed | None
+    signed: Signed | Any
     def area_within(self, distance: _Number | str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
 
@@ -155,7 +157,10 @@ class Witness(NamedTuple):
     nearest: tuple[float, float, float]
 
 class Result:
-    """A certified interval and what proves its lower end."""
+    """A certified interval and what proves its lower end.
+
+    `| Any`: None where the call did not ask for it, which no checker is to ask about at each use.
+    """
 
     @property
     def lower(self) -> float: ...
@@ -187,24 +192,24 @@ class Result:
     @property
     def stats(self) -> dict[str, Any]: ...
     @property
-    def field(self) -> Field | None: ...
+    def field(self) -> Field | Any: ...
     @property
-    def field_back(self) -> Field | None: ...
+    def field_back(self) -> Field | Any: ...
     @property
-    def mean(self) -> Interval | None: ...
+    def mean(self) -> Interval | Any: ...
     @property
-    def rms(self) -> Interval | None: ...
+    def rms(self) -> Interval | Any: ...
     @property
-    def percentiles(self) -> dict[float, Interval] | None: ...
+    def percentiles(self) -> dict[float, Interval] | Any: ...
     @property
-    def signed(self) -> Signed | None: ...
+    def signed(self) -> Signed | Any: ...
     def area_within(self, distance: _Number | str) -> Interval: ...
     @property
     def survey_met(self) -> bool | None: ...
     @property
-    def survey(self) -> Survey | None: ...
+    def survey(self) -> Survey | Any: ...
     @property
-    def survey_back(self) -> Survey | None: ...
+    def survey_back(self) -> Survey | Any: ...
     @property
     def index(self) -> int | None: ...
     @property
@@ -213,13 +218,26 @@ class Result:
     def error(self) -> Exception | None: ...
     def to_dict(self) -> dict[str, Any]: ...
 
+class Device:
+    """A device that stays open, for many Solvers and calls, one run at a time."""
+
+    def __init__(self, device: str | SupportsIndex = "") -> None: ...
+    @property
+    def info(self) -> dict[str, Any]: ...
+    def close(self) -> None: ...
+    def __enter__(self) -> Device: ...
+    def __exit__(
+        self,
+        *error: type[BaseException] | BaseException | TracebackType | None,
+    ) -> None: ...
+
 class Solver:
     """Mesh B on the device, its BVH built once, for many A's."""
 
     @overload
-    def __init__(self, b: _Mesh, /, *, device: str | SupportsIndex = "") -> None: ...
+    def __init__(self, b: _Mesh, /, *, device: str | SupportsIndex | Device = "") -> None: ...
     @overload
-    def __init__(self, vb: npt.ArrayLike, fb: npt.ArrayLike, device: str | SupportsIndex = "") -> None: ...
+    def __init__(self, vb: npt.ArrayLike, fb: npt.ArrayLike, device: str | SupportsIndex | Device = "") -> None: ...
     @overload
     def distance(
         self,
@@ -245,6 +263,7 @@ class Solver:
         unit_b: _Unit | None = None,
         transform: npt.ArrayLike | _Path | None = None,
         scale: bool = False,
+        on_progress: _OnProgress | None = None,
     ) -> Result: ...
     @overload
     def distance(
@@ -271,6 +290,7 @@ class Solver:
         unit_b: _Unit | None = None,
         transform: npt.ArrayLike | _Path | None = None,
         scale: bool = False,
+        on_progress: _OnProgress | None = None,
     ) -> Result: ...
     def closest(self, points: npt.ArrayLike) -> Closest: ...
     def close(self) -> None: ...
@@ -288,7 +308,7 @@ def distance(
     *,
     tol: _Number | str = 1e-6,
     symmetric: bool = False,
-    device: str | SupportsIndex = "",
+    device: str | SupportsIndex | Device = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,
@@ -307,6 +327,7 @@ def distance(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    on_progress: _OnProgress | None = None,
 ) -> Result: ...
 @overload
 def distance(
@@ -317,7 +338,7 @@ def distance(
     tol: _Number | str = 1e-6,
     symmetric: bool = False,
     *,
-    device: str | SupportsIndex = "",
+    device: str | SupportsIndex | Device = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,
@@ -336,8 +357,9 @@ def distance(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    on_progress: _OnProgress | None = None,
 ) -> Result: ...
-def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex = "") -> Closest: ...
+def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex | Device = "") -> Closest: ...
 class _Results(Iterator[Result]):
     def __next__(self) -> Result: ...
     def close(self) -> None: ...
@@ -378,6 +400,7 @@ def distances(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    on_progress: _OnProgress | None = None,
 ) -> _Results: ...
 def gate(
     a: _Mesh,
@@ -386,7 +409,7 @@ def gate(
     *,
     tol: _Number | str = 1e-7,
     symmetric: bool = False,
-    device: str | SupportsIndex = "",
+    device: str | SupportsIndex | Device = "",
     time: _Number | None = None,
     waves: SupportsIndex | None = None,
     memory: SupportsIndex | str | None = None,
@@ -407,6 +430,7 @@ def gate(
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
     worst: bool = False,
+    on_progress: _OnProgress | None = None,
 ) -> Result: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str], *, max_input: SupportsIndex | str | None = None,

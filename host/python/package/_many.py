@@ -6,7 +6,7 @@ from vkhausdorff import _core
 def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, device="", time=None, waves=None, memory=None,
               disable=(), enable=(), preset="", together=None, lanes=None, ahead=None, max_input=None,
               polygons="refuse", bodies="solid", field=False, statistics=False, signed=False, bands=(),
-              effort=None, survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False):
+              effort=None, survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False, on_progress=None):
     """The distance of each of many pairs: an iterator of results, in the order in which pairs end.
 
     pairs: an iterable, which may be endless, of (a, b) or (id, a, b). Each of a and b is a mesh: what read() returns, the
@@ -21,7 +21,9 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
     pays there. max_input, polygons and bodies are those of read(); field, statistics, signed, bands, effort, survey_time,
-    unit_a, unit_b, transform and scale those of distance(), for each pair.
+    unit_a, unit_b, transform and scale those of distance(), for each pair. on_progress(fraction, lower, upper) is called as
+    each pair ends, on the thread of next(): the share of pairs that have ended, which comes to 1, and the interval of the
+    largest distance among them. Where pairs has no len(), the share is 0 until the last pair is taken. Return False to end.
 
     Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or
     one that was not asked for. That is 2 * lanes * together of a GPU (96) a device if None. No pair is taken while meshes
@@ -34,13 +36,15 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     except TypeError:
         raise TypeError(f"pairs: expected an iterable of (a, b) or (id, a, b), not {type(pairs).__name__}") from None
     named = {} if tol is None else {"tol": tol}
+    first = getattr(pairs, "first_index", 0)  # vkhausdorff.dask's shards have it
+    progress = None if on_progress is None else _Progress(on_progress, pairs, first)
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
                            max_input=max_input, polygons=polygons, bodies=bodies, field=field, statistics=statistics, signed=signed, bands=bands,
                            effort=effort, survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
                            **named)
-    first = getattr(pairs, "first_index", 0)  # vkhausdorff.dask's shards have it
-    return _Results(stream, _results(stream, items, _with_one if against is not None else _with_two, first))
+    split = _with_one if against is not None else _with_two
+    return _Results(stream, _results(stream, items, split, first, progress))
 
 
 class _Results:
@@ -96,7 +100,39 @@ def _put(stream, index, item, split):
     return None
 
 
-def _results(stream, items, split, index):
+class _Progress:
+    """Tells a caller how many pairs have ended, and what they have shown."""
+
+    def __init__(self, on_progress, pairs, first):
+        if not callable(on_progress):
+            raise TypeError("on_progress: expected a function of fraction, lower and upper, or None, "
+                            f"not a value of type {type(on_progress).__name__}")
+        self._on_progress, self._first = on_progress, first
+        self._count = len(pairs) if hasattr(pairs, "__len__") else 0  # 0: not known
+        self._ended, self._fraction, self._lower, self._upper = 0, 0.0, 0.0, 0.0
+
+    def know_count(self, index):
+        """No pair comes after those below this index."""
+        self._count = index - self._first
+
+    def hear(self, result):
+        """Returns whether to go on."""
+        self._ended += 1
+        if result.error is None:
+            self._lower, self._upper = max(self._lower, result.lower), max(self._upper, result.upper)
+        return self._tell(self._ended / self._count if self._count else 0.0)
+
+    def end(self):
+        if self._fraction < 1:
+            self._tell(1.0)
+
+    def _tell(self, fraction):
+        self._fraction = max(self._fraction, min(fraction, 1.0))
+        answer = self._on_progress(self._fraction, self._lower, self._upper)
+        return answer is None or bool(answer)
+
+
+def _results(stream, items, split, index, progress):
     failure = None
     try:
         while True:
@@ -106,6 +142,8 @@ def _results(stream, items, split, index):
                     item = next(items)
                 except StopIteration:
                     items = None
+                    if progress is not None:
+                        progress.know_count(index)
                 except Exception as error:
                     items, failure = None, error
                 else:
@@ -116,7 +154,14 @@ def _results(stream, items, split, index):
                 result = stream.take(True)
             if result is None:
                 break
+            is_last = progress is not None and not progress.hear(result)
+            if is_last:
+                stream.close()
             yield result
+            if is_last:
+                return
+        if progress is not None and failure is None:
+            progress.end()
         if failure is not None:
             raise failure
     finally:
