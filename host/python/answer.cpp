@@ -2,8 +2,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <vector>
 
+#include "host/base/system.h"
 #include "host/python/result.h"
 
 namespace vkh::python {
@@ -101,8 +103,23 @@ py::object signed_of(const Question& question, const SignedFigures& s) {
                   "over_field"_a = over, "under_field"_a = under);
 }
 
-py::object survey_of(const Question& question, const Report& report,
-                     const std::optional<SurveyResult>& found) {
+/// A direction, as Python shows the survey of the mesh that it begins at.
+struct SurveyedSide {
+  const Report& report;
+  const std::optional<SurveyResult>& found;
+  const MeshPointer& mesh;     ///< as it was measured
+  const std::string& against;  ///< the other one's name
+};
+
+/// What Field.save() writes besides the bounds of faces.
+py::object source_of(const SurveyedSide& side, const Answer& answer) {
+  if (side.mesh == nullptr) return py::none();
+  return py::make_tuple(mesh_object(side.mesh), side.report.lower, side.report.upper, answer.unit,
+                        py::bytes(file_name_of(side.against)));
+}
+
+py::object survey_of(const Question& question, const Answer& answer, const SurveyedSide& side) {
+  const std::optional<SurveyResult>& found = side.found;
   if (!found) return py::none();
   py::object field = py::none(), statistics = py::none(), sides = py::none();
   if (question.faces)
@@ -112,7 +129,8 @@ py::object survey_of(const Question& question, const Report& report,
   const py::dict stats("cells"_a = found->cells, "bounded"_a = found->bounded,
                        "effort"_a = found->effort, "wall_ms"_a = found->ms);
   return py::module_::import("vkhausdorff._survey")
-      .attr("made")(field, statistics, report.upper, survey_end_name(found->ended), stats, sides);
+      .attr("made")(field, statistics, side.report.upper, survey_end_name(found->ended), stats,
+                    sides, question.faces ? source_of(side, answer) : py::none());
 }
 
 py::dict note_dict(const Note& note) {
@@ -143,21 +161,69 @@ py::dict proof_of(const Proof& proof) {
                   "wall_ms"_a = proof.ms);
 }
 
+/// One schema for both: in a symmetric run the figures are of both directions together.
 py::object certificate_of(const Answer& answer) {
   const bool is_whole = answer.proof_a && answer.proof_b.has_value() == answer.b_to_a.has_value();
   if (!is_whole) return py::none();
-  if (!answer.proof_b) return proof_of(*answer.proof_a);
-  return py::dict("upper"_a = std::max(answer.proof_a->upper, answer.proof_b->upper),
-                  "a_to_b"_a = proof_of(*answer.proof_a), "b_to_a"_a = proof_of(*answer.proof_b));
+  Proof both;
+  for (const Proof* proof : {&*answer.proof_a, answer.proof_b ? &*answer.proof_b : nullptr}) {
+    if (proof == nullptr) continue;
+    both.upper = std::max(both.upper, proof->upper);
+    both.leaves += proof->leaves;
+    both.cut_leaves += proof->cut_leaves;
+    both.unproven += proof->unproven;
+    both.ms += proof->ms;
+  }
+  py::dict certificate = proof_of(both);
+  certificate["a_to_b"] = proof_of(*answer.proof_a);
+  certificate["b_to_a"] = answer.proof_b ? py::object(proof_of(*answer.proof_b)) : py::none();
+  return certificate;
 }
 
-py::dict stats_of(const Answer& answer, bool is_forward) {
-  if (!answer.b_to_a) return stats_of(answer.a_to_b);
+void add_culled(std::vector<CullCount>& sum, const std::vector<CullCount>& more) {
+  for (const CullCount& c : more) {
+    const auto same = [&](const CullCount& one) { return one.name == c.name; };
+    const auto known = std::find_if(sum.begin(), sum.end(), same);
+    if (known == sum.end()) {
+      sum.push_back(c);
+    } else {
+      known->candidates += c.candidates;
+    }
+  }
+}
+
+/// Both directions as one report: their interval, the sums of what they counted and took, and the
+/// most of what they held.
+Report report_of_both(const Answer& answer) {
+  Report both = answer.a_to_b;
+  const Report& back = *answer.b_to_a;
   const CertifiedInterval whole = interval_of(answer);
-  return py::dict("status"_a = status_name(whole.status), "gap"_a = whole.gap,
-                  "tolerance"_a = answer.a_to_b.tolerance,
-                  "direction"_a = is_forward ? "a_to_b" : "b_to_a",
-                  "a_to_b"_a = stats_of(answer.a_to_b), "b_to_a"_a = stats_of(*answer.b_to_a));
+  both.status = whole.status;
+  both.lower = whole.lower;
+  both.upper = whole.upper;
+  both.waves += back.waves;
+  both.candidates += back.candidates;
+  both.queries += back.queries;
+  both.peak_frontier = std::max(both.peak_frontier, back.peak_frontier);
+  add_culled(both.culled, back.culled);
+  both.workspace_bytes = std::max(both.workspace_bytes, back.workspace_bytes);
+  both.host_memory_bytes = std::max(both.host_memory_bytes, back.host_memory_bytes);
+  both.times.upload_ms += back.times.upload_ms;
+  both.times.hierarchy_ms += back.times.hierarchy_ms;
+  both.times.solve_ms += back.times.solve_ms;
+  both.times.wall_ms += back.times.wall_ms;
+  return both;
+}
+
+/// One schema for one direction and for both: what holds for the whole answer, and each direction
+/// by itself.
+py::dict stats_of(const Answer& answer, bool is_forward) {
+  py::dict stats = stats_of(answer.b_to_a ? report_of_both(answer) : answer.a_to_b);
+  stats["gap"] = interval_of(answer).gap;
+  stats["direction"] = is_forward ? "a_to_b" : "b_to_a";
+  stats["a_to_b"] = stats_of(answer.a_to_b);
+  stats["b_to_a"] = answer.b_to_a ? py::object(stats_of(*answer.b_to_a)) : py::none();
+  return stats;
 }
 
 void add_limit(const Answer& answer, Result& result) {
@@ -174,7 +240,8 @@ void add_limit(const Answer& answer, Result& result) {
 
 }  // namespace
 
-Result result_of(const Question& question, const Answer& answer) {
+Result result_of(const Question& question, const Answer& answer, const MeshPointer& a,
+                 const MeshPointer& b) {
   const CertifiedInterval whole = interval_of(answer);
   const bool is_forward = !answer.b_to_a || answer.a_to_b.lower >= answer.b_to_a->lower;
   const Report& r = is_forward ? answer.a_to_b : *answer.b_to_a;
@@ -188,8 +255,10 @@ Result result_of(const Question& question, const Answer& answer) {
   result.stats = stats_of(answer, is_forward);
   result.notes = list_of_notes(answer);
   add_limit(answer, result);
-  result.survey = survey_of(question, answer.a_to_b, answer.survey_a);
-  if (answer.b_to_a) result.survey_back = survey_of(question, *answer.b_to_a, answer.survey_b);
+  const std::string &path_a = answer.inputs[0].path, &path_b = answer.inputs[1].path;
+  result.survey = survey_of(question, answer, {answer.a_to_b, answer.survey_a, a, path_b});
+  if (answer.b_to_a)
+    result.survey_back = survey_of(question, answer, {*answer.b_to_a, answer.survey_b, b, path_a});
   if (question.certificate) result.stats["certificate"] = certificate_of(answer);
   return result;
 }

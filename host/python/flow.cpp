@@ -154,7 +154,12 @@ void Flow::take_result(StreamResult&& result) {
   const size_t number = result.number;
   if (!asked_.question.asks_for_cells())
     take_reports(asked_.question, std::move(result), running->answer);
-  deliver({.number = number, .answer = std::move(running->answer)});
+  FlowResult whole{.number = number, .answer = std::move(running->answer)};
+  if (asked_.question.faces) {
+    whole.a = running->a;
+    whole.b = running->b;
+  }
+  deliver(std::move(whole));
 }
 
 void Flow::deliver(FlowResult&& result) {

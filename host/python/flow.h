@@ -37,6 +37,7 @@ struct FlowPair {
 struct FlowResult {
   size_t number = 0;
   Answer answer = {};
+  MeshPointer a = nullptr, b = nullptr;  ///< as they were measured, where a field is asked for
   std::exception_ptr error = nullptr;
 };
 

@@ -28,7 +28,7 @@ Result streamed_result(const Question& question, FlowResult&& found) {
   if (found.error) {
     result.error = exception_of(found.error);
   } else {
-    result = result_of(question, found.answer);
+    result = result_of(question, found.answer, found.a, found.b);
   }
   result.index = found.number;
   return result;

@@ -308,6 +308,8 @@ auto of_mesh(Get get) {
 
 }  // namespace
 
+py::object mesh_object(MeshPointer mesh) { return py::cast(FileMesh{std::move(mesh)}); }
+
 void define_mesh(py::module_& m) {
   py::class_<FileMesh>(m, "Mesh",
                        "A mesh file as it was read. It goes wherever a mesh is expected, and is "

@@ -26,6 +26,9 @@ struct KeptMesh {
 
 KeptMesh kept(MeshPointer mesh);
 
+/// A Mesh of the package's.
+pybind11::object mesh_object(MeshPointer mesh);
+
 /// Defines the class Mesh, and read().
 void define_mesh(pybind11::module_& m);
 

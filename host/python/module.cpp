@@ -5,6 +5,7 @@
 #include "engine/vkhausdorff.h"
 #include "host/gpu/device.h"
 #include "host/python/errors.h"
+#include "host/python/field.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/many.h"
@@ -211,6 +212,7 @@ PYBIND11_MODULE(_core, m) {
   define_solver(m);
   define_mesh(m);
   define_many(m);
+  define_field(m);
   m.attr("__name__") = own_name;
   watch_interpreter();
   py::module_::import("atexit").attr("register")(

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/answer/answer.h"
+#include "host/python/mesh.h"
 
 namespace vkh::python {
 
@@ -33,8 +34,10 @@ struct Result {
 /// Defines the class Result.
 void define_result(pybind11::module_& m);
 
-/// The values of an answer, with the GIL.
-Result result_of(const Question& question, const Answer& answer);
+/// The values of an answer, with the GIL. `a` and `b`: the meshes as they were measured, which
+/// fields keep for their files; null where no field is asked for.
+Result result_of(const Question& question, const Answer& answer, const MeshPointer& a,
+                 const MeshPointer& b);
 
 // Python can make objects that no constructor has seen: Solver.__new__, or a subclass that uses
 // itself before super().__init__().

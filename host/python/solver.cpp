@@ -181,7 +181,7 @@ Result answered(Given given, Session& session, Session::Key key = 0) {
   session.use(work, key);
   // Raises a KeyboardInterrupt that came too late for a run after it.
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  Result result = result_of(given.question, answer);
+  Result result = result_of(given.question, answer, given.a, given.b);
   write_certificate(given, answer, result);
   return result;
 }

@@ -14,5 +14,6 @@ print([d["name"] for d in vkh.devices() if d["usable"]])
 with vkh.Device() as device:  # or Device("gpu"), Device(0), Device("H100")
     solvers = {name: vkh.Solver(vb, faces, device=device) for name, vb in levels.items()}
     for name, solver in solvers.items():
-        r = solver.distance(va, faces, on_progress=tell)
+        r = solver.distance(va, faces, field=True, on_progress=tell)
         print(name, r.interval, r.gap, r.witness.barycentric)
+        r.field.save(f"{name}.ply")  # or .glb

@@ -54,6 +54,7 @@ with vkh.Device("cpu") as device:
     name: str = device.info["name"]
     vkh.Solver(mesh, device=device).distance(mesh, on_progress=lambda fraction, lower, upper: fraction < 0.5)
     vkh.gate(mesh, mesh, 0.1, device=device, on_progress=print)
+vkh.distance(v, f, v, f, field=True).field.save(pathlib.Path("f.ply"), map="batlow")
 weights: tuple[float, float, float] = r.witness.barycentric
 width: float = r.gap + r.interval.upper
 vkh.distances([], device=vkh.Device())  # wrong

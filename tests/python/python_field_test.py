@@ -217,6 +217,60 @@ class Values(unittest.TestCase):
         self.assertEqual(repr(interval), f"Interval(lower={lower!r}, upper={upper!r})")
         self.assertEqual(interval, vkh.Interval(lower, upper))
 
+    def test_saved(self):
+        """The file has the mesh, and its bounds hold those of the field, rounded outward to float32."""
+        r = vkh.distance(*WEDGE, *FLOOR, field=True, signed=True, symmetric=True)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "field.ply"
+            for field, (vertices, faces) in ((r.field, WEDGE), (r.field_back, FLOOR), (r.signed.over_field, WEDGE)):
+                field.save(file)
+                mesh = vkh.read(file)
+                np.testing.assert_array_equal(mesh.vertices, vertices)
+                np.testing.assert_array_equal(mesh.faces, faces)
+                lower, upper = self.bounds_in(file, len(vertices), len(faces))
+                np.testing.assert_array_equal(lower <= field.lower, True)
+                np.testing.assert_array_equal(field.upper <= upper, True)
+                np.testing.assert_allclose(np.stack([lower, upper]), [field.lower, field.upper], rtol=1e-6, atol=1e-30)
+            scene = pathlib.Path(folder) / "field.glb"
+            r.field.save(str(scene), map="cividis")
+            self.assertEqual(scene.read_bytes()[:4], b"glTF")
+            self.assertEqual(len(vkh.read(scene).faces), 2)
+
+    def bounds_in(self, file, vertices, faces):
+        row = np.dtype([("count", "u1"), ("corners", "<i4", 3), ("bounds", "<f4", 3), ("colour", "u1", 3)])
+        at = file.read_bytes().split(b"end_header\n", 1)[1][vertices * (3 * 8 + 4 + 3):]
+        bounds = np.frombuffer(at, row, faces)["bounds"].astype(np.float64)
+        return bounds[:, 0], bounds[:, 1]
+
+    def test_what_is_saved_is_what_was_measured(self):
+        """A placed mesh as it was placed; without its mesh a Field needs one."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "field.ply"
+            move = np.eye(4)
+            move[2, 3] = 0.5
+            vkh.distance(*LIFTED, *FLOOR, field=True, transform=move).field.save(file)
+            np.testing.assert_array_equal(vkh.read(file).vertices, LIFTED[0] + [0, 0, 0.5])
+            for r in vkh.distances([(LIFTED, FLOOR)], field=True):
+                r.field.save(file)
+                np.testing.assert_array_equal(vkh.read(file).vertices, LIFTED[0])
+            alone = pickle.loads(pickle.dumps(r.field))
+            self.assertEqual(alone, r.field)
+            for field in (alone, vkh.Field([0, 0], [1, 1])):
+                with self.assertRaisesRegex(ValueError, "^mesh: give the one that was measured"):
+                    field.save(file)
+                field.save(file, LIFTED)
+            for wrong, kind, why in (("a.obj", ValueError, "path: expected the path of a file that ends in .ply or .glb, not 'a.obj'"),
+                                     (5, TypeError, "path: expected the path of a file that ends in .ply or .glb, not 5")):
+                with self.assertRaisesRegex(kind, f"^{why}"):
+                    r.field.save(wrong)
+            with self.assertRaisesRegex(ValueError, "^map"):
+                r.field.save(file, map="red")
+            with self.assertRaisesRegex(ValueError, "^mesh: expected 2 faces, as the field has, not 1"):
+                r.field.save(file, (LIFTED[0], FACES[:1]))
+            mesh = vkh.read(file)
+            with self.assertRaises(ValueError):  # the file that was measured is not overwritten
+                vkh.distance(mesh, FLOOR, field=True).field.save(file)
+
     @unittest.skipIf(PROGRAM is None, "no program was named")
     def test_the_program_says_the_same(self):
         """The results if no clock ends anything, to the last bit."""

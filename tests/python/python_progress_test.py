@@ -162,6 +162,7 @@ class Example(unittest.TestCase):
             done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, cwd=folder)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(done.stdout.count("100 %"), 2)
+            self.assertEqual(sorted(p.name for p in pathlib.Path(folder).iterdir()), ["coarse.ply", "fine.ply"])
 
 
 if __name__ == "__main__":

@@ -143,8 +143,7 @@ class Values(unittest.TestCase):
                   vkh.distance(vb, fb, va, fa, symmetric=True)):
             self.assertEqual(r.interval, (r.lower, r.upper))
             self.assertGreaterEqual(r.gap * np.linalg.norm(np.ptp(va, axis=0)), (r.upper - r.lower) * (1 - 1e-12))
-            forward = r.stats.get("a_to_b", r.stats)
-            mesh = {"a": (va, fa), "b": (vb, fb)} if len(fa) == forward["mesh_a"]["faces"] else {"a": (vb, fb), "b": (va, fa)}
+            mesh = {"a": (va, fa), "b": (vb, fb)} if len(fa) == r.stats["mesh_a"]["faces"] else {"a": (vb, fb), "b": (va, fa)}
             w = r.witness
             self.assertAlmostEqual(sum(w.barycentric), 1.0, places=12)
             vertices, faces = mesh[w.mesh]
@@ -167,6 +166,26 @@ class Values(unittest.TestCase):
         frame = r.to_frame()
         self.assertEqual(len(frame), 1)
         self.assertEqual((frame["lower"][0], frame["mean_upper"][0]), (r.lower, r.mean.upper))
+
+    def test_stats_have_one_schema(self):
+        def schema(value):
+            return {key: schema(v) for key, v in value.items()} if isinstance(value, dict) else type(value)
+
+        va, fa = grid(12)
+        vb, fb = grid(5, 0.2)
+        one = vkh.distance(va, fa, vb, fb).stats
+        both = vkh.distance(va, fa, vb, fb, symmetric=True).stats
+        self.assertEqual(schema({**one, "b_to_a": None}), schema({**both, "b_to_a": None}))
+        self.assertEqual(schema(both["a_to_b"]), schema(both["b_to_a"]))
+        self.assertEqual(set(both) - set(both["a_to_b"]), {"direction", "a_to_b", "b_to_a"})
+        self.assertIsNone(one["b_to_a"])
+        self.assertEqual({key: one[key] for key in one["a_to_b"]}, one["a_to_b"])
+        for name in ("waves", "candidates", "queries", "wall_ms"):
+            self.assertEqual(both[name], both["a_to_b"][name] + both["b_to_a"][name])
+        for name in ("lower", "upper"):
+            self.assertEqual(both[name], max(both["a_to_b"][name], both["b_to_a"][name]))
+        self.assertEqual(both["mesh_a"]["faces"], len(fa))
+        self.assertEqual(both["b_to_a"]["mesh_a"]["faces"], len(fb))
 
     def test_notes_say_what_a_pass_does_not_ask(self):
         half = (SQUARE * [0.5, 1, 1], SQUARE_FACES)

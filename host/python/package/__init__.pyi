@@ -21,6 +21,7 @@ _Bands = Union[list[Any], tuple[_Number | str, ...], npt.NDArray[Any]]
 _Status = Literal["closed", "precision", "time", "waves", "memory", "cancelled", "limit", "pruned"]
 _Verdict = Literal["pass", "fail", "undecided"]
 _Preset = Literal["", "default", "paper", "baseline-gpu"]
+_Map = Literal["viridis", "batlow", "cividis"]
 _Unit = Literal["um", "mm", "cm", "m", "in", "ft"]
 # progress(wave, lower, upper): False cancels the run.
 _Progress = Callable[[int, float, float], Any]
@@ -82,6 +83,7 @@ class Field:
     lower: npt.NDArray[np.float64]
     upper: npt.NDArray[np.float64]
     def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike) -> None: ...
+    def save(self, path: _Path, mesh: _Mesh | None = None, *, map: _Map = "viridis") -> None: ...
     def __len__(self) -> int: ...
 
 class Closest:

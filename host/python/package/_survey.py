@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from vkhausdorff import _core
+
 
 class Interval(NamedTuple):
     """An enclosure: its value lies in [lower, upper], in exact arithmetic. A tuple of two: lower, upper = interval."""
@@ -22,11 +24,13 @@ class Interval(NamedTuple):
 class Field:
     """Bounds of each face, by its row: the largest distance of a point of it lies between lower and upper.
 
-    lower, upper: float64 arrays of shape (faces,), read-only, in the coordinates' unit, rounded outward.
+    lower, upper: float64 arrays of shape (faces,), read-only, in the coordinates' unit, rounded outward. A Field of a
+    result keeps the mesh that was measured, for save(); a pickle of it does not.
     """
 
     lower: Any
     upper: Any
+    _source = None  # of save(): (mesh, lower, upper, unit, name of the other mesh)
 
     def __init__(self, lower, upper):
         for name, values in (("lower", lower), ("upper", upper)):
@@ -36,6 +40,21 @@ class Field:
 
     def __reduce__(self):  # unpickled arrays could be written to
         return Field, (self.lower, self.upper)
+
+    def save(self, path, mesh=None, *, map="viridis"):
+        """Writes the mesh with these bounds and colours of its faces, to be looked at: what the program's --field writes.
+
+        path: ends in .ply or .glb, which is the format, both binary. mesh: as distance() takes it, with as many faces; None
+        for the mesh that was measured, as it was placed. map: 'viridis', 'batlow' or 'cividis', from 0 to the largest upper.
+        ValueError if there is no mesh, or for another ending; OSError if the file cannot be written.
+        """
+        source = self._source
+        if mesh is not None:
+            about = source[1:] if source is not None else (_largest(self.lower), _largest(self.upper), "", b"the other mesh")
+            source = (mesh, *about)
+        if source is None:
+            raise ValueError("mesh: give the one that was measured; a Field that was made by hand or unpickled has none")
+        _core._save_field(path, self.lower, self.upper, source, map)
 
     def __len__(self):
         return len(self.lower)
@@ -49,6 +68,19 @@ class Field:
 
     def __repr__(self):
         return f"<vkhausdorff.Field of {len(self)} faces>"
+
+
+def _largest(values):
+    return float(values.max()) if len(values) else 0.0
+
+
+def _field(bounds, source):
+    """Makes a Field of a result."""
+    if bounds is None:
+        return None
+    field = Field(*bounds)
+    object.__setattr__(field, "_source", source)
+    return field
 
 
 @dataclass(frozen=True, eq=True)
@@ -169,23 +201,29 @@ for _cls in (Interval, Field, Signed, Survey):
     _cls.__module__ = "vkhausdorff"  # the package's names, for pickles too
 
 
-def _signed(found):
+def _signed(found, source):
     if found is None:
         return None
+    mesh, *about = source if source is not None else (None,)
+
+    def field(side):
+        interval = found[side]
+        return _field(found[side + "_field"], (mesh, *interval, *about[2:]) if source is not None else None)
+
     areas = found["areas"]
     if areas is not None:
         areas = {"over": Interval(*areas["over"]), "under": Interval(*areas["under"]),
                  "unsigned": {why: Interval(*share) for why, share in areas["unsigned"].items()}}
-    fields = [Field(*found[name]) if found[name] is not None else None for name in ("over_field", "under_field")]
     return Signed(Interval(*found["over"]), Interval(*found["under"]), found["inside"], found["open_edges"], areas,
                   Interval(*found["mean"]) if found["mean"] is not None else None,
-                  {share: Interval(lower, upper) for share, lower, upper in found["percentiles"]}, *fields)
+                  {share: Interval(lower, upper) for share, lower, upper in found["percentiles"]},
+                  field("over"), field("under"))
 
 
-def made(field, statistics, upper, ended, stats, signed=None):
-    """Makes a Survey from the results of C++."""
-    field = Field(*field) if field is not None else None
-    signed = _signed(signed)
+def made(field, statistics, upper, ended, stats, signed=None, source=None):
+    """Makes a Survey from the results of C++. source: what Field.save() needs."""
+    field = _field(field, source)
+    signed = _signed(signed, source)
     met = ended == "met"
     if statistics is None:
         return Survey(upper, field, None, None, None, None, None, None, met, ended, stats, signed)
