@@ -2,6 +2,7 @@
 // elsewhere.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -10,11 +11,50 @@
 #include <mutex>
 #include <string>
 
+#include "host/answer/work_meter.h"
 #include "host/base/decimal.h"
 #include "host/base/system.h"
 #include "host/solve/solve_options.h"
 
 namespace vkh {
+
+/// Writes seconds as "1:05" or "2:00:05".
+inline std::string clock_text(double seconds) {
+  const auto all = static_cast<unsigned long long>(std::llround(std::max(seconds, 0.0)));
+  std::array<char, 48> text{};
+  if (all < 3600) {
+    std::snprintf(text.data(), text.size(), "%llu:%02llu", all / 60, all % 60);
+  } else {
+    std::snprintf(text.data(), text.size(), "%llu:%02llu:%02llu", all / 3600, all / 60 % 60,
+                  all % 60);
+  }
+  return text.data();
+}
+
+/// The line of a pair: how much of all work is done, the interval so far, and the time that is left
+/// where it is limited.
+inline std::string progress_text(const WorkDone& done, double left_s) {
+  std::string text = std::to_string(static_cast<int>(100 * done.fraction)) + " %  [" +
+                     decimal(done.lower, 7, Rounding::kDown) + ", " +
+                     decimal(done.upper, 7, Rounding::kUp) + "]";
+  if (std::isfinite(left_s)) text += "  at most " + clock_text(left_s) + " left";
+  return text;
+}
+
+/// What --verbose adds to it during a search, in the method's words.
+inline std::string search_words(const Progress& p) {
+  std::array<char, 160> words{};
+  std::snprintf(words.data(), words.size(), "%s  wave %u  %llu candidates  gap %s",
+                p.back ? "h(B,A)" : "h(A,B)", p.wave, static_cast<unsigned long long>(p.candidates),
+                number_text(p.gap, std::chars_format::scientific, 2).c_str());
+  return words.data();
+}
+
+/// What --verbose adds to it during a survey or while a certificate is made.
+inline std::string count_words(const char* what, const SideCount& side, const char* of) {
+  return std::string(what) + " of " + (side.back ? "B" : "A") + "  " + std::to_string(side.count) +
+         " " + of;
+}
 
 /// Writes to stderr. Threads may share it.
 class ProgressLine {
@@ -35,38 +75,20 @@ class ProgressLine {
     show_line(line.data());
   }
 
-  void show(const Progress& p) {
+  /// Shows the text that `text` returns, which is called only if a line is due.
+  template <class Text>
+  void show(const Text& text) {
     const std::lock_guard lock(mutex_);
-    if (!is_time()) return;
-    std::array<char, 160> line{};
-    std::snprintf(
-        line.data(), line.size(), "%s  wave %u  %llu candidates  [%s, %s]  gap %s",
-        p.back ? "h(B,A)" : "h(A,B)", p.wave, static_cast<unsigned long long>(p.candidates),
-        decimal(p.lower, 7, Rounding::kDown).c_str(), decimal(p.upper, 7, Rounding::kUp).c_str(),
-        number_text(p.gap, std::chars_format::scientific, 2).c_str());
-    show_line(line.data());
+    if (is_time()) show_line(text());
   }
-
-  /// Shows, after a run, how much of a mesh is bounded.
-  void show_survey(size_t cells) { show_count("survey", cells, "cells bounded"); }
-  /// Shows, after a run, how many leaves of a mesh's certificate are made so far.
-  void show_proof(size_t leaves) { show_count("certificate", leaves, "leaves"); }
 
   /// Shows how many of all pairs are done, and the time left.
   void show_batch(size_t done, size_t all, size_t failed, double seconds_left) {
     const std::lock_guard lock(mutex_);
     if (!is_time()) return;
-    const auto left = static_cast<unsigned long long>(std::llround(seconds_left));
-    std::array<char, 48> eta{};
     std::array<char, 160> line{};
-    if (left < 3600) {
-      std::snprintf(eta.data(), eta.size(), "%llu:%02llu", left / 60, left % 60);
-    } else {
-      std::snprintf(eta.data(), eta.size(), "%llu:%02llu:%02llu", left / 3600, left / 60 % 60,
-                    left % 60);
-    }
     std::snprintf(line.data(), line.size(), "%zu/%zu  %zu failed  ETA %s", done, all, failed,
-                  eta.data());
+                  clock_text(seconds_left).c_str());
     show_line(line.data());
   }
 
@@ -78,15 +100,6 @@ class ProgressLine {
   }
 
  private:
-  void show_count(const char* what, size_t count, const char* of) {
-    const std::lock_guard lock(mutex_);
-    if (!is_time()) return;
-    std::array<char, 80> line{};
-    std::snprintf(line.data(), line.size(), "%s  %llu %s", what,
-                  static_cast<unsigned long long>(count), of);
-    show_line(line.data());
-  }
-
   using Clock = std::chrono::steady_clock;
 
   bool is_time() const {

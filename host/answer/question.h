@@ -40,7 +40,7 @@ struct Question {
   bool hashes = false;                  ///< Input::sha256 is wanted
 
   // The distance.
-  Length tolerance;
+  Length tolerance{.requested = "1e-6", .number = 1e-6};
   bool tolerance_is_typed = true;     ///< false: a pair's own limit brings a gate's with it
   bool symmetric = false;             ///< both directions
   std::optional<PartOf> part;         ///< the part of A, alone
@@ -72,6 +72,7 @@ struct Question {
   std::string device;            ///< DeviceRequest::selector
   bool several_devices = false;  ///< allows several, see open_session()
   bool caches = true;            ///< keeps compiled pipelines in the user's folder
+  bool verbose = false;          ///< the progress line has words of the method, too
 
   bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
   bool asks_for_sides() const { return is_signed || max_sides; }

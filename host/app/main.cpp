@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 
-#include "host/answer/asking.h"
+#include "host/answer/ask_files.h"
 #include "host/answer/exit_code.h"
 #include "host/app/arguments.h"
 #include "host/app/doctor.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/asking.h"
+#include "host/answer/ask_files.h"
 #include "host/base/output_file.h"
 #include "host/batch/picture_folders.h"
 #include "host/show/draw_answer.h"

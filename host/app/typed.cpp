@@ -130,6 +130,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   question.verify = typed.verify;
   question.device = typed.device;
   question.caches = !typed.no_cache;
+  question.verbose = typed.verbose;
   question.options = options_of(typed);
   if (typed.max_input)
     question.limits.max_input_bytes = parse_size("--max-input", *typed.max_input);

@@ -1,13 +1,13 @@
-#include "host/answer/asking.h"
+#include "host/answer/ask_files.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
-#include <mutex>
 #include <new>
 
 #include "host/answer/input_hashes.h"
+#include "host/answer/known_answer.h"
 #include "host/answer/progress_line.h"
 #include "host/answer/steps.h"
 #include "host/base/begin_now.h"
@@ -25,84 +25,59 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// The state that the threads of a question share, and the answer known so far.
-class Asking {
- public:
-  Asking(const Question& asked, const Stop& until)
-      : question(asked), stop(until), known_(unread_answer(asked)) {}
+/// The state that the threads of a question share.
+struct SharedState {
+  SharedState(const Question& asked, const Stop& until)
+      : question(asked), stop(until), known(asked) {}
 
   const Question question;
   const Stop stop;
   ProgressLine line;
+  KnownAnswer known;
 
   /// Takes the meshes once they are read: then units and a first bound are known.
   void read(const MeshPair& pair, double ms) {
-    const std::lock_guard lock(mutex_);
-    farthest_ = take_meshes(question, pair.a, pair.b, known_);
-    known_.waits.read = ms;
+    Answer answer = known.answer();
+    const double farthest = take_meshes(question, pair.a, pair.b, answer);
+    answer.waits.read = ms;
+    known.begin(answer, farthest);
   }
-  void open(const DeviceDescription& device, double ms) {
-    const std::lock_guard lock(mutex_);
-    for (Report* r : directions()) r->device = device;
-    known_.waits.start = ms;
+  /// Shows how far all work is. `words`: of the method, for --verbose.
+  template <class Words>
+  void show(const Words& words) {
+    line.show([&] {
+      const std::string text = progress_text(known.done(), stop.left_s());
+      return question.verbose ? text + "  " + words() : text;
+    });
   }
-  void advance(const Progress& progress) {
-    line.show(progress);
-    const std::lock_guard lock(mutex_);
-    // A later search begins with wider bounds, and without the witness that is kept.
-    if (is_final_) return;
-    // The progress covers a part of A's faces and bounds none of the others.
-    if (known_.max && (known_.max->faces_a || known_.max->faces_b)) return;
-    Report& r = progress.back && known_.b_to_a ? *known_.b_to_a : known_.a_to_b;
-    r.lower = progress.lower;
-    r.upper = std::min(progress.upper, farthest_);
-  }
-
-  /// Keeps the answer once all runs have ended; only a survey may be missing.
-  void keep(const Answer& answer) {
-    const std::lock_guard lock(mutex_);
-    known_ = answer;
-    is_final_ = true;
-  }
-  bool is_final() const {
-    const std::lock_guard lock(mutex_);
-    return is_final_;
-  }
-
-  Answer known() const {
-    const std::lock_guard lock(mutex_);
-    return known_;
-  }
-
- private:
-  std::vector<Report*> directions() {
-    if (known_.b_to_a) return {&known_.a_to_b, &*known_.b_to_a};
-    return {&known_.a_to_b};
-  }
-
-  mutable std::mutex mutex_;
-  Answer known_;
-  bool is_final_ = false;
-  double farthest_ = std::numeric_limits<double>::infinity();
 };
 
-Observer observer_of(Asking& at) {
+Observer observer_of(SharedState& at) {
   return {.goes_on = [&at] { return !at.stop.is_asked(); },
           .left_s = [&at] { return at.stop.left_s(); },
           .search =
               [&at](const Progress& progress) {
-                at.advance(progress);
+                at.known.hear(progress);
+                at.show([&] { return search_words(progress); });
                 return !is_interrupted();
               },
-          .cells = [&at](const SideCount& side) { at.line.show_survey(side.count); },
-          .leaves = [&at](const SideCount& side) { at.line.show_proof(side.count); },
-          .found = [&at](const Answer& answer) { at.keep(answer); }};
+          .cells =
+              [&at](const SideCount& side) {
+                at.known.hear_cells(side);
+                at.show([&] { return count_words("survey", side, "cells bounded"); });
+              },
+          .leaves =
+              [&at](const SideCount& side) {
+                at.known.hear_leaves(side);
+                at.show([&] { return count_words("certificate", side, "leaves"); });
+              },
+          .found = [&at](const Answer& answer) { at.known.keep(answer); }};
 }
 
 /// Reads both files at the same time. Throws what read_mesh throws, A's error before B's. Shows the
 /// progress, and ends with Interrupted when it is to stop. After a bad A the call does not wait for
 /// B, whose threads go on and keep `at`.
-MeshPair read_pair(const std::shared_ptr<Asking>& at) {
+MeshPair read_pair(const std::shared_ptr<SharedState>& at) {
   constexpr uint64_t kWorthwhile = 100'000'000;  // about a second on one core
   uint64_t bytes = 0;
   const std::string &file_a = at->question.file_a, &file_b = at->question.file_b;
@@ -128,7 +103,7 @@ MeshPair read_pair(const std::shared_ptr<Asking>& at) {
 /// Hashes all files that are read, beside the other work; a caller waits only for the result.
 class Hashes {
  public:
-  explicit Hashes(const std::shared_ptr<Asking>& at)
+  explicit Hashes(const std::shared_ptr<SharedState>& at)
       : at_(at), is_wanted_(at->question.hashes && !at->question.file_a.empty()) {
     if (!is_wanted_) return;
     for (const std::string& file : {at->question.file_a, at->question.file_b})
@@ -183,7 +158,7 @@ class Hashes {
     });
   }
 
-  std::shared_ptr<Asking> at_;
+  std::shared_ptr<SharedState> at_;
   bool is_wanted_;
   std::vector<std::future<std::string>> digests_, limits_;
   std::future<std::string> matrix_;
@@ -208,7 +183,7 @@ std::future<Session> begin_opening(const Question& question) {
   });
 }
 
-Answered work(const std::shared_ptr<Asking>& at) {
+Answered work(const std::shared_ptr<SharedState>& at) {
   const Question& question = at->question;
   Hashes hashes(at);
   auto opening = begin_opening(question);
@@ -218,8 +193,8 @@ Answered work(const std::shared_ptr<Asking>& at) {
   at->read(done.pair, ms_since(start));
   hashes.begin_beneath();
   done.session = opening.get();
-  at->open(done.session.device->description(), done.session.setup_ms);
-  done.answer = at->known();
+  at->known.open(done.session.device->description(), done.session.setup_ms);
+  done.answer = at->known.answer();
   const AskedMeshes meshes{done.pair.a, done.pair.b};
   const Observer observer = observer_of(*at);
   solve(question, solvers_of(done.session), meshes, observer, done.answer);
@@ -230,25 +205,25 @@ Answered work(const std::shared_ptr<Asking>& at) {
 
 /// Returns the answer known so far, for a caller that no longer waits for the run. Unless that
 /// answer is final, its status says why the run was stopped.
-Answered unfinished(Asking& at) {
+Answered unfinished(SharedState& at) {
   at.line.end();
   Answered done;
-  done.answer = at.known();
-  if (at.is_final()) return done;
+  done.answer = at.known.answer();
+  if (at.known.is_final()) return done;
   done.answer.a_to_b.status = at.stop.why();
   if (done.answer.b_to_a) done.answer.b_to_a->status = at.stop.why();
   return done;
 }
 
 /// Returns true once `result` is ready; false when the caller is to wait no longer.
-bool wait_for(const std::future<Answered>& result, const Asking& at) {
+bool wait_for(const std::future<Answered>& result, const SharedState& at) {
   constexpr std::chrono::milliseconds kLook(20);
   constexpr double kGraceful = 0.06;  // a run on a GPU ends by itself in it, with more to report
   constexpr double kToAddUp = 3;      // a survey has files to write that the user asked for
   const Stop& stop = at.stop;
   // A certificate proves the final result of the search, so that is waited for too.
   const auto patience = [&] {
-    return at.is_final() || at.question.certificate ? kToAddUp : kGraceful;
+    return at.known.is_final() || at.question.certificate ? kToAddUp : kGraceful;
   };
   double asked_at = std::numeric_limits<double>::infinity();
   while (result.wait_for(kLook) == std::future_status::timeout) {
@@ -263,7 +238,7 @@ bool wait_for(const std::future<Answered>& result, const Asking& at) {
 
 Answered ask(const Question& question, const Stop& stop) {
   // The state is shared: threads that are left behind still read it.
-  const auto at = std::make_shared<Asking>(question, stop);
+  const auto at = std::make_shared<SharedState>(question, stop);
   auto result = begin_now([at] {
     const FloatEnvironment ours;
     return work(at);
