@@ -49,9 +49,13 @@ endif()
 # Headers of host/ that a user of vkh::Solver includes. They include each other as
 # "host/mesh/mesh.h", in a package that is <vkhausdorff/mesh.h>; the engine's header is
 # <vkhausdorff.h>.
-set(VKH_HOST_HEADERS base/error base/limit base/note gpu/device gpu/device_description gpu/vulkan_api mesh/file_faces mesh/mesh mesh/mesh_transform mesh/polygon
-                     read/read_limits read/mesh_io read/place solve/solve_options solve/report solve/closest_points solve/solver survey/prover survey/certificate)
+set(VKH_HOST_HEADERS base/error base/length base/limit base/note base/sha256 gpu/device gpu/device_description gpu/vulkan_api
+                     mesh/file_faces mesh/mesh mesh/mesh_transform mesh/polygon read/read_limits read/mesh_io read/place
+                     solve/solve_options solve/report solve/frame solve/closest_points solve/solver solve/stream solve/together
+                     solve/face_gate solve/verify survey/side survey/field survey/survey survey/prover survey/certificate
+                     write/colour_map write/field_file answer/question answer/answer answer/work_meter answer/asking)
 set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)
+set(VKH_ALL_HEADERS)
 foreach(header IN LISTS VKH_HOST_HEADERS)
   get_filename_component(name ${header} NAME)
   set(from ${PROJECT_SOURCE_DIR}/host/${header}.h)
@@ -60,7 +64,10 @@ foreach(header IN LISTS VKH_HOST_HEADERS)
   string(REGEX REPLACE "#include \"host/[a-z]+/" "#include \"vkhausdorff/" text "${text}")
   string(REPLACE "#include \"engine/vkhausdorff.h\"" "#include \"vkhausdorff.h\"" text "${text}")
   file(CONFIGURE OUTPUT ${VKH_INSTALLED_HEADERS}/${name}.h CONTENT "${text}" @ONLY)
+  string(APPEND VKH_ALL_HEADERS "#include <vkhausdorff/${name}.h>\n")
 endforeach()
+file(CONFIGURE OUTPUT ${VKH_INSTALLED_HEADERS}/vkhausdorff.hpp
+     CONTENT "// All of the C++ interface.\n#pragma once\n\n${VKH_ALL_HEADERS}" @ONLY)
 
 set_target_properties(vkhausdorff PROPERTIES INSTALL_RPATH $<$<BOOL:${BUILD_SHARED_LIBS}>:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}>)
 install(TARGETS vkhausdorff RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)

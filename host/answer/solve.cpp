@@ -159,7 +159,8 @@ void solve(const Question& question, std::span<Solver* const> solvers, const Ask
     solve_by_face(question, meshes, *solvers.front(), observer, answer);
   } else if (question.symmetric) {
     if (solvers.size() > 1)
-      throw UsageError("--symmetric: over several devices ask for each direction by itself");
+      throw UsageError(question.option("symmetric") +
+                       ": over several devices ask for each direction by itself");
     SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options());
     answer.a_to_b = std::move(both.a_to_b);
     answer.b_to_a = std::move(both.b_to_a);

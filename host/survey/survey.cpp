@@ -254,6 +254,13 @@ Field field_within(size_t face_count, double upper) {
   return {std::vector<double>(face_count, 0.0), std::vector<double>(face_count, upper)};
 }
 
+SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptions& options,
+                         const SolveOptions& run) {
+  SurveyResult result;
+  solver.with_cells(pair, run, survey_with(options, result));
+  return result;
+}
+
 Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
   return [&options, &result](const SurveyedPair& on_device, const BoundCells& bound) {
     if (options.statistics)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/solve/solve_options.h"
+#include "host/solve/solver.h"
 #include "host/survey/field.h"
 
 namespace vkh {
@@ -85,6 +86,11 @@ struct SurveyResult {
 
 /// The field of a run that ended before its survey began: no distance is above `upper`.
 Field field_within(size_t face_count, double upper);
+
+/// Surveys the pair's A in a run of its own. `run`: switches, preset, memory and progress, as
+/// Solver::with_cells takes them. Throws what that throws, and what survey_with() names.
+SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptions& options,
+                         const SolveOptions& run = {});
 
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The
 /// survey throws UsageError for statistics or sides of meshes of any triangulation, and for sides

@@ -38,6 +38,15 @@ check_consumers() {
   if [ -x "$package/bin/vkh_check" ]; then
     "$package/bin/vkh_check" "$folder/ab.vhc" "$folder/a.off" "$folder/b.off" >"$folder/log" || fail "$1/prove's certificate"
   fi
+  "$1/everything" "$folder/a.off" "$folder/b.off" "$folder/field.ply" "$folder/all.vhc" >"$folder/log" || fail "$1/everything failed"
+  grep -q '<= h(A, B) <= .*: closed' "$folder/log" && grep -q 'mean in \[0.2' "$folder/log" || { cat "$folder/log"; fail "$1/everything"; }
+  head -c 3 "$folder/field.ply" | grep -qx ply || fail "$1/everything's field"
+  if [ -x "$package/bin/vkh_check" ]; then
+    "$package/bin/vkh_check" "$folder/all.vhc" "$folder/a.off" "$folder/b.off" >"$folder/log" || fail "$1/everything's certificate"
+  fi
+  "$1/many" "$folder/b.off" "$folder/a.off" "$folder/a.off" >"$folder/log" || fail "$1/many failed"
+  [ "$(grep -cE '^[01]: 0\.2[45][0-9]* <= h <= 0\.25[0-9]*$' "$folder/log")" = 2 ] && grep -q '^pass; ' "$folder/log" ||
+    { cat "$folder/log"; fail "$1/many printed something else"; }
 }
 
 cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$package" -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
@@ -66,11 +75,11 @@ mkdir "$folder/pc"
 ${CC:-cc} -std=c11 -pedantic -Wall -Werror "$consumer/engine.c" -o "$folder/pc/engine" \
   $(pkg_config --cflags --libs vkhausdorff)
 # shellcheck disable=SC2046
-${CXX:-c++} -std=c++20 -Wall -Wextra -Werror "$consumer/host.cpp" -o "$folder/pc/host" \
-  $(pkg_config --cflags --libs vkhausdorff-host)
-# shellcheck disable=SC2046
-${CXX:-c++} -std=c++20 -Wall -Wextra -Werror "$consumer/prove.cpp" -o "$folder/pc/prove" \
-  $(pkg_config --cflags --libs vkhausdorff-host)
+for program in host prove everything many; do
+  # shellcheck disable=SC2046
+  ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror "$consumer/$program.cpp" -o "$folder/pc/$program" \
+    $(pkg_config --cflags --libs vkhausdorff-host)
+done
 check_consumers "$folder/pc"
 
 "$package/bin/vkhausdorff" distance "$folder/a.off" "$folder/b.off" >/dev/null || fail "the installed program"

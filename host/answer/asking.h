@@ -1,0 +1,51 @@
+// A question about two meshes on its way to an answer, on a thread of its own: a search, and what
+// else is asked for (fields, statistics, certificates, limits of faces, the host's check).
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <span>
+#include <stop_token>
+
+#include "host/answer/answer.h"
+#include "host/answer/question.h"
+#include "host/answer/work_meter.h"
+#include "host/solve/solver.h"
+
+namespace vkh {
+
+/// Threads may share an Asking. It never leaves a thread behind.
+class Asking {
+ public:
+  using Deadline = std::chrono::steady_clock::time_point;
+
+  /// Begins at once. `question`: of its members, files, devices and hashes are not looked at;
+  /// options.time_limit_s counts from now and is for all work. `solvers`: one, or several on
+  /// devices of their own for one direction, which share A's faces; the first also surveys and
+  /// proves. They must outlive the Asking, and no other code may use them meanwhile. `stop`: a
+  /// request ends the work as cancel() does.
+  Asking(Question question, std::shared_ptr<const Mesh> a, std::shared_ptr<const Mesh> b,
+         std::span<Solver* const> solvers, std::stop_token stop = {});
+  /// Cancels what is not done, and waits.
+  ~Asking();
+  Asking(const Asking&) = delete;
+  Asking& operator=(const Asking&) = delete;
+
+  /// Ends the work soon, with a true answer. Does not wait.
+  void cancel();
+  /// Waits until all work is done, or until the deadline. Returns whether it is done.
+  bool wait(Deadline deadline) const;
+  /// Returns what is known, at any time: its intervals are true, if wide. After an error, too.
+  Answer known() const;
+  /// Returns how much of all work is done, and the interval so far.
+  WorkDone done() const;
+  /// Waits until all work is done. Throws UsageError, InputError, DeviceError and what else Solver
+  /// throws.
+  Answer answer() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vkh
