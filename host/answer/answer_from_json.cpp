@@ -286,9 +286,10 @@ Enclosure signed_enclosure_of(const Json& json) {
   return e;
 }
 
-std::optional<uint64_t> count_or_none_in(const Json& object, const char* key) {
-  if (member_at(object, key).is_null()) return std::nullopt;
-  return count_in(object, key);
+std::optional<SidedPoint> sided_point_at(const Json& object, const char* key) {
+  const Json& json = member_at(object, key);
+  if (json.is_null()) return std::nullopt;
+  return SidedPoint{point_of(json), bound_in(json, "lower")};
 }
 
 SignedFigures::Areas side_areas_of(const Json& json) {
@@ -305,8 +306,8 @@ SignedFigures signed_of(const Json& json) {
   SignedFigures s;
   s.over = enclosure_of(member_at(json, "over"));
   s.under = enclosure_of(member_at(json, "under"));
-  s.over_face = count_or_none_in(json, "over_face");
-  s.under_face = count_or_none_in(json, "under_face");
+  s.over_witness = sided_point_at(json, "over_witness");
+  s.under_witness = sided_point_at(json, "under_witness");
   s.inside = enumerator_at(json, "inside", kEveryInside, inside_name);
   const Json& edges = member_at(json, "edges");
   s.edges.open = count_in(edges, "open");

@@ -74,7 +74,8 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
     options.bands.insert(options.bands.end(), {band.within, band.beyond});
   options.enough = question.area;
   if (!question.statistics) options.percentiles.clear();
-  if (!question.statistics) options.mean_tolerance = 1;  // a share of area is all that is asked
+  if (!question.statistics)  // a share of area is all that is asked
+    options.mean_tolerance = options.signed_tolerance = options.signed_floor = 1;
   options.time_limit_s = survey_time(at, left);
   if (question.effort) options.effort = *question.effort;
   const bool on_cpu = at.solver.device().description().type == "cpu";

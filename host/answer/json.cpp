@@ -226,7 +226,7 @@ std::string direction_json(const Answer& answer, const Report& r, bool back, Det
   json.add("witness", witness_json(r));
   if (r.witness_check) json.add_text("verified", verified_json(r));
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
-  if (survey) add_survey(json, *survey, answer);
+  if (survey) add_survey(json, *survey, answer, detail);
   const std::optional<Proof>& proof = back ? answer.proof_b : answer.proof_a;
   if (proof) json.add_text("certificate", proof_json(*proof));
   if (detail == Detail::kFull) json.add("times", times_json(r.times));

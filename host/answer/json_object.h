@@ -62,12 +62,12 @@ Answer answer_from(const Json& json);
 /// A whole number of 0 or more. Throws InputError that names `key` for anything else: 1.9, true.
 uint64_t count_in(const Json& object, const std::string& key);
 
-/// Adds the survey of one direction's mesh: `survey`, and `field` and `statistics` where they were
-/// asked for.
-void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer);
-
 /// kBrief leaves out times, stages, waves and workspace, which only one run or machine has.
 enum class Detail { kFull, kBrief };
+
+/// Adds the survey of one direction's mesh: `survey`, and `field`, `statistics` and `signed` where
+/// they were asked for.
+void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer, Detail detail);
 
 /// Adds an answer's members in docs/schema/answer.schema.json from `words` to `options`.
 void add_answer(JsonObject& json, const Answer& answer, Detail detail);

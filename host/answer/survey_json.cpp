@@ -59,12 +59,24 @@ std::string areas_json(const SignedFigures::Areas& areas) {
   return json.text();
 }
 
-std::string signed_json(const SignedFigures& s, const Json& unit) {
+std::string witness_json(const std::optional<SidedPoint>& witness, const Json& unit) {
+  if (!witness) return "null";
+  const auto vector = [](const DVec3& v) { return Json::array({v.x, v.y, v.z}); };
+  JsonObject json;
+  json.add("face", witness->at.file_face);
+  json.add("barycentric", vector(witness->at.barycentric));
+  json.add("point", vector(witness->at.point));
+  json.add_bound("lower", witness->lower, Rounding::kDown);
+  json.add("unit", unit);
+  return json.text();
+}
+
+std::string signed_json(const SignedFigures& s, const Json& unit, Detail detail) {
   JsonObject json;
   json.add_text("over", enclosure_json(s.over, unit));
   json.add_text("under", enclosure_json(s.under, unit));
-  json.add("over_face", s.over_face ? Json(*s.over_face) : Json());
-  json.add("under_face", s.under_face ? Json(*s.under_face) : Json());
+  json.add_text("over_witness", witness_json(s.over_witness, unit));
+  json.add_text("under_witness", witness_json(s.under_witness, unit));
   json.add("inside", inside_name(s.inside));
   json.add("edges", {{"open", s.edges.open}, {"uneven", s.edges.uneven}});
   json.add_text("areas", s.areas ? areas_json(*s.areas) : "null");
@@ -72,7 +84,7 @@ std::string signed_json(const SignedFigures& s, const Json& unit) {
   json.add_text("percentiles", array_json(s.percentiles, [&](const Percentile& one) {
                   return percentile_json(one, unit);
                 }));
-  json.add("wall_ms", s.ms);
+  if (detail == Detail::kFull) json.add("wall_ms", s.ms);
   return json.text();
 }
 
@@ -88,17 +100,19 @@ Json faces_json(const SurveyResult& survey, const Answer& answer) {
 
 }  // namespace
 
-void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer) {
-  json.add("survey", {{"met", survey.is_met()},
-                      {"effort", survey.effort},
-                      {"ended", survey_end_name(survey.ended)},
-                      {"cells", survey.cells},
-                      {"bounded", survey.bounded},
-                      {"wall_ms", survey.ms}});
+void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer, Detail detail) {
+  Json found = {{"met", survey.is_met()},
+                {"effort", survey.effort},
+                {"ended", survey_end_name(survey.ended)},
+                {"cells", survey.cells},
+                {"bounded", survey.bounded}};
+  if (detail == Detail::kFull) found["wall_ms"] = survey.ms;
+  json.add("survey", found);
   if (survey.faces) json.add("field", faces_json(survey, answer));
   if (survey.statistics)
     json.add_text("statistics", statistics_json(*survey.statistics, text_or_null(answer.unit)));
-  if (survey.sides) json.add_text("signed", signed_json(*survey.sides, text_or_null(answer.unit)));
+  if (survey.sides)
+    json.add_text("signed", signed_json(*survey.sides, text_or_null(answer.unit), detail));
 }
 
 }  // namespace vkh

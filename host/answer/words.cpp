@@ -102,21 +102,32 @@ std::string limit_text(const Answer& answer, const Length& length) {
   return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
 }
 
+std::string limits_in_words(const Answer& answer) {
+  const AskedSides& sides = *answer.max->sides;
+  return limit_text(answer, sides.over) + " over B and " + limit_text(answer, sides.under) +
+         " under it";
+}
+
+/// A distance beyond a limit, as a FAIL begins: four digits where the farthest point is known, or
+/// more where the limit is nearer. The text never rounds down to the limit itself.
+std::string beyond_in_words(const Answer& answer, const Enclosure& e, const Limit& limit) {
+  const double margin = std::min(e.lower - limit.beyond, e.upper - e.lower);
+  const bool is_known = is_farthest_known(e.lower, e.upper);
+  const double shown =
+      is_known ? std::min(e.lower - limit.beyond, std::max(margin, 2e-3 * e.lower)) : margin;
+  return (is_known ? "FAIL  " : "FAIL  at least ") + length_down(answer, e.lower, shown);
+}
+
 std::string failure_in_words(const Answer& answer, bool back) {
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
   const Limit& limit = faces ? faces->limit : answer.max->limit;
-  // The text never rounds down to the limit itself.
-  const double margin = std::min(r.lower - limit.beyond, r.upper - r.lower);
   const std::string from = back ? "B" : "A";
-  const bool is_known = is_farthest_known(r.lower, r.upper);
-  // Four digits where the farthest point is known, or more where the limit is nearer.
-  const double shown =
-      is_known ? std::min(r.lower - limit.beyond, std::max(margin, 2e-3 * r.lower)) : margin;
-  std::string text = is_known ? "FAIL  " : "FAIL  at least ";
-  text += length_down(answer, r.lower, shown) + (back ? " from B to A" : " from A to B");
+  std::string text = beyond_in_words(answer, {r.lower, r.upper}, limit);
+  text += back ? " from B to A" : " from A to B";
   text += r.has_witness ? " at " + point_text(answer, r.witness_a) + " of " + from
                         : " at a point of " + from;
+  if (answer.max->sides) return text + ", beyond both limits, " + limits_in_words(answer);
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
   return text + ", limit of its face " +
          with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
@@ -172,24 +183,17 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
   return "largest deviation in " + interval_text(answer, whole) + "; --worst narrows it";
 }
 
-std::string limits_in_words(const Answer& answer) {
-  const AskedSides& sides = *answer.max->sides;
-  return limit_text(answer, sides.over) + " over B and " + limit_text(answer, sides.under) +
-         " under it";
-}
-
-/// One side of a verdict: "0.21 mm over B on face 12, limit 0.2 mm".
+/// One side of a verdict: "0.21 mm over B at (1, 2, 3) on face 12 of A, limit 0.2 mm".
 std::string side_failure(const Answer& answer, bool is_over, const SignedFigures& found) {
   const AskedSides& sides = *answer.max->sides;
-  const double lower = is_over ? found.over.lower : found.under.lower;
-  const double upper = is_over ? found.over.upper : found.under.upper;
+  Enclosure reached = is_over ? found.over : found.under;
   const Limit& limit = is_over ? sides.limits.over : sides.limits.under;
-  const std::optional<uint64_t>& face = is_over ? found.over_face : found.under_face;
-  return "FAIL  at least " +
-         length_down(answer, lower, std::min(lower - limit.beyond, upper - lower)) +
-         (is_over ? " over B" : " under B") +
-         (face ? " on face " + std::to_string(*face) + " of A" : std::string()) + ", limit " +
-         limit_text(answer, is_over ? sides.over : sides.under);
+  const std::optional<SidedPoint>& witness = is_over ? found.over_witness : found.under_witness;
+  const bool has_point = witness && witness->lower > limit.beyond;
+  if (has_point) reached.lower = witness->lower;
+  return beyond_in_words(answer, reached, limit) + (is_over ? " over B" : " under B") +
+         (has_point ? " at " + point_text(answer, witness->at) + " of A" : std::string()) +
+         ", limit " + limit_text(answer, is_over ? sides.over : sides.under);
 }
 
 std::string side_interval(const Answer& answer, const Enclosure& e) {

@@ -60,6 +60,15 @@ struct Statistics {
   std::vector<AreaWithin> curve;
 };
 
+/// The shares at which the distribution of signed distances is told: both of its ends matter.
+inline constexpr std::array kSignedShares = {0.01, 0.05, 0.5, 0.95, 0.99};
+
+/// A point of A with a proven side.
+struct SidedPoint {
+  SurfacePoint at;
+  double lower = 0;  ///< it is at least so far from B
+};
+
 /// The sides of A: over B, in front of its faces as they are oriented, or under it. A cell has a
 /// side where that is proven; the rest is counted as unsigned. The signed distance is negative
 /// under B; where there is no side, it may be either.
@@ -67,8 +76,9 @@ struct SignedFigures {
   /// The largest distance of a point over B, and of one under it: `upper` covers what has no side,
   /// `lower` does not. [0, 0]: there is none.
   Enclosure over, under;
-  /// Faces of A on which a point is `over.lower` or `under.lower` away, as its file counts them.
-  std::optional<uint64_t> over_face, under_face;
+  /// Far points of both sides: `over.lower` is at least over_witness->lower. None: no cell has that
+  /// side.
+  std::optional<SidedPoint> over_witness, under_witness;
   Inside inside = Inside::kUndecided;  ///< whether B has an inside, so that cells share sides
   EdgeCounts edges;                    ///< of B
   struct Areas {

@@ -11,33 +11,6 @@
 namespace vkh {
 namespace {
 
-// Scores all cells that can be split. `score` of a cell returns nothing if the cell is not in the
-// goal's way, and 0 if it is and a split would gain nothing.
-template <class Score>
-Scores scored(const CellStore& store, const Score& score) {
-  struct Block {
-    std::vector<Scored> cells;
-    bool is_met = true;
-  };
-  std::vector<Block> blocks(block_count(store.count()));
-  for_each_block(store.count(), [&](size_t block, size_t begin, size_t end) {
-    Block mine;
-    for (size_t i = begin; i < end; ++i) {
-      const std::optional<double> of_cell = score(i);
-      if (!of_cell) continue;
-      mine.is_met = false;
-      if (*of_cell > 0 && store.can_split(i)) mine.cells.push_back({*of_cell, i});
-    }
-    blocks[block] = std::move(mine);
-  });
-  Scores all{{}, true};
-  for (const Block& block : blocks) {
-    all.cells.insert(all.cells.end(), block.cells.begin(), block.cells.end());
-    all.is_met = all.is_met && block.is_met;
-  }
-  return all;
-}
-
 // A width in the frame: what plain floats leave of a cell's bounds, a few times over. Splits gain
 // nothing below it.
 constexpr double kFloor = 2e-6;

@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "host/base/parallel.h"
 #include "host/survey/statistics.h"
 #include "host/survey/survey.h"
 
@@ -24,6 +26,33 @@ struct Scores {
   bool is_met = false;
 };
 using Goal = std::function<Scores(const CellStore&)>;
+
+/// Scores all cells that can be split. `score` of a cell returns nothing if the cell is not in the
+/// goal's way, and 0 if it is and a split would gain nothing.
+template <class Score>
+Scores scored(const CellStore& store, const Score& score) {
+  struct Block {
+    std::vector<Scored> cells;
+    bool is_met = true;
+  };
+  std::vector<Block> blocks(block_count(store.count()));
+  for_each_block(store.count(), [&](size_t block, size_t begin, size_t end) {
+    Block mine;
+    for (size_t i = begin; i < end; ++i) {
+      const std::optional<double> of_cell = score(i);
+      if (!of_cell) continue;
+      mine.is_met = false;
+      if (*of_cell > 0 && store.can_split(i)) mine.cells.push_back({*of_cell, i});
+    }
+    blocks[block] = std::move(mine);
+  });
+  Scores all{{}, true};
+  for (const Block& block : blocks) {
+    all.cells.insert(all.cells.end(), block.cells.begin(), block.cells.end());
+    all.is_met = all.is_met && block.is_met;
+  }
+  return all;
+}
 
 /// Converts lengths in the frame, on the stored meshes, to the files' units.
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);

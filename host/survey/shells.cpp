@@ -17,7 +17,6 @@
 
 #include "host/base/decimal.h"
 #include "host/base/error.h"
-#include "host/base/parallel.h"
 #include "host/mesh/make_mesh.h"
 #include "host/survey/sets.h"
 
@@ -27,16 +26,6 @@ namespace {
 std::string in_brackets(const DVec3& p) {
   return "(" + shortest_decimal(p.x) + ", " + shortest_decimal(p.y) + ", " + shortest_decimal(p.z) +
          ")";
-}
-
-// The parts of the work on all faces: each face may take as long as a search.
-constexpr size_t kFacesOfPart = 512;
-
-template <class Work>
-void each_part(size_t count, const Work& work) {
-  for_each_range_of(kFacesOfPart, count, [&](size_t part, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) work(part, i);
-  });
 }
 
 bool precedes(const glm::dvec3& p, const glm::dvec3& q) {
@@ -181,7 +170,8 @@ const char* inside_name(Inside inside) {
   return "";
 }
 
-Shells::Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces)
+Shells::Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces,
+               const GoesOn& goes_on)
     : vertices_(std::move(vertices)), faces_(faces), tree_({}, {}) {
   set_positions();
   set_kinds();
@@ -189,13 +179,14 @@ Shells::Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces
   tree_ = TriangleTree(triangles_, in_tree());
   const std::vector<EdgeUse> uses = edge_uses();
   count_edges(uses);
-  if (edges_.open > 0) {
-    inside_ = Inside::kOpen;
-  } else if (find_contacts()) {
-    inside_ = Inside::kCrossing;
-  } else {
-    inside_ = wind(uses);
-  }
+  inside_ = find_inside(uses, goes_on);
+}
+
+Inside Shells::find_inside(const std::vector<EdgeUse>& uses, const GoesOn& goes_on) {
+  if (edges_.open > 0) return Inside::kOpen;
+  const std::optional<bool> do_cross = find_contacts(goes_on);
+  if (!do_cross) return Inside::kUndecided;
+  return *do_cross ? Inside::kCrossing : wind(uses, goes_on);
 }
 
 Shells::Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces, OnlyEdges)
@@ -364,9 +355,10 @@ int Shells::shared_corners(uint32_t f, uint32_t g) const {
 
 // Looks at all pairs of faces with areas whose boxes meet; returns whether some cross. Each pair is
 // looked at from its first face. Bare faces are segments without an area, and bound nothing.
-bool Shells::find_contacts() {
+// Returns nothing if it was ended.
+std::optional<bool> Shells::find_contacts(const GoesOn& goes_on) {
   touches_.assign(faces_.size(), 0);
-  std::vector<uint8_t> crossing(faces_.size() / kFacesOfPart + 1);
+  std::atomic<bool> do_cross = false;
   const auto first_at = [&](uint32_t f, uint32_t g, int shared) {
     Corners3 t = triangles_[f];
     const UVec3 &p = positions_[f], &q = positions_[g];
@@ -386,20 +378,19 @@ bool Shells::find_contacts() {
     }
     return contact != Contact::kCross;
   };
-  each_part(faces_.size(), [&](size_t part, size_t i) {
+  const bool is_whole = each_while(faces_.size(), goes_on, [&](size_t i) {
     const auto f = static_cast<uint32_t>(i);
-    if (kind_[f] != Kind::kArea || crossing[part] != 0) return;
+    if (kind_[f] != Kind::kArea || do_cross) return;
     const TriangleBox mine = box_of(triangles_[f]);
     tree_.walk([&](const TriangleBox& box) { return overlap(box, mine); },
                [&](uint32_t g) {
                  if (g <= f || kind_[g] != Kind::kArea) return true;
                  if (!overlap(box_of(triangles_[g]), mine) || look(f, g)) return true;
-                 crossing[part] = 1;
+                 do_cross = true;
                  return false;
                });
   });
-  return std::any_of(crossing.begin(), crossing.end(),
-                     [](uint8_t crosses) { return crosses != 0; });
+  return is_whole || do_cross ? std::optional<bool>(do_cross) : std::nullopt;
 }
 
 // Joins faces at edges that they alone use, if no other face touches them elsewhere: by the first
@@ -417,7 +408,7 @@ std::vector<uint32_t> Shells::patches(const std::vector<EdgeUse>& uses) const {
   return first;
 }
 
-Inside Shells::wind(const std::vector<EdgeUse>& uses) {
+Inside Shells::wind(const std::vector<EdgeUse>& uses, const GoesOn& goes_on) {
   constexpr int kUnknown = INT32_MAX, kTriedFaces = 16;
   const std::vector<uint32_t> first = patches(uses);
   std::vector<uint32_t> members(faces_.size());  // the faces, those of a patch together
@@ -430,7 +421,7 @@ Inside Shells::wind(const std::vector<EdgeUse>& uses) {
     const bool is_first = i == 0 || first[members[i]] != first[members[i - 1]];
     if (is_first && kind_[members[i]] == Kind::kArea) begins.push_back(i);
   }
-  each_part(begins.size(), [&](size_t, size_t k) {
+  const bool is_whole = each_while(begins.size(), goes_on, [&](size_t k) {
     const size_t begin = begins[k];
     for (size_t i = begin; i < std::min(begin + kTriedFaces, members.size()); ++i) {
       if (first[members[i]] != first[members[begin]]) return;
@@ -442,7 +433,7 @@ Inside Shells::wind(const std::vector<EdgeUse>& uses) {
   const auto all_are = [&](int winding) {
     return std::all_of(begins.begin(), begins.end(), [&](size_t i) { return front[i] == winding; });
   };
-  if (begins.empty()) return Inside::kUndecided;
+  if (begins.empty() || !is_whole) return Inside::kUndecided;
   front_ = front[begins[0]];
   if (all_are(0) || all_are(-1)) return Inside::kProven;
   const bool is_known =

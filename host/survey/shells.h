@@ -10,6 +10,7 @@
 #include "host/mesh/orientation.h"
 #include "host/mesh/triangle_tree.h"
 #include "host/survey/side.h"
+#include "host/survey/stoppable.h"
 
 namespace vkh {
 
@@ -21,8 +22,10 @@ void refuse_conflicts(const Mesh& mesh);
 /// it.
 class Shells {
  public:
-  /// `faces` index into `vertices`, which are all finite.
-  Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces);
+  /// `faces` index into `vertices`, which are all finite. Where `goes_on` ends it, inside() is
+  /// kUndecided.
+  Shells(std::vector<glm::dvec3> vertices, const std::vector<UVec3>& faces,
+         const GoesOn& goes_on = {});
 
   /// Counts edges, and does nothing else.
   static EdgeCounts edges_of(const Mesh& mesh);
@@ -58,9 +61,10 @@ class Shells {
   std::vector<EdgeUse> edge_uses() const;
   void count_edges(const std::vector<EdgeUse>& uses);
   std::vector<uint32_t> in_tree() const;
-  bool find_contacts();
+  Inside find_inside(const std::vector<EdgeUse>& uses, const GoesOn& goes_on);
+  std::optional<bool> find_contacts(const GoesOn& goes_on);
   std::vector<uint32_t> patches(const std::vector<EdgeUse>& uses) const;
-  Inside wind(const std::vector<EdgeUse>& uses);
+  Inside wind(const std::vector<EdgeUse>& uses, const GoesOn& goes_on);
   std::optional<int> front_winding(uint32_t face) const;
   std::optional<int> winding_beside(uint32_t face, int attempt) const;
   std::optional<int> winding_along(int axis, const glm::dvec3& p) const;

@@ -42,8 +42,9 @@ enum class Doubt : uint8_t {
   kDegenerate,  ///< a segment or a point may be closest
   kTwoSided,    ///< a face may be closest that lies on one of the opposite orientation
   kMany,        ///< more faces may be closest than were looked at
+  kEnded,       ///< the survey was ended before the cell was looked at
 };
-constexpr size_t kDoubts = 6;
+constexpr size_t kDoubts = 7;
 const char* doubt_name(Doubt doubt);  ///< "none", "meets", "edge", "degenerate", ...
 
 struct CellSide {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "host/base/float128.h"
-#include "host/base/parallel.h"
+#include "host/base/rounding.h"
 #include "host/mesh/closest.h"
 #include "host/survey/cell_corners.h"
 #include "host/survey/sets.h"
@@ -176,16 +177,20 @@ const char* doubt_name(Doubt doubt) {
       return "two-sided";
     case Doubt::kMany:
       return "many";
+    case Doubt::kEnded:
+      return "ended";
   }
   return "";
 }
 
-Sides::Sides(const SurveyedPair& pair)
+Sides::Sides(const SurveyedPair& pair, GoesOn goes_on)
     : a_(pair.a),
       b_(pair.b),
+      frame_(pair.frame),
       displacement_(pair.displacement),
+      goes_on_(std::move(goes_on)),
       vertices_(scaled(pair.a, pair.frame, is_exact_)),
-      shells_(scaled(pair.b, pair.frame, is_exact_), pair.b.faces) {}
+      shells_(scaled(pair.b, pair.frame, is_exact_), pair.b.faces, goes_on_) {}
 
 Sides::Placed Sides::placed(const gpu::Cell& cell) const {
   const UVec3& f = a_.faces[cell.face];
@@ -292,19 +297,10 @@ CellSide Sides::of(const gpu::Cell& cell, const gpu::CellBounds& bounds) const {
   return found;
 }
 
-std::vector<CellSide> Sides::of(const CellStore& cells) const {
-  return is_shared() ? shared(cells) : each_alone(cells);
-}
-
 namespace {
 
-constexpr size_t kCellsOfPart = 1024;
-
-template <class Work>
-void each_cell(size_t count, const Work& work) {
-  for_each_range_of(kCellsOfPart, count, [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) work(i);
-  });
+bool is_same(const gpu::uvec4& x, const gpu::uvec4& y) {
+  return x.x == y.x && x.y == y.y && x.z == y.z && x.w == y.w;
 }
 
 gpu::Cell whole_face(uint32_t face) {
@@ -314,11 +310,15 @@ gpu::Cell whole_face(uint32_t face) {
   return cell;
 }
 
-// The number of cells of each face.
-std::vector<uint32_t> cells_of_faces(const CellStore& cells, size_t face_count) {
-  std::vector<uint32_t> count(face_count);
-  for (size_t i = 0; i < cells.count(); ++i) ++count[cells.face(i)];
-  return count;
+// The faces that several of the named cells are of, but for those that were tried.
+std::vector<uint32_t> faces_of_several(const CellStore& cells, const std::vector<size_t>& which,
+                                       const std::vector<uint8_t>& is_tried) {
+  std::vector<uint32_t> count(is_tried.size()), faces;
+  for (const size_t i : which) {
+    const uint32_t f = cells.face(i);
+    if (++count[f] == 2 && is_tried[f] == 0) faces.push_back(f);
+  }
+  return faces;
 }
 
 // The first face of each set of faces that are joined at corners: of those that are `pure`.
@@ -340,42 +340,129 @@ std::vector<uint32_t> first_of_joined(const Mesh& a, const std::vector<uint8_t>&
 
 }  // namespace
 
+bool KnownSides::has(const gpu::Cell& cell, size_t i) const {
+  if (i >= cells_.size() || !cells_[i].is_known) return false;
+  return cells_[i].side.side != SurfaceSide::kUnsigned || is_same(cells_[i].corners, cell.corners);
+}
+
+CellSide KnownSides::of(const gpu::Cell& cell, size_t i) const {
+  return has(cell, i) ? cells_[i].side : CellSide{SurfaceSide::kUnsigned, Doubt::kEnded};
+}
+
+std::vector<CellSide> KnownSides::of(const CellStore& cells) const {
+  std::vector<CellSide> sides(cells.count());
+  for (size_t i = 0; i < sides.size(); ++i) sides[i] = of(cells.cell(i), i);
+  return sides;
+}
+
+std::vector<CellSide> Sides::of(const CellStore& cells) const {
+  KnownSides known;
+  find(cells, -1, known);
+  return known.of(cells);
+}
+
+bool Sides::find(const CellStore& cells, double above, KnownSides& known) const {
+  known.cells_.resize(cells.count());
+  std::vector<size_t> open;
+  for (size_t i = 0; i < cells.count(); ++i) {
+    const bool is_far = static_cast<double>(cells.bounds(i).highest) > above;
+    if (is_far && !known.has(cells.cell(i), i)) open.push_back(i);
+  }
+  return is_shared() ? find_shared(cells, open, known) : find_alone(cells, open, known);
+}
+
+void Sides::look_at(const CellStore& cells, size_t i, KnownSides& known) const {
+  const gpu::Cell& cell = cells.cell(i);
+  known.cells_[i] = {of(cell, cells.bounds(i)), cell.corners, true};
+}
+
 // A face with all its cells off B is connected, and so are faces that share corners: one point of
 // each such set tells the side of all. The cells of other faces are told one by one.
-std::vector<CellSide> Sides::shared(const CellStore& cells) const {
+bool Sides::find_shared(const CellStore& cells, const std::vector<size_t>& open,
+                        KnownSides& known) const {
   std::vector<uint8_t> pure(a_.faces.size(), 1);
   for (size_t i = 0; i < cells.count(); ++i) {
     if (!is_off(cells.cell(i), cells.bounds(i))) pure[cells.face(i)] = 0;
   }
   const std::vector<uint32_t> first = first_of_joined(a_, pure);
-  std::vector<CellSide> of_face(a_.faces.size());
-  each_cell(of_face.size(), [&](size_t f) {
-    if (pure[f] != 0 && first[f] == f)
-      of_face[f] = by_winding(whole_face(static_cast<uint32_t>(f)));
+  std::vector<uint32_t> wanted;
+  for (const size_t i : open) {
+    if (pure[cells.face(i)] != 0) wanted.push_back(first[cells.face(i)]);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::vector<CellSide> of_set(a_.faces.size());
+  const bool are_sets_done = each_while(wanted.size(), goes_on_, [&](size_t k) {
+    of_set[wanted[k]] = by_winding(whole_face(wanted[k]));
   });
-  std::vector<CellSide> sides(cells.count());
-  each_cell(sides.size(), [&](size_t i) {
-    const uint32_t f = cells.face(i);
-    if (pure[f] != 0) sides[i] = of_face[first[f]];
-    if (sides[i].side == SurfaceSide::kUnsigned) sides[i] = of(cells.cell(i), cells.bounds(i));
-  });
-  return sides;
+  return are_sets_done && each_while(open.size(), goes_on_, [&](size_t k) {
+           const size_t i = open[k];
+           const uint32_t f = cells.face(i);
+           const bool is_told = pure[f] != 0 && of_set[first[f]].side != SurfaceSide::kUnsigned;
+           if (!is_told) return look_at(cells, i, known);
+           known.cells_[i] = {of_set[first[f]], cells.cell(i).corners, true};
+         });
 }
 
-// A face that has a side as a whole gives it to all its cells.
-std::vector<CellSide> Sides::each_alone(const CellStore& cells) const {
-  const std::vector<uint32_t> count = cells_of_faces(cells, a_.faces.size());
-  std::vector<CellSide> of_face(a_.faces.size());
-  each_cell(of_face.size(), [&](size_t f) {
-    if (count[f] > 1)
-      of_face[f] = by_faces(whole_face(static_cast<uint32_t>(f)), cells.bounds(f).face);
+// A face that has a side as a whole gives it to all its cells: it is looked at where it has several
+// cells, once.
+bool Sides::look_at_faces(const CellStore& cells, const std::vector<size_t>& open,
+                          KnownSides& known) const {
+  known.faces_.resize(a_.faces.size());
+  known.is_tried_.resize(a_.faces.size());
+  const std::vector<uint32_t> faces = faces_of_several(cells, open, known.is_tried_);
+  return each_while(faces.size(), goes_on_, [&](size_t k) {
+    const uint32_t f = faces[k];
+    known.faces_[f] = by_faces(whole_face(f), cells.bounds(f).face);
+    known.is_tried_[f] = 1;
   });
-  std::vector<CellSide> sides(cells.count());
-  each_cell(sides.size(), [&](size_t i) {
-    sides[i] = of_face[cells.face(i)];
-    if (sides[i].side == SurfaceSide::kUnsigned) sides[i] = of(cells.cell(i), cells.bounds(i));
-  });
-  return sides;
+}
+
+bool Sides::find_alone(const CellStore& cells, const std::vector<size_t>& open,
+                       KnownSides& known) const {
+  return look_at_faces(cells, open, known) && each_while(open.size(), goes_on_, [&](size_t k) {
+           const size_t i = open[k];
+           const CellSide& of_face = known.faces_[cells.face(i)];
+           if (of_face.side == SurfaceSide::kUnsigned) return look_at(cells, i, known);
+           known.cells_[i] = {of_face, cells.cell(i).corners, true};
+         });
+}
+
+// No point of a box is nearer than its distance, which is off by 8 kRound of itself at most; below
+// it no face in it is.
+double Sides::distance_down(const glm::dvec3& p, uint32_t hint) const {
+  double best = std::numeric_limits<double>::infinity(), best2 = best;
+  const auto see = [&](uint32_t face) {
+    best = std::min(best, std::max(distance_below(seen_from(p, shells_.corners(face))), 0.0));
+    best2 = best * best;
+  };
+  if (hint < b_.faces.size()) see(hint);
+  shells_.tree().nearest_first(p, best2, see);
+  return std::max(best * (1 - 16 * kRound) - kUnderflow, 0.0);
+}
+
+// The corner lies within 2 `off` of the double that stands for it, which is more than sqrt(3) off.
+// Sides are of the meshes as they are held, and so is this distance: the deltas are taken off.
+SidedPoint Sides::farthest_corner(const gpu::Cell& cell, uint32_t hint) const {
+  const Placed at = placed(cell);
+  const lib::Bary3 weights = corners_of(cell);
+  const std::array<glm::dvec3, 3> of_corners = {weights_of(weights.a), weights_of(weights.b),
+                                                weights_of(weights.c)};
+  Frame back;
+  back.exponent = -frame_.exponent;
+  const double delta = add_up(a_.delta, b_.delta);
+  SidedPoint best;
+  for (size_t i = 0; i < 3; ++i) {
+    const glm::dvec3& p = at.corners[i];
+    const double down = add_down(distance_down(p, hint), -2 * at.off);
+    const double lower = std::max(add_down(frame_.length_down(std::max(down, 0.0)), -delta), 0.0);
+    if (i > 0 && lower <= best.lower) continue;
+    best.lower = lower;
+    best.at.set_face(a_, cell.face);
+    best.at.barycentric = of_corners[i] * 0x1p-20;
+    best.at.point = {back.to_frame(p.x), back.to_frame(p.y), back.to_frame(p.z)};
+  }
+  return best;
 }
 
 }  // namespace vkh

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
-#include "host/base/parallel.h"
 #include "host/base/rounding.h"
 
 namespace vkh {
@@ -32,13 +32,9 @@ LimitInFrame in_frame(const SurveyedPair& pair, const Limit& limit) {
 struct Reach {
   float lower = 0, upper = 0;
   bool is_none = true;
-  uint32_t face = UINT32_MAX;  // one that has the point at `lower`
 
-  void add(const gpu::CellBounds& bounds, bool has_side, uint32_t of_face) {
-    if (has_side && bounds.reached > lower) {
-      lower = bounds.reached;
-      face = of_face;
-    }
+  void add(const gpu::CellBounds& bounds, bool has_side) {
+    if (has_side) lower = std::max(lower, bounds.reached);
     upper = std::max(upper, bounds.highest);
     is_none = false;
   }
@@ -53,10 +49,8 @@ struct BothSides {
   Reach over, under;
 
   void add(const CellStore& cells, size_t i, SurfaceSide side) {
-    if (side != SurfaceSide::kUnder)
-      over.add(cells.bounds(i), side == SurfaceSide::kOver, cells.face(i));
-    if (side != SurfaceSide::kOver)
-      under.add(cells.bounds(i), side == SurfaceSide::kUnder, cells.face(i));
+    if (side != SurfaceSide::kUnder) over.add(cells.bounds(i), side == SurfaceSide::kOver);
+    if (side != SurfaceSide::kOver) under.add(cells.bounds(i), side == SurfaceSide::kUnder);
   }
 };
 
@@ -85,51 +79,60 @@ Enclosure signed_in_files(const SurveyedPair& pair, const Enclosure& lengths) {
   return {down_in_files(pair, lengths.lower), -down_in_files(pair, -lengths.upper)};
 }
 
-// The shares at which the distribution of signed distances is told: both of its ends matter.
-constexpr std::array kSignedShares = {0.01, 0.05, 0.5, 0.95, 0.99};
+// Known percentiles are to be so close to what the cells tell.
+double resolution_of(const CellStore& cells) {
+  return 0x1p-17 * static_cast<double>(cells.reached());
+}
 
 void add_statistics(const SurveyedPair& pair, const SurveyedArea& surface,
-                    const std::vector<CellSide>& sides, SignedFigures& figures) {
-  const auto& [store, areas, known] = surface;
+                    const std::vector<CellSide>& sides, std::span<const Enclosure> known,
+                    SignedFigures& figures) {
+  const auto& [store, areas, plain] = surface;
   figures.mean = signed_in_files(pair, signed_mean(store, sides, areas));
-  const double resolution = 0x1p-17 * static_cast<double>(store.reached());
   const std::vector<Enclosure> at =
-      signed_percentiles(store, sides, areas, {kSignedShares, resolution});
+      signed_percentiles(store, sides, areas, {kSignedShares, resolution_of(store), known});
   for (size_t i = 0; i < at.size(); ++i)
     figures.percentiles.push_back({kSignedShares[i], signed_in_files(pair, at[i])});
 }
 
+double width_of(const Enclosure& e) { return e.upper - e.lower; }
+
+// The size that a figure of either sign has at least.
+double least_size(const Enclosure& e) { return std::max({e.lower, -e.upper, 0.0}); }
+
 }  // namespace
 
-SidedCells::SidedCells(const SurveyedPair& pair) : pair_(pair), ms_(-now_ms()), sides_(pair) {
+SidedCells::SidedCells(const SurveyedPair& pair, GoesOn goes_on)
+    : pair_(pair),
+      diagonal_(pair.frame.to_frame(diagonal(bounding_box(pair.a)))),
+      ms_(-now_ms()),
+      sides_(pair, std::move(goes_on)) {
   ms_ += now_ms();
 }
 
-// Looks at cells that reach above that, in the frame, and were not looked at as they are. Halves of
-// a cell with a side have it, too, and are only looked at again if they are new.
-void SidedCells::look_at(const CellStore& cells, double above) {
+// Looks at cells that reach above that, in the frame. Returns whether it was not ended.
+bool SidedCells::look_at(const CellStore& cells, double above) {
   const double start = now_ms();
-  known_.resize(cells.count());
-  constexpr size_t kCellsOfRange = 1024;
-  for_each_range_of(kCellsOfRange, cells.count(), [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      Known& known = known_[i];
-      if (static_cast<double>(cells.bounds(i).highest) <= above) continue;
-      const gpu::uvec4& now = cells.cell(i).corners;
-      const bool is_same = known.corners.x == now.x && known.corners.y == now.y &&
-                           known.corners.z == now.z && known.corners.w == now.w;
-      if (known.is_known && (is_same || known.side.side != SurfaceSide::kUnsigned)) continue;
-      known = {sides_.of(cells.cell(i), cells.bounds(i)), now, true};
-    }
-  });
+  const bool is_whole = sides_.find(cells, above, known_);
   ms_ += now_ms() - start;
+  return is_whole;
 }
+
+namespace {
+
+// Splits help cells that meet B or are over an edge; segments and points of B, faces on each other
+// and too many faces stay in the way however small a cell is.
+bool may_get_side(const CellSide& side) {
+  return side.doubt == Doubt::kMeets || side.doubt == Doubt::kEdge;
+}
+
+}  // namespace
 
 Scores SidedCells::score_limits(const CellStore& cells, const SidedLimits& limits) {
   const LimitInFrame over = in_frame(pair_, limits.over), under = in_frame(pair_, limits.under);
   const double least = std::min(over.within, under.within);
   const double most = std::max(over.beyond, under.beyond);
-  look_at(cells, least);
+  if (!look_at(cells, least)) return {};
   Scores scores{{}, true};
   for (size_t i = 0; i < cells.count(); ++i) {
     const gpu::CellBounds& b = cells.bounds(i);
@@ -137,7 +140,7 @@ Scores SidedCells::score_limits(const CellStore& cells, const SidedLimits& limit
     const double reached = static_cast<double>(b.reached);
     if (reached > most) return {{}, true};
     if (highest <= least) continue;
-    const SurfaceSide side = known_[i].side.side;
+    const SurfaceSide side = known_.of(cells.cell(i), i).side;
     const LimitInFrame& limit = side == SurfaceSide::kOver ? over : under;
     if (side != SurfaceSide::kUnsigned && reached > limit.beyond) return {{}, true};
     const double above = highest - (side == SurfaceSide::kUnsigned ? least : limit.within);
@@ -150,18 +153,16 @@ Scores SidedCells::score_limits(const CellStore& cells, const SidedLimits& limit
   return scores;
 }
 
-// Splits help cells that meet B or are over an edge; segments and points of B, faces on each other
-// and too many faces stay in the way however small a cell is. Cells that are no farther than a
-// hundredth of the largest distance have signed distances that are known as well without a side.
+// Cells that are no farther than a hundredth of the largest distance have signed distances that are
+// known as well without a side.
 Scores SidedCells::score_unsigned(const CellStore& cells, const Areas& areas) {
   constexpr double kEnough = 0.05, kNear = 0.01;
-  look_at(cells, -1);
+  if (!look_at(cells, -1)) return {};
   Scores scores{{}, true};
   const double near = kNear * static_cast<double>(cells.reached());
   double open = 0;
   for (size_t i = 0; i < cells.count(); ++i) {
-    const CellSide& side = known_[i].side;
-    if (side.doubt != Doubt::kMeets && side.doubt != Doubt::kEdge) continue;
+    if (!may_get_side(known_.of(cells.cell(i), i))) continue;
     if (static_cast<double>(cells.bounds(i).highest) <= near) continue;
     const double area = cells.share(i) * areas.of_face[cells.face(i)];
     open += area;
@@ -171,14 +172,122 @@ Scores SidedCells::score_unsigned(const CellStore& cells, const Areas& areas) {
   return scores;
 }
 
-SignedFigures SidedCells::figures(const SurveyedArea& surface, const SurveyOptions& options) const {
-  const double start = now_ms();
-  const CellStore& cells = surface.store;
-  std::vector<CellSide> sides = sides_.of(cells);
-  for (size_t i = 0; i < known_.size(); ++i) {
-    if (sides[i].side == SurfaceSide::kUnsigned && known_[i].side.side != SurfaceSide::kUnsigned)
-      sides[i] = known_[i].side;  // a half has the side of the cell that it is of
+// A signed figure may be 0, of which no share is a width to work towards: the mean distance is the
+// scale of what is asked then.
+double SidedCells::enough(const Enclosure& figure, const Moments& plain,
+                          const SurveyOptions& options) const {
+  const double size = std::max(least_size(figure), plain.mean.lower);
+  return std::max(
+      {options.signed_tolerance * size, options.signed_floor * diagonal_, 2 * pair_.displacement});
+}
+
+namespace {
+
+// What the cell has of a figure's width, or 0 where a split would gain nothing.
+double gain_of(const gpu::CellBounds& b, const CellSide& side, double width) {
+  const double highest = static_cast<double>(b.highest);
+  const bool is_sided = side.side != SurfaceSide::kUnsigned;
+  const double spread = is_sided ? highest - static_cast<double>(lowest(b)) : highest;
+  const bool may_gain = spread > kLeastWidth && (is_sided || may_get_side(side));
+  return may_gain ? width : 0;
+}
+
+}  // namespace
+
+Scores SidedCells::score_mean(const CellStore& cells, const Areas& areas,
+                              const SurveyOptions& options) {
+  if (!look_at(cells, -1)) return {};
+  const std::vector<CellSide> sides = known_.of(cells);
+  const Enclosure mean = signed_mean(cells, sides, areas);
+  if (width_of(mean) <= enough(mean, moments_of(cells, areas), options)) return {{}, true};
+  return scored(cells, [&](size_t i) -> std::optional<double> {
+    const double up = static_cast<double>(cells.bounds(i).mean_upper);
+    const bool is_sided = sides[i].side != SurfaceSide::kUnsigned;
+    const double area = cells.share(i) * areas.of_face[cells.face(i)];
+    const double of_mean = is_sided ? up - mean_lower(cells.bounds(i)) : 2 * up;
+    return gain_of(cells.bounds(i), sides[i], area * of_mean);
+  });
+}
+
+Scores SidedCells::score_percentiles(const CellStore& cells, const Areas& areas,
+                                     const SurveyOptions& options) {
+  if (!look_at(cells, -1)) return {};
+  const std::vector<CellSide> sides = known_.of(cells);
+  const Moments plain = moments_of(cells, areas);
+  const double resolution =
+      std::max(resolution_of(cells), options.signed_tolerance * plain.mean.lower / 16);
+  percentiles_ = signed_percentiles(cells, sides, areas, {kSignedShares, resolution, percentiles_});
+  std::vector<Threshold> open;
+  for (const Enclosure& p : percentiles_) {
+    if (width_of(p) <= enough(p, plain, options)) continue;
+    open.push_back({p.lower, p.lower});
+    open.push_back({p.upper, p.upper});
   }
+  if (open.empty()) return {{}, true};
+  return scored(cells, [&](size_t i) -> std::optional<double> {
+    double share = 0;
+    for (const Threshold& at : open) share += undecided_share(cells, sides, i, at);
+    const double area = cells.share(i) * areas.of_face[cells.face(i)];
+    return gain_of(cells.bounds(i), sides[i], share * area);
+  });
+}
+
+void add_signed_goals(SidedCells& sided, const SurveyOptions& options, const Areas& areas,
+                      std::vector<Goal>& goals) {
+  const auto add =
+      [&](Scores (SidedCells::*score)(const CellStore&, const Areas&, const SurveyOptions&)) {
+        goals.emplace_back(
+            [&, score](const CellStore& cells) { return (sided.*score)(cells, areas, options); });
+      };
+  if (options.sided)
+    goals.insert(goals.begin(),
+                 [&](const CellStore& cells) { return sided.score_limits(cells, *options.sided); });
+  if (!options.is_signed || !areas.is_positive()) return;
+  if (!options.sided)
+    goals.emplace_back([&](const CellStore& cells) { return sided.score_unsigned(cells, areas); });
+  if (!options.statistics) return;
+  add(&SidedCells::score_mean);
+  add(&SidedCells::score_percentiles);
+}
+
+namespace {
+
+// The cell of a side on which a point is farthest, as far as is known; none: no cell has the side.
+std::optional<size_t> farthest_cell(const CellStore& cells, const std::vector<CellSide>& sides,
+                                    SurfaceSide side) {
+  std::optional<size_t> best;
+  for (size_t i = 0; i < cells.count(); ++i) {
+    if (sides[i].side != side) continue;
+    if (!best || cells.bounds(i).reached > cells.bounds(*best).reached) best = i;
+  }
+  return best;
+}
+
+void raise_to(double& most, double lower) { most = std::max(most, lower); }
+
+}  // namespace
+
+// A witness raises what its face and its whole side reach at least.
+void SidedCells::add_witnesses(const CellStore& cells, const std::vector<CellSide>& sides,
+                               SignedFigures& figures) const {
+  const auto find = [&](SurfaceSide side, Enclosure& whole, Field& of_faces) {
+    std::optional<SidedPoint> witness;
+    const std::optional<size_t> cell = farthest_cell(cells, sides, side);
+    if (!cell) return witness;
+    witness = sides_.farthest_corner(cells.cell(*cell), cells.bounds(*cell).face);
+    raise_to(whole.lower, witness->lower);
+    if (of_faces.face_count() > 0) raise_to(of_faces.lower[witness->at.face], witness->lower);
+    return witness;
+  };
+  figures.over_witness = find(SurfaceSide::kOver, figures.over, figures.over_of_faces);
+  figures.under_witness = find(SurfaceSide::kUnder, figures.under, figures.under_of_faces);
+}
+
+SignedFigures SidedCells::figures(const SurveyedArea& surface, const SurveyOptions& options) {
+  const CellStore& cells = surface.store;
+  look_at(cells, -1);
+  const double start = now_ms();
+  const std::vector<CellSide> sides = known_.of(cells);
   SignedFigures figures;
   figures.inside = sides_.is_shared() ? Inside::kProven : sides_.shells().inside();
   if (!sides_.is_shared() && figures.inside == Inside::kProven) figures.inside = Inside::kUndecided;
@@ -187,20 +296,15 @@ SignedFigures SidedCells::figures(const SurveyedArea& surface, const SurveyOptio
   for (size_t i = 0; i < cells.count(); ++i) all.add(cells, i, sides[i].side);
   figures.over = all.over.in_files_of(pair_);
   figures.under = all.under.in_files_of(pair_);
-  const auto file_face = [&](const Reach& reach) -> std::optional<uint64_t> {
-    if (reach.face == UINT32_MAX) return {};
-    return pair_.a.file_faces.of(reach.face);
-  };
-  figures.over_face = file_face(all.over);
-  figures.under_face = file_face(all.under);
   if (options.faces) add_faces(pair_, cells, sides, figures);
+  add_witnesses(cells, sides, figures);
   if (surface.areas.is_positive()) {
     const auto shares = shares_of_sides(cells, sides, surface.areas);
     figures.areas.emplace();
     std::copy_n(shares.begin(), kDoubts, figures.areas->doubts.begin());
     figures.areas->over = shares[kDoubts];
     figures.areas->under = shares[kDoubts + 1];
-    if (options.statistics) add_statistics(pair_, surface, sides, figures);
+    if (options.statistics) add_statistics(pair_, surface, sides, percentiles_, figures);
   }
   figures.ms = ms_ + now_ms() - start;
   return figures;

@@ -8,11 +8,13 @@
 
 namespace vkh {
 
-/// The sides of the cells of a survey. They are found when they are asked for, and kept where a
-/// split does not change them.
+/// The sides of the cells of a survey. They are found when they are asked for, once: they are kept
+/// where a split does not change them.
 class SidedCells {
  public:
-  explicit SidedCells(const SurveyedPair& pair);
+  /// `goes_on` ends the search of sides: goals are then neither met nor nearer, and what was not
+  /// looked at has no side, by Doubt::kEnded.
+  SidedCells(const SurveyedPair& pair, GoesOn goes_on);
 
   const Sides& sides() const { return sides_; }
 
@@ -24,20 +26,33 @@ class SidedCells {
   /// is farther from B than a hundredth of the largest distance.
   Scores score_unsigned(const CellStore& cells, const Areas& areas);
 
-  SignedFigures figures(const SurveyedArea& surface, const SurveyOptions& options) const;
+  /// A cell scores by its part of the width of the signed mean.
+  Scores score_mean(const CellStore& cells, const Areas& areas, const SurveyOptions& options);
+
+  /// A cell scores by its area that is undecided at the ends of signed percentiles that are too
+  /// wide.
+  Scores score_percentiles(const CellStore& cells, const Areas& areas,
+                           const SurveyOptions& options);
+
+  /// Finds the sides that are not known yet.
+  SignedFigures figures(const SurveyedArea& surface, const SurveyOptions& options);
 
  private:
-  struct Known {
-    CellSide side;
-    gpu::uvec4 corners{};  ///< of the cell that was looked at
-    bool is_known = false;
-  };
-  void look_at(const CellStore& cells, double above);
+  bool look_at(const CellStore& cells, double above);
+  double enough(const Enclosure& figure, const Moments& plain, const SurveyOptions& options) const;
+  void add_witnesses(const CellStore& cells, const std::vector<CellSide>& sides,
+                     SignedFigures& figures) const;
 
   SurveyedPair pair_;
-  double ms_;  // the time that was spent on sides so far; it must be before sides_
+  double diagonal_;  // A's, in the frame
+  double ms_;        // the time that was spent on sides so far; it must be before sides_
   Sides sides_;
-  std::vector<Known> known_;
+  KnownSides known_;
+  std::vector<Enclosure> percentiles_;  // of the signed distance, as far as they are known
 };
+
+/// The goals of signed figures, in their order, as goals_of() has those of plain ones.
+void add_signed_goals(SidedCells& sided, const SurveyOptions& options, const Areas& areas,
+                      std::vector<Goal>& goals);
 
 }  // namespace vkh

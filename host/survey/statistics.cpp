@@ -472,6 +472,17 @@ std::vector<Enclosure> signed_percentiles(const CellStore& cells, std::span<cons
   return percentiles_of({cells, sides}, areas, search);
 }
 
+double undecided_share(const CellStore& cells, std::span<const CellSide> sides, size_t i,
+                       const Threshold& at) {
+  const Counted counted{cells, sides};
+  const auto share = [](const Slope& slope, double t) {
+    if (t < slope.least()) return 0.0;
+    return t >= static_cast<double>(slope.most) ? 1.0 : slope.share(t);
+  };
+  return std::max(
+      share(perhaps_within(counted, i), at.up) - share(surely_within(counted, i), at.down), 0.0);
+}
+
 namespace {
 
 // Divide a weighted sum of numbers up to `largest` by the area, rounding down and up. Each of fewer

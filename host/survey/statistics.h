@@ -54,6 +54,10 @@ std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
 std::vector<Enclosure> signed_percentiles(const CellStore& cells, std::span<const CellSide> sides,
                                           const Areas& areas, const PercentileSearch& search);
 
+/// The share of cell i that is not known to be within the signed distance, nor beyond it.
+double undecided_share(const CellStore& cells, std::span<const CellSide> sides, size_t i,
+                       const Threshold& at);
+
 /// The mean of the signed distance over A, in the frame.
 Enclosure signed_mean(const CellStore& cells, std::span<const CellSide> sides, const Areas& areas);
 

@@ -17,6 +17,8 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+bool finds_sides(const SurveyOptions& options) { return options.is_signed || options.sided; }
+
 // Bounds cells in batches, until time or the caller ends it. How large batches are decides neither
 // the cells' numbers nor their bounds.
 class Bounding {
@@ -24,6 +26,7 @@ class Bounding {
   Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
       : bound_(bound),
         options_(options),
+        ms_of_cells_(1000 * options.time_limit_s * (finds_sides(options) ? kPartOfCells : 1)),
         effort_(options.effort.value_or(default_effort(pair.on_cpu))),
         batch_(pair.on_cpu ? 1024 : 65536) {}
 
@@ -63,22 +66,27 @@ class Bounding {
   size_t effort() const { return effort_; }
 
   // Asks the caller first: a survey that was cancelled is none that time ended.
-  bool goes_on() {
-    if (ended_ != SurveyEnd::kMet) return false;
-    if (options_.goes_on && !options_.goes_on(bounded_)) {
-      ended_ = SurveyEnd::kCancelled;
-    } else if (ms() > 1000 * options_.time_limit_s) {
-      ended_ = SurveyEnd::kTime;
-    }
-    return ended_ == SurveyEnd::kMet;
-  }
+  bool goes_on() { return goes_on(ended_, ms_of_cells_); }
+  // The same for the work on sides, which has some time of its own.
+  bool sides_go_on() { return goes_on(sides_ended_, 1000 * options_.time_limit_s); }
   // The reason why `goes_on` was false; before it was, kMet.
-  SurveyEnd ended() const { return ended_; }
+  SurveyEnd ended() const { return std::max(ended_, sides_ended_); }
   double ms() const { return ms_since(start_); }
   size_t bounded() const { return bounded_; }
   double device_ms() const { return device_ms_; }
 
  private:
+  bool goes_on(SurveyEnd& ended, double limit_ms) {
+    if (this->ended() == SurveyEnd::kCancelled) ended = SurveyEnd::kCancelled;
+    if (ended != SurveyEnd::kMet) return false;
+    if (options_.goes_on && !options_.goes_on(bounded_)) {
+      ended = SurveyEnd::kCancelled;
+    } else if (ms() > limit_ms) {
+      ended = SurveyEnd::kTime;
+    }
+    return ended == SurveyEnd::kMet;
+  }
+
   void bound(const CellBatch& batch) {
     const Clock::time_point start = Clock::now();
     bound_(batch);
@@ -99,18 +107,20 @@ class Bounding {
     }
   }
 
+  static constexpr double kPartOfCells = 0.7;
   static constexpr size_t kLeastBatch = 64,  // even, as all are: halves come in twos
       kMostBatch = size_t{1} << 20;
   const BoundCells& bound_;
   const SurveyOptions& options_;
   const Clock::time_point start_ = Clock::now();
+  const double ms_of_cells_;
   const size_t effort_;
   size_t spent_ = 0;
   size_t batch_;
   size_t bounded_ = 0;
   double device_ms_ = 0;
   std::vector<size_t> which_;  // cells of a batch
-  SurveyEnd ended_ = SurveyEnd::kMet;
+  SurveyEnd ended_ = SurveyEnd::kMet, sides_ended_ = SurveyEnd::kMet;
 };
 
 constexpr size_t kFewestSplits = 2048;  // for a pass: the host looks at all cells between two
@@ -189,11 +199,12 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
 }
 
 // Returns nothing unless sides are asked for.
-std::optional<SidedCells> sided_cells(const SurveyedPair& pair, const SurveyOptions& options) {
-  if (!options.is_signed && !options.sided) return {};
+std::optional<SidedCells> sided_cells(const SurveyedPair& pair, const SurveyOptions& options,
+                                      Bounding& bounding) {
+  if (!finds_sides(options)) return {};
   refuse_any_triangulation(pair.a, pair.b, "sides");
   refuse_conflicts(pair.b);
-  return std::optional<SidedCells>(pair);
+  return std::optional<SidedCells>(std::in_place, pair, [&] { return bounding.sides_go_on(); });
 }
 
 }  // namespace
@@ -267,27 +278,22 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
       refuse_any_triangulation(on_device.a, on_device.b, "statistics of an area");
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
-    std::optional<SidedCells> sided = sided_cells(pair, options);
+    Bounding bounding(pair, bound, options);
+    std::optional<SidedCells> sided = sided_cells(pair, options, bounding);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
     CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
-    Bounding bounding(pair, bound, options);
     bounding.faces(store);
     const Areas areas = areas_of(pair.a);
     std::vector<Enclosure> percentiles;
     std::vector<Goal> goals = goals_of(options, pair, areas, percentiles);
-    if (options.sided)
-      goals.insert(goals.begin(), [&](const CellStore& cells) {
-        return sided->score_limits(cells, *options.sided);
-      });
-    if (options.is_signed && !options.sided && areas.is_positive())
-      goals.emplace_back(
-          [&](const CellStore& cells) { return sided->score_unsigned(cells, areas); });
+    if (sided) add_signed_goals(*sided, options, areas, goals);
     result.ended = refine_all(store, bounding, goals);
     result.field = field_of(store, pair);
     result.faces = options.faces;
     if (options.statistics)
       result.statistics = statistics_of({store, areas, percentiles}, pair, options);
     if (sided) result.sides = sided->figures({store, areas, percentiles}, options);
+    result.ended = std::max(result.ended, bounding.ended());
     if (options.statistics && !result.statistics)
       result.ended = std::max(result.ended, SurveyEnd::kBits);
     result.effort = bounding.effort();

@@ -51,6 +51,10 @@ struct SurveyOptions {
   /// The sides of A are wanted, of 95 % of its area that is farther from B than a hundredth of the
   /// largest distance: result.sides.
   bool is_signed = false;
+  /// With sides and statistics: the width to reach of the signed mean and percentiles, as a share
+  /// of the figure itself, or of the mean distance where that is larger; and, as a share of A's
+  /// diagonal, the width that is always enough.
+  double signed_tolerance = 0.02, signed_floor = 1e-6;
   /// If set: A is only to be proven within the limits of its sides, or beyond. Sides are wanted.
   std::optional<SidedLimits> sided = {};
   /// No distance is above it, in the files' units.
@@ -58,12 +62,14 @@ struct SurveyOptions {
   /// The number of cells that the device may bound besides each face once: two for each split.
   /// Unset: default_effort(). The host needs 120 bytes for each two of them.
   std::optional<size_t> effort = {};
-  /// The limit for the survey alone. A survey that it ends differs from run to run.
+  /// The limit for the survey alone. A survey that it ends differs from run to run. Where sides are
+  /// wanted, cells are split in the first 70 % of it, so that there is time to find them.
   double time_limit_s = std::numeric_limits<double>::infinity();
   /// Cells are sent in submissions that take about so long each, for `goes_on` to be asked between
   /// them. No result depends on it.
   double submission_ms = 50;
-  /// Asked between submissions, with how many cells have been bounded; false ends the survey.
+  /// Asked between submissions, and between pieces of the work on sides, with how many cells have
+  /// been bounded; false ends the survey.
   std::function<bool(size_t)> goes_on;
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/survey/sides.h"
 #include "host/survey/survey.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
@@ -184,6 +185,141 @@ TEST_CASE("faces against each other are refused") {
   SolveOptions options;
   options.survey = survey_with(survey, result);
   CHECK_THROWS_AS(solver().distance(square_patch(2, 0.1), b, options), UsageError);
+}
+
+// The witness is a corner of a cell: its distance, by hand, is at least what is told of it.
+void check_witness(const SidedPoint& witness, const Mesh& a, double truth, const Enclosure& side) {
+  const auto t = corners(a, static_cast<uint32_t>(witness.at.face));
+  const dvec3& w = witness.at.barycentric;
+  CHECK(w.x + w.y + w.z == 1);
+  CHECK(glm::length(t[0] * w.x + t[1] * w.y + t[2] * w.z - dvec3(witness.at.point)) < 1e-15);
+  CHECK(witness.lower <= truth + 1e-15);
+  CHECK(witness.lower > truth - 1e-13);
+  CHECK(witness.lower <= side.upper);
+  CHECK(side.lower >= witness.lower);
+}
+
+TEST_CASE("far points of both sides, and what is proven of them") {
+  const Mesh a = crossing_plane();
+  const SignedFigures s = *signed_survey(a, wide_plane()).sides;
+  REQUIRE((s.over_witness && s.under_witness));
+  const dvec3 over = s.over_witness->at.point, under = s.under_witness->at.point;
+  CHECK(over.z > 0.1499);
+  CHECK(under.z < -0.0999);
+  check_witness(*s.over_witness, a, over.z, s.over);
+  check_witness(*s.under_witness, a, -under.z, s.under);
+  const SignedFigures far = *signed_survey(a, turned(wide_plane())).sides;
+  CHECK(far.over_witness->at.point.z < -0.0999);
+  const SignedFigures one = *signed_survey(square_patch(4, 0.25), square_patch(3, 0.0)).sides;
+  CHECK(one.over_witness);
+  CHECK_FALSE(one.under_witness);
+}
+
+// A's corners may be off by 2^-10, and so is its distance.
+TEST_CASE("a witness is no farther than deltas leave it") {
+  Mesh a = square_patch(4, 0.25);
+  a.delta = 0x1p-10;
+  const SignedFigures s = *signed_survey(a, square_patch(3, 0.0)).sides;
+  CHECK(s.over_witness->lower <= 0.25 - 0x1p-10);
+  CHECK(s.over_witness->lower > 0.249);
+}
+
+TEST_CASE("witnesses about a cube lie on their sides, as far as they say") {
+  const Mesh a = translated(icosphere(1, 2), {0.1, 0.05, 0});
+  const SignedFigures s = *signed_survey(a, cube(0.7)).sides;
+  REQUIRE((s.over_witness && s.under_witness));
+  const double over = from_cube(s.over_witness->at.point, 0.7);
+  const double under = -from_cube(s.under_witness->at.point, 0.7);
+  check_witness(*s.over_witness, a, over, s.over);
+  check_witness(*s.under_witness, a, under, s.under);
+}
+
+double of_doubt(const SignedFigures& s, Doubt doubt) {
+  return s.areas->doubts[static_cast<size_t>(doubt)].upper;
+}
+
+TEST_CASE("a survey that is ended before its sides leaves all without one") {
+  for (const bool is_closed : {false, true}) {
+    SurveyOptions options;
+    options.goes_on = [](size_t) { return false; };
+    const SurveyResult r =
+        signed_survey(square_patch(4, 0.25), is_closed ? cube(0.1) : wide_plane(), options);
+    CHECK(r.ended == SurveyEnd::kCancelled);
+    const SignedFigures& s = *r.sides;
+    CHECK(of_doubt(s, Doubt::kEnded) == 1);
+    CHECK(s.areas->over.upper == 0);
+    CHECK_FALSE(s.over_witness);
+    CHECK(s.inside == (is_closed ? Inside::kUndecided : Inside::kOpen));
+    CHECK(s.over.lower == 0);
+    CHECK(s.over.upper >= 0.25);
+    CHECK(s.mean->lower <= 0.25);
+    CHECK(s.mean->upper >= 0.25);
+  }
+}
+
+// However far it came, what it says is true.
+TEST_CASE("a survey that is ended among its sides keeps those that it found") {
+  for (int calls = 2; calls < 200; calls += calls / 2) {
+    int left = calls;
+    SurveyOptions options;
+    options.goes_on = [&](size_t) { return --left > 0; };
+    const SurveyResult r = signed_survey(crossing_plane(), wide_plane(), options);
+    const SignedFigures& s = *r.sides;
+    check_about(*s.mean, 0.025, 1);
+    CHECK(s.over.upper >= 0.15 - 1e-12);
+    CHECK(s.under.upper >= 0.1 - 1e-12);
+    CHECK(s.areas->over.lower <= 0.6 + 1e-9);
+    CHECK(s.areas->under.lower <= 0.4 + 1e-9);
+    for (const Percentile& p : s.percentiles) check_about(p.distance, p.share / 4 - 0.1, 1);
+    if (r.ended != SurveyEnd::kCancelled) continue;
+    CHECK(left <= 0);
+  }
+}
+
+// Each side is asked for once: a search that has nothing left asks nothing.
+TEST_CASE("sides are found piece by piece, and once") {
+  const Mesh a = square_patch(16, 0.25), b = square_patch(3, 0.0);
+  const FramedPair framed = frame_pair(a, b);
+  int left = 0, calls = 0;
+  const Sides sides({a, b, framed.frame, 0, 10, true}, [&] { return ++calls, --left >= 0; });
+  CellStore cells(a, 10);
+  std::vector<size_t> all(cells.count());
+  std::iota(all.begin(), all.end(), size_t{0});
+  gpu::CellBounds bounds{};
+  bounds.highest = 1;
+  cells.narrow(all, std::vector<gpu::CellBounds>(all.size(), bounds));
+  KnownSides known;
+  const auto count = [&](Doubt doubt) {
+    const std::vector<CellSide> found = known.of(cells);
+    return std::count_if(found.begin(), found.end(),
+                         [&](const CellSide& side) { return side.doubt == doubt; });
+  };
+  CHECK_FALSE(sides.find(cells, -1, known));
+  CHECK(count(Doubt::kEnded) == std::ssize(all));
+  left = 1;
+  CHECK_FALSE(sides.find(cells, -1, known));
+  CHECK(count(Doubt::kNone) == 64);  // the first piece
+  CHECK(known.of(cells)[0].side == SurfaceSide::kOver);
+  left = 1000;
+  CHECK(sides.find(cells, -1, known));
+  for (const CellSide& side : known.of(cells)) CHECK(side.side == SurfaceSide::kOver);
+  calls = 0;
+  CHECK(sides.find(cells, -1, known));
+  CHECK(calls == 0);
+}
+
+TEST_CASE("signed figures are as narrow as is asked") {
+  SurveyOptions options;
+  options.signed_tolerance = 0.01;
+  const SurveyResult r = signed_survey(crossing_plane(), wide_plane(), options);
+  CHECK(r.is_met());
+  const double mean = r.statistics->mean.upper;
+  const auto check = [&](const Enclosure& e) {
+    const double size = std::max(std::abs(e.lower), std::abs(e.upper));
+    CHECK(e.upper - e.lower <= 0.01 * std::max(mean, size) + 1e-6);
+  };
+  check(*r.sides->mean);
+  for (const Percentile& p : r.sides->percentiles) check(p.distance);
 }
 
 }  // namespace

@@ -133,7 +133,11 @@ SignedFigures sides() {
   SignedFigures s;
   s.over = {0.1, 0.15};
   s.under = {0.12, 0.15};
-  s.over_face = 7;
+  SidedPoint far{.at = {}, .lower = 0.1};
+  far.at.face = far.at.file_face = 7;
+  far.at.barycentric = {0.25, 0.5, 0.25};
+  far.at.point = {1, -2, 0.125};
+  s.over_witness = far;
   s.inside = Inside::kOpen;
   s.edges = {.open = 3, .uneven = 1};
   s.areas.emplace();
