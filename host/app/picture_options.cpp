@@ -29,12 +29,15 @@ void check_ending(const char* option, const std::optional<std::string>& path,
 }
 
 std::string field_text(const Side& side, const Answer& answer, const PicturesAsked& asked) {
+  const std::optional<SignedFigures>& sides = side.survey.sides;
+  const bool has_sides = sides && sides->over_of_faces.face_count() == side.mesh.faces.size();
   const FieldFile file{.mesh = side.mesh,
                        .field = side.survey.field,
                        .interval = interval_of(side),
                        .unit = answer.unit,
                        .against = label_of(answer, !side.back),
-                       .map = asked.look.options.map};
+                       .map = asked.look.options.map,
+                       .sides = has_sides ? &*sides : nullptr};
   return asked.field->ends_with(".glb") ? to_glb(file) : to_ply(file);
 }
 

@@ -59,10 +59,16 @@ uint16_t linear(uint8_t srgb) {
 }
 
 struct CornerArrays {
-  std::vector<float> positions, lower, upper;
+  std::vector<float> positions, lower, upper, signed_lower, signed_upper, side;
   std::vector<uint16_t> colours;
   glm::vec3 lo{3e38f}, hi{-3e38f};
 };
+
+void add_sided_face(const SidedFace& face, CornerArrays& out) {
+  out.signed_lower.push_back(float_down(face.distances.lower));
+  out.signed_upper.push_back(float_up(face.distances.upper));
+  out.side.push_back(static_cast<float>(face.side));
+}
 
 void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double largest,
               CornerArrays& out) {
@@ -79,6 +85,7 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
     }
     out.lower.push_back(float_down(file.field.lower[f]));
     out.upper.push_back(float_up(file.field.upper[f]));
+    if (file.sides != nullptr) add_sided_face(sided_face(*file.sides, f), out);
     out.colours.insert(out.colours.end(), colour.begin(), colour.end());
   }
 }
@@ -95,10 +102,16 @@ Json document(const FieldFile& file, const CornerArrays& corners, const glm::dve
   position["max"] = {corners.hi.x, corners.hi.y, corners.hi.z};
   Json colour = scalar(kUnsignedShort, "VEC4");
   colour["normalized"] = true;
-  const Json attributes = {{"POSITION", binary.add(corners.positions, position)},
-                           {"COLOR_0", binary.add(corners.colours, colour)},
-                           {"_LOWER", binary.add(corners.lower, scalar(kFloat, "SCALAR"))},
-                           {"_UPPER", binary.add(corners.upper, scalar(kFloat, "SCALAR"))}};
+  Json attributes = {{"POSITION", binary.add(corners.positions, position)},
+                     {"COLOR_0", binary.add(corners.colours, colour)},
+                     {"_LOWER", binary.add(corners.lower, scalar(kFloat, "SCALAR"))},
+                     {"_UPPER", binary.add(corners.upper, scalar(kFloat, "SCALAR"))}};
+  const auto add_signed = [&](const char* name, const std::vector<float>& values) {
+    if (file.sides != nullptr) attributes[name] = binary.add(values, scalar(kFloat, "SCALAR"));
+  };
+  add_signed("_SIGNED_LOWER", corners.signed_lower);
+  add_signed("_SIGNED_UPPER", corners.signed_upper);
+  add_signed("_SIDE", corners.side);
   return {{"asset", {{"version", "2.0"}, {"generator", "VkHausdorff"}}},
           {"scene", 0},
           {"scenes", {{{"nodes", {0}}}}},

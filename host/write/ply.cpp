@@ -34,6 +34,11 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string signed_header(const FieldFile& file) {
+  if (file.sides == nullptr) return "";
+  return "property float signed_lower\nproperty float signed_upper\nproperty char side\n";
+}
+
 std::string header_of(const FieldFile& file) {
   const std::string unit = file.unit.empty() ? "the file's own unit" : file.unit;
   const bool are_triangles = file.mesh.file_faces.are_triangles();
@@ -44,12 +49,14 @@ std::string header_of(const FieldFile& file) {
          decimal(file.interval.lower, kJsonDigits, Rounding::kDown) + ", " +
          decimal(file.interval.upper, kJsonDigits, Rounding::kUp) + "]\n" + "element vertex " +
          std::to_string(file.mesh.vertices.size()) +
-         "\nproperty double x\nproperty double y\nproperty double z\nproperty float quality\n"
+         "\nproperty double x\nproperty double y\nproperty double z\nproperty float quality\n" +
+         (file.sides == nullptr ? "" : "property float signed\n") +
          "property uchar red\nproperty uchar green\nproperty uchar blue\n"
          "element face " +
          std::to_string(file.mesh.faces.size()) +
          "\nproperty list uchar int vertex_indices\nproperty float lower\nproperty float upper\n"
-         "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n" +
+         "property float quality\n" +
+         signed_header(file) + "property uchar red\nproperty uchar green\nproperty uchar blue\n" +
          (are_triangles ? "" : "property uint file_face\n") + "end_header\n";
 }
 
@@ -63,11 +70,44 @@ std::vector<double> quality_of_vertices(const FieldFile& file) {
   return quality;
 }
 
+// Rounds away from 0, as bounds of a signed distance are.
+float float_away(double x) { return x < 0 ? float_down(x) : float_up(x); }
+
+double farther(double x, double y) { return std::abs(y) > std::abs(x) ? y : x; }
+
+// Viewers that read no faces' figures draw these of vertices.
+std::vector<double> signed_of_vertices(const FieldFile& file) {
+  std::vector<double> at(file.mesh.vertices.size(), 0.0);
+  if (file.sides == nullptr) return at;
+  for (size_t f = 0; f < file.mesh.faces.size(); ++f) {
+    const glm::uvec3& face = file.mesh.faces[f];
+    const Enclosure& d = sided_face(*file.sides, f).distances;
+    for (const uint32_t v : {face.x, face.y, face.z})
+      at[v] = farther(at[v], farther(d.upper, d.lower));
+  }
+  return at;
+}
+
+void add_sides(const FieldFile& file, size_t f, Bytes& out) {
+  if (file.sides == nullptr) return;
+  const SidedFace face = sided_face(*file.sides, f);
+  out.add(float_down(face.distances.lower));
+  out.add(float_up(face.distances.upper));
+  out.add(static_cast<int8_t>(face.side));
+}
+
 }  // namespace
+
+SidedFace sided_face(const SignedFigures& sides, size_t face) {
+  const double over = sides.over_of_faces.upper[face], under = sides.under_of_faces.upper[face];
+  const bool is_over = over > 0 && under == 0, is_under = under > 0 && over == 0;
+  return {.distances = {under > 0 ? -under : 0, over}, .side = is_over ? 1 : is_under ? -1 : 0};
+}
 
 std::string to_ply(const FieldFile& file) {
   const double largest = largest_upper(file.field);
   const std::vector<double> quality = quality_of_vertices(file);
+  const std::vector<double> signs = signed_of_vertices(file);
   Bytes out;
   out.text = header_of(file);
   for (size_t v = 0; v < file.mesh.vertices.size(); ++v) {
@@ -76,6 +116,7 @@ std::string to_ply(const FieldFile& file) {
     out.add(p.y);
     out.add(p.z);
     out.add(float_up(quality[v]));
+    if (file.sides != nullptr) out.add(float_away(signs[v]));
     out.add(colour_of(file, quality[v], largest));
   }
   const FileFaces& file_faces = file.mesh.file_faces;
@@ -87,6 +128,7 @@ std::string to_ply(const FieldFile& file) {
     out.add(float_down(file.field.lower[f]));
     out.add(upper);
     out.add(upper);
+    add_sides(file, f, out);
     out.add(colour_of(file, file.field.upper[f], largest));
     if (!file_faces.are_triangles()) out.add(static_cast<uint32_t>(file_faces.of(f)));
   }

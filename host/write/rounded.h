@@ -12,7 +12,8 @@ namespace vkh {
 
 inline float float_down(double x) {
   const float f = nearest_float(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                    : f;
 }
 inline float float_up(double x) {
   const float f = nearest_float(x);

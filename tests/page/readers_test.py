@@ -32,14 +32,17 @@ def grid(height):
 
 
 class Rows:
-    """The PLY's vertices (x, y, z, quality, colour) and faces (corners, lower, upper, quality, colour)."""
+    """The PLY's vertices (x, y, z, quality, colour) and faces (corners, lower, upper, quality, colour).
 
-    def __init__(self, path):
+    With sides a vertex has `signed` after its quality, and a face signed_lower, signed_upper and side.
+    """
+
+    def __init__(self, path, is_signed=False):
         data = path.read_bytes()
         end = data.index(b"end_header\n") + 11
         self.head = data[:end].decode()
         count = int(re.search(r"element vertex (\d+)", self.head)[1])
-        vertex, face = struct.Struct("<dddfBBB"), struct.Struct("<BiiifffBBB")
+        vertex, face = struct.Struct("<dddffBBB" if is_signed else "<dddfBBB"), struct.Struct("<BiiifffffbBBB" if is_signed else "<BiiifffBBB")
         split = end + count * vertex.size
         self.vertices = list(vertex.iter_unpack(data[end:split]))
         self.faces = list(face.iter_unpack(data[split:]))
@@ -165,6 +168,46 @@ class Readers(unittest.TestCase):
             self.assertEqual([struct.unpack("<f", struct.pack("<f", x))[0] for x in of_points[name]], [v[at] for v in self.rows.vertices])
         for at, name in ((4, "lower"), (5, "upper"), (6, "quality"), (7, "red"), (8, "green"), (9, "blue")):
             self.assertEqual([struct.unpack("<f", struct.pack("<f", x))[0] for x in of_faces[name]], [f[at] for f in self.rows.faces])
+
+
+class Signed(unittest.TestCase):
+    """Sides, as programs show them that read vertices' figures (CloudCompare), or a GLB's own attributes (ParaView)."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = SCRATCH / "signed"
+        shutil.rmtree(cls.folder, ignore_errors=True)
+        cls.folder.mkdir(parents=True)
+        (cls.folder / "a.obj").write_text(grid(lambda x, y: (x - 5) / 16 if x < 9 else 0.25))
+        (cls.folder / "b.obj").write_text(grid(lambda x, y: 0))
+        for ending in ("ply", "glb"):
+            run(PROGRAM, "distance", cls.folder / "a.obj", cls.folder / "b.obj", "--signed", "--field", cls.folder / f"out.{ending}")
+        cls.rows = Rows(cls.folder / "out.ply", True)
+
+    def test_the_rows(self):
+        heights = [v[2] for v in self.rows.vertices]
+        sides = set()
+        for _, a, b, c, lower, upper, _, signed_lower, signed_upper, side, *_ in self.rows.faces:
+            at = [heights[v] for v in (a, b, c)]
+            self.assertLessEqual(signed_lower, min(at))
+            self.assertGreaterEqual(signed_upper, max(at))
+            self.assertEqual(upper, max(-signed_lower, signed_upper))
+            self.assertTrue(side == 0 or all(side * height >= 0 for height in at), (side, at))
+            sides.add(side)
+        self.assertEqual(sides, {-1, 0, 1})
+        for v, vertex in enumerate(self.rows.vertices):
+            ends = [end for face in self.rows.faces if v in face[1:4] for end in face[7:9]]
+            self.assertIn(vertex[4], ends)
+            self.assertEqual(abs(vertex[4]), max(map(abs, ends)))
+
+    def test_vtk(self):
+        if not has_module("vtk"):
+            self.skipTest("no VTK here")
+        read = json.loads(run(SYSTEM_PYTHON, HERE / "vtk_reads.py", self.folder))
+        self.assertEqual(list(map(tuple, read["ply"]["points"])), [v[:3] for v in self.rows.vertices])
+        self.assertEqual(list(map(tuple, read["ply"]["of_faces"]["RGB"])), [f[10:13] for f in self.rows.faces])
+        for name, at in (("_SIGNED_LOWER", 7), ("_SIGNED_UPPER", 8), ("_SIDE", 9)):
+            self.assertEqual(read["glb"]["of_points"][name], [f[at] for f in self.rows.faces for _ in range(3)])
 
 
 if __name__ == "__main__":
