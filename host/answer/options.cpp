@@ -134,6 +134,12 @@ std::optional<SidedMax> parse_sided(const char* option, const std::string& text)
                   parse_length(option, under.substr(1), PlainNumber::kRefused)};
 }
 
+void put_max(const char* option, const std::string& text, Question& question) {
+  question.max_sides = parse_sided(option, text);
+  question.max = question.max_sides ? question.max_sides->over
+                                    : parse_length(option, text, PlainNumber::kRefused);
+}
+
 double parse_share(const char* option, const std::string& text) {
   const bool is_percent = text.ends_with('%');
   const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));

@@ -28,6 +28,9 @@ double parse_time(const std::string& text);
 /// no sign before a number.
 std::optional<SidedMax> parse_sided(const char* option, const std::string& text);
 
+/// Puts a limit, one for both sides or one for each, in place of what the question has.
+void put_max(const char* option, const std::string& text, Question& question);
+
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);
 

@@ -5,6 +5,7 @@
 
 #include "host/answer/json_object.h"
 #include "host/base/error.h"
+#include "host/base/rounding.h"
 
 namespace vkh {
 namespace {
@@ -75,6 +76,31 @@ Record::Side side_of(const Json& input) {
           .notes = notes_in(input)};
 }
 
+Enclosure enclosure_in(const Json& json) {
+  return {signed_bound_in(json, "lower"), signed_bound_in(json, "upper")};
+}
+
+double unsigned_share(const Enclosure& over, const Enclosure& under) {
+  return std::max(add_up(add_up(1, -over.lower), -under.lower), 0.0);
+}
+
+std::optional<Record::Signed> signed_in(const Json& direction) {
+  const Json& json = member(direction, "signed");
+  if (!json.is_object()) return std::nullopt;
+  Record::Signed sides{.over = enclosure_in(member(json, "over")),
+                       .under = enclosure_in(member(json, "under"))};
+  if (member(json, "mean").is_object()) sides.mean = enclosure_in(json["mean"]);
+  const Json& percentiles = member(json, "percentiles");
+  for (size_t i = 0; percentiles.is_array() && i < percentiles.size(); ++i)
+    sides.percentiles.push_back(
+        {number_in(percentiles[i], "share", 0), enclosure_in(member(percentiles[i], "distance"))});
+  const Json& areas = member(json, "areas");
+  if (areas.is_object())
+    sides.unsigned_share =
+        unsigned_share(enclosure_in(member(areas, "over")), enclosure_in(member(areas, "under")));
+  return sides;
+}
+
 void read_answer(const Json& json, Record& record) {
   const Json& interval = member(json, "interval");
   check_bounds(json);
@@ -82,6 +108,7 @@ void read_answer(const Json& json, Record& record) {
   const Json& directions = member(json, "directions");
   for (size_t i = 0; directions.is_array() && i < std::min<size_t>(directions.size(), 2); ++i)
     record.directions[i] = bounds_in(member(directions[i], "interval"));
+  if (directions.is_array() && !directions.empty()) record.sides = signed_in(directions[0]);
   record.status = text_in(json, "status");
   record.verdict = text_in(json, "verdict");
   record.lower = whole.lower;
@@ -136,6 +163,17 @@ Record begun(const RecordName& name, ExitCode code, const Answer& answer) {
   return record;
 }
 
+std::optional<Record::Signed> signed_of(const Answer& answer) {
+  const SignedFigures* found = sides_of(answer, false);
+  if (found == nullptr) return std::nullopt;
+  Record::Signed sides{.over = found->over,
+                       .under = found->under,
+                       .mean = found->mean,
+                       .percentiles = found->percentiles};
+  if (found->areas) sides.unsigned_share = unsigned_share(found->areas->over, found->areas->under);
+  return sides;
+}
+
 Record::Side with_mesh(Record::Side side, const Input& input) {
   side.faces = input.is_read ? input.counts.faces : 0;
   side.notes = input.notes;
@@ -163,6 +201,7 @@ Record record_of(const RecordName& name, const Answer& answer) {
   record.gap = std::isfinite(whole.gap) ? whole.gap : 0;
   record.diagonal = answer.a_to_b.diagonal_a;
   record.unit = answer.unit;
+  record.sides = signed_of(answer);
   record.notes = notes_of(answer);
   record.words = in_words(answer);
   return record;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,15 @@ struct Record {
     std::vector<Note> notes = {};
   };
   std::array<Side, 2> inputs;
+  /// The signed figures of A, where they were asked for.
+  struct Signed {
+    Enclosure over, under;
+    std::optional<Enclosure> mean = {};        ///< none: figures were not asked for
+    std::vector<Percentile> percentiles = {};  ///< as many as kSignedShares, with `mean`
+    std::optional<double> unsigned_share =
+        {};  ///< no more of A's area has no side; none: A has none
+  };
+  std::optional<Signed> sides;
   std::vector<Note> notes;  ///< on the pair
   std::string words;        ///< the answer's first line, or the error
   std::string error_file;   ///< the file that an error is about, as an input's path; or empty

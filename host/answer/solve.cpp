@@ -132,10 +132,11 @@ bool goes_on_to_worst(const Question& question, const Observer& observer, const 
          observer.time_left_s() > 0;
 }
 
-/// Refuses what has no sides before any work is done.
-void check_sides(const Question& question, const AskedMeshes& meshes) {
+}  // namespace
+
+void check_sides(const Question& question, const Mesh& a, const Mesh& b) {
   if (!question.asks_for_sides()) return;
-  refuse_any_triangulation(meshes.a, meshes.b, question.option("signed"));
+  refuse_any_triangulation(a, b, question.option("signed"));
   if (question.max_sides && question.symmetric)
     throw UsageError(question.option("symmetric") +
                      ": limits of two sides are of A's points, over B or under it, and a dent of A "
@@ -145,15 +146,13 @@ void check_sides(const Question& question, const AskedMeshes& meshes) {
                      ": limits of two sides are of every point, and not to be had by face or by "
                      "area");
   if (question.part) throw UsageError(question.option("part") + ": sides are found of all of A");
-  refuse_conflicts(meshes.b);
-  if (question.symmetric) refuse_conflicts(meshes.a);
+  refuse_conflicts(b);
+  if (question.symmetric) refuse_conflicts(a);
 }
-
-}  // namespace
 
 void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
            const Observer& observer, Answer& answer) {
-  check_sides(question, meshes);
+  check_sides(question, meshes.a, meshes.b);
   const auto options = [&] { return heard_options(question, observer, answer); };
   if (question.is_by_face()) {
     solve_by_face(question, meshes, *solvers.front(), observer, answer);

@@ -62,6 +62,10 @@ double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answe
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.
 SolveOptions solve_options(const Question& question, const Answer& known);
 
+/// Refuses, with UsageError, what has no sides where the question asks for them: before any work.
+/// solve() does so itself.
+void check_sides(const Question& question, const Mesh& a, const Mesh& b);
+
 /// Solves what is asked of the distance: one direction or both, a part of A, over all solvers, or
 /// face by face. `answer` has its meshes. Throws what Solver throws, and UsageError for what cannot
 /// be asked together.

@@ -37,16 +37,43 @@ std::string joined(const std::vector<std::string>& lines) {
 
 std::string milliseconds(double ms) { return number_text(ms, std::chars_format::fixed, 3); }
 
+// The names of the columns of signed figures, but for the last: each has a lower and an upper end.
+std::vector<std::string> names_of_sides() {
+  std::vector<std::string> names{"over", "under", "signed_mean"};
+  for (const double share : kSignedShares)
+    names.push_back("signed_p" + shortest_decimal(100 * share));
+  return names;
+}
+
+void add_sides(const Record& r, std::vector<std::string>& cells) {
+  std::vector<std::optional<Enclosure>> figures;
+  if (r.sides) figures = {r.sides->over, r.sides->under, r.sides->mean};
+  if (r.sides) {
+    for (const Percentile& p : r.sides->percentiles) figures.emplace_back(p.distance);
+  }
+  figures.resize(names_of_sides().size());
+  for (const std::optional<Enclosure>& figure : figures) {
+    cells.push_back(figure ? bound(figure->lower, Rounding::kDown) : "");
+    cells.push_back(figure ? bound(figure->upper, Rounding::kUp) : "");
+  }
+  const bool has_share = r.sides && r.sides->unsigned_share;
+  cells.push_back(has_share ? bound(*r.sides->unsigned_share, Rounding::kUp) : "");
+}
+
 }  // namespace
 
-std::string csv_heading(bool with_run) {
+std::string csv_heading(const CsvColumns& with) {
   std::vector<std::string> cells{"id",   "code", "status", "verdict", "lower",   "upper", "gap",
                                  "unit", "a",    "b",      "faces_a", "faces_b", "words", "notes"};
-  if (with_run) cells.insert(cells.end(), {"gpu_ms", "total_ms", "host", "started"});
+  if (with.run) cells.insert(cells.end(), {"gpu_ms", "total_ms", "host", "started"});
+  if (!with.sides) return row_of(cells);
+  for (const std::string& name : names_of_sides())
+    cells.insert(cells.end(), {name + "_lower", name + "_upper"});
+  cells.emplace_back("unsigned_share");
   return row_of(cells);
 }
 
-std::string csv_row(const Record& r, bool with_run) {
+std::string csv_row(const Record& r, const CsvColumns& with) {
   const bool has_answer = !r.status.empty();
   const auto known = [&](const std::string& text) { return has_answer ? text : std::string(); };
   std::vector<std::string> cells{
@@ -64,9 +91,10 @@ std::string csv_row(const Record& r, bool with_run) {
       known(std::to_string(r.inputs[1].faces)),
       r.words,
       joined(server_notes(r.notes, r.inputs[0].notes, r.inputs[1].notes))};
-  if (with_run)
+  if (with.run)
     cells.insert(cells.end(),
                  {milliseconds(r.gpu_ms), milliseconds(r.total_ms), r.host, r.started});
+  if (with.sides) add_sides(r, cells);
   return row_of(cells);
 }
 

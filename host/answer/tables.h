@@ -8,10 +8,14 @@
 
 namespace vkh {
 
-/// CSV (RFC 4180): a heading, and a row per pair. `with_run`: with times, which two runs do not
-/// have in common.
-std::string csv_heading(bool with_run);
-std::string csv_row(const Record& record, bool with_run);
+/// The columns of a CSV besides those that each has.
+struct CsvColumns {
+  bool run = false;    ///< times, which two runs do not have in common
+  bool sides = false;  ///< signed figures: some record has them
+};
+/// CSV (RFC 4180): a heading, and a row per pair.
+std::string csv_heading(const CsvColumns& with);
+std::string csv_row(const Record& record, const CsvColumns& with);
 
 /// A JUnit test case: failed where it is beyond the limit, in error where it is undecided, not
 /// closed or without an answer.

@@ -47,13 +47,17 @@ class Tables {
   bool is_any() const { return csv_ || junit_; }
 
   void write(const Results& results, bool with_run) const {
+    CsvColumns with{.run = with_run};
+    results.for_each([&](const Record& record, const std::string&) {
+      with.sides = with.sides || record.sides.has_value();
+    });
     std::vector<std::pair<Rank, std::string>> rows;
     std::vector<JunitCase> cases;
     results.for_each([&](const Record& record, const std::string&) {
-      if (csv_) rows.emplace_back(rank_of(record), csv_row(record, with_run));
+      if (csv_) rows.emplace_back(rank_of(record), csv_row(record, with));
       if (junit_) cases.push_back(junit_case(record, with_run));
     });
-    if (csv_) csv_->write(csv_heading(with_run) + worst_first(std::move(rows)));
+    if (csv_) csv_->write(csv_heading(with) + worst_first(std::move(rows)));
     if (junit_) junit_->write(to_junit(cases, "", ""));
   }
 

@@ -32,7 +32,8 @@ TablesAsked tables_of(const TypedMany& typed) {
 void add_limits(CLI::App& command, Typed& typed) {
   command
       .add_option("--max", typed.max,
-                  std::string("Ask whether each is within a limit: ") + kLengths)
+                  std::string("Ask whether each is within a limit: ") + kLengths +
+                      "; or one over B, in front of its faces, and one under it: +0.25mm,-0.4mm")
       ->type_name("LENGTH");
   command
       .add_option(
@@ -70,7 +71,8 @@ void put_source(const TypedMany& typed, BatchAsked& batch) {
 
 void add_batch(CLI::App& command, TypedMany& typed) {
   command.footer(
-      "LIST has id, a, b and perhaps tol, max, unit and symmetric: JSONL, or CSV with a heading. "
+      "LIST has id, a, b and perhaps tol, max, unit, symmetric and signed: JSONL, or CSV with a "
+      "heading. "
       "Its files' names are of its own folder.");
   command
       .add_option("LIST", typed.files,
@@ -99,6 +101,7 @@ void add_batch(CLI::App& command, TypedMany& typed) {
   command.add_flag("--fail-fast", typed.fails_fast,
                    "End with the first pair that is beyond its limit or has no answer");
   add_limits(command, typed.of_pairs);
+  add_signed_option(command, typed.of_pairs, "with the signed mean and percentiles");
   add_folder_options(command, typed.of_pairs.pictures);
   add_effort_option(command, typed.of_pairs);
   command.add_option("--device", typed.of_pairs.device,
@@ -135,6 +138,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   line.command = Command::kBatch;
   line.question = question_of(of_pairs, words, "batch");
   line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
+  line.question.statistics = line.question.is_signed;  // a line of results has figures
   BatchAsked& batch = line.batch;
   put_source(typed, batch);
   batch.results = typed.results;
@@ -150,8 +154,10 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
       of_pairs.time ? parse_time(*of_pairs.time) : std::numeric_limits<double>::infinity();
   batch.tables = tables_of(typed);
   batch.folders = folders_of(of_pairs.pictures);
-  if (line.question.effort && !batch.folders.any())
-    throw UsageError("--effort: is of what is drawn: ask for --image-dir or --report-dir");
+  if (line.question.effort && !batch.folders.any() && !line.question.asks_for_survey())
+    throw UsageError(
+        "--effort: is of figures and of what is drawn: ask for --signed, --image-dir or "
+        "--report-dir");
   batch.folders.effort = line.question.effort;
   return line;
 }

@@ -49,12 +49,6 @@ void add_survey_of(const Typed& typed, Question& question) {
   if (typed.effort) question.effort = parse_effort(*typed.effort);
 }
 
-void add_max_of(const Typed& typed, Question& question) {
-  question.max_sides = parse_sided("--max", typed.max);
-  question.max = question.max_sides ? question.max_sides->over
-                                    : parse_length("--max", typed.max, PlainNumber::kRefused);
-}
-
 void add_placement_of(const Typed& typed, Question& question) {
   for (const auto& [option, unit] : {std::pair{"--unit", &typed.unit},
                                      {"--unit-a", &typed.unit_a},
@@ -114,7 +108,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   question.file_b = typed.file_b;
   add_placement_of(typed, question);
   question.tolerance = parse_length("--tol", typed.tolerance, PlainNumber::kSmallFraction);
-  if (!typed.max.empty()) add_max_of(typed, question);
+  if (!typed.max.empty()) put_max("--max", typed.max, question);
   question.face_max_a = typed.face_max_a;
   question.face_max_b = typed.face_max_b;
   question.certificate = !typed.pictures.certificate.empty();
@@ -212,10 +206,7 @@ void add_output_options(CLI::App& command, Typed& typed) {
 void add_survey_options(CLI::App& command, Typed& typed) {
   command.add_flag("--stats", typed.statistics,
                    "Also enclose the mean over A's area, the root mean square and percentiles");
-  command.add_flag("--signed", typed.is_signed,
-                   "Also tell where A is over B, in front of its faces as they are oriented, and "
-                   "where under it, as far as that is proven; with --stats the signed mean and "
-                   "percentiles");
+  add_signed_option(command, typed, "with --stats the signed mean and percentiles");
   command
       .add_option("--bands", typed.bands,
                   "And the shares of A's area within these distances: 0.1mm,0.5mm")
@@ -227,6 +218,13 @@ void add_survey_options(CLI::App& command, Typed& typed) {
                   "Bound the largest distance on each face of A, to so much [1 % of the largest]")
       ->type_name("LENGTH");
   add_effort_option(command, typed);
+}
+
+void add_signed_option(CLI::App& command, Typed& typed, const char* figures) {
+  command.add_flag("--signed", typed.is_signed,
+                   std::string("Also tell where A is over B, in front of its faces as they are "
+                               "oriented, and where under it, as far as that is proven; ") +
+                       figures);
 }
 
 void add_effort_option(CLI::App& command, Typed& typed) {

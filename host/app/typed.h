@@ -45,6 +45,7 @@ void add_time_option(CLI::App& command, Typed& typed);
 void add_engine_options(CLI::App& command, Typed& typed);  ///< memory, waves, switches, cache
 void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and engine options
 void add_survey_options(CLI::App& command, Typed& typed);
+void add_signed_option(CLI::App& command, Typed& typed, const char* figures);
 void add_effort_option(CLI::App& command, Typed& typed);
 void add_output_options(CLI::App& command, Typed& typed);
 

@@ -82,6 +82,7 @@ class Batch {
     NamedEntry entry;
     EntryMeshes meshes;
     uint64_t bytes = 0;
+    std::optional<Answer> surveyed = {};  ///< the answer with its survey, where one was asked for
   };
 
   static std::vector<std::string> inputs_of(const BatchJob& job) {
@@ -222,8 +223,8 @@ class Batch {
                     .symmetric = running.entry.question.symmetric,
                     .options = solve_options(running.entry.question, running.entry.known)};
     pair.options.progress = [this](const Progress&) { return goes_on(); };
-    if (job_.folders)
-      pair.beside = [this](Solver& solver, StreamResult& result) { draw(solver, result); };
+    if (job_.folders || running.entry.question.asks_for_survey())
+      pair.beside = [this](Solver& solver, StreamResult& result) { go_on(solver, result); };
     {
       const std::lock_guard lock(mutex_);
       running_.emplace(number, std::move(running));
@@ -231,16 +232,35 @@ class Batch {
     return stream.push(std::move(pair));
   }
 
-  const Running& running(size_t number) {
+  Running& running(size_t number) {
     const std::lock_guard lock(mutex_);
     return running_.at(number);
   }
 
+  // Surveys what was asked. The time of a pair is for its survey, too.
+  void survey(Solver& solver, const Running& one, Answer& answer) {
+    const Clock::time_point start = Clock::now();
+    const double limit_s = one.entry.question.options.time_limit_s;
+    const double spent_s = (answer.waits.total - answer.waits.read) / 1000;
+    const Observer observer{.goes_on = [this] { return goes_on(); },
+                            .left_s = [=] { return limit_s - spent_s - seconds_since(start); }};
+    finish(one.entry.question, solver, {*one.meshes.a, *one.meshes.b}, observer, answer);
+    answer.waits.total += 1000 * seconds_since(start);
+  }
+
   // Runs on a worker's thread, before the result is delivered.
-  void draw(Solver& solver, const StreamResult& result) {
-    const Running& one = running(result.number);
+  void go_on(Solver& solver, const StreamResult& result) {
+    Running& one = running(result.number);
     Answer answer = answer_of(one.entry, result);
     if (is_cancelled(answer)) return;
+    if (one.entry.question.asks_for_survey()) {
+      survey(solver, one, answer);
+      one.surveyed = answer;
+    }
+    if (job_.folders) draw(solver, one, std::move(answer));
+  }
+
+  void draw(Solver& solver, const Running& one, Answer answer) {
     job_.folders->draw({one.entry, one.meshes, solver, [this] { return goes_on(); }},
                        std::move(answer));
   }
@@ -255,7 +275,7 @@ class Batch {
   void take(StreamResult&& result) {
     const Running running = taken(result.number);
     try {
-      write_result(running.entry, std::move(result));
+      write_result(running, std::move(result));
     } catch (...) {
       stop(std::current_exception());
     }
@@ -268,10 +288,17 @@ class Batch {
     return answer;
   }
 
-  void write_result(const NamedEntry& entry, StreamResult&& result) {
+  static bool is_survey_cancelled(const std::optional<SurveyResult>& survey) {
+    return survey && survey->ended == SurveyEnd::kCancelled;
+  }
+
+  void write_result(const Running& one, StreamResult&& result) {
+    const NamedEntry& entry = one.entry;
     if (result.error) return write_failure(entry, result.error);
-    const Answer answer = answer_of(entry, std::move(result));
-    if (is_cancelled(answer)) return;  // it is done again
+    const Answer answer = one.surveyed ? *one.surveyed : answer_of(entry, std::move(result));
+    const bool is_to_be_done_again = is_cancelled(answer) || is_survey_cancelled(answer.survey_a) ||
+                                     is_survey_cancelled(answer.survey_b);
+    if (is_to_be_done_again) return;
     write(to_record(entry.name, answer), record_of(entry.name, answer));
   }
 

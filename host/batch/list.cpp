@@ -21,7 +21,7 @@ namespace vkh {
 namespace {
 
 constexpr const char* kExpected =
-    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, symmetric";
+    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, symmetric, signed";
 
 std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -30,11 +30,11 @@ std::string lower_word(std::string text) {
 }
 
 // Accepts TRUE too, as spreadsheets write it.
-bool truth_of(const std::string& text) {
+bool truth_of(const std::string& name, const std::string& text) {
   const std::string word = lower_word(text);
   if (word == "true" || word == "1" || word == "yes") return true;
   if (word == "false" || word == "0" || word == "no") return false;
-  throw InputError("'" + text + "': expected true or false for symmetric");
+  throw InputError("'" + text + "': expected true or false for " + name);
 }
 
 /// Returns false for a member that a batch does not know.
@@ -47,8 +47,8 @@ bool put(Entry& entry, const std::string& name, const std::string& text) {
   for (size_t i = 0; i < kNames.size(); ++i) {
     if (name == kNames[i]) return *places[i] = text, true;
   }
-  if (name != "symmetric") return false;
-  if (!text.empty()) entry.symmetric = truth_of(text);
+  if (name != "symmetric" && name != "signed") return false;
+  if (!text.empty()) (name == "signed" ? entry.is_signed : entry.symmetric) = truth_of(name, text);
   return true;
 }
 
@@ -109,10 +109,13 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, const
 }
 
 /// Refuses a decimal comma, which spreadsheets write where they separate by semicolons: 1,000mm may
-/// be one or a thousand.
+/// be one or a thousand. A comma before a sign is between limits of two sides.
 void check_decimal_point(const std::string& name, const std::string& text, char separator) {
   const bool is_length = name == "tol" || name == "max";
-  if (separator != ';' || !is_length || text.find(',') == std::string::npos) return;
+  const size_t comma = text.find(',');
+  if (separator != ';' || !is_length || comma == std::string::npos) return;
+  const bool is_of_sides = comma == text.rfind(',') && text.find_first_of("+-", comma) == comma + 1;
+  if (is_of_sides) return;
   const std::string meant = length_meant(text);
   throw InputError(name + " '" + text +
                    "': " + (meant.empty() ? "" : "did you mean " + meant + "? ") +

@@ -16,7 +16,7 @@ struct Entry {
   std::string file_a, file_b;  ///< the paths that open from here
   std::string tolerance, max, unit, unit_a, unit_b;
   std::string transform;  ///< a matrix's path that opens from here
-  std::optional<bool> symmetric;
+  std::optional<bool> symmetric, is_signed;
   /// The error of a file without a partner; empty: there is a pair.
   std::string missing = {};
   const std::string& one_file() const { return file_a.empty() ? file_b : file_a; }
@@ -28,11 +28,11 @@ struct PairList {
   std::vector<Entry> unpaired;     ///< of two folders: files without a partner, with `missing`
 };
 
-/// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform` and
-/// `symmetric`. Relative names, of matrices too, start at the list's folder, or at the current one
-/// if the list is a pipe. A list is CSV if its name ends in .csv; its separator is a comma or a
-/// semicolon, as its heading has. Throws InputError with file, line and the expected form; also for
-/// an id that occurs twice.
+/// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform`,
+/// `symmetric` and `signed`. Relative names, of matrices too, start at the list's folder, or at the
+/// current one if the list is a pipe. A list is CSV if its name ends in .csv; its separator is a
+/// comma or a semicolon, as its heading has. Throws InputError with file, line and the expected
+/// form; also for an id that occurs twice.
 PairList read_list(const std::string& path);
 
 /// Pairs each of `parts` with one B; its id is its name as the user typed it.

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host/answer/options.h"
 #include "host/base/decimal.h"
 #include "host/base/error.h"
 #include "host/base/sha256.h"
@@ -61,6 +62,16 @@ void place_by(const Entry& entry, Question& question) {
     question.transform = read_matrix(path_of(question.transform_file));
 }
 
+// A question without sides has the key that it always had.
+void add_sides(const Question& question, std::string& text) {
+  if (question.max_sides)
+    text += "\nover " + question.max_sides->over.requested + " under " +
+            question.max_sides->under.requested;
+  if (question.is_signed) text += "\nsigned";
+  if (question.asks_for_survey() && question.effort)
+    text += "\neffort " + std::to_string(*question.effort);
+}
+
 // Hashes all that an answer depends on, except for the device, and --max-input, which may decide a
 // refusal.
 std::string key_of(const Question& question, const Answer& known, bool shares_b) {
@@ -72,6 +83,7 @@ std::string key_of(const Question& question, const Answer& known, bool shares_b)
   add(question.max ? question.max->requested : "");
   add(question.unit);
   add_placement(question, text);
+  add_sides(question, text);
   if (question.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
   if (question.limits.any_triangulation) add("polygons any");
   if (question.limits.bodies == Bodies::kAll) add("bodies all");
@@ -137,8 +149,10 @@ NamedEntry EntryReader::name(const Entry& entry) {
       entry.tolerance.empty() && has_gate_tolerance ? "1e-7" : entry.tolerance;
   if (!tolerance.empty())
     question.tolerance = parse_length("tol", tolerance, PlainNumber::kSmallFraction);
-  if (!entry.max.empty()) question.max = parse_length("max", entry.max, PlainNumber::kRefused);
+  if (!entry.max.empty()) put_max("max", entry.max, question);
   question.symmetric = entry.symmetric.value_or(question.symmetric);
+  question.is_signed = entry.is_signed.value_or(question.is_signed);
+  question.statistics = question.is_signed;
   named.known = unread_answer(question);
   const bool shares_b = shared_.count(entry.file_b) > 0;
   named.known.inputs[0].path = entry.a;
@@ -218,6 +232,7 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   meshes.b = b.mesh;
   place_a(entry.question, *a, *meshes.b);
   meshes.a = a;
+  check_sides(entry.question, *meshes.a, *meshes.b);
   Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
   take_meshes(entry.question, {*meshes.a, shape_of(*meshes.a)}, {*meshes.b, b.shape}, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {

@@ -34,6 +34,11 @@ PAIRS = [({"id": "closed", "a": "a.obj", "b": "low.obj"}, 0),
          ({"id": "shared 1", "a": "a.obj", "b": "shared.obj"}, 0),
          ({"id": "shared 2", "a": "b.obj", "b": "shared.obj"}, 0),
          ({"id": ODD, "a": "a.obj", "b": "shared.obj", "tol": "1%"}, 0),
+         ({"id": "signed", "a": "a.obj", "b": "high.obj", "signed": True}, 0),
+         ({"id": "signed both ways", "a": "a.obj", "b": "wide.obj", "signed": True, "symmetric": True}, 0),
+         ({"id": "within its side", "a": "a.obj", "b": "high.obj", "max": "+0.1abs,-0.3abs"}, 0),
+         ({"id": "beyond its side", "a": "a.obj", "b": "high.obj", "max": "-0.2abs,+0.3abs", "signed": True}, 1),
+         ({"id": "sides of both", "a": "a.obj", "b": "high.obj", "max": "+0.1abs,-0.3abs", "symmetric": True}, 2),
          ({"id": "missing", "a": "missing.obj", "b": "b2.obj"}, 4),
          ({"id": "no B", "a": "a.obj", "b": "gone.obj"}, 4),
          ({"id": "malformed", "a": "bad.obj", "b": "b3.obj"}, 4),
@@ -95,10 +100,13 @@ class Batch(unittest.TestCase):
     def test_definitions_are_those_of_an_answer(self):
         ours, answers = schema_of("pair")["$defs"], schema_of("answer")["$defs"]
         shared = {"interval", "unit", "status", "witness", "files", "input", "max", "face_limits", "tolerance", "options", "device",
-                  "note", "box", "boxes", "transform"}
+                  "note", "box", "boxes", "transform", "enclosure", "area_within", "statistics", "signed_enclosure", "sided_point",
+                  "signed", "survey", "sided_max"}
         # A line has no times or waves of a direction, and names of its own in answers and failures.
         self.assertEqual(set(ours) & set(answers), shared | {"direction", "answer", "failure"})
-        del answers["max"]["properties"]["sides"]  # a list has no limits of two sides
+        for name in ("survey", "signed"):
+            del answers[name]["properties"]["wall_ms"]
+            answers[name]["required"].remove("wall_ms")
         for name in shared:
             self.assertEqual(ours[name], answers[name], name)
         self.assertLess(set(ours["direction"]["properties"]), set(answers["direction"]["properties"]))
@@ -118,6 +126,19 @@ class Batch(unittest.TestCase):
                 self.assertEqual(row["words"], line["error"]["message"] if "error" in line else line["words"])
                 self.assertEqual([row["a"], row["b"]], [side["path"] for side in line["inputs"]])
                 self.assertEqual(row["upper"] != "", "error" not in line)
+                signed = {} if "error" in line else line["directions"][0].get("signed", {})
+                self.assertEqual(row["signed_p50_lower"] != "", bool(signed.get("mean")), row["id"])
+                self.assertEqual(row["over_upper"] != "", bool(signed), row["id"])
+                if signed.get("mean"):
+                    self.assertEqual((float(row["signed_mean_lower"]), float(row["signed_mean_upper"])),
+                                     (signed["mean"]["lower"], signed["mean"]["upper"]))
+                    for p in signed["percentiles"]:
+                        name = f"signed_p{100 * p['share']:g}"
+                        self.assertEqual((float(row[name + "_lower"]), float(row[name + "_upper"])),
+                                         (p["distance"]["lower"], p["distance"]["upper"]))
+                    self.assertEqual(float(row["under_lower"]), signed["under"]["lower"])
+                    rest = 1 - signed["areas"]["over"]["lower"] - signed["areas"]["under"]["lower"]
+                    self.assertAlmostEqual(float(row["unsigned_share"]), rest, 12)
                 if row["upper"]:
                     self.assertEqual((float(row["lower"]), float(row["upper"])), (line["interval"]["lower"], line["interval"]["upper"]))
 

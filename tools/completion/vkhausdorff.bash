@@ -30,7 +30,7 @@ _vkhausdorff() {
     distance) options="$search $outputs $files --certificate --part --known-lower" ;;
     gate) options="$search $outputs $files --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
     batch)
-      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric $files"
+      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed $files"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;
