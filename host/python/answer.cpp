@@ -86,6 +86,12 @@ py::dict areas_of(const SignedFigures::Areas& areas) {
                   "unsigned"_a = without);
 }
 
+py::object witness_of(const std::optional<SidedPoint>& witness) {
+  if (!witness) return py::none();
+  const DVec3& p = witness->at.point;
+  return py::make_tuple(py::make_tuple(p.x, p.y, p.z), witness->at.face, witness->lower);
+}
+
 py::object signed_of(const Question& question, const SignedFigures& s) {
   py::object areas = py::none(), mean = py::none(), over = py::none(), under = py::none();
   if (s.areas) areas = areas_of(*s.areas);
@@ -100,7 +106,9 @@ py::object signed_of(const Question& question, const SignedFigures& s) {
   return py::dict("over"_a = interval_of(s.over), "under"_a = interval_of(s.under),
                   "inside"_a = inside_name(s.inside), "open_edges"_a = s.edges.open,
                   "areas"_a = areas, "mean"_a = mean, "percentiles"_a = percentiles,
-                  "over_field"_a = over, "under_field"_a = under);
+                  "over_field"_a = over, "under_field"_a = under,
+                  "over_witness"_a = witness_of(s.over_witness),
+                  "under_witness"_a = witness_of(s.under_witness));
 }
 
 /// A direction, as Python shows the survey of the mesh that it begins at.

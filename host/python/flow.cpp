@@ -115,6 +115,7 @@ void Flow::solve(FlowPair pair) {
   const MeshShape shape_b = against ? asked_.against.shape : shape_of(*running->b);
   take_meshes(question, {*running->a, shape_of(*running->a)}, {*running->b, shape_b},
               running->answer);
+  check_sides(question, *running->a, *running->b);
   push(pair.number, running);
 }
 

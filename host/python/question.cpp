@@ -108,7 +108,7 @@ void read_max(const Arguments& given, Question& question) {
       std::string(kOne) + (by_face ? ", or a number for each face of A" : ", or None");
   const py::object* max = given.find("max");
   if (max == nullptr || (max->is_none() && !by_face)) return;
-  if (by_face && py::isinstance<py::str>(*max))
+  if (py::isinstance<py::str>(*max))
     question.max_sides = parse_sided("max", text_from("max", expected.c_str(), *max));
   if (question.max_sides) {
     question.max = question.max_sides->over;

@@ -33,6 +33,50 @@ class Signed(unittest.TestCase):
         self.assertEqual(len(s.over_field), 2)
         self.assertTrue((s.over_field.upper <= r.field.upper).all())
 
+    def test_far_points_and_sides_of_faces(self):
+        r = vkh.distance(RAMP, FLOOR, field=True, statistics=True, signed=True)
+        over, under = r.signed.over_witness, r.signed.under_witness
+        self.assertEqual((over.point[2], under.point[2]), (0.15, -0.1))
+        self.assertIn(over.face, (0, 1))
+        self.assertLessEqual(over.lower, 0.15)
+        self.assertGreater(over.lower, 0.15 - 1e-12)
+        signed = r.field.signed
+        self.assertIsInstance(signed, vkh.SignedField)
+        self.assertTrue((signed.lower <= -0.1).all() and (signed.upper >= 0.15).all())
+        self.assertEqual(signed.side.tolist(), [0, 0])
+        self.assertEqual(signed.side.dtype, np.int8)
+        high = vkh.distance((RAMP[0] + [0, 0, 1], RAMP[1]), FLOOR, field=True, signed=True)
+        self.assertEqual(high.field.signed.side.tolist(), [1, 1])
+        self.assertIsNone(high.signed.under_witness)
+        low = vkh.distance((RAMP[0] - [0, 0, 1], RAMP[1]), FLOOR, field=True, signed=True)
+        self.assertEqual(low.field.signed.side.tolist(), [-1, -1])
+        self.assertEqual(pickle.loads(pickle.dumps(low.field)), low.field)
+        self.assertNotEqual(low.field, high.field)
+        self.assertIsNone(vkh.distance(RAMP, FLOOR, field=True).field.signed)
+
+    def test_a_stop_before_the_sides(self):
+        stops = []
+
+        def progress(*args):
+            stops.append(args)
+            return False
+
+        r = vkh.distance(RAMP, FLOOR, statistics=True, signed=True, progress=progress)
+        self.assertTrue(stops)
+        self.assertEqual(r.survey.ended, "cancelled")
+        if r.signed is not None:
+            self.assertEqual(r.signed.areas["unsigned"]["ended"].upper, 1)
+
+    def test_many_pairs(self):
+        pairs = [("ramp", RAMP, FLOOR), ("turned", RAMP, TURNED)]
+        found = {r.id: r for r in vkh.distances(pairs, max="+0.16abs,-0.11abs", signed=True, statistics=True)}
+        self.assertEqual({id: r.verdict for id, r in found.items()}, {"ramp": "pass", "turned": "fail"})
+        self.assertIn(0.025, found["ramp"].signed.mean)
+        self.assertIn(-0.025, found["turned"].signed.mean)
+        bad = (FLOOR[0], np.array([[0, 1, 2], [0, 3, 2]]))
+        (refused,) = vkh.distances([(RAMP, bad)], signed=True)
+        self.assertIsInstance(refused.error, ValueError)
+
     def test_the_other_side_of_the_floor(self):
         s = vkh.distance(RAMP, FLOOR, statistics=True, signed=True).signed
         t = vkh.distance(RAMP, TURNED, statistics=True, signed=True).signed

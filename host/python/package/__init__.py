@@ -5,9 +5,10 @@ from vkhausdorff._closest import Closest
 from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, closest, devices, distance, read
 from vkhausdorff._many import distances
 from vkhausdorff._result import Witness
-from vkhausdorff._survey import Field, Interval, Signed, Survey
+from vkhausdorff._survey import Field, Interval, SidedPoint, Signed, SignedField, Survey
 
-__all__ = ["Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Result", "Signed", "Solver", "Survey", "Witness",
+__all__ = ["Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Result", "SidedPoint", "Signed", "SignedField",
+           "Solver", "Survey", "Witness",
            "__version__", "assert_within", "closest", "devices", "distance", "distances", "gate", "read"]
 
 

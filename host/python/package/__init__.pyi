@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Result", "Signed", "Solver", "Survey", "Witness", "__version__",
+    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Result", "SidedPoint", "Signed", "SignedField", "Solver", "Survey", "Witness", "__version__",
     "assert_within", "closest", "devices", "distance", "distances", "gate", "read",
 ]
 __version__: str
@@ -82,9 +82,23 @@ class Field:
 
     lower: npt.NDArray[np.float64]
     upper: npt.NDArray[np.float64]
-    def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike) -> None: ...
+    signed: SignedField | Any
+    def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, signed: SignedField | None = None) -> None: ...
     def save(self, path: _Path, mesh: _Mesh | None = None, *, map: _Map = "viridis") -> None: ...
     def __len__(self) -> int: ...
+
+class SignedField(Field):
+    """Bounds of each face, by its row: the signed distances of all its points lie between lower and upper."""
+
+    @property
+    def side(self) -> npt.NDArray[np.int8]: ...
+
+class SidedPoint(NamedTuple):
+    """A point of a mesh with a proven side."""
+
+    point: tuple[float, float, float]
+    face: int
+    lower: float
 
 class Closest:
     """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper]."""
@@ -108,6 +122,8 @@ class Signed:
     percentiles: dict[float, Interval]
     over_field: Field | Any
     under_field: Field | Any
+    over_witness: SidedPoint | Any
+    under_witness: SidedPoint | Any
     def to_dict(self) -> dict[str, Any]: ...
 
 class Survey:

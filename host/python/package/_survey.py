@@ -24,22 +24,25 @@ class Interval(NamedTuple):
 class Field:
     """Bounds of each face, by its row: the largest distance of a point of it lies between lower and upper.
 
-    lower, upper: float64 arrays of shape (faces,), read-only, in the coordinates' unit, rounded outward. A Field of a
-    result keeps the mesh that was measured, for save(); a pickle of it does not.
+    lower, upper: float64 arrays of shape (faces,), read-only, in the coordinates' unit, rounded outward. signed: where
+    sides were asked for, the SignedField of the same faces, else None. A Field of a result keeps the mesh that was
+    measured, for save(); a pickle of it does not.
     """
 
     lower: Any
     upper: Any
+    signed: Any = None
     _source = None  # of save(): (mesh, lower, upper, unit, name of the other mesh)
 
-    def __init__(self, lower, upper):
+    def __init__(self, lower, upper, signed=None):
         for name, values in (("lower", lower), ("upper", upper)):
             own = np.array(values, dtype=np.float64)
             own.setflags(write=False)
             object.__setattr__(self, name, own)
+        object.__setattr__(self, "signed", signed)
 
     def __reduce__(self):  # unpickled arrays could be written to
-        return Field, (self.lower, self.upper)
+        return type(self), (self.lower, self.upper, self.signed)
 
     def save(self, path, mesh=None, *, map="viridis"):
         """Writes the mesh with these bounds and colours of its faces, to be looked at: what the program's --field writes.
@@ -62,23 +65,45 @@ class Field:
     def __eq__(self, other):
         if not isinstance(other, Field):
             return NotImplemented
-        return np.array_equal(self.lower, other.lower) and np.array_equal(self.upper, other.upper)
+        is_same = np.array_equal(self.lower, other.lower) and np.array_equal(self.upper, other.upper)
+        return is_same and self.signed == other.signed
 
     __hash__ = None
 
     def __repr__(self):
-        return f"<vkhausdorff.Field of {len(self)} faces>"
+        return f"<vkhausdorff.{type(self).__name__} of {len(self)} faces>"
+
+
+class SignedField(Field):
+    """Bounds of each face, by its row: the signed distances of all its points lie between lower and upper.
+
+    They are negative under the other mesh. Where no side is proven both signs are possible. side: an int8 array, 1 where the
+    whole face is over the other mesh, -1 where it is under it, 0 where it has points of both sides or without a proven one.
+    """
+
+    @property
+    def side(self):
+        is_over, is_under = (self.lower >= 0) & (self.upper > 0), (self.upper <= 0) & (self.lower < 0)
+        return is_over.astype(np.int8) - is_under.astype(np.int8)
+
+
+class SidedPoint(NamedTuple):
+    """A point of a mesh with a proven side: its place, the row of its face, and a distance that it is at least away."""
+
+    point: tuple
+    face: int
+    lower: float
 
 
 def _largest(values):
     return float(values.max()) if len(values) else 0.0
 
 
-def _field(bounds, source):
+def _field(bounds, source, signed=None):
     """Makes a Field of a result."""
     if bounds is None:
         return None
-    field = Field(*bounds)
+    field = Field(*bounds, signed)
     object.__setattr__(field, "_source", source)
     return field
 
@@ -91,7 +116,7 @@ class Signed:
     the other mesh has a proven inside, or why not: 'open', 'crossing', 'winding' or 'undecided'; open_edges: of it. areas:
     Intervals of shares of the area, {'over', 'under', 'unsigned': {reason: Interval}}, or None. mean, percentiles: of the
     signed distance, which is negative under the other mesh; with statistics. over_field, under_field: with field, a Field of
-    each side.
+    each side. over_witness, under_witness: a SidedPoint far on each side, or None.
     """
 
     over: Interval
@@ -103,6 +128,8 @@ class Signed:
     percentiles: Any
     over_field: Any
     under_field: Any
+    over_witness: Any = None
+    under_witness: Any = None
 
     __hash__ = None
 
@@ -114,6 +141,9 @@ class Signed:
         if self.areas is not None:
             plain["areas"] = {"over": list(self.areas["over"]), "under": list(self.areas["under"]),
                               "unsigned": {why: list(share) for why, share in self.areas["unsigned"].items()}}
+        for name in ("over_witness", "under_witness"):
+            at = getattr(self, name)
+            plain[name] = None if at is None else {"point": list(at.point), "face": at.face, "lower": at.lower}
         return plain
 
 
@@ -181,6 +211,9 @@ class Survey:
                  "stats": dict(self.stats)}
         if self.field is not None:
             plain["field"] = {"lower": self.field.lower.tolist(), "upper": self.field.upper.tolist()}
+            if self.field.signed is not None:
+                signed = self.field.signed
+                plain["field"]["signed"] = {"lower": signed.lower.tolist(), "upper": signed.upper.tolist()}
         if self.bands is not None:
             plain["statistics"] = {
                 "area": self.area, "mean": list(self.mean), "rms": list(self.rms),
@@ -197,7 +230,7 @@ class Survey:
         return f"<vkhausdorff.Survey {', '.join(words)}{'' if self.met else ', not met'}>"
 
 
-for _cls in (Interval, Field, Signed, Survey):
+for _cls in (Interval, Field, SignedField, SidedPoint, Signed, Survey):
     _cls.__module__ = "vkhausdorff"  # the package's names, for pickles too
 
 
@@ -214,16 +247,23 @@ def _signed(found, source):
     if areas is not None:
         areas = {"over": Interval(*areas["over"]), "under": Interval(*areas["under"]),
                  "unsigned": {why: Interval(*share) for why, share in areas["unsigned"].items()}}
+    witnesses = [SidedPoint(*found[name]) if found[name] is not None else None for name in ("over_witness", "under_witness")]
     return Signed(Interval(*found["over"]), Interval(*found["under"]), found["inside"], found["open_edges"], areas,
                   Interval(*found["mean"]) if found["mean"] is not None else None,
                   {share: Interval(lower, upper) for share, lower, upper in found["percentiles"]},
-                  field("over"), field("under"))
+                  field("over"), field("under"), *witnesses)
+
+
+def _signed_field(signed):
+    if signed is None or signed.over_field is None:
+        return None
+    return SignedField(0.0 - signed.under_field.upper, signed.over_field.upper)
 
 
 def made(field, statistics, upper, ended, stats, signed=None, source=None):
     """Makes a Survey from the results of C++. source: what Field.save() needs."""
-    field = _field(field, source)
     signed = _signed(signed, source)
+    field = _field(field, source, _signed_field(signed))
     met = ended == "met"
     if statistics is None:
         return Survey(upper, field, None, None, None, None, None, None, met, ended, stats, signed)
