@@ -119,7 +119,11 @@ struct Slope {
   float a, b, c, most;
   /// Nothing of the cell is within less, whatever the function says.
   float floor = -std::numeric_limits<float>::infinity();
-  double least() const { return static_cast<double>(std::max(std::min({a, b, c}), floor)); }
+  /// The whole cell is within this, although the function's values may all be above it.
+  float ceiling = std::numeric_limits<float>::infinity();
+  double least() const {
+    return static_cast<double>(std::max(std::min({a, b, c, ceiling}), floor));
+  }
   double share(double t) const {
     return t < static_cast<double>(floor) ? 0 : share_within(a, b, c, t);
   }
@@ -137,11 +141,14 @@ struct Counted {
   SurfaceSide side(size_t i) const { return sides.empty() ? SurfaceSide::kOver : sides[i].side; }
 };
 
+// Under B all is within -lowest(), even where bounds from below at the corners are negative.
 Slope surely_within(const Counted& counted, size_t i) {
   const gpu::CellBounds& b = counted.bounds(i);
+  constexpr float kNone = -std::numeric_limits<float>::infinity();
   if (counted.side(i) == SurfaceSide::kUnder)
-    return {-b.lower_a, -b.lower_b, -b.lower_c, -lowest(b)};
-  return {b.upper_a, b.upper_b, b.upper_c, b.highest};
+    return {-b.lower_a, -b.lower_b, -b.lower_c, -lowest(b), kNone, -lowest(b)};
+  if (counted.sides.empty()) return {b.upper_a, b.upper_b, b.upper_c, b.highest};
+  return {b.upper_a, b.upper_b, b.upper_c, b.highest, kNone, b.highest};
 }
 Slope perhaps_within(const Counted& counted, size_t i) {
   const gpu::CellBounds& b = counted.bounds(i);

@@ -10,6 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/survey/sides.h"
+#include "host/survey/statistics.h"
 #include "host/survey/survey.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
@@ -320,6 +321,24 @@ TEST_CASE("signed figures are as narrow as is asked") {
   };
   check(*r.sides->mean);
   for (const Percentile& p : r.sides->percentiles) check(p.distance);
+}
+
+// Bounds from below at all corners may be negative: the cell is under B all the same.
+TEST_CASE("all of a cell under B is within 0, whatever its corners' bounds are") {
+  const Mesh a = square_patch(1, 0.0);
+  CellStore cells(a, 1);
+  gpu::CellBounds bounds{};
+  bounds.lower_a = bounds.lower_b = bounds.lower_c = -0.5f;
+  bounds.upper_a = bounds.upper_b = bounds.upper_c = bounds.highest = 0.1f;
+  const std::vector<size_t> both{0, 1};
+  cells.narrow(both, std::vector<gpu::CellBounds>(2, bounds));
+  const std::vector<CellSide> sides(2, {SurfaceSide::kUnder, Doubt::kNone});
+  const std::array shares = {0.5, 0.99};
+  for (const Enclosure& p : signed_percentiles(cells, sides, areas_of(a), {shares, 1e-6})) {
+    CHECK(p.upper <= 2e-6);
+    CHECK(p.upper >= 0);
+    CHECK(p.lower >= doctest::Approx(-0.1));
+  }
 }
 
 }  // namespace
