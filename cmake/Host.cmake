@@ -5,6 +5,11 @@ endif()
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+# Pages are made from templates by it; a header only.
+find_path(VKH_MUSTACHE_FOLDER kainjow/mustache.hpp)
+if(NOT VKH_MUSTACHE_FOLDER)
+  message(FATAL_ERROR "kainjow/mustache.hpp was not found, which pages are made by (Debian: libkainjow-mustache-dev); VKH_HOST=OFF needs none")
+endif()
 # Libraries that only some files need, by the names that linkers know, so that the installed archive
 # names no path; files that need a missing one are refused by name.
 find_file(VKH_MESHOPTIMIZER_HEADER meshoptimizer.h)

@@ -34,5 +34,6 @@ vkh_header_package(glm glm::glm glm)
 vkh_header_package(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
 vkh_header_package(CLI11 CLI11::CLI11 CLI)
 vkh_header_package(stb stb::stb stb)
+vkh_header_package(mustache mustache::mustache kainjow)
 vkh_header_package(doctest doctest::doctest doctest boost)  # and the tests' arithmetic
 file(TOUCH ${VKH_HEADERS}/complete)

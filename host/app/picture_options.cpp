@@ -198,7 +198,8 @@ std::string Pictures::write(const Answered& done) const {
       if (image) image->write(picture_of(side, done.answer, asked_.look, device));
     }
     if (report_)
-      report_->write(report_of(measured, pictures_or_none(measured, asked_.look, device)));
+      report_->write(
+          report_of(measured, pictures_or_none(measured, asked_.look, device), asked_.look));
   } catch (const Error& error) {  // a length that the files' units do not resolve, for example
     return error.what();
   }

@@ -96,7 +96,7 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const std::string& id = entry.name.id;
   const std::string key = key_of(entry.name);
   std::vector<std::string> pictures = pictures_or_none(measured, asked_.look, pair.solver.device());
-  if (reports_) reports_->write(id, false, report_of(measured, pictures), key);
+  if (reports_) reports_->write(id, false, report_of(measured, pictures, asked_.look), key);
   if (!images_) return;
   for (const Side& side : sides_of(measured)) {
     std::string& picture = pictures[side.back ? 1 : 0];

@@ -75,7 +75,8 @@ std::vector<std::string> pictures_or_none(const Measured& measured, const Pictur
   return pictures;
 }
 
-std::string report_of(const Measured& measured, std::span<const std::string> pictures) {
+std::string report_of(const Measured& measured, std::span<const std::string> pictures,
+                      const PictureStyle& look, const std::string& title) {
   const std::vector<Side> sides = sides_of(measured);
   std::vector<PageDirection> directions;
   for (size_t i = 0; i < sides.size(); ++i) {
@@ -85,7 +86,11 @@ std::string report_of(const Measured& measured, std::span<const std::string> pic
                           .statistics = statistics ? &*statistics : nullptr,
                           .picture = pictures[i]});
   }
-  PageContents contents{.answer = &measured.answer, .a_to_b = directions[0]};
+  PageContents contents{.answer = &measured.answer,
+                        .a_to_b = directions[0],
+                        .title = title,
+                        .map = look.options.map,
+                        .is_y_up = look.options.up == Up::kY};
   if (directions.size() > 1) contents.b_to_a = directions[1];
   return to_page(contents);
 }

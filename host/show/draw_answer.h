@@ -51,7 +51,9 @@ std::string picture_of(const Side& side, const Answer& answer, const PictureStyl
 std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
                                           const Device& device);
 
-/// Returns a page, with `pictures` of the sides.
-std::string report_of(const Measured& measured, std::span<const std::string> pictures);
+/// Returns a page, with `pictures` of the sides and their colours. `title`: its heading; empty: the
+/// names of both files.
+std::string report_of(const Measured& measured, std::span<const std::string> pictures,
+                      const PictureStyle& look, const std::string& title = {});
 
 }  // namespace vkh

@@ -1,53 +1,35 @@
-// Puts a page together: pieces into the template, and meshes until they fit.
+// Puts a page together: texts and data into the template, and meshes until they fit.
 #include "host/show/page.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <glm/geometric.hpp>
 
 #include "host/show/escape.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"
-#include "host/show/page_markup.h"
 #include "host/show/page_mesh.h"
+#include "host/show/page_view.h"
+#include "host/show/page_words.h"
+#include "host/show/template.h"
 
 namespace vkh {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kPlaces = 10;
-constexpr double kApart = 1.0 / 20;       // fraction of the diagonal, between two of them
 constexpr size_t kLeastFaces = 100;       // fewer show nothing: such a page has no view
 constexpr size_t kMostFaces = 5'000'000;  // corners are numbered in three bytes
 constexpr size_t kCurvePoints = 1000;     // more than the columns of a screen
-
-/// The texts by the names that the template has for them.
-using Pieces = std::vector<std::pair<std::string_view, std::string>>;
-
-std::string filled(std::string_view frame, const Pieces& pieces) {
-  std::string out;
-  for (size_t at = 0; at < frame.size();) {
-    const size_t open = std::min(frame.find("{{", at), frame.size());
-    out += frame.substr(at, open - at);
-    if (open == frame.size()) break;
-    const size_t close = frame.find("}}", open);
-    const std::string_view name = frame.substr(open + 2, close - open - 2);
-    for (const auto& piece : pieces) {
-      if (piece.first == name) out += piece.second;
-    }
-    at = close + 2;
-  }
-  return out;
-}
+constexpr double kBarOfLimit = 1.5;       // the colour bar's end, in limits
+constexpr size_t kPaletteColours = 256;
 
 /// Everything of a page but the shown meshes and the pictures.
 class PageWriter {
  public:
   PageWriter(const PageContents& contents, const PageLimits& limits)
-      : answer_(*contents.answer),
+      : contents_(contents),
+        answer_(*contents.answer),
         limits_(limits),
         answer_json_(to_json(answer_)),
         text_{answer_, Json::parse(answer_json_)} {
@@ -56,9 +38,7 @@ class PageWriter {
     find_top();
     const std::optional<Limit> asked =
         answer_.max ? std::optional<Limit>(answer_.max->limit) : std::nullopt;
-    steps_ = tolerance_steps(top_, asked);
-    for (const PageDirection* side : sides_)
-      tallies_.push_back(tally(*side->mesh, *side->field, steps_));
+    steps_ = tolerance_steps(top_, bar_end(), asked);
     find_places();
   }
 
@@ -96,11 +76,25 @@ class PageWriter {
     }
   }
 
+  // The length at the end of the colour bar: one stray triangle must not darken all the rest.
+  double bar_end() const {
+    double end = 0;
+    if (answer_.max) {
+      end = kBarOfLimit * answer_.max->limit.beyond;
+    } else {
+      for (const PageDirection* side : sides_) {
+        const bool has_any = side->statistics && !side->statistics->percentiles.empty();
+        end = std::max(end, has_any ? side->statistics->percentiles.back().distance.upper : top_);
+      }
+    }
+    return end > 0 && end < top_ ? end : top_;
+  }
+
   void find_places() {
     for (size_t i = 0; i < sides_.size(); ++i) {
       const Report& r = i == 0 ? answer_.a_to_b : *answer_.b_to_a;
       places_.push_back(
-          worst_places(*sides_[i]->mesh, *sides_[i]->field, kPlaces, kApart * r.diagonal_a));
+          worst_places(*sides_[i]->mesh, *sides_[i]->field, place_options(answer_, r)));
     }
   }
 
@@ -123,75 +117,60 @@ class PageWriter {
   }
 
   std::string assembled(const Meshes& meshes) const {
-    std::string places, statistics, scripts;
+    Json view = head_view(text_, contents_.title);
+    view["sides"] = Json::array();
     for (size_t i = 0; i < sides_.size(); ++i) {
-      places += places_html(text_, i > 0, places_[i]);
-      if (sides_[i]->statistics)
-        statistics += statistics_html(text_, i > 0, *sides_[i]->statistics);
-      if (i < meshes.packed.size()) {
-        scripts += "<script type=\"application/octet-stream\" id=\"mesh" + std::to_string(i) +
-                   "\">" + base64(meshes.packed[i].bytes) + "</script>\n";
-      }
+      view["sides"].push_back(side_view(text_, i > 0, places_[i], sides_[i]->statistics));
+      add_picture(*sides_[i], view["sides"].back());
     }
-    const std::string program = text_.json["version"].get<std::string>();
-    return filled(kPageTemplate, {{"style_hash", std::string(kPageStyleHash)},
-                                  {"viewer_hash", std::string(kPageViewerHash)},
-                                  {"style", std::string(kPageStyle)},
-                                  {"viewer", std::string(kPageViewer)},
-                                  {"title", title_text(text_)},
-                                  {"verdict", verdict_html(text_)},
-                                  {"facts", facts_html(text_)},
-                                  {"directions", directions_html(text_)},
-                                  {"pictures", pictures_html(!meshes.packed.empty())},
-                                  {"places", places},
-                                  {"statistics", statistics},
-                                  {"inputs", inputs_html(text_)},
-                                  {"run", run_html(text_)},
-                                  {"notes", notes_html(text_)},
-                                  {"version", html_text("vkhausdorff " + program)},
-                                  {"answer", script_json(answer_json_)},
-                                  {"data", script_json(data_json(meshes).dump())},
-                                  {"meshes", scripts}});
+    view["record"] = record_view(text_);
+    view["has_view"] = !meshes.packed.empty();
+    view["answer"] = script_json(answer_json_);
+    view["data"] = script_json(data_json(meshes).dump());
+    view["meshes"] = Json::array();
+    for (size_t i = 0; i < meshes.packed.size(); ++i)
+      view["meshes"].push_back({{"number", i}, {"bytes", base64(meshes.packed[i].bytes)}});
+    view["style_sheet"] = std::string(kPageStyle);
+    view["viewer"] = std::string(kPageViewer);
+    view["style_hash"] = std::string(kPageStyleHash);
+    view["viewer_hash"] = std::string(kPageViewerHash);
+    return rendered(kPageTemplate, view);
   }
 
-  std::string pictures_html(bool has_view) const {
-    std::string out;
-    for (size_t i = 0; i < sides_.size(); ++i) {
-      const char* mesh = i == 0 ? "A" : "B";
-      out += i == 0 ? "<figure>" : "<figure class=\"other\">";
-      if (!has_view) {
-        out += "<p>The mesh did not fit into this file; there is no view to turn.</p>";
-      } else {
-        out +=
-            "<p class=\"no-view\" hidden>This browser cannot draw the mesh; there is no view to "
-            "turn.</p>";
-      }
-      if (sides_[i]->picture.empty()) {
-        out += "<p>No picture was drawn for this page.</p>";
-      } else if (!keeps_pictures_) {
-        out += "<p>The picture was too large for this file.</p>";
-      } else {
-        out += std::string("<img alt=\"") + mesh +
-               ", coloured by its distances\" src=\"data:image/png;base64," +
-               base64(sides_[i]->picture) + "\">";
-      }
-      out += "</figure>";
-    }
-    return out;
+  void add_picture(const PageDirection& side, Json& view) const {
+    const bool is_kept = !side.picture.empty() && keeps_pictures_;
+    view["picture"] = is_kept ? base64(side.picture) : "";
+    view["has_picture"] = is_kept;
+    view["why_no_picture"] = side.picture.empty() ? "No picture was drawn for this page."
+                                                  : "The picture was too large for this file.";
   }
 
   Json data_json(const Meshes& meshes) const {
-    const CertifiedInterval whole = interval_of(answer_);
-    Json data = {{"unit", answer_.unit}, {"top", top_}, {"steps", steps_json()}};
-    data["interval"] = {{"lower", whole.lower},
-                        {"upper", whole.upper},
-                        {"name", answer_.b_to_a ? "max(h(A,B), h(B,A))" : "h(A,B)"}};
+    const Enclosure whole = deviation_of(answer_);
+    Json data = {{"unit", answer_.unit}, {"top", top_},
+                 {"bar", bar_end()},     {"steps", steps_json()},
+                 {"palette", palette()}, {"up", contents_.is_y_up ? "y" : "z"},
+                 {"lower", whole.lower}, {"upper", whole.upper}};
     const int asked = asked_step();
     data["asked"] = asked;
     data["start"] = asked >= 0 ? asked : static_cast<int>(steps_.size()) - 1;
     data["sides"] = Json::array();
     for (size_t i = 0; i < sides_.size(); ++i) data["sides"].push_back(side_json(i, meshes));
     return data;
+  }
+
+  std::string palette() const {
+    constexpr const char* kHex = "0123456789abcdef";
+    std::string text;
+    for (size_t i = 0; i < kPaletteColours; ++i) {
+      const Rgb colour = map_colour(
+          contents_.map, static_cast<double>(i) / static_cast<double>(kPaletteColours - 1));
+      for (const uint8_t part : {colour.red, colour.green, colour.blue}) {
+        text += kHex[part >> 4];
+        text += kHex[part & 15];
+      }
+    }
+    return text;
   }
 
   Json steps_json() const {
@@ -215,17 +194,12 @@ class PageWriter {
   }
 
   Json side_json(size_t i, const Meshes& meshes) const {
-    const Tally& sums = tallies_[i];
-    Json side = {{"from", i == 0 ? "A" : "B"},
-                 {"faces", sums.faces},
-                 {"hasArea", sums.area > 0 && std::isfinite(sums.area)},
-                 {"within", sums.within},
-                 {"beyond", sums.beyond},
-                 {"withinArea", sums.within_area},
-                 {"beyondArea", sums.beyond_area}};
-    if (const Statistics* statistics = sides_[i]->statistics;
-        statistics && statistics->curve.size() > 1) {
+    Json side = {{"from", i == 0 ? "A" : "B"}, {"curve", Json::array()}};
+    if (const Statistics* statistics = sides_[i]->statistics) {
       side["curve"] = curve_json(statistics->curve);
+      for (const AreaWithin& band : statistics->bands) {
+        if (is_limit(answer_, band)) side["atLimit"] = {band.share.lower, band.share.upper};
+      }
     }
     if (i >= meshes.packed.size()) return side;
     const PackedMesh& mesh = meshes.packed[i];
@@ -242,15 +216,15 @@ class PageWriter {
 
   static std::string caption(bool is_decimated, size_t faces) {
     if (!is_decimated) return "Every face is shown.";
-    return "A decimated view of " + grouped(faces) +
-           " faces; every shown face carries the largest upper and the least lower of what it "
-           "stands for. "
-           "Counts, shares and the histogram are of every face.";
+    return "Simplified for viewing to " + grouped(faces) +
+           " faces: each is coloured by the worst of what it stands for. The figures are of the "
+           "whole mesh.";
   }
 
   // Each point is a true statement alone, so that any of them may be left out.
   static Json curve_json(const std::vector<AreaWithin>& curve) {
     Json points = Json::array();
+    if (curve.empty()) return points;
     const size_t stride = (curve.size() + kCurvePoints - 1) / kCurvePoints;
     for (size_t i = 0; i < curve.size(); i += stride) {
       points.push_back({curve[i].distance, curve[i].share.lower, curve[i].share.upper});
@@ -261,6 +235,7 @@ class PageWriter {
     return points;
   }
 
+  const PageContents& contents_;
   const Answer& answer_;
   PageLimits limits_;
   std::string answer_json_;
@@ -269,7 +244,6 @@ class PageWriter {
   double top_ = 0;
   bool keeps_pictures_ = true;
   std::vector<Step> steps_;
-  std::vector<Tally> tallies_;
   std::vector<std::vector<WorstPlace>> places_;
 };
 

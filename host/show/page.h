@@ -1,5 +1,5 @@
-// The report: one HTML file that needs no network. Verdict, interval, a view to turn, a tolerance
-// to drag, the worst places, and everything that names the run.
+// The report: one HTML file that needs no network. Verdict, a view to turn, a tolerance to drag,
+// the worst places, figures, and everything that names the run.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 #include "host/answer/answer.h"
 #include "host/mesh/mesh.h"
 #include "host/survey/field.h"
+#include "host/write/colour_map.h"
 
 namespace vkh {
 
@@ -25,6 +26,9 @@ struct PageContents {
   const Answer* answer = nullptr;
   PageDirection a_to_b;
   std::optional<PageDirection> b_to_a = {};
+  std::string title = {};  ///< the page's heading; empty: the names of both files
+  ColourMap map = ColourMap::kViridis;
+  bool is_y_up = false;  ///< the y axis points up in the view; otherwise z does
 };
 
 struct PageLimits {
@@ -32,8 +36,9 @@ struct PageLimits {
   size_t faces = 150'000;    ///< for a shown mesh: more would be slow to turn without a GPU
 };
 
-/// Returns the whole file. Its statements come from the answer's JSON, which it carries. Counts,
-/// shares and the histogram are over every face; only the view may be decimated, and shows so.
+/// Returns the whole file, which carries the answer's JSON. Its figures are the answer's and its
+/// survey's, and shares of area are the survey's at every tolerance. Only the view may be
+/// decimated, and shows so.
 std::string to_page(const PageContents& contents, const PageLimits& limits = {});
 
 }  // namespace vkh

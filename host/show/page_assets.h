@@ -5,10 +5,10 @@
 
 namespace vkh {
 
-/// The page's frame, with a {{name}} for each piece that page.cpp puts in.
-extern const std::string_view kPageTemplate;
-extern const std::string_view kPageStyle, kPageViewer;
+/// Templates of a pair's page and of a batch's index (host/show/template.h).
+extern const std::string_view kPageTemplate, kIndexTemplate;
+extern const std::string_view kPageStyle, kPageViewer, kIndexStyle;
 /// Their SHA-256 in base64, for the Content-Security-Policy: nothing else may run.
-extern const std::string_view kPageStyleHash, kPageViewerHash;
+extern const std::string_view kPageStyleHash, kPageViewerHash, kIndexStyleHash;
 
 }  // namespace vkh

@@ -1,10 +1,12 @@
-"""--field, --image, --report, --stats, --bands and --area, by the program: files are read again by code that is not ours.
+"""--field, --image, --report, --figures-csv, --points-out, --stats, --bands and --area, by the program: files are read again by code that is not ours.
 
 usage: see_test.py PROGRAM. Uses assimp's program where it is there.
 """
 
+import csv
 import json
 import pathlib
+import re
 import shutil
 import signal
 import struct
@@ -122,9 +124,8 @@ class See(unittest.TestCase):
         self.run_program("distance", "mixed.obj", "plane.obj", "--field", "out.ply", "--report", "out.html")
         self.assertEqual([f[10] for f in ply(self.folder / "out.ply")[2]], [0, 0, 3])
         page = (self.folder / "out.html").read_text()
-        self.assertIn("witness, face 3<", page)
-        self.assertIn("<span>face 3</span>", page)
-        self.assertNotIn("face 2<", page)
+        self.assertIn("<small>face 3</small>", page)
+        self.assertNotIn("<small>face 2</small>", page)
         self.run_program("distance", "roof.obj", "plane.obj", "--field", "out.ply")
         self.assertNotIn("file_face", ply(self.folder / "out.ply")[0])
 
@@ -161,6 +162,48 @@ class See(unittest.TestCase):
         self.assertEqual(len(held["inputs"][0]["sha256"]), 64)
         self.assertNotIn("http://", page.split("<script", 1)[0].replace("http://www.w3.org", ""))
 
+    # The numbers of all outputs are those of JSON, and what a page writes encloses or rounds them.
+    def test_tables_hold_the_figures_of_json_and_of_the_page(self):
+        done = self.run_program("gate", "roof.obj", "wide.obj", "--max", "0.3mm", "--unit", "mm", "--symmetric", "--report", "out.html",
+                                "--title", "Roof & <b>wide", "--figures-csv", "f.csv", "--points-out", "p.csv", "--json", code=1)
+        answer = json.loads(done.stdout)
+        page = (self.folder / "out.html").read_text()
+        self.assertIn("<h1>Roof &amp; &lt;b&gt;wide</h1>", page)
+        with open(self.folder / "f.csv", newline="") as text:
+            figures = list(csv.DictReader(text))
+        for name, direction in zip("AB", answer["directions"]):
+            rows = {row["figure"]: row for row in figures if row["from"] == name}
+            self.assertEqual(float(rows["largest"]["lower"]), direction["interval"]["lower"])
+            statistics = direction["statistics"]
+            for figure, known in (("mean", statistics["mean"]), ("rms", statistics["rms"]), ("within 0.3 mm", statistics["bands"][0]["share"])):
+                self.assertEqual((float(rows[figure]["lower"]), float(rows[figure]["upper"])), (known["lower"], known["upper"]))
+            self.assertEqual(rows["mean"]["unit"], "mm")
+            self.assertEqual(rows["within 0.3 mm"]["unit"], "1")
+            self.check_page_figures(page.split("<h2>Figures of " + name, 1)[1].split("</table>", 1)[0], rows)
+        with open(self.folder / "p.csv", newline="") as text:
+            points = list(csv.DictReader(text))
+        self.assertEqual((points[0]["from"], points[0]["place"], points[0]["unit"]), ("A", "1", "mm"))
+        witness = answer["directions"][0]["witness"]["from"]
+        self.assertEqual([float(points[0][axis]) for axis in "xyz"], witness["point"])
+        self.assertEqual(float(points[0]["lower"]), answer["directions"][0]["interval"]["lower"])
+        self.assertEqual({row["from"] for row in points}, {"A", "B"})
+
+    def check_page_figures(self, table, rows):
+        names = {"mean deviation": "mean", "root mean square": "rms", "50 % of the area is within": "p50", "area within 0.3 mm": "within 0.3 mm"}
+        seen = 0
+        for name, text in re.findall(r"<th scope=\"row\">([^<]+)</th><td>([^<]+)</td>", table):
+            row = rows.get(names.get(name))
+            if row is None:
+                continue
+            seen += 1
+            factor = 0.01 if text.endswith("%") else 1
+            numbers = [factor * float(word) for word in re.findall(r"[0-9.]+(?:e[-+]?\d+)?", text)]
+            lower, upper = float(row["lower"]), float(row["upper"])
+            slack = 6e-3 * upper if len(numbers) == 1 else 1e-12
+            self.assertLessEqual(numbers[0], lower + slack, text)
+            self.assertGreaterEqual(numbers[-1], upper - slack, text)
+        self.assertEqual(seen, len(names))
+
     def test_statistics_hold_closed_forms(self):
         answer = json.loads(self.run_program("distance", "roof.obj", "plane.obj", "--stats", "--bands", "0.25abs,0.375abs,1abs", "--json").stdout)
         statistics = answer["directions"][0]["statistics"]
@@ -185,6 +228,7 @@ class See(unittest.TestCase):
 
     def test_what_makes_no_sense_is_refused_before_the_run(self):
         for words, named in ((["--field", "out.stl"], "--field"), (["--image", "out.jpg"], "--image"), (["--report", "out.pdf"], "--report"),
+                             (["--figures-csv", "out.txt"], "--figures-csv"), (["--points-out", "out.ply"], "--points-out"),
                              (["--image", "o.png", "--view", "behind"], "--view"), (["--image", "o.png", "--map", "jet"], "--map"),
                              (["--image", "o.png", "--size", "9"], "--size"), (["--image", "o.png", "--range", "1mm"], "--range"),
                              (["--image", "o.png", "--up", "x"], "--up"), (["--bands", "0.1"], "--bands"),
@@ -200,10 +244,10 @@ class See(unittest.TestCase):
         self.assertEqual((self.folder / "in.ply").read_bytes(), b"x")
 
     def test_what_would_be_ignored_or_lost_is_refused(self):
-        for words in (["--size", "800x600"], ["--view", "six"], ["--steps", "5"], ["--map", "batlow"], ["--range", "0,1abs"]):
+        for words in (["--size", "800x600"], ["--view", "six"], ["--steps", "5"], ["--map", "batlow"], ["--range", "0,1abs"], ["--title", "T"]):
             with self.subTest(words):
                 self.assertIn(words[0], self.run_program("distance", "roof.obj", "plane.obj", *words, code=2).stderr)
-        for words in (["--json=out.html", "--report", "./out.html"], ["--field", "a.ply", "--image", "a.png", "--json=a.png"]):
+        for words in (["--json=out.html", "--report", "./out.html"], ["--field", "a.ply", "--image", "a.png", "--json=a.png"], ["--figures-csv", "a.csv", "--points-out", "a.csv"]):
             with self.subTest(words):
                 self.assertIn("two outputs", self.run_program("distance", "roof.obj", "plane.obj", *words, code=2).stderr)
 

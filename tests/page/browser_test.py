@@ -56,8 +56,19 @@ def look(name, mode):
     return json.loads(done.stdout)
 
 
-def number(cell):
-    return int(cell.replace(",", ""))
+def share_at(curve, tolerance):
+    """What is within less is within more: the survey's enclosures of both sides of a tolerance."""
+    lower = max([low for distance, low, _ in curve if distance <= tolerance], default=0)
+    upper = min([high for distance, _, high in curve if distance >= tolerance], default=1)
+    return lower, max(lower, upper)
+
+
+def check_share(test, text, lower, upper):
+    """A share as it is printed encloses it, to a hundredth of a percent."""
+    numbers = [float(word) / 100 for word in text.removesuffix(" %").split(" to ")]
+    test.assertLessEqual(numbers[0], lower + 1e-9, text)
+    test.assertGreaterEqual(numbers[-1], upper - 1e-9, text)
+    test.assertLess(lower - numbers[0] + numbers[-1] - upper, 2.1e-4, text)
 
 
 class Browser(unittest.TestCase):
@@ -67,31 +78,39 @@ class Browser(unittest.TestCase):
         self.assertEqual((seen["console"], seen["errors"]), ([], []))
         self.assertEqual([url for url in seen["requests"] if not url.startswith(("file:", "data:"))], [])
         answer = json.loads(seen["answer"])
-        said = seen["words"] if seen["word"] == "DISTANCE" else seen["word"] + "  " + seen["words"]
-        self.assertEqual(said, answer["words"])
+        self.assertTrue(seen["words"].endswith("."), seen["words"])
         self.assertEqual(seen["word"].lower(), answer.get("verdict", "distance"))
-        lower, upper = seen["digits"].strip("[]").split(", ")
+        lower, upper = seen["run"][1].strip("[]").split(", ")
         for key, digits in (("lower", lower), ("upper", upper)):  # as text, every digit
             self.assertEqual(re.search(rf'"interval":\{{.*?"{key}":([^,]+),', seen["answer"]).group(1), digits)
         self.check_counts(seen)
         self.assertTrue(seen["wide"] and seen["narrow"], "something is wider than the page")
         self.check_print(SCRATCH / f"{name}-{mode}.pdf")
+        self.check_printed(seen)
 
-    # The numbers beside the slider are the file's, at each of its steps.
+    # Both directions are on the sheet, large enough to be read, and nothing is below its end.
+    def check_printed(self, seen):
+        printed = seen["printed"]
+        self.assertEqual(len(printed["figures"]), len(seen["data"]["sides"]))
+        for box in printed["figures"]:
+            self.assertGreater(box["width"], 400)
+            self.assertGreater(box["height"], 150)
+        self.assertLessEqual(printed["footer"]["bottom"], printed["height"] + 1)
+
+    # The shares beside the slider are the survey's, at each tolerance, and rounded outward.
     def check_counts(self, seen):
         steps, side = seen["data"]["steps"], seen["data"]["sides"][0]
         for key in ("start", "Home", "ArrowRight", "PageUp", "End", "dragged"):
             now = seen[key]
             at = steps["value"].index(float(now["value"]))
             self.assertEqual(now["tolerance"], steps["label"][at] + " mm")
-            self.assertEqual(number(now["within"][0]), side["within"][at])
-            self.assertEqual(number(now["beyond"][0]), side["beyond"][at])
-            self.assertEqual(sum(number(now[row][0]) for row in ("within", "undecided", "beyond")), side["faces"])
-            share = side["withinArea"][at]
-            self.assertIn(now["within"][1], (f"{100 * share:.2f} %", "0 %", "100 %", "< 0.01 %", "> 99.99 %"))
+            share = side["atLimit"] if at == seen["data"]["asked"] and "atLimit" in side else share_at(side["curve"], float(now["value"]))
+            check_share(self, now["within"], *share)
+            check_share(self, now["beyond"], 1 - share[1], 1 - share[0])
         self.assertEqual(float(seen["Home"]["value"]), 0)
         self.assertGreater(float(seen["PageUp"]["value"]), float(seen["ArrowRight"]["value"]))
-        self.assertEqual(number(seen["End"]["within"][0]), side["faces"])
+        self.assertEqual(seen["End"]["within"], "100 %")
+        self.assertEqual(seen["End"]["beyond"], "0 %")
         self.assertNotEqual(seen["Home"]["within"], seen["End"]["within"])
 
     def check_print(self, path):
@@ -107,13 +126,27 @@ class Browser(unittest.TestCase):
         pictures = [seen[key]["canvas"] for key in ("Home", "dragged", "End")]
         self.assertEqual(len(set(pictures)), 3, "the slider does not recolour")
         self.assertNotIn(seen["place"], pictures)
-        self.assertNotEqual(seen["place"], seen["log"])
         mark, stage = seen["mark"], seen["stage"]
         self.assertFalse(mark["hidden"])
-        self.assertTrue(mark["label"].startswith("2: "), mark["label"])  # the third in the list: the witness is the first
-        self.assertTrue(seen["pressed"].startswith("2face"), seen["pressed"])
+        last = len(seen["places"])
+        self.assertIn(last, range(1, 6))
+        self.assertEqual(mark["label"], f"{last}: {seen['places'][-1]}")
+        self.assertTrue(seen["pressed"].startswith(f"{last}{seen['places'][-1]}("), seen["pressed"])
         self.assertAlmostEqual(mark["x"], stage["x"] + stage["width"] / 2, delta=3)
         self.assertAlmostEqual(mark["y"], stage["y"] + stage["height"] / 2, delta=3)
+        self.assertEqual(len(set(seen["views"] + [seen["place"]])), 4, "a view's button does nothing")
+        self.check_overlay(seen)
+
+    # A reading has a value and a point; a click keeps it; axes are drawn, and a ruler to scale.
+    def check_overlay(self, seen):
+        reading = re.fullmatch(r"largest deviation of this face: (?:at most |more than )?([0-9.e-]+)(?: to ([0-9.e-]+))? mm, at \(([-0-9.e, ]+)\)", seen["read"])
+        self.assertTrue(reading, seen["read"])
+        self.assertEqual(len(reading[3].split(", ")), 3)
+        self.assertEqual(seen["kept"], seen["read"], "off the mesh, what was clicked is read")
+        self.assertEqual(len(seen["axes"]), 3)
+        self.assertGreater(max(seen["axes"]), 15)
+        self.assertRegex(seen["ruler"]["text"], r"\A[125](0+|)(\.|e|) ?.*mm\Z|\A0\.0*[125] mm\Z")
+        self.assertTrue(20 < seen["ruler"]["width"] <= 111, seen["ruler"])
 
     def test_views(self):
         for name, word in (("pass", "PASS"), ("fail", "FAIL"), ("undecided", "UNDECIDED"), ("plain", "DISTANCE"), ("decimated", "DISTANCE")):
@@ -125,7 +158,7 @@ class Browser(unittest.TestCase):
                 if name == "fail":
                     self.assertEqual(seen["back"]["mesh"], "B")
                     self.assertNotEqual(seen["back"]["canvas"], seen["log"])
-                    self.assertGreater(number(seen["start"]["beyond"][0]), 0)
+                    self.assertNotEqual(seen["start"]["beyond"], "0 %")
 
     # All on B, and no bound for any face: there is nothing to scale a chart by.
     def test_nothing_to_scale_by(self):
@@ -133,9 +166,22 @@ class Browser(unittest.TestCase):
             with self.subTest(name):
                 seen = look(name, "still")
                 self.assertEqual((seen["console"], seen["errors"], seen["ready"]), ([], [], "view"))
-                side = seen["data"]["sides"][0]
-                self.assertEqual(number(seen["start"]["within"][0]), side["faces"] if name == "zero" else 0)
+                self.assertEqual(seen["start"]["within"], "not measured")
                 self.check_print(SCRATCH / f"{name}-still.pdf")
+
+    def test_an_index_on_a_phone(self):
+        seen = look("index", "index")
+        self.assertEqual((seen["console"], seen["errors"]), ([], []))
+        self.assertTrue(seen["narrow"], "something is wider than the phone")
+        self.assertGreaterEqual(seen["least"], 13)
+        self.assertEqual([row[1] for row in seen["rows"]], ["FAIL", "FAIL", "UNDECIDED", "PASS"])
+        self.assertTrue(seen["rows"][0][0].startswith("n" * 90), "the larger lower end comes first")
+        self.assertTrue(seen["rows"][1][0].startswith("bad"))
+        self.assertEqual(seen["rows"][1][2], "at least 0.2 mm", "an upper end that was not sought is not told")
+        self.assertEqual(seen["rows"][3][2], "0.02 to 0.099 mm")
+        self.assertNotIn("--", "".join(seen["rows"][2]), "a customer has no options")
+        self.assertEqual(seen["links"], ["n" * 90 + ".html", "bad.html", "open.html", "good.html"])
+        self.assertEqual(seen["labels"], ['"Deviation: "', '"Of the limit: "', '"Of A\'s diagonal: "'])
 
     def test_odd_names_are_text(self):
         seen = look("odd", "view")
@@ -150,7 +196,7 @@ class Browser(unittest.TestCase):
         self.assertEqual(seen["shown"], ["This browser cannot draw the mesh; there is no view to turn.", "64x48"])
         seen = look("fail", "picture")
         self.check_common(seen, "fail", "picture")
-        self.assertEqual(seen["shown"], ["This browser cannot draw the mesh; there is no view to turn.", "No picture was drawn for this page."])
+        self.assertEqual(seen["shown"], ["This browser cannot draw the mesh; there is no view to turn."] + 2 * ["No picture was drawn for this page."])
 
 
 if __name__ == "__main__":

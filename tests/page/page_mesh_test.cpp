@@ -1,4 +1,4 @@
-// Decimation loses no bound, steps lie on neither side, tallies are sums, worst places are apart.
+// Decimation loses no bound, and steps lie on neither side.
 #include "host/show/page_mesh.h"
 
 #include <doctest/doctest.h>
@@ -90,7 +90,7 @@ TEST_CASE("coordinates whose differences overflow have a place, too") {
 
 TEST_CASE("steps ascend from 0 to the largest distance, few and short") {
   for (const double top : {1e-300, 3e-7, 0.0441, 1.0, 9.99, 12345.0, 1e300}) {
-    const std::vector<vkh::Step> steps = vkh::tolerance_steps(top, std::nullopt);
+    const std::vector<vkh::Step> steps = vkh::tolerance_steps(top, top, std::nullopt);
     CHECK(steps.front().value == 0);
     CHECK(steps.back().limit.within >= top);
     CHECK(steps.size() < 2000);
@@ -101,14 +101,24 @@ TEST_CASE("steps ascend from 0 to the largest distance, few and short") {
       CHECK(std::stod(steps[k].label) == steps[k].value);
     }
   }
-  CHECK(vkh::tolerance_steps(0, std::nullopt).size() == 1);
+  CHECK(vkh::tolerance_steps(0, 0, std::nullopt).size() == 1);
+}
+
+TEST_CASE("steps are even up to a finer end, and reach the largest distance all the same") {
+  const std::vector<vkh::Step> steps = vkh::tolerance_steps(100, 0.15, std::nullopt);
+  CHECK(steps.back().limit.within >= 100);
+  CHECK(std::count_if(steps.begin(), steps.end(), [](const vkh::Step& step) {
+          return step.is_linear && step.value <= 0.15;
+        }) > 500);
+  CHECK(std::none_of(steps.begin(), steps.end(),
+                     [](const vkh::Step& step) { return step.is_linear && step.value > 0.16; }));
 }
 
 TEST_CASE("the limit that was asked about is a step, as it was asked") {
   const vkh::Limit odd = {0.123456, 0.123457},
                    round = {std::nextafter(0.1, 0), std::nextafter(0.1, 1)};
   for (const vkh::Limit& limit : {odd, round, vkh::Limit{7, 7.1}}) {
-    const std::vector<vkh::Step> steps = vkh::tolerance_steps(1, limit);
+    const std::vector<vkh::Step> steps = vkh::tolerance_steps(1, 1, limit);
     CHECK(std::count_if(steps.begin(), steps.end(), [&](const vkh::Step& step) {
             return step.limit.within == limit.within && step.limit.beyond == limit.beyond;
           }) == 1);
@@ -117,7 +127,8 @@ TEST_CASE("the limit that was asked about is a step, as it was asked") {
 
 TEST_CASE("a limit in the place of the last step leaves none out") {
   const double top = 0.5;
-  const std::vector<vkh::Step> steps = vkh::tolerance_steps(top, vkh::Limit{0.4999999, 0.50001});
+  const std::vector<vkh::Step> steps =
+      vkh::tolerance_steps(top, top, vkh::Limit{0.4999999, 0.50001});
   CHECK(steps.back().limit.within >= top);
   for (size_t k = 1; k < steps.size(); ++k) {
     CHECK(steps[k].limit.within > steps[k - 1].limit.within);
@@ -126,7 +137,7 @@ TEST_CASE("a limit in the place of the last step leaves none out") {
 }
 
 TEST_CASE("a face's steps are the verdicts of all steps") {
-  const std::vector<vkh::Step> steps = vkh::tolerance_steps(1, vkh::Limit{0.5, 0.6});
+  const std::vector<vkh::Step> steps = vkh::tolerance_steps(1, 1, vkh::Limit{0.5, 0.6});
   vkh::test::Random random(3);
   for (int i = 0; i < 500; ++i) {
     const double lower = i % 7 == 0 ? 0 : random.unit(), upper = std::max(lower, random.unit());
@@ -136,46 +147,6 @@ TEST_CASE("a face's steps are the verdicts of all steps") {
       CHECK((k < at.beyond) == (lower > steps[k].limit.beyond));
     }
   }
-}
-
-TEST_CASE("a tally is the sums over all faces") {
-  const Mesh mesh = vkh::test::torus(20, 6, 24, 12);
-  const vkh::Field field = vkh::test::invented_field(mesh, 1);
-  const std::vector<vkh::Step> steps = vkh::tolerance_steps(1, std::nullopt);
-  const vkh::Tally sums = tally(mesh, field, steps);
-  CHECK(sums.faces == mesh.faces.size());
-  CHECK(sums.within.back() == mesh.faces.size());
-  CHECK(sums.within_area.back() == doctest::Approx(1));
-  for (size_t k = 0; k < steps.size(); k += 13) {
-    uint64_t within = 0, beyond = 0;
-    for (size_t f = 0; f < mesh.faces.size(); ++f) {
-      within += field.upper[f] <= steps[k].limit.within;
-      beyond += field.lower[f] > steps[k].limit.beyond;
-    }
-    CHECK(sums.within[k] == within);
-    CHECK(sums.beyond[k] == beyond);
-    CHECK(sums.within_area[k] + sums.beyond_area[k] <= 1 + 1e-9);
-  }
-}
-
-TEST_CASE("worst places are the worst, and apart") {
-  const Mesh mesh = vkh::test::torus(20, 6, 120, 60);
-  const vkh::Field field = vkh::test::invented_field(mesh, 1);
-  const std::vector<vkh::WorstPlace> places = vkh::worst_places(mesh, field, 10, 3);
-  REQUIRE(places.size() == 10);
-  CHECK(places[0].face == vkh::test::worst_face(field));
-  for (size_t i = 0; i < places.size(); ++i) {
-    CHECK(places[i].distance.upper == field.upper[places[i].face]);
-    CHECK(length(places[i].normal) == doctest::Approx(1));
-    for (size_t j = 0; j < i; ++j) {
-      CHECK(distance(places[i].centre, places[j].centre) >= 3);
-      CHECK(places[i].distance.upper <= places[j].distance.upper);
-    }
-  }
-  CHECK(vkh::worst_places(mesh, field, 10, 1e9).size() == 1);
-  const vkh::Field zero = {std::vector<double>(mesh.faces.size()),
-                           std::vector<double>(mesh.faces.size())};
-  CHECK(vkh::worst_places(mesh, zero, 10, 0).empty());
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "host/show/escape.h"
+#include "host/show/page_words.h"
+#include "host/show/template.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 
@@ -58,33 +60,140 @@ TEST_CASE("base64 by RFC 4648's examples") {
   CHECK(vkh::base64(std::string("\xff\xfe\xfd")) == "//79");
 }
 
-TEST_CASE("a page carries its answer and says what it says") {
+TEST_CASE("a page carries its answer, its verdict and its names") {
   Invented pair = small_pair();
   for (const double share : {1.2, 0.5, Invented::middle(), 0.0}) {
     pair.ask(share);
     const std::string page = vkh::to_page(pair.contents());
     const std::string text = vkh::to_json(pair.answer);
     CHECK(script(page, "answer") == json::parse(text));
-    const json answer = json::parse(text);
     const std::string word = between(page, "<span id=\"word\">", "</span>");
-    const std::string words = between(page, "<p class=\"words\" id=\"words\">", "</p>");
-    const std::string said = vkh::html_text(answer["words"].get<std::string>());
-    const std::string start = share == 0 ? "" : word + "  ";
-    CHECK(said == start + words);
-    const std::string digits = between(page, "id=\"digits\">", "</code>");
+    CHECK(word == vkh::headline_of(pair.answer).word);
+    CHECK(between(page, "<p class=\"words\" id=\"words\">", "</p>") ==
+          vkh::html_text(vkh::headline_of(pair.answer).sentence));
     const std::string exact = between(text, "\"interval\":{\"lower\":", ",");
-    CHECK(digits.starts_with("[" + exact + ", "));
-    CHECK(count_of(page, "No alignment was done: the meshes were measured as they lie.") == 1);
+    CHECK(count_of(page, ">[" + exact + ", ") == 1);
+    CHECK(between(page, "<h1>", "</h1>") == "bracket as scanned.ply against bracket.stl");
+    CHECK(count_of(page, "<b>A</b> bracket as scanned.ply") == 1);
+    CHECK(count_of(page, "Nothing was fitted: A and B were measured as they lie.") == 1);
     CHECK(page.find("{{") == std::string::npos);
   }
 }
 
+TEST_CASE("a page has the title that was asked for") {
+  const Invented pair = small_pair();
+  vkh::PageContents contents = pair.contents();
+  contents.title = "Lot 7 <of 9>";
+  const std::string page = vkh::to_page(contents);
+  CHECK(between(page, "<h1>", "</h1>") == "Lot 7 &lt;of 9&gt;");
+  CHECK(between(page, "<title>", "</title>") == "DISTANCE: Lot 7 &lt;of 9&gt;");
+  CHECK(count_of(page, "<b>A</b> bracket as scanned.ply") == 1);
+}
+
+TEST_CASE("a page has no words of the method, and no options to ask for") {
+  Invented pair = small_pair();
+  for (const double share : {1.2, 0.5, Invented::middle(), 0.0}) {
+    pair.ask(share);
+    const std::string page = vkh::to_page(pair.contents());
+    const std::string text = between(page, "<body", "<section class=\"record\">");
+    for (const char* word : {"h(A", "witness", " decided", "pruned", "upper bound", "certified",
+                             "--symmetric", "--worst", "--time", "the file does not say"})
+      CHECK_MESSAGE(count_of(text, word) == 0, word);
+    CHECK(count_of(text, "<dd>mm, by --unit</dd>") == 1);
+  }
+}
+
+TEST_CASE("a figure reads the same wherever it stands on a page") {
+  Invented pair = small_pair();
+  pair.ask(0.5);
+  const std::string page = vkh::to_page(pair.contents());
+  const std::string largest =
+      vkh::length_text(pair.answer, vkh::deviation_of(pair.answer, pair.answer.a_to_b));
+  CHECK(count_of(page, "<th scope=\"row\">largest deviation</th><td>" + largest + "</td>") == 1);
+  CHECK(count_of(page, "<span class=\"length\">" + largest + "</span>") >= 1);
+  // The share within the limit: the survey's, in the table and in what the viewer counts by.
+  const vkh::AreaWithin& band = pair.statistics_a.bands[1];
+  pair.answer.max->limit = {band.distance, band.distance};
+  const std::string again = vkh::to_page(pair.contents());
+  CHECK(count_of(again, "<td>" + vkh::share_text(band.share) + "</td>") == 1);
+  const json side = script(again, "data")["sides"][0];
+  CHECK(side["atLimit"] == json{band.share.lower, band.share.upper});
+}
+
+TEST_CASE("a page says that a measurement was cut short, and why") {
+  Invented pair = small_pair();
+  CHECK(count_of(vkh::to_page(pair.contents()), "Unfinished") == 0);
+  pair.answer.survey_a = vkh::SurveyResult{};
+  for (const auto& [end, why] : {std::pair{vkh::SurveyEnd::kTime, "the time that was set is over"},
+                                 {vkh::SurveyEnd::kEffort, "the effort that was set"},
+                                 {vkh::SurveyEnd::kMemory, "no memory for more"},
+                                 {vkh::SurveyEnd::kCancelled, "the measurement was stopped"}}) {
+    pair.answer.survey_a->ended = end;
+    const std::string page = vkh::to_page(pair.contents());
+    CHECK(count_of(page, "Unfinished: figures and colours of A are") == 1);
+    CHECK(count_of(page, why) == 1);
+  }
+  pair.answer.survey_b = pair.answer.survey_a;
+  CHECK(count_of(vkh::to_page(pair.contents()), "Unfinished: figures and colours of A and of B") ==
+        1);
+  pair.answer.survey_a->ended = pair.answer.survey_b->ended = vkh::SurveyEnd::kMet;
+  pair.answer.a_to_b.status = vkh::Status::kTime;
+  CHECK(count_of(vkh::to_page(pair.contents()), "Unfinished: the largest deviation of A from B") ==
+        1);
+}
+
+TEST_CASE("lengths are rounded to nearest where both ends agree, and outward otherwise") {
+  using vkh::figure_text;
+  CHECK(figure_text({0.351904, 0.352241}) == "0.352");
+  CHECK(figure_text({0.05726778, 0.05726925}) == "0.05727");
+  CHECK(figure_text({0.0084000001, 0.01106}) == "0.0084 to 0.0111");
+  CHECK(figure_text({0, 0}) == "0");
+  CHECK(figure_text({0, 0.25}) == "at most 0.25");
+  CHECK(figure_text({0.375, std::numeric_limits<double>::infinity()}) == "at least 0.375");
+  CHECK(figure_text({0, std::numeric_limits<double>::infinity()}) == "not known");
+  const vkh::Limit limit{std::nextafter(0.1, 0), std::nextafter(0.1, 1)};
+  CHECK(figure_text({0.1000021, 0.1000022}, limit) == "0.100002 to 0.1001");
+  CHECK(figure_text({0.0999991, 0.0999992}, limit) == "0.1");
+  CHECK(figure_text({0.0565001, 0.0999992}, limit) == "0.0565 to 0.1");
+  CHECK(figure_text({0.1000021, 0.1000022}) == "0.1");
+  vkh::test::Random random(5);
+  for (int i = 0; i < 2000; ++i) {  // what is written encloses it, or is its rounding
+    const double lower = random.unit() * std::pow(10.0, 6 * random.unit() - 3);
+    const double upper = lower * (1 + random.unit() * std::pow(10.0, -5 * random.unit()));
+    const std::string text = figure_text({lower, upper});
+    const size_t to = text.find(" to ");
+    const double first = std::stod(text);
+    if (to == std::string::npos) {
+      CHECK(std::abs(first - lower) <= 0.006 * lower);
+      continue;
+    }
+    CHECK(first <= lower);
+    CHECK(std::stod(text.substr(to + 4)) >= upper);
+  }
+}
+
+TEST_CASE("a band is named by the number that was typed") {
+  vkh::Answer answer;
+  answer.unit = "mm";
+  for (const double distance : {0.1, 0.3, 0.7, 1e-7, 12345.678})
+    CHECK(std::stod(vkh::band_text(answer, {distance, {}})) == distance);
+  CHECK(vkh::band_text(answer, {0.3, {}}) == "0.3 mm");
+}
+
+TEST_CASE("shares are rounded outward, and 0 and 100 percent are exact") {
+  CHECK(vkh::share_text({0.988744, 0.98899}) == "98.87 to 98.90 %");
+  CHECK(vkh::share_text({1, 1}) == "100 %");
+  CHECK(vkh::share_text({0, 0}) == "0 %");
+  CHECK(vkh::share_text({0.999999, 1}) == "99.99 to 100 %");
+  CHECK(vkh::share_text({0, 1e-9}) == "0 to 0.01 %");
+  CHECK(vkh::share_text({0.9949999, 0.9949999}, 0.995) == "99.49 to 99.499990 %");
+}
+
 TEST_CASE("a page names every file that was read, by its hash") {
   Invented pair = small_pair();
-  CHECK(count_of(vkh::to_page(pair.contents()), "files beneath") == 0);
+  CHECK(count_of(vkh::to_page(pair.contents()), "other files read") == 0);
   pair.answer.inputs[1].files = {{"in/x.bin", std::string(64, 'e')}, {"<y>.bin", ""}};
-  const std::string row =
-      between(vkh::to_page(pair.contents()), "SHA-256 of files beneath</th>", "</tr>");
+  const std::string row = between(vkh::to_page(pair.contents()), "other files read</th>", "</tr>");
   CHECK(row.find("in/x.bin") < row.find(std::string(64, 'e')));
   CHECK(row.find("&lt;y&gt;.bin") < row.find("not known"));
 }
@@ -96,9 +205,12 @@ TEST_CASE("a page has no more elements when texts are odd, and needs no network"
   const std::string odd = vkh::to_page(pair.contents());
   for (const char* part : {"<script", "</script", "<b>", "<!--"})
     CHECK(count_of(odd, part) == count_of(plain, part));
+  vkh::PageContents titled = pair.contents();
+  titled.title = pair.answer.inputs[0].path;
+  CHECK(count_of(vkh::to_page(titled), "<script") == count_of(plain, "<script"));
   CHECK(script(odd, "answer")["inputs"][0]["path"].get<std::string>().starts_with("</script>"));
   CHECK(odd.find("default-src 'none'") != std::string::npos);
-  const std::string body = between(odd, "<body>", "<script>");
+  const std::string body = between(odd, "<body", "<script>");
   CHECK(body.find("src=\"http") == std::string::npos);
   CHECK(body.find("href=") == std::string::npos);
   CHECK(body.find(" style=") == std::string::npos);  // its policy would refuse them
@@ -124,25 +236,54 @@ TEST_CASE("a page is no larger than it may be") {
     CHECK(page.size() <= bytes);
     CHECK(page.size() > bare + (bytes - bare) / 3);
     const json data = script(page, "data");
-    CHECK(data["sides"][0]["caption"].get<std::string>().starts_with("A decimated view of "));
-    CHECK(data["sides"][0]["faces"] == pair.a.faces.size());  // counts are of the whole mesh
+    CHECK(data["sides"][0]["caption"].get<std::string>().starts_with("Simplified for viewing to "));
+    CHECK(data["sides"][0]["mesh"]["faces"] < pair.a.faces.size());
   }
   CHECK(script(vkh::to_page(pair.contents(), {.bytes = 1}), "data")["sides"][0].contains("mesh") ==
         false);
 }
 
-TEST_CASE("a page of a field that is nowhere bounded, of one that is 0, of faces without an area") {
+TEST_CASE("a page of a field that is nowhere bounded, of one that is 0") {
   Invented pair = small_pair();
-  const double infinity = std::numeric_limits<double>::infinity();
-  pair.set_upper(infinity);
-  json side = script(vkh::to_page(pair.contents()), "data")["sides"][0];
-  for (const json& faces : side["within"]) CHECK(faces == 0);
+  pair.set_upper(std::numeric_limits<double>::infinity());
+  std::string page = vkh::to_page(pair.contents());
+  CHECK(count_of(page, "<dd>not known</dd>") == 1);
+  CHECK(script(page, "data")["top"] == 0);
   pair.set_upper(0);
-  side = script(vkh::to_page(pair.contents()), "data")["sides"][0];
-  CHECK(side["within"][0] == pair.a.faces.size());
-  for (glm::dvec3& v : pair.a.vertices) v = {1, 2, 3};
-  side = script(vkh::to_page(pair.contents()), "data")["sides"][0];
-  CHECK(side["hasArea"] == false);
+  page = vkh::to_page(pair.contents());
+  CHECK(count_of(page, "Every point of A lies on B.") == 1);
+  CHECK(count_of(page, "There are none: nothing of A is known to be off B.") == 1);
+}
+
+TEST_CASE("one stray triangle does not set the colours of all others") {
+  Invented pair = small_pair();
+  pair.answer.b_to_a.reset();
+  pair.field_a.upper[0] *= 1000;
+  const json data = script(vkh::to_page(pair.contents()), "data");
+  CHECK(data["bar"] == pair.statistics_a.percentiles.back().distance.upper);
+  CHECK(data["top"] == pair.field_a.upper[0]);
+  pair.ask(0.5);
+  CHECK(script(vkh::to_page(pair.contents()), "data")["bar"] ==
+        doctest::Approx(1.5 * pair.answer.max->limit.beyond));
+}
+
+TEST_CASE("a page has the colours of the map that was asked for") {
+  const Invented pair = small_pair();
+  vkh::PageContents contents = pair.contents();
+  contents.map = vkh::ColourMap::kBatlow;
+  const std::string palette = script(vkh::to_page(contents), "data")["palette"];
+  CHECK(palette.size() == 256 * 6);
+  CHECK(palette.starts_with("011959"));
+  CHECK(palette.ends_with("faccfa"));
+}
+
+TEST_CASE("templates repeat, leave out and escape") {
+  const nlohmann::ordered_json data = {
+      {"name", "<&>"}, {"none", ""}, {"rows", {{{"x", 1}, {"name", "in"}}, {{"x", 2}}}}};
+  CHECK(vkh::rendered("{{name}}{{{name}}}{{#none}}a{{/none}}{{^none}}b{{/none}}", data) ==
+        "&lt;&amp;&gt;<&>b");
+  CHECK(vkh::rendered("{{#rows}}{{x}}{{name}};{{/rows}}", data) == "1in;2&lt;&amp;&gt;;");
+  CHECK_THROWS_AS(vkh::rendered("{{#rows}}", data), std::logic_error);
 }
 
 }  // namespace

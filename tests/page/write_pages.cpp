@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "host/batch/index.h"
 #include "host/read/mesh_io.h"
 #include "host/show/page.h"
 #include "tests/page/invented.h"
@@ -38,6 +39,36 @@ void write_page(const std::string& path, const Invented& pair, const vkh::PageLi
   std::printf("%s: %zu bytes, %.2f s\n", path.c_str(), page.size(), took.count());
 }
 
+vkh::IndexRow index_row(const std::string& id, vkh::ExitCode code, const char* verdict,
+                        vkh::Enclosure deviation) {
+  vkh::Record record;
+  record.name.id = id;
+  record.code = code;
+  record.verdict = verdict;
+  record.status = "limit";
+  record.lower = deviation.lower;
+  record.upper = deviation.upper;
+  record.diagonal = 100;
+  record.limit = {0.1, 0.1};
+  record.unit = "mm";
+  record.words = "UNDECIDED  the limit 0.1 mm lies in [0.09, 0.2] mm; ask for more --time";
+  return {.record = record, .pictures = {}, .report = id + ".html"};
+}
+
+// A batch of four pairs with names as long as they come, in an order that is not the right one.
+void write_batch_index(const std::string& path) {
+  const std::string results = "results.jsonl";
+  const vkh::PictureStyle look;
+  const std::string name(90, 'n');
+  vkh::IndexContents contents{.rows = {}, .results = results, .look = look, .has_limit = true};
+  contents.has_reports = true;
+  contents.rows = {index_row("good", vkh::kExitClosed, "pass", {0.02, 0.099}),
+                   index_row("open", vkh::kExitNotClosed, "undecided", {0.09, 0.2}),
+                   index_row("bad", vkh::kExitBeyond, "fail", {0.2, 900}),
+                   index_row(name, vkh::kExitBeyond, "fail", {0.3, 0.4})};
+  write(path, vkh::to_index(contents));
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -66,5 +97,6 @@ int main(int count, char** words) {
   write_page(folder + "zero.html", pair);
   pair.set_upper(std::numeric_limits<double>::infinity());
   write_page(folder + "unbounded.html", pair);
+  write_batch_index(folder + "index.html");
   return 0;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page's template, style and viewer as one C++ source: embed.py FOLDER OUT.cpp.
+"""The templates, styles and viewer of pages as one C++ source: embed.py FOLDER OUT.cpp.
 
 FOLDER is tools/page. Style and viewer stand in elements of their own, so nothing in them may end one.
 """
@@ -48,7 +48,10 @@ def sha256(text):
 def source(folder):
     style = checked("style.css", (folder / "src/style.css").read_text(), ["</style"])
     viewer = checked("viewer.js", (folder / "viewer.js").read_text(), ["</script", "<!--", "\r"])
+    index_style = checked("index.css", (folder / "src/index.css").read_text(), ["</style"])
     return (HEAD + constant("kPageTemplate", (folder / "src/page.html").read_text())
+            + constant("kIndexTemplate", (folder / "src/index.html").read_text())
+            + constant("kIndexStyle", index_style) + constant("kIndexStyleHash", sha256(index_style))
             + constant("kPageStyle", style) + constant("kPageViewer", viewer)
             + constant("kPageStyleHash", sha256(style)) + constant("kPageViewerHash", sha256(viewer))
             + "}  // namespace vkh\n")

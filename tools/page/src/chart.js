@@ -1,8 +1,9 @@
-// Histogram, certified curve, colour bar and axis, over one scale of distances.
+// Distribution of the area, colour bar and axis, over one scale of deviations.
+import { colourAt } from './palette.js';
 import { short } from './scale.js';
-import { viridis } from './viridis.js';
+import { shareWithin } from './share.js';
 
-const HEIGHT = 124, TOP = 20, BARS = 70;
+const HEIGHT = 110, TOP = 18, BARS = 60;
 
 function element(parent, name, attributes, text) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', name);
@@ -13,37 +14,32 @@ function element(parent, name, attributes, text) {
 }
 
 const percent = (share) => `${Number((100 * share).toPrecision(3))} %`;
+const middle = (enclosed) => (enclosed[0] + enclosed[1]) / 2;
 
-/// Bars between steps: each [from, to, share of the area of the faces whose upper is in there].
-export function bars(data, side, scale) {
-  const { value, linear, log } = data.steps;
-  const flags = scale.isLog ? log : linear;
-  const edges = value.map((_, i) => i).filter((i) => flags[i] && value[i] > (scale.lo ?? 0) && value[i] <= scale.hi * 1.0001);
-  const each = Math.max(1, Math.round(edges.length / BARS));
+/// Bars [from, to, share of the area in between]: the middle of what the survey encloses.
+export function bars(side, scale) {
   const out = [];
-  let before = 0, from = scale.lo ?? 0;
-  for (let i = each - 1; ; i += each) {
-    const edge = edges[Math.min(i, edges.length - 1)];
-    if (edge === undefined) return out;
-    out.push([from, value[edge], side.withinArea[edge] - before]);
-    before = side.withinArea[edge];
-    from = value[edge];
-    if (i >= edges.length - 1) return out;
+  let from = scale.value(0), before = 0;
+  for (let i = 1; i <= BARS; ++i) {
+    const to = scale.value(i / BARS);
+    const now = middle(shareWithin(side, to, false));
+    out.push([from, to, now - before]);
+    [from, before] = [to, now];
   }
+  return out;
 }
 
 function drawBars(svg, list, x) {
   const most = Math.max(...list.map((bar) => bar[2]), 0);
   if (most === 0) return;
-  const y = (share) => HEIGHT - (share / most) * (HEIGHT - TOP);
   const group = element(svg, 'g', { class: 'bars' });
   for (const [from, to, share] of list) {
     if (share <= 0) continue;
-    const height = Math.max(HEIGHT - y(share), 1);  // a bar of hardly any area is seen, too
+    const height = Math.max((share / most) * (HEIGHT - TOP), 1);  // a bar of hardly any area is seen, too
     element(group, 'rect', { x: x(from) + 0.5, width: Math.max(x(to) - x(from) - 1, 1), y: HEIGHT - height, height });
   }
   element(svg, 'line', { class: 'rule', x1: 0, x2: x.width, y1: TOP, y2: TOP });
-  element(svg, 'text', { x: 0, y: TOP - 6 }, percent(most));
+  element(svg, 'text', { x: 0, y: TOP - 5 }, percent(most));
 }
 
 // Between two distances the share is at least that of the smaller, at most that of the larger.
@@ -61,12 +57,13 @@ function drawBand(svg, curve, x) {
   high.push([x(last[0]), y(last[2])]);
   const points = [...low, ...high.reverse()].map((p) => p.map((v) => v.toFixed(1)).join()).join(' ');
   element(svg, 'polygon', { class: 'band', points });
-  element(svg, 'text', { x: x.width, y: TOP - 6, 'text-anchor': 'end' }, '100 %');
+  element(svg, 'text', { x: x.width, y: TOP - 5, 'text-anchor': 'end' }, '100 %');
 }
 
 export class Chart {
-  constructor(data) {
+  constructor(data, palette) {
     this.data = data;
+    this.palette = palette;
     this.histogram = document.getElementById('histogram');
     this.axis = document.getElementById('axis');
     this.gradient = document.getElementById('gradient');
@@ -80,38 +77,35 @@ export class Chart {
     this.x = x;
     for (const svg of [this.histogram, this.axis]) {
       svg.replaceChildren();
-      svg.setAttribute('viewBox', `0 0 ${width} ${svg === this.axis ? 38 : HEIGHT}`);
+      svg.setAttribute('viewBox', `0 0 ${width} ${svg === this.axis ? 20 : HEIGHT}`);
     }
-    drawBars(this.histogram, bars(this.data, side, scale), x);
-    if (side.curve) drawBand(this.histogram, side.curve, x);
+    if (side.curve.length) {
+      drawBars(this.histogram, bars(side, scale), x);
+      drawBand(this.histogram, side.curve, x);
+    }
     this.line = element(this.histogram, 'line', { class: 'tolerance', y1: TOP, y2: HEIGHT });
     this.drawAxis(scale, x);
     this.drawGradient(scale);
   }
 
   drawAxis(scale, x) {
+    let end = -Infinity;
     for (const tick of scale.ticks) {
       const at = x(tick);
       const anchor = at < 8 ? 'start' : at > x.width - 20 ? 'end' : 'middle';
       element(this.axis, 'line', { class: 'tick', x1: at, x2: at, y1: 0, y2: 4 });
+      if (at - end < 42) continue;
+      end = at;
       element(this.axis, 'text', { x: at, y: 16, 'text-anchor': anchor }, short(tick));
     }
-    const { lower, upper } = this.data.interval;
-    if (upper === null) return;
-    const from = x(lower), to = x(upper);
-    element(this.axis, 'path', { class: 'ends', d: `M${from - 5} 29L${from} 21H${to}L${to + 5} 29Z` });
-    const isLeft = (from + to) / 2 < x.width / 2;
-    const label = { class: 'label', x: isLeft ? to + 10 : from - 10, y: 31, 'text-anchor': isLeft ? 'start' : 'end' };
-    element(this.axis, 'text', label, this.data.interval.name);
   }
 
   drawGradient(scale) {
-    const canvas = this.gradient, share = Math.min(scale.at(this.data.top), 1);
-    canvas.width = 512;
-    canvas.style.width = `${100 * share}%`;
-    const context = canvas.getContext('2d');
+    const context = this.gradient.getContext('2d');
+    this.gradient.width = 512;
     for (let i = 0; i < 512; ++i) {
-      context.fillStyle = `rgb(${viridis(i / 511).join()})`;
+      const value = scale.value(i / 511);
+      context.fillStyle = value > this.data.bar * 1.0001 ? OVER : `rgb(${colourAt(this.palette, value / this.data.bar).join()})`;
       context.fillRect(i, 0, 1, 1);
     }
   }
@@ -125,9 +119,11 @@ export class Chart {
   }
 }
 
-/// The colour of each step: of faces whose upper is at most the step's distance.
-export function stepColours(data, scale) {
-  const end = Math.min(scale.at(data.top), 1) || 1;
-  const colours = data.steps.value.map((value) => viridis(scale.at(value) / end));
+export const OVER = '#d6246e';
+
+/// The colour of each step: of faces that are at most the step's distance away.
+export function stepColours(data, palette) {
+  const over = [1, 3, 5].map((i) => parseInt(OVER.slice(i, i + 2), 16));
+  const colours = data.steps.value.map((value) => (value > data.bar * 1.0001 && data.bar > 0 ? over : colourAt(palette, value / (data.bar || 1))));
   return [...colours, [128, 128, 128]];
 }

@@ -1,33 +1,27 @@
-// The page's movable parts. All that it says stands in the page already; this shows and counts.
+// The page's movable parts. All that it says stands in the page already; this shows and measures.
 import { Chart, stepColours } from './chart.js';
 import { readMesh } from './mesh.js';
+import { drawAxes, drawRuler, readingText } from './overlay.js';
+import { readPalette } from './palette.js';
 import { makeScale } from './scale.js';
 import { hasWebGL, View } from './scene.js';
+import { rest, shareText, shareWithin } from './share.js';
 import { Slider } from './slider.js';
 
 const find = (id) => document.getElementById(id);
+const findAll = (selector) => document.querySelectorAll(selector);
 const data = JSON.parse(find('data').textContent);
-const count = (n) => n.toLocaleString('en-US');
+const palette = readPalette(data.palette);
 
-const PRINTED_CHART_PX = 435;  // 115 mm: the view's column of an A4 page (style.css)
-const PRINTED_VIEW = [1200, 1000];  // about its shape there
-
-// Never 0 % or 100 % of what is not none or all.
-function percent(share, faces, all) {
-  if (faces === 0) return '0 %';
-  if (faces === all) return '100 %';
-  if (share < 0.00005) return '< 0.01 %';
-  if (share > 0.99995) return '> 99.99 %';
-  return `${(100 * share).toFixed(2)} %`;
-}
+const PRINTED_VIEW = [1600, 1000];  // a picture's shape
+const POINT = find('readout').textContent;
 
 class Page {
   constructor() {
     this.side = 0;
     this.meshes = [];
-    this.chart = new Chart(data);
+    this.chart = new Chart(data, palette);
     this.slider = new Slider(data, (step) => this.showStep(step));
-    find('tally').hidden = false;
     find('chart').hidden = !(data.top > 0) && data.asked < 0;  // there is nothing to scale it by
     if (data.sides.every((side) => side.mesh) && hasWebGL() && 'DecompressionStream' in window) this.openView();
     else this.sayNoView();
@@ -41,47 +35,81 @@ class Page {
 
   openView() {
     try {
-      this.view = new View(find('canvas'), () => this.placeMark());
+      this.view = new View(find('canvas'), data.up, () => this.placeMarks());
     } catch {  // a browser that promised more than it has
       this.sayNoView();
       return;
     }
     find('stage').hidden = find('hint').hidden = false;
-    document.querySelectorAll('.stage figure').forEach((figure) => figure.classList.add('behind'));
+    document.body.classList.remove('no-view');
     this.view.resize();
   }
 
   sayNoView() {
-    document.querySelectorAll('.no-view').forEach((p) => (p.hidden = false));
-    document.querySelectorAll('.places button').forEach((button) => (button.disabled = true));
+    find('canvas').closest('.view').querySelectorAll('.no-webgl').forEach((p) => (p.hidden = !data.sides.every((side) => side.mesh)));
+    findAll('.places button').forEach((button) => (button.disabled = true));
   }
 
   listen() {
-    document.querySelectorAll('[data-direction]').forEach((button) =>
-      button.addEventListener('click', () => this.showSide(Number(button.dataset.direction))));
-    document.querySelectorAll('[data-point]').forEach((button) => button.addEventListener('click', () => this.showPlace(button)));
+    findAll('[data-direction]').forEach((button) => button.addEventListener('click', () => this.showSide(Number(button.dataset.direction))));
+    findAll('[data-point]').forEach((button) => button.addEventListener('click', () => this.showPlace(button)));
+    findAll('[data-view]').forEach((button) => button.addEventListener('click', () => this.look(button.dataset.view)));
     find('scale').addEventListener('click', () => this.setScale(!this.scale.isLog));
-    find('reset').addEventListener('click', () => this.showWhole());
     find('asked').addEventListener('click', () => this.slider.setStep(data.asked));
-    find('colours').addEventListener('click', () => this.setDistanceOnly());
+    find('colours').addEventListener('click', () => this.setColoursAlone());
     new ResizeObserver(() => this.drawChart()).observe(find('chart'));
     window.addEventListener('beforeprint', () => this.beforePrint());
     window.addEventListener('afterprint', () => this.afterPrint());
+    if (this.view) this.listenToCanvas();
+  }
+
+  listenToCanvas() {
+    const canvas = find('canvas');
+    const at = (event) => [event.offsetX, event.offsetY];
+    let pressed = null;
+    canvas.addEventListener('pointermove', (event) => this.read(at(event), event.buttons));
+    canvas.addEventListener('pointerleave', () => (find('readout').textContent = this.kept ?? POINT));
+    canvas.addEventListener('pointerdown', (event) => (pressed = at(event)));
+    canvas.addEventListener('click', (event) => {
+      const moved = pressed ? Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) : 0;
+      if (moved < 4) this.keep(at(event));
+    });
+  }
+
+  // Once a frame at most: a mesh of many faces takes milliseconds.
+  read(pixel, buttons) {
+    this.pointer = buttons ? null : pixel;
+    if (this.isReading) return;
+    this.isReading = true;
+    requestAnimationFrame(() => {
+      this.isReading = false;
+      if (this.pointer) find('readout').textContent = this.reading(this.view.hit(...this.pointer)) ?? this.kept ?? POINT;
+    });
+  }
+
+  reading(hit) {
+    return hit && this.shown ? readingText(data, data.sides[0].mesh, this.shown, hit) : null;
+  }
+
+  keep(pixel) {
+    const hit = this.view.hit(...pixel);
+    this.setMark(hit ? { point: hit.point, label: '' } : null);
+    this.kept = this.reading(hit) ?? undefined;
+    find('readout').textContent = this.kept ?? POINT;
   }
 
   setScale(isLog) {
     this.scale = makeScale(data, isLog);
     find('scale').setAttribute('aria-pressed', isLog);
     this.slider.setScale(this.scale);
-    this.view?.setColours(stepColours(data, this.scale));
+    this.view?.setColours(stepColours(data, palette));
     this.drawChart();
   }
 
-  setDistanceOnly() {
+  setColoursAlone() {
     const isOn = find('colours').getAttribute('aria-pressed') !== 'true';
     find('colours').setAttribute('aria-pressed', isOn);
-    document.querySelector('.keys').hidden = isOn;
-    this.view.set('distanceOnly', isOn);
+    this.view?.set('distanceOnly', isOn);
   }
 
   drawChart(width) {
@@ -92,71 +120,80 @@ class Page {
   async showSide(index) {
     this.side = index;
     const side = data.sides[index];
-    document.querySelectorAll('[data-direction]').forEach((button) =>
-      button.setAttribute('aria-pressed', Number(button.dataset.direction) === index));
-    document.querySelectorAll('[data-side]').forEach((part) => (part.hidden = Number(part.dataset.side) !== index));
-    document.querySelectorAll('.stage figure').forEach((figure, i) => figure.classList.toggle('other', i !== index));
-    find('tally-mesh').textContent = side.from;
+    findAll('[data-direction]').forEach((button) => button.setAttribute('aria-pressed', Number(button.dataset.direction) === index));
+    findAll('.way').forEach((way) => way.classList.toggle('other', this.view !== undefined && Number(way.dataset.side) !== index));
+    findAll('.tally-mesh').forEach((name) => (name.textContent = side.from));
     find('caption').textContent = this.view ? side.caption : '';
     find('chart-legend').replaceChildren(...this.legend(side));
     this.setMark(null);
     this.drawChart();
     if (this.slider.step !== undefined) this.showStep(this.slider.step);
-    if (!this.view) return;
-    const isFirst = this.meshes.length === 0;
-    this.meshes[index] ??= readMesh(side.mesh, data.sides[0].mesh);
-    const mesh = await this.meshes[index];
+    if (this.view) await this.showMesh(index);
+  }
+
+  async meshOf(index) {
+    this.meshes[index] ??= readMesh(data.sides[index].mesh, data.sides[0].mesh);
+    return (this.meshes[index] = await this.meshes[index]);
+  }
+
+  async showMesh(index) {
+    const isFirst = this.shown === undefined;
+    const mesh = await this.meshOf(index);
     if (this.side !== index) return;
+    this.shown = mesh;
     this.view.setMesh(mesh);
-    if (isFirst) this.view.reset(true);
+    if (isFirst) this.view.look('corner', true);
     document.body.dataset.shown = index;
+    for (let i = 0; i < data.sides.length; ++i) await this.meshOf(i);  // a print needs them all at once
   }
 
   legend(side) {
+    if (!side.curve.length) return ['No share of the area was measured.'];
     const part = (className, text) => {
       const swatch = document.createElement('i');
       swatch.className = className;
       return [swatch, text];
     };
     const unit = data.unit ? `, ${data.unit}` : '';
-    const bars = part('', `area of the faces of ${side.from} by certified upper bound${unit}`);
-    return side.curve ? [...bars, ...part('band', 'share of the area within, certified')] : bars;
+    return [...part('', `area of ${side.from} by deviation${unit}`), ...part('band', 'share of the area within, from and to')];
   }
 
   showStep(step) {
     const side = data.sides[this.side];
-    const within = side.within[step], beyond = side.beyond[step];
-    const [near, far] = [side.withinArea[step], side.beyondArea[step]];
-    const rows = { within: [within, near], beyond: [beyond, far], undecided: [side.faces - within - beyond, Math.max(0, 1 - near - far)] };
-    for (const [id, [faces, share]] of Object.entries(rows)) {
-      const cells = find(id).querySelectorAll('td');
-      cells[0].textContent = count(faces);
-      cells[1].textContent = side.hasArea ? percent(share, faces, side.faces) : 'no area';
-    }
+    const share = shareWithin(side, data.steps.value[step], step === data.asked);
+    find('within').querySelector('td').textContent = share ? shareText(share) : 'not measured';
+    find('beyond').querySelector('td').textContent = share ? shareText(rest(share)) : 'not measured';
     find('tolerance').textContent = this.slider.text(step);
     find('asked').hidden = data.asked < 0 || step === data.asked;
     this.chart.setTolerance(data.steps.value[step]);
     this.view?.set('tolerance', step);
   }
 
-  showWhole() {
+  look(name) {
     this.setMark(null);
-    this.view.reset();
+    this.view?.look(name);
   }
 
   showPlace(button) {
     const point = JSON.parse(button.dataset.point);
     const { lo, size } = data.sides[0].mesh;
-    this.setMark({ button, point: point.map((x, i) => (size > 0 ? (x - lo[i]) / size : 0)) });
+    this.setMark({ button, label: button.dataset.label, point: point.map((x, i) => (size > 0 ? (x - lo[i]) / size : 0)) });
     this.view.show(this.mark.point, JSON.parse(button.dataset.normal));
     if (window.innerWidth < 980) find('stage').scrollIntoView({ block: 'nearest' });
   }
 
   setMark(mark) {
     this.mark = mark;
-    document.querySelectorAll('[data-point]').forEach((button) => button.setAttribute('aria-pressed', button === mark?.button));
-    find('mark').querySelector('span').textContent = mark ? mark.button.dataset.label : '';
+    this.kept = undefined;
+    findAll('[data-point]').forEach((button) => button.setAttribute('aria-pressed', button === mark?.button));
+    find('mark').querySelector('span').textContent = mark?.label ?? '';
     this.placeMark();
+  }
+
+  placeMarks() {
+    this.placeMark();
+    drawAxes(find('axes'), this.view.axes());
+    drawRuler(find('ruler'), this.view.unitsPerPixel() * data.sides[0].mesh.size, data.unit);
   }
 
   placeMark() {
@@ -165,18 +202,26 @@ class Page {
     if (at) find('mark').style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
   }
 
-  // Where no picture came with the report, the view as it stands is printed.
+  // Where no picture came with the report, the view is printed.
   beforePrint() {
-    this.drawChart(PRINTED_CHART_PX);
-    const figure = document.querySelectorAll('.stage figure')[this.side];
-    if (!this.view || figure.querySelector('img')) return;
-    const copy = this.view.copy(...PRINTED_VIEW);
-    copy.className = 'snapshot';
-    figure.append(copy);
+    if (!this.view) return;
+    findAll('.way').forEach((way, i) => {
+      const figure = way.querySelector('figure');
+      const mesh = this.meshes[i];
+      if (figure.querySelector('img') || !mesh?.positions) return;
+      this.view.setMesh(mesh);
+      const copy = this.view.copy(...PRINTED_VIEW);
+      copy.className = 'snapshot';
+      figure.append(copy);
+    });
+    if (!this.shown) return;
+    this.view.setMesh(this.shown);
+    this.view.look('corner', true);
   }
 
   afterPrint() {
-    document.querySelectorAll('.snapshot').forEach((canvas) => canvas.remove());
+    findAll('.snapshot').forEach((canvas) => canvas.remove());
+    this.view?.resize();
     this.drawChart();
   }
 }

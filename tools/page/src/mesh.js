@@ -1,4 +1,4 @@
-// A packed mesh (host/show/page_pack.h) as arrays for the GPU.
+// A packed mesh (host/show/page_mesh.h) as arrays for the GPU.
 
 async function bytesOf(packed) {
   const text = atob(document.getElementById(packed.id).textContent);

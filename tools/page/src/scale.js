@@ -1,27 +1,29 @@
-// Where a distance is along the axis that chart, colour bar and slider share.
+// Where a deviation is along the axis that chart, colour bar and slider share.
+import { shareWithin } from './share.js';
 
 const log10 = Math.log10;
+const FAR = 5;  // a top so many times the colour bar's end would squeeze all the rest
 
 /// Little of each surface is within this distance; the first bar is for that.
-function leastOf(data) {
+function leastOf(data, hi) {
   const { value, log } = data.steps;
-  const isEmpty = (i) => data.sides.every((side) => side.withinArea[i] < 0.02);
-  const most = data.top / 10;
-  return value.reduce((least, v, i) => (log[i] && v <= most && isEmpty(i) ? Math.max(least, v) : least), data.top / 1e4);
+  const isEmpty = (v) => data.sides.every((side) => (shareWithin(side, v, false) ?? [0, 1])[1] < 0.02);
+  return value.reduce((least, v, i) => (log[i] && v <= hi / 10 && isEmpty(v) ? Math.max(least, v) : least), hi / 1e4);
 }
 
-/// {at: value -> 0..1, value: 0..1 -> value, ticks, steps: those that the slider stops at}.
+/// {at: value -> 0..1, value: 0..1 -> value, ticks, stops: the steps that the slider stops at}.
 export function makeScale(data, isLog) {
   const { value, linear, log } = data.steps;
   const asked = data.asked >= 0 ? value[data.asked] : 0;
-  const reached = value.findLast((v, i) => linear[i] && value[Math.max(i - 1, 0)] < data.top) || data.top || asked || 1;
+  const top = !isLog && data.top > FAR * data.bar ? data.bar : data.top;
+  const reached = value.find((v) => v >= top && v > 0) || top || asked || 1;
   const hi = asked > reached && asked <= 4 * reached ? asked * 1.03 : reached;
   const chosen = isLog ? log : linear;
-  const stops = value.map((_, i) => i).filter((i) => chosen[i] || i === data.asked || value[i] === 0);
+  const stops = value.map((_, i) => i).filter((i) => chosen[i] || log[i] && value[i] > data.bar || i === data.asked || value[i] === 0);
   if (!isLog) {
     return { isLog, hi, stops, at: (v) => v / hi, value: (t) => t * hi, ticks: linearTicks(hi) };
   }
-  const lo = leastOf(data);
+  const lo = leastOf(data, hi);
   const span = log10(hi / lo);
   return { isLog, hi, lo, stops, at: (v) => (v > lo ? log10(v / lo) / span : 0), value: (t) => (t <= 0 ? 0 : lo * 10 ** (t * span)),
     ticks: logTicks(lo, hi) };

@@ -1,6 +1,6 @@
-// The view: one mesh, flat colours by face, drawn when something changed.
-import { BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Mesh, PerspectiveCamera, Scene, ShaderMaterial, Sphere, Vector3,
-  WebGLRenderer } from 'three';
+// The view: one mesh, flat colours by face, drawn to scale when something changed.
+import { BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Mesh, OrthographicCamera, Raycaster, Scene, ShaderMaterial, Sphere,
+  Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const VERTEX = `
@@ -24,7 +24,7 @@ flat varying vec2 faceSteps;
 varying vec3 place;
 void main() {
   vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-  float light = 0.5 + 0.5 * abs(dot(normal, normalize(place)));
+  float light = 0.55 + 0.45 * abs(dot(normal, normalize(vec3(0.2, 0.35, 1.0))));
   vec3 colour = texelFetch(colours, ivec2(int(faceSteps.x + 0.5), 0), 0).rgb;
   if (!distanceOnly && tolerance < faceSteps.y) {
     colour = beyondColour;
@@ -34,8 +34,9 @@ void main() {
   gl_FragColor = vec4(colour * light, 1.0);
 }`;
 
-const START = new Vector3(0.55, 0.4, 1).normalize();
+const CORNER = [0.72, -1, 0.85];  // with z up, as the picture has it (host/show/camera.cpp)
 const FLIGHT_MS = 500;
+const NEAR_ZOOM = 2.4;  // of a place that is looked at
 
 /// Asked before three.js is, which would complain in the console.
 export function hasWebGL() {
@@ -50,13 +51,16 @@ export function hasWebGL() {
 }
 
 export class View {
-  constructor(canvas, onDrawn) {
+  /// `up`: "y" or "z", the axis that points up.
+  constructor(canvas, up, onDrawn) {
     this.canvas = canvas;
     this.onDrawn = onDrawn;
+    this.isYUp = up === 'y';
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.scene = new Scene();
-    this.camera = new PerspectiveCamera(28, 1, 0.001, 100);
+    this.camera = new OrthographicCamera(-1, 1, 1, -1, 0, 100);
+    this.camera.up.set(0, this.isYUp ? 1 : 0, this.isYUp ? 0 : 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.draw());
@@ -81,13 +85,14 @@ export class View {
     geometry.computeBoundingBox();
     const ball = geometry.boundingBox.getBoundingSphere(new Sphere());
     this.ball = { centre: ball.center, radius: ball.radius || 0.5 };
+    geometry.boundingSphere = ball;
     this.mesh.geometry.dispose();
     this.mesh.geometry = geometry;
-    this.camera.near = this.ball.radius / 500;
-    this.camera.far = this.ball.radius * 40;
-    this.controls.maxDistance = this.ball.radius * 20;
-    this.controls.minDistance = this.ball.radius / 100;
-    this.draw();
+    this.camera.near = 0;
+    this.camera.far = this.ball.radius * 8;
+    this.controls.minZoom = 0.2;
+    this.controls.maxZoom = 1000;
+    this.resize();
   }
 
   /// One [red, green, blue] for each step, and one for faces within none.
@@ -105,14 +110,17 @@ export class View {
     this.draw();
   }
 
-  fitDistance() {
-    const half = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.min(1, this.camera.aspect);
-    return (0.95 * this.ball.radius) / Math.sin(Math.atan(Math.tan(half) * narrow));
+  /// The direction from the mesh to the viewer of "corner", "+x" and so on.
+  direction(name) {
+    if (name === 'corner') return this.isYUp ? new Vector3(CORNER[0], CORNER[2], -CORNER[1]) : new Vector3(...CORNER);
+    const way = new Vector3();
+    way[name[1]] = name[0] === '+' ? 1 : -1;
+    if (name[1] === (this.isYUp ? 'y' : 'z')) way[this.isYUp ? 'z' : 'y'] = this.isYUp ? 1e-4 : -1e-4;  // not along the axis that is up
+    return way;
   }
 
-  reset(isAtOnce) {
-    this.fly(this.ball.centre.clone(), START.clone().multiplyScalar(this.fitDistance()), isAtOnce);
+  look(name, isAtOnce) {
+    this.fly(this.ball.centre.clone(), this.direction(name), this.fittingZoom(this.direction(name)), isAtOnce);
   }
 
   /// Looks at a point of the mesh from outside, along its normal where it has one.
@@ -120,13 +128,28 @@ export class View {
     const at = new Vector3(...point);
     const from = new Vector3(...normal);
     if (from.lengthSq() === 0) from.subVectors(at, this.ball.centre);
-    if (from.lengthSq() === 0) from.copy(START);
-    if (Math.abs(from.y) > 0.98 * from.length()) from.z += 0.2 * from.length();
-    this.fly(at, from.normalize().multiplyScalar(0.42 * this.fitDistance()));
+    if (from.lengthSq() === 0) from.copy(this.direction('corner'));
+    from.normalize().addScaledVector(this.direction('corner').normalize(), 0.5);
+    this.fly(at, from, NEAR_ZOOM);
   }
 
-  fly(target, offset, isAtOnce) {
-    const from = { target: this.controls.target.clone(), offset: this.camera.position.clone().sub(this.controls.target) };
+  // The zoom at which the mesh's box just fits, seen from a direction; 1 shows its ball.
+  fittingZoom(direction) {
+    const back = direction.clone().normalize();
+    const right = new Vector3().crossVectors(this.camera.up, back).normalize();
+    const up = new Vector3().crossVectors(back, right);
+    const { min, max } = this.mesh.geometry.boundingBox;
+    const half = new Vector3().subVectors(max, min).multiplyScalar(0.5);
+    const extent = (axis) => Math.abs(axis.x) * half.x + Math.abs(axis.y) * half.y + Math.abs(axis.z) * half.z;
+    const { right: wide, top: high } = this.camera;
+    return 0.86 / Math.max(extent(right) / wide, extent(up) / high, 1e-9);
+  }
+
+  fly(target, direction, zoom, isAtOnce) {
+    const distance = 3 * this.ball.radius;
+    const from = { target: this.controls.target.clone(), zoom: this.camera.zoom,
+      way: this.camera.position.clone().sub(this.controls.target).normalize() };
+    const to = direction.clone().normalize();
     const flight = (this.flight = {});
     const calm = isAtOnce || window.matchMedia('(prefers-reduced-motion: reduce)').matches;
     const start = performance.now();
@@ -134,11 +157,12 @@ export class View {
       if (this.flight !== flight) return;
       const t = calm ? 1 : Math.min(Math.max((now - start) / FLIGHT_MS, 0), 1);
       const eased = t * t * (3 - 2 * t);
-      const length = from.offset.length() * (1 - eased) + offset.length() * eased;
       this.controls.target.lerpVectors(from.target, target, eased);
-      const way = from.offset.clone().normalize().lerp(offset.clone().normalize(), eased);
-      if (way.lengthSq() < 1e-6) way.copy(offset);
-      this.camera.position.copy(this.controls.target).add(way.setLength(length));
+      const way = from.way.clone().lerp(to, eased);
+      if (way.lengthSq() < 1e-6 || t === 1) way.copy(to);
+      this.camera.position.copy(this.controls.target).add(way.setLength(distance));
+      this.camera.zoom = from.zoom * (zoom / from.zoom) ** eased;
+      this.camera.updateProjectionMatrix();
       this.controls.update();
       this.draw();
       if (t < 1) requestAnimationFrame(move);
@@ -148,48 +172,75 @@ export class View {
 
   key(event) {
     const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-    const nearer = { '+': 0.85, '=': 0.85, '-': 1 / 0.85 }[event.key];
+    const nearer = { '+': 1 / 0.85, '=': 1 / 0.85, '-': 0.85 }[event.key];
     const turn = turns[event.key];
     if (!turn && !nearer) return;
     event.preventDefault();
     this.flight = null;
     const offset = this.camera.position.clone().sub(this.controls.target);
-    if (nearer) offset.multiplyScalar(nearer);
+    if (nearer) this.camera.zoom *= nearer;
     if (turn) {
       const right = new Vector3().crossVectors(this.camera.up, offset).normalize();
       offset.applyAxisAngle(this.camera.up, turn[0] * 0.12).applyAxisAngle(right, turn[1] * 0.12);
     }
     this.camera.position.copy(this.controls.target).add(offset);
+    this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
   }
 
-  /// Where a point is in the canvas, in CSS pixels; null behind the camera.
+  /// Where a point is in the canvas, in CSS pixels.
   pixel(point) {
     const p = new Vector3(...point).project(this.camera);
-    if (p.z > 1) return null;
     return [((p.x + 1) / 2) * this.canvas.clientWidth, ((1 - p.y) / 2) * this.canvas.clientHeight];
+  }
+
+  /// {face, point} under a pixel of the canvas; null beside the mesh.
+  hit(x, y) {
+    if (!this.ball) return null;
+    const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
+    const ray = new Raycaster();
+    ray.setFromCamera(at, this.camera);
+    const [first] = ray.intersectObject(this.mesh);
+    return first ? { face: first.faceIndex, point: first.point.toArray() } : null;
+  }
+
+  /// The units of the mesh that a CSS pixel is wide.
+  unitsPerPixel() {
+    return (this.camera.right - this.camera.left) / this.camera.zoom / this.canvas.clientWidth;
+  }
+
+  /// The directions of x, y and z on the screen: right, up, and towards the viewer.
+  axes() {
+    const inverse = this.camera.quaternion.clone().invert();
+    return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => new Vector3(...axis).applyQuaternion(inverse).toArray());
+  }
+
+  setFrame(width, height) {
+    const radius = this.ball?.radius ?? 1;
+    const [wide, high] = [Math.max(width / height, 1), Math.max(height / width, 1)];
+    Object.assign(this.camera, { left: -radius * wide, right: radius * wide, top: radius * high, bottom: -radius * high });
+    this.camera.updateProjectionMatrix();
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.setFrame(width, height);
     this.draw();
   }
 
-  /// A canvas of the view as it stands, in a size of its own.
+  /// A canvas of a mesh from its corner, in a size of its own.
   copy(width, height) {
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    this.setFrame(width, height);
+    this.look('corner', true);
     this.drawNow();
     const copy = document.createElement('canvas');
     copy.width = this.canvas.width;
     copy.height = this.canvas.height;
     copy.getContext('2d').drawImage(this.canvas, 0, 0);
-    this.resize();
     return copy;
   }
 
@@ -201,8 +252,8 @@ export class View {
 
   drawNow() {
     this.isWaiting = false;
-    if (!this.material.uniforms.colours.value) return;
-    this.camera.updateProjectionMatrix();
+    if (!this.material.uniforms.colours.value || !this.ball) return;
+    this.camera.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);
     this.onDrawn?.();
   }

@@ -1,0 +1,59 @@
+// The figures and sentences of a page, in the words of quality control. Each figure of a page is
+// written by one of these, so that it reads the same wherever it stands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/answer/answer.h"
+
+namespace vkh {
+
+/// Writes an enclosed length: "0.352" where both ends are that in three digits or four, rounded to
+/// nearest; otherwise "0.0084 to 0.0111", rounded outward; "at least 0.3", "at most 0.2" or "not
+/// known" where an end is not known. No figure is written on the other side of `limit` than it is;
+/// 0: there is no limit.
+std::string figure_text(const Enclosure& length, const Limit& limit = {});
+/// The same with the answer's unit, and its limit.
+std::string length_text(const Answer& answer, const Enclosure& length);
+
+/// Writes a share in percent, with two decimals, rounded outward: "98.87 to 98.90 %". 0 % and 100 %
+/// are exact. With more decimals where that would be on the other side of `asked`, in [0, 1].
+std::string share_text(const Enclosure& share, double asked = -1);
+
+/// Returns 1234567 as "1,234,567".
+std::string grouped(uint64_t count);
+
+/// A point in a file's coordinates, to a hundred-thousandth of `size`: "(29.86, 12.005, 9.648)".
+std::string point_text(const glm::dvec3& point, double size);
+
+/// The limit as it was asked: "0.1 mm", "0.1 % of A's diagonal".
+std::string limit_text(const Answer& answer);
+
+/// Whether a band of the statistics is the limit's own.
+bool is_limit(const Answer& answer, const AreaWithin& band);
+/// A band's distance with its unit: "0.3 mm"; of the limit's, the limit as it was asked.
+std::string band_text(const Answer& answer, const AreaWithin& band);
+
+/// The largest deviation of a direction, or of both. The upper end of a FAIL that was not sought is
+/// infinite.
+Enclosure deviation_of(const Answer& answer, const Report& report);
+Enclosure deviation_of(const Answer& answer);
+
+/// What stands beside the verdict.
+struct Headline {
+  std::string word;   ///< PASS, FAIL, UNDECIDED or DISTANCE
+  std::string style;  ///< pass, fail, undecided or plain: a class of style.css
+  std::string sentence;
+};
+Headline headline_of(const Answer& answer);
+
+/// What a reader has to know before the figures: that the pair is odd, that one direction was
+/// measured, that a search or a survey was cut short. A sentence each.
+std::vector<std::string> warnings_of(const Answer& answer);
+
+/// "mm, by --unit": the unit of all lengths, and who says so.
+std::string unit_text(const Answer& answer);
+
+}  // namespace vkh
