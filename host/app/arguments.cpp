@@ -236,11 +236,11 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
   line.question.hashes = line.outputs.json || line.outputs.json_file ||
                          line.outputs.pictures.report || line.question.certificate;
   line.question.faces = line.question.faces || line.outputs.pictures.of_cells();
-  line.question.statistics = line.question.statistics || line.outputs.pictures.report.has_value();
+  line.question.statistics = line.question.statistics || line.outputs.pictures.of_statistics();
   if (line.question.effort && !line.question.asks_for_survey())
     throw UsageError(
         "--effort: is of figures and faces' bounds: ask for --stats, --signed, --bands, --area, "
-        "--field-tol, --field, --image or --report");
+        "--field-tol, --field, --image, --report, --figures-csv or --points-out");
   return line;
 }
 

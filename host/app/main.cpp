@@ -67,7 +67,8 @@ void check_distinct(const Outputs& outputs) {
   const PicturesAsked& p = outputs.pictures;
   std::set<std::filesystem::path> places;
   for (const std::optional<std::string>& file :
-       {outputs.json_file, outputs.junit_file, p.field, p.image, p.report, p.certificate}) {
+       {outputs.json_file, outputs.junit_file, p.field, p.image, p.report, p.certificate, p.figures,
+        p.points}) {
     if (file && !places.insert(std::filesystem::absolute(path_of(*file)).lexically_normal()).second)
       throw UsageError("two outputs would be written to '" + *file + "'");
   }

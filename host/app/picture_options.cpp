@@ -4,6 +4,8 @@
 
 #include "host/answer/steps.h"
 #include "host/base/error.h"
+#include "host/batch/list.h"
+#include "host/show/report_csv.h"
 #include "host/write/field_file.h"
 
 namespace vkh {
@@ -78,6 +80,16 @@ void add_picture_options(CLI::App& command, TypedPictures& typed) {
                   "Write all of it as a page to look at and to pass on: .html, which needs no "
                   "network")
       ->type_name("FILE");
+  command.add_option("--title", typed.title, "The heading of the report [the names of the files]")
+      ->type_name("TEXT");
+  command
+      .add_option("--figures-csv", typed.figures,
+                  "Write the figures of the report as a table: .csv")
+      ->type_name("FILE");
+  command
+      .add_option("--points-out", typed.points,
+                  "Write the worst places of the report as a table of x, y, z and deviation: .csv")
+      ->type_name("FILE");
   add_look_options(command, typed);
 }
 
@@ -138,12 +150,18 @@ PicturesAsked asked_of(const TypedPictures& typed) {
   check_needed(typed, draws, "--image or --report");
   if (typed.map && !draws && typed.field.empty())
     throw UsageError("--map: is of colours: ask for --image, --report or --field");
+  if (!typed.title.empty() && typed.report.empty())
+    throw UsageError("--title: is of a page: ask for --report");
+  if (!is_utf8(typed.title)) throw UsageError("--title: expected a text in UTF-8");
   PicturesAsked asked;
   asked.look = look_of(typed);
   if (!typed.field.empty()) asked.field = typed.field;
   if (!typed.image.empty()) asked.image = typed.image;
   if (!typed.report.empty()) asked.report = typed.report;
   if (!typed.certificate.empty()) asked.certificate = typed.certificate;
+  if (!typed.figures.empty()) asked.figures = typed.figures;
+  if (!typed.points.empty()) asked.points = typed.points;
+  asked.title = typed.title;
   return asked;
 }
 
@@ -180,6 +198,15 @@ Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
   if (asked.report) report_.emplace("--report", *asked.report, taken);
   check_ending("--certificate", asked.certificate, {".vhc"});
   if (asked.certificate) certificate_.emplace("--certificate", *asked.certificate, taken);
+  check_ending("--figures-csv", asked.figures, {".csv"});
+  if (asked.figures) figures_.emplace("--figures-csv", *asked.figures, taken);
+  check_ending("--points-out", asked.points, {".csv"});
+  if (asked.points) points_.emplace("--points-out", *asked.points, taken);
+}
+
+void Pictures::write_tables(const Measured& measured) const {
+  if (figures_) figures_->write(figures_csv(measured));
+  if (points_) points_->write(points_csv(measured));
 }
 
 std::string Pictures::write(const Answered& done) const {
@@ -191,6 +218,7 @@ std::string Pictures::write(const Answered& done) const {
     if (!done.session.device) throw OutputError("the run ended before there were bounds of faces");
     const Device& device = *done.session.device;
     const Measured measured{done.answer, done.pair.a, done.pair.b};
+    write_tables(measured);
     for (const Side& side : sides_of(measured)) {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;
       const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
@@ -198,8 +226,8 @@ std::string Pictures::write(const Answered& done) const {
       if (image) image->write(picture_of(side, done.answer, asked_.look, device));
     }
     if (report_)
-      report_->write(
-          report_of(measured, pictures_or_none(measured, asked_.look, device), asked_.look));
+      report_->write(report_of(measured, pictures_or_none(measured, asked_.look, device),
+                               asked_.look, asked_.title));
   } catch (const Error& error) {  // a length that the files' units do not resolve, for example
     return error.what();
   }

@@ -18,17 +18,20 @@ namespace vkh {
 
 /// The options as the user typed them.
 struct TypedPictures {
-  std::string field, image, report, certificate;
+  std::string field, image, report, certificate, figures, points, title;
   std::optional<std::string> image_folder, report_folder;  ///< the folders for many pairs
   std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;
 
-  bool any() const {
-    return !field.empty() || !image.empty() || !report.empty() || !certificate.empty();
+  bool any() const { return shows_cells() || !certificate.empty(); }
+  bool shows_cells() const {
+    return !field.empty() || !image.empty() || !report.empty() || !figures.empty() ||
+           !points.empty();
   }
-  bool shows_cells() const { return !field.empty() || !image.empty() || !report.empty(); }
-  bool is_of_triangles() const { return !report.empty() || report_folder || !certificate.empty(); }
+  bool is_of_triangles() const {
+    return !report.empty() || report_folder || !certificate.empty() || !figures.empty();
+  }
 };
 void add_picture_options(CLI::App& command, TypedPictures& typed);
 void add_certificate_option(CLI::App& command, TypedPictures& typed);
@@ -36,11 +39,13 @@ void add_folder_options(CLI::App& command, TypedPictures& typed);
 
 /// The outputs that the user asked for.
 struct PicturesAsked {
-  std::optional<std::string> field, image, report, certificate;  ///< files
+  std::optional<std::string> field, image, report, certificate, figures, points;  ///< files
+  std::string title;  ///< the report's heading; empty: the names of the files
   PictureStyle look;
 
-  bool any() const { return field || image || report || certificate; }
-  bool of_cells() const { return field || image || report; }
+  bool any() const { return of_cells() || certificate; }
+  bool of_cells() const { return field || image || report || figures || points; }
+  bool of_statistics() const { return report || figures; }
 };
 /// Throw UsageError.
 PicturesAsked asked_of(const TypedPictures& typed);
@@ -60,12 +65,13 @@ class Pictures {
   struct Files {
     std::optional<OutputFile> there, back;
   };
+  void write_tables(const Measured& measured) const;
   static void open(Files& files, const char* option, const std::optional<std::string>& path,
                    bool symmetric, const std::vector<std::string>& inputs);
 
   PicturesAsked asked_;
   Files field_, image_;
-  std::optional<OutputFile> report_, certificate_;
+  std::optional<OutputFile> report_, certificate_, figures_, points_;
 };
 
 }  // namespace vkh

@@ -78,7 +78,7 @@ void check_together(const Typed& typed) {
   if (typed.polygons == "any" && is_of_triangles)
     throw UsageError(
         "--polygons any: areas and certificates are of one triangulation: no --stats, --signed, "
-        "--bands, --area, --report or --certificate");
+        "--bands, --area, --report, --figures-csv or --certificate");
 }
 
 void check_part(const Typed& typed) {
@@ -90,7 +90,8 @@ void check_part(const Typed& typed) {
   if (typed.part && asks_more)
     throw UsageError(
         "--part: one direction's interval is all that is to be had of a part: no --symmetric, "
-        "--stats, --signed, --bands, --field-tol, --field, --image, --report or --certificate");
+        "--stats, --signed, --bands, --field-tol, --field, --image, --report, --figures-csv, "
+        "--points-out or --certificate");
 }
 
 }  // namespace

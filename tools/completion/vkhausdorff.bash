@@ -5,7 +5,7 @@ _vkhausdorff() {
   local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
   search="--device --time $engine"
   local look="--view --up --size --map --range --steps"
-  local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --field-tol --effort --field --image --report $look"
+  local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --field-tol --effort --field --image --report --title --figures-csv --points-out $look"
   local files="--unit --unit-a --unit-b --transform --scale --max-input --polygons --bodies"
   local options="--help --help-all --version"
   COMPREPLY=()
