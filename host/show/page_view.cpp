@@ -83,12 +83,12 @@ Json place_view(const Answer& answer, const WorstPlace& place, size_t number) {
 Json facts_of(const Answer& answer) {
   Json facts = Json::array();
   facts.push_back(named("Largest deviation", length_text(answer, deviation_of(answer))));
-  if (answer.max) facts.push_back(named("Limit", limit_text(answer)));
   if (answer.b_to_a) {
     facts.push_back(named("of A from B", length_text(answer, deviation_of(answer, answer.a_to_b))));
     facts.push_back(
         named("of B from A", length_text(answer, deviation_of(answer, *answer.b_to_a))));
   }
+  if (answer.max) facts.push_back(named("Limit", limit_text(answer)));
   facts.push_back(named("Unit", unit_text(answer)));
   return facts;
 }

@@ -39,7 +39,7 @@ std::string end_of(double value, int digits, Rounding rounding, const Limit& lim
 // The text of both ends, rounded to nearest, if it is the same and on the limit's same side.
 std::string common_text(const Enclosure& length, const Limit& limit) {
   for (const int digits : {kMostFigureDigits, kMostFigureDigits - 1}) {
-    const std::string text = nearest(length.lower, digits);
+    std::string text = nearest(length.lower, digits);
     if (text != nearest(length.upper, digits)) continue;
     const double printed = number_of(text);
     if (is_on_its_side(printed, length.lower, limit) &&

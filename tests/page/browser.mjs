@@ -127,6 +127,7 @@ async function lookAtPage(page) {
   seen.data = JSON.parse(await text(page, '#data'));
   seen.shown = await page.$$eval('.no-webgl, .way figure img, .way figure p', (all) =>
     all.filter((e) => e.offsetParent !== null).map((e) => e.textContent || `${e.naturalWidth}x${e.naturalHeight}`));
+  seen.over = await page.$eval('#over', (key) => (key.hidden ? null : key.textContent));
   seen.wide = await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
   if (mode === 'still') seen.start = await state(page);
   else await lookAtSlider(page);

@@ -136,6 +136,17 @@ class Browser(unittest.TestCase):
         self.assertAlmostEqual(mark["y"], stage["y"] + stage["height"] / 2, delta=3)
         self.assertEqual(len(set(seen["views"] + [seen["place"]])), 4, "a view's button does nothing")
         self.check_overlay(seen)
+        self.check_over(seen)
+
+    # A colour that is beyond the bar's end is named, where there is any.
+    def check_over(self, seen):
+        data = seen["data"]
+        if data["top"] <= data["bar"]:
+            self.assertIsNone(seen["over"])
+            return
+        said = float(re.fullmatch(r"more than ([0-9.e-]+) mm", seen["over"])[1])
+        self.assertLessEqual(said, data["bar"])
+        self.assertGreater(said, 0.99 * data["bar"])
 
     # A reading has a value and a point; a click keeps it; axes are drawn, and a ruler to scale.
     def check_overlay(self, seen):
@@ -178,7 +189,7 @@ class Browser(unittest.TestCase):
         self.assertTrue(seen["rows"][0][0].startswith("n" * 90), "the larger lower end comes first")
         self.assertTrue(seen["rows"][1][0].startswith("bad"))
         self.assertEqual(seen["rows"][1][2], "at least 0.2 mm", "an upper end that was not sought is not told")
-        self.assertEqual(seen["rows"][3][2], "0.02 to 0.099 mm")
+        self.assertEqual(seen["rows"][3][2], "0.0312 to 0.0938 mm")
         self.assertNotIn("--", "".join(seen["rows"][2]), "a customer has no options")
         self.assertEqual(seen["links"], ["n" * 90 + ".html", "bad.html", "open.html", "good.html"])
         self.assertEqual(seen["labels"], ['"Deviation: "', '"Of the limit: "', '"Of A\'s diagonal: "'])

@@ -119,7 +119,7 @@ export class Chart {
   }
 }
 
-export const OVER = '#d6246e';
+export const OVER = '#d6208c';  // as the picture has it
 
 /// The colour of each step: of faces that are at most the step's distance away.
 export function stepColours(data, palette) {

@@ -27,10 +27,18 @@ class Page {
     else this.sayNoView();
     this.listen();
     find('scale').hidden = !(data.top > 0);
+    this.nameOver();
     this.setScale(false);
     this.showSide(0);
     this.slider.setStep(data.start);
     document.body.dataset.ready = this.view ? 'view' : 'picture';
+  }
+
+  // What the colours' end is, where something is farther.
+  nameOver() {
+    const end = data.steps.value.findLastIndex((value) => value <= data.bar);
+    find('over').hidden = !(data.top > data.bar);
+    find('over').textContent = `more than ${this.slider.text(end)}`;
   }
 
   openView() {

@@ -68,7 +68,7 @@ export class View {
     this.material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
       uniforms: { colours: { value: null }, tolerance: { value: 0 }, stripe: { value: 5 * this.renderer.getPixelRatio() },
-        distanceOnly: { value: false }, beyondColour: { value: new Color().setRGB(0.839, 0.141, 0.431) } },
+        distanceOnly: { value: false }, beyondColour: { value: new Color().setRGB(0.769, 0.086, 0.122) } },
     });
     this.mesh = new Mesh(new BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
