@@ -108,12 +108,23 @@ Verdict verdict_at(const Json& object) {
   return enumerator_at(object, "verdict", kEveryVerdict, verdict_name);
 }
 
+// Reads the estimate, which lies within the interval.
+Enclosure with_estimate(const Json& json, Enclosure e) {
+  if (!json.contains("estimate")) return e;
+  e.estimate = number_at(json, "estimate");
+  if (!(*e.estimate >= e.lower && *e.estimate <= e.upper))
+    throw InputError("an estimate that is not in its interval");
+  return e;
+}
+
 Enclosure enclosure_of(const Json& json) {
   const Enclosure e{bound_in(json, "lower"), bound_in(json, "upper")};
   if (e.lower > e.upper || std::isinf(e.lower))
     throw InputError("an interval whose lower end is above its upper");
-  return e;
+  return with_estimate(json, e);
 }
+
+bool is_jump(const Json& json) { return json.contains("jump") && truth_at(json, "jump"); }
 
 Box box_at(const Json& boxes, const char* key) {
   const Json& box = member_at(boxes, key);
@@ -262,8 +273,8 @@ Report report_at(const Json& json) {
 std::vector<AreaWithin> shares_at(const Json& json, const char* key) {
   std::vector<AreaWithin> shares;
   for (const Json& one : array_at(json, key))
-    shares.push_back(
-        {number_or_infinity_at(one, "distance"), enclosure_of(member_at(one, "share"))});
+    shares.push_back({number_or_infinity_at(one, "distance"), enclosure_of(member_at(one, "share")),
+                      is_jump(one)});
   return shares;
 }
 
@@ -274,7 +285,8 @@ Statistics statistics_of(const Json& json) {
   s.rms = enclosure_of(member_at(json, "rms"));
   s.bands = shares_at(json, "bands");
   for (const Json& one : array_at(json, "percentiles"))
-    s.percentiles.push_back({number_at(one, "share"), enclosure_of(member_at(one, "distance"))});
+    s.percentiles.push_back(
+        {number_at(one, "share"), enclosure_of(member_at(one, "distance")), is_jump(one)});
   s.curve = shares_at(json, "curve");
   return s;
 }
@@ -283,7 +295,7 @@ Statistics statistics_of(const Json& json) {
 Enclosure signed_enclosure_of(const Json& json) {
   const Enclosure e{signed_bound_in(json, "lower"), signed_bound_in(json, "upper")};
   if (e.lower > e.upper) throw InputError("an interval whose lower end is above its upper");
-  return e;
+  return with_estimate(json, e);
 }
 
 std::optional<SidedPoint> sided_point_at(const Json& object, const char* key) {
@@ -316,7 +328,7 @@ SignedFigures signed_of(const Json& json) {
   if (!member_at(json, "mean").is_null()) s.mean = signed_enclosure_of(json.at("mean"));
   for (const Json& one : array_at(json, "percentiles"))
     s.percentiles.push_back(
-        {number_at(one, "share"), signed_enclosure_of(member_at(one, "distance"))});
+        {number_at(one, "share"), signed_enclosure_of(member_at(one, "distance")), is_jump(one)});
   s.ms = number_at(json, "wall_ms");
   return s;
 }

@@ -58,6 +58,19 @@ struct Side {
   Report& report;
 };
 
+// The colours of a picture go to one and a half times the limit, unless the user says where to.
+std::optional<MapOptions> map_options(const Finishing& at) {
+  constexpr double kBarOfLimit = 1.5;
+  if (at.question.map_pixels <= 0) return {};
+  MapOptions map{.pixels = at.question.map_pixels};
+  if (at.question.map_bar) {
+    map.bar = resolved(*at.question.map_bar, "--range", at.answer).within;
+  } else if (at.answer.max) {
+    map.bar = kBarOfLimit * at.answer.max->limit.within;
+  }
+  return map;
+}
+
 // `left`: the surveys that are still to come, this one among them.
 SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left) {
   const Question& question = at.question;
@@ -74,8 +87,11 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
     options.bands.insert(options.bands.end(), {band.within, band.beyond});
   options.enough = question.area;
   if (!question.statistics) options.percentiles.clear();
-  if (!question.statistics)  // a share of area is all that is asked
-    options.mean_tolerance = options.signed_tolerance = options.signed_floor = 1;
+  if (!question.statistics) {  // a share of area is all that is asked
+    options.mean_tolerance = std::numeric_limits<double>::infinity();
+    options.signed_tolerance = options.signed_floor = 1;
+  }
+  options.map = map_options(at);
   options.time_limit_s = survey_time(at, left);
   if (question.effort) options.effort = *question.effort;
   const bool on_cpu = at.solver.device().description().type == "cpu";
@@ -95,8 +111,9 @@ void join_bands(Statistics& s) {
   std::vector<AreaWithin> bands;
   for (size_t i = 0; i + 1 < s.bands.size(); i += 2) {
     const AreaWithin &down = s.bands[i], &up = s.bands[i + 1];
-    bands.push_back(
-        {typed_length({down.distance, up.distance}), {down.share.lower, up.share.upper}});
+    bands.push_back({typed_length({down.distance, up.distance}),
+                     {down.share.lower, up.share.upper, down.share.estimate},
+                     down.jump || up.jump});
   }
   s.bands = std::move(bands);
 }

@@ -63,6 +63,8 @@ struct Question {
   bool statistics = false;
   bool is_signed = false;               ///< the sides of B on which A lies
   std::vector<Length> bands;            ///< shares of A's area within these distances
+  double map_pixels = 0;                ///< MapOptions::pixels of a map of A by cells; 0: none
+  std::optional<Length> map_bar;        ///< MapOptions::bar; none: the limit decides, or the map
   std::optional<uint64_t> effort;       ///< SurveyOptions::effort
   std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
   bool certificate = false;             ///< Answer::proof_a is wanted
@@ -77,7 +79,7 @@ struct Question {
   bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
   bool asks_for_sides() const { return is_signed || max_sides; }
   bool asks_for_survey() const {
-    return faces || statistics || !bands.empty() || area || asks_for_sides();
+    return faces || statistics || !bands.empty() || area || map_pixels > 0 || asks_for_sides();
   }
   std::string option(const char* name) const { return std::string(dashes) + name; }
   bool asks_for_cells() const { return certificate || asks_for_survey(); }

@@ -8,6 +8,7 @@ std::string enclosure_json(const Enclosure& e, const Json& unit) {
   JsonObject json;
   json.add_bound("lower", e.lower, Rounding::kDown);
   json.add_bound("upper", e.upper, Rounding::kUp);
+  if (e.estimate) json.add("estimate", *e.estimate);
   json.add("unit", unit);
   return json.text();
 }
@@ -24,6 +25,7 @@ std::string within_json(const AreaWithin& within, const Json& unit) {
   json.add("distance", within.distance);
   json.add("unit", unit);
   json.add_text("share", enclosure_json(within.share, nullptr));
+  if (within.jump) json.add("jump", true);
   return json.text();
 }
 
@@ -31,6 +33,7 @@ std::string percentile_json(const Percentile& percentile, const Json& unit) {
   JsonObject json;
   json.add("share", percentile.share);
   json.add_text("distance", enclosure_json(percentile.distance, unit));
+  if (percentile.jump) json.add("jump", true);
   return json.text();
 }
 

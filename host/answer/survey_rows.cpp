@@ -22,11 +22,20 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   return text;
 }
 
+// A figure: what it probably is, and the interval that it is proven to lie in.
+std::string figure(const Enclosure& e, const std::string& unit) {
+  if (!e.estimate || !(e.lower < e.upper)) return enclosure(e, unit);
+  return number(*e.estimate, e.upper - e.lower, Rounding::kDown) + ", in " + enclosure(e, unit);
+}
+
 // Converts to percent, outward: 100 times a share is rounded, unless it is 0 or 1.
 Enclosure in_percent(const Enclosure& share) {
   const double up = std::nextafter(100 * share.upper, 101.0);
-  return {share.lower < 1 ? std::nextafter(100 * share.lower, 0.0) : 100,
-          share.upper > 0 && share.upper < 1 ? up : 100 * share.upper};
+  Enclosure percent{share.lower < 1 ? std::nextafter(100 * share.lower, 0.0) : 100,
+                    share.upper > 0 && share.upper < 1 ? up : 100 * share.upper};
+  if (share.estimate)
+    percent.estimate = std::clamp(100 * *share.estimate, percent.lower, percent.upper);
+  return percent;
 }
 
 std::string field_text(const SurveyResult& survey, const Answer& answer) {
@@ -41,10 +50,16 @@ std::string field_text(const SurveyResult& survey, const Answer& answer) {
 
 std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit) {
   std::string text;
-  for (const Percentile& p : percentiles)
-    text += (text.empty() ? "p" : ", p") + shortest_decimal(100 * p.share) + " " +
-            enclosure(p.distance, unit);
+  for (const Percentile& p : percentiles) {
+    text += (text.empty() ? "p" : "; p") + shortest_decimal(100 * p.share) + " " +
+            figure(p.distance, unit);
+    if (p.jump) text += " (a jump: nearly no area lies between)";
+  }
   return text;
+}
+
+std::string jump_text(const AreaWithin& band) {
+  return band.jump ? " (a jump: the rest lies at this distance)" : "";
 }
 
 // Shares are known to 1e-12, which nobody wants to read: a hundredth of a percent is shown.
@@ -89,7 +104,7 @@ void add_sides(const SignedFigures& sides, const std::string& unit, std::vector<
                                enclosure(sides.under, unit)});
   if (sides.areas) rows.push_back({"side area", area_of_sides(*sides.areas)});
   if (sides.mean) {
-    rows.push_back({"signed", "mean " + enclosure(*sides.mean, unit)});
+    rows.push_back({"signed", "mean " + figure(*sides.mean, unit)});
     rows.push_back({"signed", percentiles_text(sides.percentiles, unit)});
   }
   rows.push_back({"side of B", inside_in_words(sides)});
@@ -123,12 +138,11 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
   if (survey.faces) rows.push_back({"faces", field_text(survey, answer)});
   if (survey.statistics) {
     const Statistics& s = *survey.statistics;
-    rows.push_back(
-        {"mean", enclosure(s.mean, unit) + ", root mean square " + enclosure(s.rms, unit)});
+    rows.push_back({"mean", figure(s.mean, unit) + "; root mean square " + figure(s.rms, unit)});
     for (const AreaWithin& band : s.bands)
-      rows.push_back({"area", enclosure(in_percent(band.share), "%") + " within " +
+      rows.push_back({"area", figure(in_percent(band.share), "%") + " within " +
                                   length_in_words({band.distance, band.distance}) +
-                                  (unit.empty() ? "" : " " + unit)});
+                                  (unit.empty() ? "" : " " + unit) + jump_text(band)});
     if (!s.percentiles.empty())
       rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
   }

@@ -49,9 +49,13 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
   return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-/// Returns (key, (lower, upper)); _survey.py makes an Interval of the bounds.
-py::tuple pair_of(const py::object& key, double lower, double upper) {
-  return py::make_tuple(key, py::make_tuple(lower, upper));
+/// Returns what _survey.py makes an Interval of.
+py::tuple interval_of(const Enclosure& e, bool jump = false) {
+  return py::make_tuple(e.lower, e.upper, e.estimate, jump);
+}
+
+py::tuple pair_of(const py::object& key, const Enclosure& e, bool jump) {
+  return py::make_tuple(key, interval_of(e, jump));
 }
 
 /// A distance as the caller gave it: a number, or its text.
@@ -66,17 +70,14 @@ py::dict statistics_of(const Question& question, const Statistics& s) {
   if (question.max) lengths.push_back(&*question.max);
   for (const Length& band : question.bands) lengths.push_back(&band);
   for (size_t i = 0; i < s.bands.size(); ++i)
-    bands.append(pair_of(key_of(*lengths[i]), s.bands[i].share.lower, s.bands[i].share.upper));
+    bands.append(pair_of(key_of(*lengths[i]), s.bands[i].share, s.bands[i].jump));
   for (const Percentile& p : s.percentiles)
-    percentiles.append(pair_of(py::float_(p.share), p.distance.lower, p.distance.upper));
+    percentiles.append(pair_of(py::float_(p.share), p.distance, p.jump));
   for (const AreaWithin& at : s.curve)
-    curve.append(pair_of(py::float_(at.distance), at.share.lower, at.share.upper));
-  return py::dict("area"_a = s.area, "mean"_a = py::make_tuple(s.mean.lower, s.mean.upper),
-                  "rms"_a = py::make_tuple(s.rms.lower, s.rms.upper), "bands"_a = bands,
-                  "percentiles"_a = percentiles, "curve"_a = curve);
+    curve.append(pair_of(py::float_(at.distance), at.share, at.jump));
+  return py::dict("area"_a = s.area, "mean"_a = interval_of(s.mean), "rms"_a = interval_of(s.rms),
+                  "bands"_a = bands, "percentiles"_a = percentiles, "curve"_a = curve);
 }
-
-py::tuple interval_of(const Enclosure& e) { return py::make_tuple(e.lower, e.upper); }
 
 py::dict areas_of(const SignedFigures::Areas& areas) {
   py::dict without;

@@ -14,6 +14,8 @@ namespace vkh {
 /// A true statement: the quantity that it encloses lies in [lower, upper]. `upper` may be infinite.
 struct Enclosure {
   double lower = 0, upper = 0;
+  /// A value between the two that is likely, and proves nothing. None where none was found.
+  std::optional<double> estimate = {};
 };
 
 /// The bounds of each face of A, by its number in the mesh: the largest d(x, B) over the face lies
@@ -42,12 +44,16 @@ FieldSummary summary_of(const Field& field, const Limit& limit);
 struct AreaWithin {
   double distance = 0;  ///< in the files' units
   Enclosure share;
+  /// So much area lies at this distance, but for what floats leave, that no effort decides more.
+  bool jump = false;
 };
 
 /// The least distance that `share` of A's area is within.
 struct Percentile {
   double share = 0;  ///< in [0, 1]: 0.5 is the median
   Enclosure distance;
+  /// Proven: nearly no area lies at distances within `distance`, so that no effort narrows it.
+  bool jump = false;
 };
 
 /// Each is weighted by area, and certified. Lengths are in the files' units.

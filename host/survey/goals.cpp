@@ -21,8 +21,14 @@ struct Asked {
   SurveyOptions options;
   double displacement;
   Frame frame;
+  double least;  // the width in the frame that is always enough
   double largest = std::numeric_limits<double>::infinity();  // no distance is above it
 };
+
+// The width that is enough for one figure.
+double enough(const Enclosure& figure, const Asked& asked) {
+  return std::max(asked.options.mean_tolerance * figure.lower, asked.least);
+}
 
 // A distance of the files in the frame, from below and above what it is on the stored meshes.
 Threshold in_frame(const Asked& asked, double distance) {
@@ -99,22 +105,75 @@ bool is_enough(const Enclosure& share, const SurveyOptions& options) {
   return share.lower >= *options.enough || share.upper < *options.enough;
 }
 
+// Percentiles are sought to so much of the largest distance.
+double resolution_of(const CellStore& store, const Asked& asked) {
+  return std::max(0x1p-17 * static_cast<double>(store.reached()), asked.least / 16);
+}
+
+// The most area, as a share, that may lie at distances above `from` and up to `to`.
+double most_between(const Enclosure& at_from, const Enclosure& at_to) {
+  return at_to.upper - at_from.lower;
+}
+
+// Whether each percentile that is too wide is so for ever: nearly no area lies between its ends,
+// but for two fifths of the width that would be enough beside each, which is more than kFloor.
+std::vector<bool> jumps_of(const CellStore& store, const Areas& areas, const Asked& asked,
+                           const std::vector<Enclosure>& known) {
+  constexpr double kNearlyNone = 1e-5;
+  std::vector<Threshold> at;
+  for (const Enclosure& p : known) {
+    const double beside = 0.4 * enough(p, asked);
+    at.push_back({p.lower + beside, p.lower + beside});
+    at.push_back({p.upper - beside, p.upper - beside});
+  }
+  const std::vector<Enclosure> shares = shares_within(store, areas, at);
+  std::vector<bool> jumps;
+  for (size_t i = 0; i < known.size(); ++i) {
+    const bool is_wide = width(known[i]) > enough(known[i], asked);
+    jumps.push_back(is_wide && most_between(shares[2 * i], shares[2 * i + 1]) <= kNearlyNone);
+  }
+  return jumps;
+}
+
+// Whether each share that is undecided is so for ever: but for what is enough, the undecided area
+// is proven to lie at that distance, as well as floats tell.
+std::vector<bool> jumps_of(const CellStore& store, const Areas& areas, const Asked& asked,
+                           const std::vector<Threshold>& bands,
+                           const std::vector<Enclosure>& shares) {
+  std::vector<Threshold> at;
+  for (const Threshold& band : bands) {
+    at.push_back({band.down - asked.least, band.down - asked.least});
+    at.push_back({band.up + asked.least, band.up + asked.least});
+  }
+  const std::vector<Enclosure> around = shares_within(store, areas, at);
+  std::vector<bool> jumps;
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const double there = around[2 * i + 1].lower - around[2 * i].upper;
+    const double tolerance = asked.options.area_tolerance;
+    jumps.push_back(width(shares[i]) > tolerance && width(shares[i]) - there <= tolerance);
+  }
+  return jumps;
+}
+
 // A percentile's own width differs from its distribution's: at both ends of it there may be area
 // that is undecided.
 Scores score_distribution(const CellStore& store, const Areas& areas, const Asked& asked,
                           std::vector<Enclosure>& known) {
-  const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
   const std::vector<Threshold> bands = bands_of(asked);
   const std::vector<Enclosure> shares = shares_within(store, areas, bands);
+  const std::vector<bool> atoms = jumps_of(store, areas, asked, bands, shares);
   std::vector<Threshold> open;
   for (size_t i = 0; i < bands.size(); ++i) {
-    if (!is_enough(shares[i], asked.options)) open.push_back(bands[i]);
+    const bool is_left_so = atoms[i] && !asked.options.enough;
+    if (!is_enough(shares[i], asked.options) && !is_left_so) open.push_back(bands[i]);
   }
-  known = percentiles(store, areas, {asked.options.percentiles, tolerance / 16, known});
-  for (const Enclosure& p : known) {
-    if (width(p) <= tolerance) continue;
-    open.push_back({p.lower, p.lower});
-    open.push_back({p.upper, p.upper});
+  known =
+      percentiles(store, areas, {asked.options.percentiles, resolution_of(store, asked), known});
+  const std::vector<bool> gaps = jumps_of(store, areas, asked, known);
+  for (size_t i = 0; i < known.size(); ++i) {
+    if (width(known[i]) <= enough(known[i], asked) || gaps[i]) continue;
+    open.push_back({known[i].lower, known[i].lower});
+    open.push_back({known[i].upper, known[i].upper});
   }
   if (open.empty()) return {{}, true};
   return score_undecided(store, areas, open);
@@ -123,9 +182,8 @@ Scores score_distribution(const CellStore& store, const Areas& areas, const Aske
 // Scores a cell by its part of the width of the mean, and then of its square's.
 Scores score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
   const Moments moments = moments_of(store, areas);
-  const double tolerance = asked.options.mean_tolerance * static_cast<double>(store.reached());
-  const bool by_mean = width(moments.mean) > tolerance;
-  if (!by_mean && width(moments.rms) <= tolerance) return {{}, true};
+  const bool by_mean = width(moments.mean) > enough(moments.mean, asked);
+  if (!by_mean && width(moments.rms) <= enough(moments.rms, asked)) return {{}, true};
   return scored(store, [&](size_t i) -> std::optional<double> {
     const gpu::CellBounds& b = store.bounds(i);
     if (spread(b) <= kFloor) return 0;
@@ -137,6 +195,10 @@ Scores score_moments(const CellStore& store, const Areas& areas, const Asked& as
 
 }  // namespace
 
+double least_width(const SurveyedPair& pair) {
+  return std::max(1e-6 * pair.frame.to_frame(diagonal(bounding_box(pair.a))), 3 * kFloor);
+}
+
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
   const FileInterval f =
       pair.frame.to_files(lengths.lower, lengths.upper, pair.displacement, pair.farthest);
@@ -146,14 +208,16 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas, std::vector<Enclosure>& known) {
   std::vector<Goal> goals;
-  const Asked asked{options, pair.displacement, pair.frame};
+  const Asked asked{options, pair.displacement, pair.frame, least_width(pair)};
   if (options.faces && options.limit.within > 0)
     goals.emplace_back([asked](const CellStore& store) { return score_verdicts(store, asked); });
   if (options.faces)
     goals.emplace_back([asked](const CellStore& store) { return score_faces(store, asked); });
   if (!options.statistics || !areas.is_positive()) return goals;
-  goals.emplace_back(
-      [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
+  if (std::isfinite(options.mean_tolerance)) {
+    goals.emplace_back(
+        [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
+  }
   goals.emplace_back([&areas, &known, asked](const CellStore& store) {
     return score_distribution(store, areas, asked, known);
   });
@@ -186,30 +250,40 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
   return all;
 }
 
+void add_jumps(const CellStore& store, const Areas& areas, const Asked& asked,
+               std::vector<AreaWithin>& bands) {
+  std::vector<Enclosure> shares;
+  for (const AreaWithin& band : bands) shares.push_back(band.share);
+  const std::vector<bool> jumps = jumps_of(store, areas, asked, bands_of(asked), shares);
+  for (size_t i = 0; i < bands.size(); ++i) bands[i].jump = jumps[i];
+}
+
 }  // namespace
 
 std::optional<Statistics> statistics_of(const SurveyedArea& surface, const SurveyedPair& pair,
-                                        const SurveyOptions& options) {
+                                        const SurveyOptions& options, const Estimates& estimates) {
   const auto& [store, areas, known] = surface;
   if (!areas.is_positive()) return std::nullopt;
   const double last = largest_upper(store, pair);
   const double area = areas.unit.length_up(areas.unit.length_up(areas.whole));
   if (!std::isfinite(last) || !std::isfinite(area)) return std::nullopt;
-  const Asked asked{options, pair.displacement, pair.frame, last};
+  const Asked asked{options, pair.displacement, pair.frame, least_width(pair), last};
   const Moments moments = moments_of(store, areas);
   Statistics s;
   s.area = area;
   s.mean = in_files(pair, moments.mean);
   s.rms = in_files(pair, moments.rms);
   s.bands = within(store, areas, asked, options.bands);
-  const double resolution = 0x1p-17 * static_cast<double>(store.reached());
+  add_jumps(store, areas, asked, s.bands);
   const std::vector<Enclosure> at =
-      percentiles(store, areas, {options.percentiles, resolution, known});
+      percentiles(store, areas, {options.percentiles, resolution_of(store, asked), known});
+  const std::vector<bool> gaps = jumps_of(store, areas, asked, at);
   for (size_t i = 0; i < at.size(); ++i)
-    s.percentiles.push_back({options.percentiles[i], in_files(pair, at[i])});
+    s.percentiles.push_back({options.percentiles[i], in_files(pair, at[i]), gaps[i]});
   std::vector<double> steps;
   for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(last * k / kCurveSteps);
   s.curve = within(store, areas, asked, steps);
+  add_estimates(estimates, pair, at, s);
   return s;
 }
 

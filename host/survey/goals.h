@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
+#include "host/survey/estimate.h"
 #include "host/survey/statistics.h"
 #include "host/survey/survey.h"
 
@@ -57,6 +58,10 @@ Scores scored(const CellStore& store, const Score& score) {
 /// Converts lengths in the frame, on the stored meshes, to the files' units.
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
 
+/// The width in the frame that is enough for any figure: a millionth of A's diagonal, or what
+/// floats leave.
+double least_width(const SurveyedPair& pair);
+
 /// The goals one after the other: faces, then the mean and the root mean square, then the
 /// distribution. They keep in `known` what is known of the percentiles, in the frame, and start
 /// from it. All arguments must outlive them.
@@ -71,6 +76,6 @@ struct SurveyedArea {
 };
 /// Returns nothing if A has no area.
 std::optional<Statistics> statistics_of(const SurveyedArea& surface, const SurveyedPair& pair,
-                                        const SurveyOptions& options);
+                                        const SurveyOptions& options, const Estimates& estimates);
 
 }  // namespace vkh

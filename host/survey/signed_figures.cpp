@@ -283,6 +283,11 @@ void SidedCells::add_witnesses(const CellStore& cells, const std::vector<CellSid
   figures.under_witness = find(SurfaceSide::kUnder, figures.under, figures.under_of_faces);
 }
 
+std::vector<CellSide> SidedCells::of(const CellStore& cells) {
+  look_at(cells, -1);
+  return known_.of(cells);
+}
+
 SignedFigures SidedCells::figures(const SurveyedArea& surface, const SurveyOptions& options) {
   const CellStore& cells = surface.store;
   look_at(cells, -1);

@@ -37,6 +37,9 @@ class SidedCells {
   /// Finds the sides that are not known yet.
   SignedFigures figures(const SurveyedArea& surface, const SurveyOptions& options);
 
+  /// The sides of all cells, in their order.
+  std::vector<CellSide> of(const CellStore& cells);
+
  private:
   bool look_at(const CellStore& cells, double above);
   double enough(const Enclosure& figure, const Moments& plain, const SurveyOptions& options) const;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host/survey/goals.h"
+#include "host/survey/map_goal.h"
 #include "host/survey/signed_figures.h"
 
 namespace vkh {
@@ -165,14 +166,15 @@ std::vector<size_t> chosen_cells(const CellStore& store, std::vector<Scored>& sc
   return cells;
 }
 
-// Refines until the goal is met, or cannot be.
-SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal) {
+// Refines until the goal is met, or cannot be, by splits of `budget` cells.
+SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal, size_t budget) {
+  const size_t kept = bounding.splits_left() - budget;
   for (;;) {
     Scores scores = goal(store);
     if (scores.is_met) return SurveyEnd::kMet;
     if (scores.cells.empty()) return SurveyEnd::kBits;
     const size_t most =
-        std::min(std::max(store.count() / 2, kFewestSplits), bounding.splits_left());
+        std::min(std::max(store.count() / 2, kFewestSplits), bounding.splits_left() - kept);
     if (most == 0) return SurveyEnd::kEffort;
     if (!bounding.goes_on()) return bounding.ended();
     bounding.halves(store, chosen_cells(store, scores.cells, most));
@@ -182,8 +184,16 @@ SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal) {
 // Refines for one goal after the other.
 SurveyEnd refine_all(CellStore& store, Bounding& bounding, const std::vector<Goal>& goals) {
   SurveyEnd ended = bounding.ended();  // before all faces are bounded, perhaps
-  for (const Goal& goal : goals) ended = std::max(ended, refine(store, bounding, goal));
+  for (const Goal& goal : goals)
+    ended = std::max(ended, refine(store, bounding, goal, bounding.splits_left()));
   return ended;
+}
+
+// A picture may take half of the effort before figures, and what they leave after them.
+SurveyEnd refine_map(CellStore& store, Bounding& bounding, const std::optional<Goal>& map,
+                     bool is_last) {
+  if (!map) return bounding.ended();
+  return refine(store, bounding, *map, bounding.splits_left() / (is_last ? 1 : 2));
 }
 
 Field field_of(const CellStore& store, const SurveyedPair& pair) {
@@ -287,13 +297,22 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     std::vector<Enclosure> percentiles;
     std::vector<Goal> goals = goals_of(options, pair, areas, percentiles);
     if (sided) add_signed_goals(*sided, options, areas, goals);
+    const std::optional<Goal> map = map_goal(options, pair, areas);
+    refine_map(store, bounding, map, false);
     result.ended = refine_all(store, bounding, goals);
+    result.ended = std::max(result.ended, refine_map(store, bounding, map, true));
     result.field = field_of(store, pair);
     result.faces = options.faces;
-    if (options.statistics)
-      result.statistics = statistics_of({store, areas, percentiles}, pair, options);
     if (sided) result.sides = sided->figures({store, areas, percentiles}, options);
     result.ended = std::max(result.ended, bounding.ended());
+    if ((options.statistics || options.map) && areas.is_positive()) {
+      const Estimates estimates(pair, store, areas);
+      if (options.statistics)
+        result.statistics = statistics_of({store, areas, percentiles}, pair, options, estimates);
+      if (options.map)
+        result.map = map_of({store, areas, percentiles}, pair, *options.map, estimates);
+      if (result.map && sided) add_sides(sided->of(store), *result.map);
+    }
     if (options.statistics && !result.statistics)
       result.ended = std::max(result.ended, SurveyEnd::kBits);
     result.effort = bounding.effort();

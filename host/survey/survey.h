@@ -10,6 +10,7 @@
 
 #include "host/solve/solve_options.h"
 #include "host/solve/solver.h"
+#include "host/survey/cell_map.h"
 #include "host/survey/field.h"
 
 namespace vkh {
@@ -39,15 +40,16 @@ struct SurveyOptions {
   /// If set, faces are only to be proven within it or beyond.
   Limit limit = {};
   bool statistics = false;
-  /// The width to reach of the mean, the root mean square and percentiles: a fraction of what the
-  /// largest distance is at least.
-  double mean_tolerance = 0.01;
+  /// The width to reach of the mean, the root mean square and percentiles, each: a fraction of its
+  /// own lower end, but no less than 1e-6 of A's diagonal, or than what floats leave.
+  double mean_tolerance = 0.02;
   /// The share of A's area that may be undecided in each of `bands`.
   double area_tolerance = 0.001;
   std::vector<double> bands;  ///< distances, in the files' units
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
+  std::optional<MapOptions> map = {};                        ///< result.map is wanted
   /// The sides of A are wanted, of 95 % of its area that is farther from B than a hundredth of the
   /// largest distance: result.sides.
   bool is_signed = false;
@@ -80,6 +82,7 @@ struct SurveyResult {
   std::optional<FieldSummary> summary = {};
   std::optional<Statistics> statistics;
   std::optional<SignedFigures> sides = {};
+  std::optional<CellMap> map = {};  ///< none where A has no area
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default

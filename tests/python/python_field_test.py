@@ -55,6 +55,11 @@ class Fields(unittest.TestCase):
         self.assertIs(r.survey_met, True)
         self.assertIn(0.25, r.mean)
         self.assertNotIn(0.3, r.mean)
+        self.assertAlmostEqual(r.mean.estimate, 0.25, places=6)
+        lower, upper = r.mean
+        self.assertEqual(r.mean, (lower, upper))
+        self.assertEqual(pickle.loads(pickle.dumps(r.mean)).estimate, r.mean.estimate)
+        self.assertIs(r.percentiles[0.5].jump, False)
         self.assertAlmostEqual(r.survey.area, 1, places=6)
         self.assertIsNone(r.survey_back)
         self.assertIsNone(r.field_back)

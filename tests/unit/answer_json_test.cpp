@@ -104,10 +104,11 @@ Answer by_face() {
 Statistics statistics() {
   Statistics s;
   s.area = 2.5;
-  s.mean = {0.1, 0.2};
+  s.mean = {0.1, 0.2, 0.15};
   s.rms = {0.15, 0.25};
-  s.bands = {{.distance = 0.1, .share = {0.3, 0.4}}};
-  s.percentiles = {{.share = 0.5, .distance = {0.1, kInfinity}}};
+  s.bands = {{.distance = 0.1, .share = {0.3, 0.4, 0.3}, .jump = true}};
+  s.percentiles = {{.share = 0.5, .distance = {0.1, kInfinity}},
+                   {.share = 0.9, .distance = {0.1, 0.3, 0.2}, .jump = true}};
   s.curve = {{.distance = 0, .share = {0, 0.1}}, {.distance = 0.3, .share = {1, 1}}};
   return s;
 }
@@ -354,7 +355,7 @@ TEST_CASE("a member that is missing is refused, unless it may be or says nothing
       "file",     "face",        "notes",  // or is of a note
       "part",     "parts",       "boxes", "more_devices", "barycentric", "certificate",
       "coverage", "faces_a",     "field", "verified",     "exact",       "u1",
-      "transform"};
+      "transform", "estimate",   "jump"};
   for (const Answer& answer : all_kinds()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {

@@ -70,11 +70,16 @@ _Mesh = Union[
 
 class DeviceError(RuntimeError): ...
 
-class Interval(NamedTuple):
+class Interval(tuple[float, float]):
     """An enclosure: its value lies in [lower, upper], in exact arithmetic."""
 
-    lower: float
-    upper: float
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    estimate: float | None
+    jump: bool
+    def __new__(cls, lower: float, upper: float, estimate: float | None = None, jump: bool = False) -> Interval: ...
     def __contains__(self, value: object) -> bool: ...
 
 class Field:

@@ -10,11 +10,29 @@ import numpy as np
 from vkhausdorff import _core
 
 
-class Interval(NamedTuple):
-    """An enclosure: its value lies in [lower, upper], in exact arithmetic. A tuple of two: lower, upper = interval."""
-
+class _Bounds(NamedTuple):
     lower: float
     upper: float
+
+
+class Interval(_Bounds):
+    """An enclosure: its value lies in [lower, upper], in exact arithmetic. A tuple of two: lower, upper = interval.
+
+    estimate: what the value probably is, within both, or None; it proves nothing, and is no part of equality. jump: of a
+    percentile or a share, whether the distribution leaps there, so that no effort narrows it.
+    """
+
+    estimate = None
+    jump = False
+
+    def __new__(cls, lower, upper, estimate=None, jump=False):
+        made_one = super().__new__(cls, lower, upper)
+        made_one.estimate = estimate
+        made_one.jump = jump
+        return made_one
+
+    def __reduce__(self):
+        return Interval, (self.lower, self.upper, self.estimate, self.jump)
 
     def __contains__(self, value):
         return self.lower <= value <= self.upper
@@ -217,8 +235,11 @@ class Survey:
         if self.bands is not None:
             plain["statistics"] = {
                 "area": self.area, "mean": list(self.mean), "rms": list(self.rms),
-                "bands": [{"distance": d, "share": list(share)} for d, share in self.bands.items()],
-                "percentiles": [{"share": share, "distance": list(d)} for share, d in self.percentiles.items()],
+                "mean_estimate": self.mean.estimate, "rms_estimate": self.rms.estimate,
+                "bands": [{"distance": d, "share": list(share), "estimate": share.estimate, "jump": share.jump}
+                          for d, share in self.bands.items()],
+                "percentiles": [{"share": share, "distance": list(d), "estimate": d.estimate, "jump": d.jump}
+                                for share, d in self.percentiles.items()],
                 "curve": [{"distance": d, "share": list(share)} for d, share in self.curve]}
         if self.signed is not None:
             plain["signed"] = self.signed.to_dict()

@@ -1,0 +1,55 @@
+// A map of A by cells: what the distance probably is at each point, and how well it is known there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "host/survey/side.h"
+
+namespace vkh {
+
+/// The wish for a map.
+struct MapOptions {
+  double pixels = 1000;  ///< A's diagonal in pixels: no cell of half a pixel's area is split
+  /// The distance at the end of the colours, in the files' units; none: `CellMap::bar` finds one.
+  std::optional<double> bar = {};
+};
+
+/// A part of a face of A. The drawn distance is affine over it, with these values at its corners:
+/// it is off by `width` at most, anywhere on the cell.
+struct MapCell {
+  std::array<uint32_t, 4> corners{};  ///< as gpu::Cell has them; see weights_of()
+  uint32_t face = 0;
+  std::array<float, 3> estimate{};  ///< in CellMap::unit
+  float width = 0;                  ///< in CellMap::unit
+  float share = 0;                  ///< of A's area
+  SurfaceSide side = SurfaceSide::kUnsigned;
+};
+
+/// The barycentrics, on its face, of each corner of a cell.
+std::array<glm::dvec3, 3> weights_of(const MapCell& cell);
+
+/// Cells that tile the faces of A that have an area.
+struct CellMap {
+  /// A cell is unresolved if its width is over a twentieth of the bar.
+  static constexpr double kUnresolved = 0.05;
+
+  double unit = 1;  ///< the length of an estimate of 1, in the files' units
+  /// The end of the colours, in the files' units: MapOptions::bar, or the distance that 99 % of A's
+  /// area is probably within.
+  double bar = 0;
+  double least = 0;  ///< widths up to that, in `unit`, are what floats leave
+  bool has_sides = false;
+  std::vector<MapCell> cells;
+
+  /// Whether the colours of a cell say less than they seem to, with a bar of that end.
+  bool is_unresolved(const MapCell& cell, double end) const {
+    return static_cast<double>(cell.width) > least &&
+           static_cast<double>(cell.width) * unit > kUnresolved * end;
+  }
+};
+
+}  // namespace vkh

@@ -1,0 +1,269 @@
+#include "host/survey/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+#include "host/base/parallel.h"
+#include "host/mesh/closest.h"
+#include "host/survey/cell_corners.h"
+
+namespace vkh {
+namespace {
+
+// A mesh's vertices in the frame, in double.
+class FramedCorners {
+ public:
+  FramedCorners(const Mesh& mesh, const Frame& frame)
+      : mesh_(mesh),
+        centre_(frame.centre),
+        first_(std::ldexp(1.0, frame.exponent / 2)),
+        second_(std::ldexp(1.0, frame.exponent - frame.exponent / 2)) {}
+
+  size_t face_count() const { return mesh_.faces.size(); }
+  std::array<glm::dvec3, 3> of(uint32_t face) const {
+    const glm::uvec3 f = mesh_.faces[face];
+    return {at(f.x), at(f.y), at(f.z)};
+  }
+
+ private:
+  glm::dvec3 at(uint32_t vertex) const {
+    return (glm::dvec3(mesh_.vertices[vertex]) - centre_) * first_ * second_;
+  }
+
+  const Mesh& mesh_;
+  const glm::dvec3 centre_;
+  const double first_, second_;
+};
+
+// The faces of B that a cell's bounds name, each once.
+struct NamedFaces {
+  std::array<std::array<glm::dvec3, 3>, 4> corners;
+  size_t count = 0;
+
+  NamedFaces(const gpu::CellBounds& b, const FramedCorners& mesh) {
+    std::array<uint32_t, 4> names{b.face, b.face_a, b.face_b, b.face_c};
+    for (size_t i = 0; i < names.size(); ++i) {
+      const auto end = names.begin() + static_cast<std::ptrdiff_t>(i);
+      if (names[i] >= mesh.face_count() || std::find(names.begin(), end, names[i]) != end) continue;
+      corners[count++] = mesh.of(names[i]);
+    }
+  }
+
+  double distance(const glm::dvec3& p) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < count; ++i) {
+      const auto& [a, b, c] = corners[i];
+      nearest = std::min(nearest, glm::distance(p, closest_point(p, a, b, c).point));
+    }
+    return nearest;
+  }
+};
+
+// The distance, put between two bounds; their middle if there is none.
+double between_bounds(double distance, double lower, double upper) {
+  const double least = std::max(lower, 0.0), most = std::max(upper, least);
+  return std::isfinite(distance) ? std::clamp(distance, least, most) : (least + most) / 2;
+}
+
+double sum_of(const std::array<float, 3>& values) {
+  double sum = 0;
+  for (const float value : values) sum += static_cast<double>(value);
+  return sum;
+}
+
+class CellEstimator {
+ public:
+  explicit CellEstimator(const SurveyedPair& pair)
+      : a_(pair.a, pair.frame), b_(pair.b, pair.frame) {}
+
+  // Weights of 1/12 for each corner and 3/4 for the centroid make the mean of a quadratic function
+  // over a triangle.
+  CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b) const {
+    const NamedFaces faces(b, b_);
+    const std::array<glm::dvec3, 3> at = corners_in_frame(cell);
+    const auto highest = static_cast<double>(b.highest);
+    const std::array<float, 3> lower{b.lower_a, b.lower_b, b.lower_c};
+    const std::array<float, 3> upper{b.upper_a, b.upper_b, b.upper_c};
+    CellEstimate found;
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < at.size(); ++i) {
+      const double d = between_bounds(faces.distance(at[i]), static_cast<double>(lower[i]),
+                                      std::min(static_cast<double>(upper[i]), highest));
+      found.corners[i] = static_cast<float>(d);
+      mean += d / 12;
+      square += d * d / 12;
+    }
+    const double least = mean_lower(b), most = static_cast<double>(b.mean_upper);
+    const double middle = between_bounds(faces.distance((at[0] + at[1] + at[2]) / 3.0), least,
+                                         std::min(sum_of(upper) / 3, highest));
+    found.middle = static_cast<float>(middle);
+    found.mean = static_cast<float>(between_bounds(mean + 0.75 * middle, least, most));
+    found.square = static_cast<float>(
+        between_bounds(square + 0.75 * middle * middle, least * least,
+                       std::min(static_cast<double>(b.square_upper), highest * most)));
+    return found;
+  }
+
+ private:
+  std::array<glm::dvec3, 3> corners_in_frame(const gpu::Cell& cell) const {
+    const std::array<glm::dvec3, 3> face = a_.of(cell.face);
+    const lib::Bary3 t = corners_of(cell);
+    std::array<glm::dvec3, 3> at;
+    const std::array<glm::uvec2, 3> corners{t.a, t.b, t.c};
+    for (size_t i = 0; i < at.size(); ++i) {
+      const glm::dvec2 w = glm::dvec2(corners[i]) / static_cast<double>(gpu::kBaryOne);
+      at[i] = face[0] + w.x * (face[1] - face[0]) + w.y * (face[2] - face[0]);
+    }
+    return at;
+  }
+
+  const FramedCorners a_, b_;
+};
+
+// Adds up what `add(sums, cell)` adds for each cell: in blocks, and then block by block, so that
+// the bits are the same on any number of threads.
+template <class Add>
+std::vector<double> sums_over(size_t cells, size_t count, const Add& add) {
+  std::vector<std::vector<double>> blocks(block_count(cells));
+  for_each_block(cells, [&](size_t block, size_t begin, size_t end) {
+    std::vector<double> sums(count, 0.0);
+    for (size_t i = begin; i < end; ++i) add(sums, i);
+    blocks[block] = std::move(sums);
+  });
+  std::vector<double> all(count, 0.0);
+  for (const std::vector<double>& sums : blocks) {
+    for (size_t k = 0; k < count; ++k) all[k] += sums[k];
+  }
+  return all;
+}
+
+// Adds a part of a cell to the sums of areas within distances: those that cut it get what is
+// within; the first one that it is all within, at its place behind them, all of it.
+void within_part(const std::array<float, 3>& corners, double area,
+                 std::span<const double> ascending, std::vector<double>& sums) {
+  const auto [least, most] = std::minmax({corners[0], corners[1], corners[2]});
+  const size_t count = ascending.size();
+  auto k = static_cast<size_t>(
+      std::lower_bound(ascending.begin(), ascending.end(), static_cast<double>(least)) -
+      ascending.begin());
+  for (; k < count && ascending[k] < static_cast<double>(most); ++k)
+    sums[k] += area * share_within(corners[0], corners[1], corners[2], ascending[k]);
+  sums[count + k] += area;
+}
+
+}  // namespace
+
+Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas)
+    : cells_(cells), areas_(areas), of_cell_(cells.count()) {
+  const CellEstimator estimator(pair);
+  for_each_block(cells.count(), [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i));
+  });
+}
+
+double Estimates::area_of(size_t cell) const {
+  return cells_.share(cell) * areas_.of_face[cells_.face(cell)];
+}
+
+double Estimates::mean() const {
+  const std::vector<double> sum =
+      sums_over(of_cell_.size(), 1, [&](std::vector<double>& sums, size_t i) {
+        sums[0] += area_of(i) * static_cast<double>(of_cell_[i].mean);
+      });
+  return sum[0] / areas_.whole;
+}
+
+double Estimates::rms() const {
+  const std::vector<double> sum =
+      sums_over(of_cell_.size(), 1, [&](std::vector<double>& sums, size_t i) {
+        sums[0] += area_of(i) * static_cast<double>(of_cell_[i].square);
+      });
+  return std::sqrt(sum[0] / areas_.whole);
+}
+
+std::vector<double> Estimates::shares_within(std::span<const double> ascending) const {
+  const size_t count = ascending.size();
+  std::vector<double> sums =
+      sums_over(of_cell_.size(), 2 * count + 1, [&](std::vector<double>& add, size_t i) {
+        const CellEstimate& e = of_cell_[i];
+        for (size_t corner = 0; corner < e.corners.size(); ++corner)
+          within_part({e.corners[corner], e.corners[(corner + 1) % 3], e.middle}, area_of(i) / 3,
+                      ascending, add);
+      });
+  double whole = 0;
+  for (size_t k = 0; k < count; ++k) {
+    whole += sums[count + k];
+    sums[k] = std::clamp((sums[k] + whole) / areas_.whole, 0.0, 1.0);
+  }
+  sums.resize(count);
+  return sums;
+}
+
+std::vector<double> Estimates::percentiles(std::span<const double> shares,
+                                           std::span<const Enclosure> known) const {
+  constexpr size_t kCuts = 63;
+  constexpr int kPasses = 3;  // 18 bits of an enclosure
+  std::vector<Enclosure> at(known.begin(), known.end());
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<double> cuts;
+    for (const Enclosure& e : at) {
+      for (size_t k = 1; k <= kCuts; ++k)
+        cuts.push_back(e.lower + (e.upper - e.lower) * static_cast<double>(k) / (kCuts + 1));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    const std::vector<double> within = shares_within(cuts);
+    for (size_t p = 0; p < at.size(); ++p) {
+      Enclosure& e = at[p];
+      const auto first = std::lower_bound(within.begin(), within.end(), shares[p]);
+      const auto k = first - within.begin();
+      if (k < std::ssize(cuts))
+        e.upper = std::clamp(cuts[static_cast<size_t>(k)], e.lower, e.upper);
+      if (k > 0) e.lower = std::clamp(cuts[static_cast<size_t>(k - 1)], e.lower, e.upper);
+    }
+  }
+  std::vector<double> found;
+  for (const Enclosure& e : at) found.push_back((e.lower + e.upper) / 2);
+  return found;
+}
+
+namespace {
+
+void put(double estimate, Enclosure& e) {
+  if (std::isfinite(estimate)) e.estimate = std::clamp(estimate, e.lower, e.upper);
+}
+
+double length_in_files(const SurveyedPair& pair, double length) {
+  return (pair.frame.length_down(length) + pair.frame.length_up(length)) / 2;
+}
+
+void put_shares(const Estimates& estimates, const SurveyedPair& pair,
+                std::vector<AreaWithin>& shares) {
+  std::vector<size_t> order(shares.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](size_t x, size_t y) { return shares[x].distance < shares[y].distance; });
+  std::vector<double> ascending;
+  for (const size_t i : order) ascending.push_back(pair.frame.to_frame(shares[i].distance));
+  const std::vector<double> within = estimates.shares_within(ascending);
+  for (size_t k = 0; k < order.size(); ++k) put(within[k], shares[order[k]].share);
+}
+
+}  // namespace
+
+void add_estimates(const Estimates& estimates, const SurveyedPair& pair,
+                   std::span<const Enclosure> percentiles, Statistics& s) {
+  put(length_in_files(pair, estimates.mean()), s.mean);
+  put(length_in_files(pair, estimates.rms()), s.rms);
+  put_shares(estimates, pair, s.bands);
+  put_shares(estimates, pair, s.curve);
+  std::vector<double> shares;
+  for (const Percentile& p : s.percentiles) shares.push_back(p.share);
+  const std::vector<double> at = estimates.percentiles(shares, percentiles);
+  for (size_t i = 0; i < at.size(); ++i)
+    put(length_in_files(pair, at[i]), s.percentiles[i].distance);
+}
+
+}  // namespace vkh

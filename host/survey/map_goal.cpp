@@ -1,0 +1,146 @@
+#include "host/survey/map_goal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/parallel.h"
+#include "host/survey/cell_corners.h"
+
+namespace vkh {
+namespace {
+
+// The most by which the distance of a point of the cell, and what is drawn there, are apart. Both
+// lie between two affine functions, which are farthest apart at a corner, and between two numbers.
+double widest(const gpu::CellBounds& b) {
+  const auto gap = [](float lower, float upper) {
+    return static_cast<double>(upper) - static_cast<double>(lower);
+  };
+  const double affine =
+      std::max({gap(b.lower_a, b.upper_a), gap(b.lower_b, b.upper_b), gap(b.lower_c, b.upper_c)});
+  return std::min(affine, gap(lowest(b), b.highest));
+}
+
+// The middle of the bounds of a cell's middle.
+double middle_of(const gpu::CellBounds& b) {
+  const double upper = (static_cast<double>(b.upper_a) + static_cast<double>(b.upper_b) +
+                        static_cast<double>(b.upper_c)) /
+                       3;
+  return (mean_lower(b) + std::min(upper, static_cast<double>(b.highest))) / 2;
+}
+
+// About the distance that 99 % of A's area is within, rounded up by a percent: a histogram of
+// logarithms, whose areas are integers, so that the sum is the same in any order.
+class Percentile99 {
+ public:
+  Percentile99() : area_(kBins) {}
+
+  void add(double distance, double share) {
+    area_[bin_of(distance)] += static_cast<uint64_t>(share * 0x1p40);
+  }
+  void add(const Percentile99& other) {
+    for (size_t i = 0; i < kBins; ++i) area_[i] += other.area_[i];
+  }
+  double value() const {
+    uint64_t whole = 0, seen = 0;
+    for (const uint64_t area : area_) whole += area;
+    for (size_t i = 0; i < kBins; ++i) {
+      seen += area_[i];
+      if (seen >= whole / 100 * 99)
+        return std::exp2((static_cast<double>(i) + 1) / kOfOctave - kOctaves);
+    }
+    return 1;
+  }
+
+ private:
+  // From 2^-30 of the frame, under what floats tell, to 2.
+  static constexpr double kOfOctave = 64, kOctaves = 30;
+  static constexpr size_t kBins = 64 * 31 + 1;
+  static size_t bin_of(double distance) {
+    const double at = (std::log2(std::max(distance, 0x1p-30)) + kOctaves) * kOfOctave;
+    return std::min(static_cast<size_t>(std::max(at, 0.0)), kBins - 1);
+  }
+
+  std::vector<uint64_t> area_;
+};
+
+template <class Distance>
+double percentile_99(const CellStore& store, const Areas& areas, const Distance& distance) {
+  std::vector<Percentile99> blocks(block_count(store.count()));
+  for_each_block(store.count(), [&](size_t block, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      blocks[block].add(distance(i), store.share(i) * areas.of_face[store.face(i)] / areas.whole);
+  });
+  Percentile99 all;
+  for (const Percentile99& block : blocks) all.add(block);
+  return all.value();
+}
+
+// The area of half a pixel, in the unit of A's areas.
+double least_area(const SurveyedPair& pair, const Areas& areas, const MapOptions& options) {
+  const double pixel = areas.unit.to_frame(diagonal(bounding_box(pair.a))) / options.pixels;
+  return pixel * pixel / 2;
+}
+
+}  // namespace
+
+std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
+                             const Areas& areas) {
+  if (!options.map || !areas.is_positive()) return {};
+  const double least = least_area(pair, areas, *options.map), floor = least_width(pair);
+  std::optional<double> bar;
+  if (options.map->bar) bar = pair.frame.to_frame(*options.map->bar);
+  return [&areas, bar, least, floor](const CellStore& store) {
+    const double end =
+        bar ? *bar
+            : percentile_99(store, areas, [&](size_t i) { return middle_of(store.bounds(i)); });
+    const double step = std::max(CellMap::kUnresolved * end, floor);
+    return scored(store, [&](size_t i) -> std::optional<double> {
+      const double over = widest(store.bounds(i)) - step;
+      const double area = store.share(i) * areas.of_face[store.face(i)];
+      if (over <= 0 || area <= least) return std::nullopt;
+      return over * area;
+    });
+  };
+}
+
+CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapOptions& options,
+               const Estimates& estimates) {
+  const auto& [store, areas, known] = surface;
+  CellMap map;
+  map.unit = pair.frame.length_down(1);
+  map.least = least_width(pair);
+  map.bar = options.bar ? *options.bar : map.unit * percentile_99(store, areas, [&](size_t i) {
+                                           return static_cast<double>(estimates.of(i).mean);
+                                         });
+  map.cells.resize(store.count());
+  for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const gpu::uvec4& c = store.cell(i).corners;
+      const double area = store.share(i) * areas.of_face[store.face(i)];
+      map.cells[i] = {.corners = {c.x, c.y, c.z, c.w},
+                      .face = store.face(i),
+                      .estimate = estimates.of(i).corners,
+                      .width = static_cast<float>(widest(store.bounds(i))),
+                      .share = static_cast<float>(area / areas.whole)};
+    }
+  });
+  return map;
+}
+
+void add_sides(std::span<const CellSide> sides, CellMap& map) {
+  map.has_sides = true;
+  for (size_t i = 0; i < map.cells.size(); ++i) map.cells[i].side = sides[i].side;
+}
+
+std::array<glm::dvec3, 3> weights_of(const MapCell& cell) {
+  gpu::Cell words{};
+  words.corners = {cell.corners[0], cell.corners[1], cell.corners[2], cell.corners[3]};
+  const lib::Bary3 t = corners_of(words);
+  const auto weights = [](const glm::uvec2& at) {
+    const glm::dvec2 w = glm::dvec2(at) / static_cast<double>(gpu::kBaryOne);
+    return glm::dvec3(1 - w.x - w.y, w.x, w.y);
+  };
+  return {weights(t.a), weights(t.b), weights(t.c)};
+}
+
+}  // namespace vkh

@@ -1,0 +1,23 @@
+// The goal of a map, and the map from a survey's cells.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "host/survey/estimate.h"
+#include "host/survey/goals.h"
+
+namespace vkh {
+
+/// A cell scores if it is larger than a pixel and unresolved. None unless a
+/// map is asked for and A has an area. All arguments must outlive it.
+std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
+                             const Areas& areas);
+
+/// The map of all cells. A has an area.
+CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapOptions& options,
+               const Estimates& estimates);
+/// Adds the sides of the survey's cells, in their order, to a map of all of them.
+void add_sides(std::span<const CellSide> sides, CellMap& map);
+
+}  // namespace vkh

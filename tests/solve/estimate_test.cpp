@@ -1,0 +1,330 @@
+// Estimates beside certified figures, goals relative to each figure, and maps by cells.
+#include "host/survey/estimate.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "host/survey/survey.h"
+#include "tests/shapes/hard_pairs.h"
+#include "tests/support/solver_bench.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+
+SurveyResult survey_of(const Mesh& a, const Mesh& b, const SurveyOptions& survey) {
+  SurveyResult result;
+  SolveOptions options;
+  options.survey = survey_with(survey, result);
+  solver().distance(a, b, options);
+  return result;
+}
+
+SurveyOptions statistics_alone(std::vector<double> bands = {}) {
+  SurveyOptions options;
+  options.statistics = true;
+  options.bands = std::move(bands);
+  return options;
+}
+
+double distance_to(const ClosestTree& tree, const glm::dvec3& p) {
+  Nearest nearest;
+  tree.query(p, nearest);
+  return std::sqrt(nearest.squared);
+}
+
+/// Distances at the middles of `parts` squared parts of each face, all of one area on a face.
+struct Sample {
+  double distance, area;
+};
+std::vector<Sample> samples_of(const Mesh& a, const Mesh& b, int parts) {
+  const ClosestTree tree(b.vertices, b.faces);
+  std::vector<Sample> samples;
+  for (const glm::uvec3 f : a.faces) {
+    const glm::dvec3 p = a.vertices[f.x];
+    const glm::dvec3 u = glm::dvec3(a.vertices[f.y]) - p, v = glm::dvec3(a.vertices[f.z]) - p;
+    const double area = glm::length(glm::cross(u, v)) / 2 / (parts * parts);
+    for (int i = 0; i < parts; ++i) {
+      for (int j = 0; j < 2 * (parts - i) - 1; ++j) {
+        const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+        const double s = (i + third) / parts, t = (j / 2 + third) / parts;
+        samples.push_back({distance_to(tree, p + s * u + t * v), area});
+      }
+    }
+  }
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& x, const Sample& y) { return x.distance < y.distance; });
+  return samples;
+}
+
+double whole_of(const std::vector<Sample>& samples) {
+  double area = 0;
+  for (const Sample& s : samples) area += s.area;
+  return area;
+}
+
+double mean_of(const std::vector<Sample>& samples, bool of_squares) {
+  double sum = 0;
+  for (const Sample& s : samples) sum += s.area * (of_squares ? s.distance : 1) * s.distance;
+  return sum / whole_of(samples);
+}
+
+double share_of(const std::vector<Sample>& samples, double distance) {
+  double area = 0;
+  for (const Sample& s : samples) area += s.distance <= distance ? s.area : 0;
+  return area / whole_of(samples);
+}
+
+double percentile_of(const std::vector<Sample>& samples, double share) {
+  double area = 0;
+  const double wanted = share * whole_of(samples);
+  for (const Sample& s : samples) {
+    area += s.area;
+    if (area >= wanted) return s.distance;
+  }
+  return samples.back().distance;
+}
+
+/// Checks that the estimate lies in its interval, and returns how much nearer to the truth it is
+/// than the interval's middle.
+double gain(const Enclosure& e, double truth) {
+  REQUIRE(e.estimate);
+  CHECK(*e.estimate >= e.lower);
+  CHECK(*e.estimate <= e.upper);
+  return std::abs((e.lower + e.upper) / 2 - truth) - std::abs(*e.estimate - truth);
+}
+
+TEST_CASE("a lifted plane: estimates are its height") {
+  const SurveyResult r =
+      survey_of(square_patch(4, 0.25), square_patch(3, 0.0), statistics_alone({0.2, 0.3}));
+  REQUIRE(r.statistics);
+  const Statistics& s = *r.statistics;
+  CHECK(*s.mean.estimate == doctest::Approx(0.25).epsilon(1e-6));
+  CHECK(*s.rms.estimate == doctest::Approx(0.25).epsilon(1e-6));
+  for (const Percentile& p : s.percentiles)
+    CHECK(*p.distance.estimate == doctest::Approx(0.25).epsilon(1e-5));
+  CHECK(*s.bands[0].share.estimate == 0);
+  CHECK(*s.bands[1].share.estimate == 1);
+}
+
+// A: x from 0 to 1 at height x / 4 above B's plane. A distance is affine, so that each estimate is
+// the truth but for rounding, however few cells there are.
+TEST_CASE("a wedge: estimates are exact before any cell is split") {
+  Mesh a = square_patch(3, 0.0);
+  for (glm::dvec3& v : a.vertices) v.z = 0.25 * v.x;
+  const Mesh b = translated(scaled(square_patch(1, 0.0), 2), {-1.5, -1.5, 0});
+  SurveyOptions options = statistics_alone({0.05, 0.125, 0.2});
+  options.effort = 0;
+  const SurveyResult r = survey_of(a, b, options);
+  REQUIRE(r.statistics);
+  const Statistics& s = *r.statistics;
+  CHECK(*s.mean.estimate == doctest::Approx(0.125).epsilon(1e-5));
+  CHECK(*s.rms.estimate == doctest::Approx(0.25 / std::sqrt(3.0)).epsilon(1e-5));
+  for (const AreaWithin& band : s.bands)
+    CHECK(*band.share.estimate == doctest::Approx(4 * band.distance).epsilon(1e-4));
+  for (const Percentile& p : s.percentiles)
+    CHECK(*p.distance.estimate == doctest::Approx(p.share / 4).epsilon(1e-3));
+}
+
+TEST_CASE("estimates are nearer to dense samples than the middles of intervals") {
+  const std::vector<std::pair<Mesh, Mesh>> pairs = {
+      {height_field(12, 1), height_field(12, 3)},
+      {icosphere(1, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05})},
+      {soup(1, 60), soup(2, 90)}};
+  double of_bands = 0, of_percentiles = 0, of_curves = 0;
+  for (const auto& [a, b] : pairs) {
+    const std::vector<Sample> samples = samples_of(a, b, 24);
+    const double band = percentile_of(samples, 0.4);
+    SurveyOptions options = statistics_alone({band});
+    options.effort = 600;
+    const SurveyResult r = survey_of(a, b, options);
+    REQUIRE(r.statistics);
+    const Statistics& s = *r.statistics;
+    CHECK(gain(s.mean, mean_of(samples, false)) > 0);
+    CHECK(gain(s.rms, std::sqrt(mean_of(samples, true))) > 0);
+    of_bands += gain(s.bands[0].share, share_of(samples, band));
+    for (const AreaWithin& step : s.curve)
+      of_curves += gain(step.share, share_of(samples, step.distance));
+    for (const Percentile& p : s.percentiles)
+      of_percentiles += gain(p.distance, percentile_of(samples, p.share));
+  }
+  CHECK(of_bands > 0);
+  CHECK(of_percentiles > 0);
+  CHECK(of_curves > 0);
+}
+
+TEST_CASE("hard pairs: an estimate is always in its interval") {
+  for (size_t i = 0; i < family_names().size(); ++i) {
+    CAPTURE(family_names()[i]);
+    const HardPair hard = hard_pair(i, 500 + i);
+    SurveyOptions options = statistics_alone({0.1});
+    options.effort = 3000;
+    options.map.emplace();
+    const SurveyResult r = survey_of(hard.pair.a, hard.pair.b, options);
+    if (!r.statistics) continue;
+    gain(r.statistics->mean, 0);
+    gain(r.statistics->rms, 0);
+    for (const AreaWithin& step : r.statistics->curve) gain(step.share, 0);
+    for (const Percentile& p : r.statistics->percentiles) gain(p.distance, 0);
+    REQUIRE(r.map);
+    for (const MapCell& cell : r.map->cells) {
+      for (const float e : cell.estimate) CHECK(e >= 0);
+      CHECK(cell.width >= 0);
+    }
+  }
+}
+
+/// Squares of one size at two heights: half of the area each.
+Mesh two_heights(double low, double high) {
+  Mesh a = square_patch(4, low);
+  const Mesh other = translated(square_patch(4, 0.0), {2, 0, high});
+  const auto first = static_cast<uint32_t>(a.vertices.size());
+  std::vector<DVec3> vertices = a.vertices;
+  std::vector<UVec3> faces = a.faces;
+  for (const DVec3& v : other.vertices) vertices.push_back(v);
+  for (const UVec3& f : other.faces) faces.push_back({f.x + first, f.y + first, f.z + first});
+  return make_mesh("two heights", vertices, faces);
+}
+
+TEST_CASE("a level in a gap of the distribution is a jump, and costs no effort") {
+  const Mesh b = translated(scaled(square_patch(2, 0.0), 3), {-2, -2, 0});
+  const SurveyResult r = survey_of(two_heights(0.1, 0.2), b, statistics_alone());
+  REQUIRE(r.statistics);
+  CHECK(r.is_met());
+  CHECK(r.bounded < 5000);
+  const std::vector<Percentile>& p = r.statistics->percentiles;
+  CHECK(p[0].jump);
+  CHECK(p[0].distance.lower <= 0.1);
+  CHECK(p[0].distance.upper >= 0.2);
+  for (size_t i = 1; i < p.size(); ++i) CHECK(!p[i].jump);
+}
+
+// Slopes beside the gap: cells there have no least size.
+TEST_CASE("a gap between slopes is a jump") {
+  Mesh a = two_heights(0.1, 0.2);
+  for (DVec3& v : a.vertices) v.z += v.x < 1.5 ? 0.05 * (v.x - 1) : 0.05 * (v.x - 2);
+  const Mesh b = translated(scaled(square_patch(2, 0.0), 3), {-2, -2, 0});
+  SurveyOptions options = statistics_alone();
+  options.percentiles = {0.25, 0.5, 0.75};
+  const SurveyResult r = survey_of(a, b, options);
+  REQUIRE(r.statistics);
+  CHECK(r.is_met());
+  const std::vector<Percentile>& p = r.statistics->percentiles;
+  CHECK(!p[0].jump);
+  CHECK(p[1].jump);
+  CHECK(!p[2].jump);
+  CHECK(p[1].distance.upper - p[1].distance.lower > 0.09);
+}
+
+TEST_CASE("area at the very distance of a band is a jump") {
+  const Mesh b = translated(scaled(square_patch(2, 0.0), 3), {-2, -2, 0});
+  const SurveyResult r = survey_of(two_heights(0.1, 0.2), b, statistics_alone({0.15, 0.2, 0.3}));
+  REQUIRE(r.statistics);
+  CHECK(r.is_met());
+  const std::vector<AreaWithin>& bands = r.statistics->bands;
+  CHECK(!bands[0].jump);
+  CHECK(bands[1].jump);
+  CHECK(!bands[2].jump);
+  CHECK(bands[1].share.lower <= 0.5 + 1e-9);
+  CHECK(bands[1].share.upper == 1);
+}
+
+// Nine tenths of A are near, and the rest is a hundred times farther.
+TEST_CASE("each figure is as narrow as its own size asks") {
+  Mesh a = square_patch(20, 0.0);
+  for (DVec3& v : a.vertices) v.z = 0.002 + 0.001 * v.x + (v.x > 0.9 ? 5 * (v.x - 0.9) : 0);
+  const Mesh b = translated(scaled(square_patch(3, 0.0), 2), {-1.5, -1.5, 0});
+  const SurveyResult r = survey_of(a, b, statistics_alone());
+  REQUIRE(r.statistics);
+  CHECK(r.is_met());
+  for (const Percentile& p : r.statistics->percentiles)
+    CHECK(p.distance.upper - p.distance.lower <= 0.0201 * p.distance.lower + 1e-5);
+  CHECK(r.statistics->mean.upper - r.statistics->mean.lower <= 0.0201 * r.statistics->mean.lower);
+}
+
+double shares(const CellMap& map) {
+  double sum = 0;
+  for (const MapCell& cell : map.cells) sum += static_cast<double>(cell.share);
+  return sum;
+}
+
+TEST_CASE("what is drawn of a cell is off by its width at most") {
+  const auto check = [](const Mesh& a, const Mesh& b) {
+    SurveyOptions options;
+    options.map = MapOptions{.pixels = 200};
+    options.effort = 20000;
+    const SurveyResult r = survey_of(a, b, options);
+    REQUIRE(r.map);
+    const CellMap& map = *r.map;
+    const ClosestTree tree(b.vertices, b.faces);
+    CHECK(shares(map) == doctest::Approx(1.0).epsilon(1e-5));
+    Random random(7);
+    for (const MapCell& cell : map.cells) {
+      const double s = random.unit(), t = random.unit() * (1 - s);
+      const auto& [wa, wb, wc] = weights_of(cell);
+      const glm::dvec3 w = (1 - s - t) * wa + s * wb + t * wc;
+      const glm::uvec3 f = a.faces[cell.face];
+      const glm::dvec3 p = w.x * glm::dvec3(a.vertices[f.x]) + w.y * glm::dvec3(a.vertices[f.y]) +
+                           w.z * glm::dvec3(a.vertices[f.z]);
+      const double drawn = (1 - s - t) * static_cast<double>(cell.estimate[0]) +
+                           s * static_cast<double>(cell.estimate[1]) +
+                           t * static_cast<double>(cell.estimate[2]);
+      const double off = std::abs(map.unit * drawn - distance_to(tree, p));
+      CHECK(off <= map.unit * static_cast<double>(cell.width) + 1e-6);
+    }
+  };
+  check(height_field(12, 1), height_field(12, 3));
+  check(icosphere(1, 2), translated(icosphere(1.1, 3), {0.1, 0.2, 0.05}));
+  check(soup(1, 60), soup(2, 90));
+}
+
+TEST_CASE("a map is cut until cells are resolved, or pixels") {
+  const Mesh a = icosphere(1, 2), b = translated(icosphere(1.1, 3), {0.1, 0.2, 0.05});
+  SurveyOptions options;
+  options.map = MapOptions{.pixels = 300, .bar = 0.4};
+  const SurveyResult r = survey_of(a, b, options);
+  CHECK(r.is_met());
+  REQUIRE(r.map);
+  CHECK(r.map->bar == 0.4);
+  const double pixel = std::sqrt(12.0) / 300, least = 0.5 * pixel * pixel / 12.3;
+  for (const MapCell& cell : r.map->cells) {
+    const bool is_resolved =
+        static_cast<double>(cell.width) * r.map->unit <= 0.4 * CellMap::kUnresolved * 1.001;
+    CHECK((is_resolved || static_cast<double>(cell.share) <= least));
+    CHECK(!r.map->is_unresolved(cell, 1000));
+  }
+}
+
+TEST_CASE("one stray triangle does not move the end of the colours") {
+  Mesh a = square_patch(8, 0.0);
+  for (DVec3& v : a.vertices) v.z = 0.001 * (1 + v.x);
+  std::vector<DVec3> vertices = a.vertices;
+  std::vector<UVec3> faces = a.faces;
+  const auto first = static_cast<uint32_t>(vertices.size());
+  for (const DVec3& v : {DVec3(0, 0, 1), DVec3(0.05, 0, 1), DVec3(0, 0.05, 1)})
+    vertices.push_back(v);
+  faces.push_back({first, first + 1, first + 2});
+  a = make_mesh("with a stray", vertices, faces);
+  SurveyOptions options;
+  options.map.emplace();
+  const SurveyResult r = survey_of(a, square_patch(3, 0.0), options);
+  REQUIRE(r.map);
+  CHECK(r.map->bar > 0.0018);
+  CHECK(r.map->bar < 0.003);
+}
+
+TEST_CASE("equal surfaces are resolved") {
+  SurveyOptions options;
+  options.map.emplace();
+  const SurveyResult r = survey_of(square_patch(8, 0.5), square_patch(3, 0.5), options);
+  CHECK(r.is_met());
+  REQUIRE(r.map);
+  for (const MapCell& cell : r.map->cells) CHECK(!r.map->is_unresolved(cell, r.map->bar));
+}
+
+}  // namespace
