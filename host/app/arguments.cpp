@@ -235,8 +235,10 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
                    .device = {}};
   line.question.hashes = line.outputs.json || line.outputs.json_file ||
                          line.outputs.pictures.report || line.question.certificate;
-  line.question.faces = line.question.faces || line.outputs.pictures.of_cells();
-  line.question.statistics = line.question.statistics || line.outputs.pictures.of_statistics();
+  const PicturesAsked& pictures = line.outputs.pictures;
+  line.question.faces = line.question.faces || pictures.field || pictures.of_statistics();
+  if (pictures.image || pictures.of_statistics()) ask_for(pictures.look, line.question);
+  line.question.statistics = line.question.statistics || pictures.of_statistics();
   if (line.question.effort && !line.question.asks_for_survey())
     throw UsageError(
         "--effort: is of figures and faces' bounds: ask for --stats, --signed, --bands, --area, "

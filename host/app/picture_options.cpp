@@ -56,6 +56,11 @@ std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
 
 void add_look_options(CLI::App& command, TypedPictures& typed) {
   command.add_option("--view", typed.view, "From where it is drawn: iso, six, or x,y,z [iso]");
+  command
+      .add_option("--field-by", typed.field_by,
+                  "What has a colour of its own: cells, by the estimated distance, or faces, by a "
+                  "bound of the largest, in a gate by the verdict [cells]")
+      ->type_name("cells|faces");
   command.add_option("--up", typed.up, "The axis that points up, y or z [z]");
   command.add_option("--size", typed.size, "Of the picture [1600x1000]")->type_name("WxH");
   command.add_option("--map", typed.map, "Its colours: viridis, batlow or cividis [viridis]");
@@ -73,7 +78,7 @@ void add_picture_options(CLI::App& command, TypedPictures& typed) {
       .add_option("--field", typed.field,
                   "Write A with bounds and colours of its faces: .ply or .glb (B: beside it, -b)")
       ->type_name("FILE");
-  command.add_option("--image", typed.image, "Draw A in the colours of those bounds: .png")
+  command.add_option("--image", typed.image, "Draw A in the colours of its distances from B: .png")
       ->type_name("FILE");
   command
       .add_option("--report", typed.report,
@@ -96,7 +101,7 @@ void add_picture_options(CLI::App& command, TypedPictures& typed) {
 void add_folder_options(CLI::App& command, TypedPictures& typed) {
   command
       .add_option("--image-dir", typed.image_folder,
-                  "Draw each A in the colours of its faces' bounds, as .png in this folder, with "
+                  "Draw each A in the colours of its distances, as .png in this folder, with "
                   "an index page")
       ->type_name("DIR");
   command
@@ -117,11 +122,10 @@ namespace {
 
 // Refuses options that would be ignored otherwise.
 void check_needed(const TypedPictures& typed, bool draws, const std::string& drawing) {
-  const std::pair<const char*, bool> given[] = {{"--view", typed.view.has_value()},
-                                                {"--up", typed.up.has_value()},
-                                                {"--size", typed.size.has_value()},
-                                                {"--range", !typed.range.empty()},
-                                                {"--steps", typed.steps.has_value()}};
+  const std::pair<const char*, bool> given[] = {
+      {"--view", typed.view.has_value()}, {"--field-by", typed.field_by.has_value()},
+      {"--up", typed.up.has_value()},     {"--size", typed.size.has_value()},
+      {"--range", !typed.range.empty()},  {"--steps", typed.steps.has_value()}};
   for (const auto& [option, is_given] : given) {
     if (is_given && !draws)
       throw UsageError(std::string(option) + ": is of a picture: ask for " + drawing);
@@ -134,6 +138,10 @@ PictureStyle look_of(const TypedPictures& typed) {
   look.options.view = parse_view("--view", typed.view.value_or("iso"));
   look.options.map = parse_colour_map("--map", typed.map.value_or("viridis"));
   if (typed.size) parse_picture_size("--size", *typed.size, look.options);
+  const std::string by = typed.field_by.value_or("cells");
+  if (by != "cells" && by != "faces")
+    throw UsageError("--field-by '" + by + "': expected cells or faces");
+  look.options.by = by == "faces" ? FieldBy::kFaces : FieldBy::kCells;
   const std::string up = typed.up.value_or("z");
   if (up != "y" && up != "z") throw UsageError("--up '" + up + "': expected y or z");
   look.options.up = up == "y" ? Up::kY : Up::kZ;

@@ -18,8 +18,9 @@ std::string text_of(const PictureStyle& look) {
   const PictureOptions& o = look.options;
   const glm::dvec3& from = o.view.direction;
   std::string text = std::to_string(o.width) + "x" + std::to_string(o.height);
-  for (const int choice : {static_cast<int>(o.view.kind), static_cast<int>(o.up),
-                           static_cast<int>(o.map), static_cast<int>(o.bands)})
+  for (const int choice :
+       {static_cast<int>(o.view.kind), static_cast<int>(o.up), static_cast<int>(o.map),
+        static_cast<int>(o.bands), static_cast<int>(o.by)})
     text += " " + std::to_string(choice);
   for (const double part : {from.x, from.y, from.z}) text += " " + hex_float(part);
   if (look.range) text += " " + (*look.range)[0].requested + "," + (*look.range)[1].requested;
@@ -85,7 +86,8 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
 void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const NamedEntry& entry = pair.entry;
   Question question = entry.question;
-  question.faces = true;
+  question.faces = reports_.has_value();
+  ask_for(asked_.look, question);
   question.statistics = reports_.has_value();
   question.effort = asked_.effort;
   const Observer observer{.goes_on = pair.goes_on,

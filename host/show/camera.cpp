@@ -26,29 +26,42 @@ Panel Views::view_from(glm::dvec3 direction, const Area& area) const {
   return panel;
 }
 
+// The direction does not depend on the answer: pictures of one part can be compared.
 Panel Views::corner_view(const Area& area) const {
-  constexpr std::array<std::array<double, 2>, 4> kCorners{{{1, -1}, {-1, -1}, {-1, 1}, {1, 1}}};
-  std::optional<Panel> first;
-  for (const double height : {0.85, -0.85}) {
-    for (const auto& [x, y] : kCorners) {
-      const glm::dvec3 z_up(0.72 * x, y, height);
-      const bool is_z = options_.up == Up::kZ;
-      Panel panel = view_from(is_z ? z_up : glm::dvec3(z_up.x, z_up.z, -z_up.y), area);
-      if (panel.shows_spot) return panel;
-      if (!first) first = panel;
-    }
+  const glm::dvec3 z_up(0.72, -1, 0.85);
+  return view_from(options_.up == Up::kZ ? z_up : glm::dvec3(z_up.x, z_up.z, -z_up.y), area);
+}
+
+// The directions along the axes from which the mesh is more than a line.
+std::vector<size_t> Views::seeing_directions() const {
+  constexpr double kLeast = 0.005;
+  const Box box = box_of(picture_.mesh);
+  std::array<double, 3> size{};
+  for (size_t i = 0; i < size.size(); ++i) {
+    const auto axis = static_cast<glm::length_t>(i);
+    size[i] = box.hi[axis] - box.lo[axis];
   }
-  return *first;
+  std::vector<size_t> directions;
+  for (size_t i = 0; i < 6; ++i) {
+    if (std::min(size[(i / 2 + 1) % 3], size[(i / 2 + 2) % 3]) > kLeast * diagonal_)
+      directions.push_back(i);
+  }
+  return directions.empty() ? std::vector<size_t>{4, 5} : directions;
 }
 
 std::vector<Panel> Views::six_views(const Area& area) const {
-  const uint32_t columns = area.width >= area.height ? 3 : 2, rows = 6 / columns;
-  const double width = std::floor(area.width / columns), height = std::floor(area.height / rows);
+  const std::vector<size_t> directions = seeing_directions();
+  const size_t most = area.width >= area.height ? 3 : 2;
+  const size_t columns = directions.size() < 4 ? 4 - most : most;
+  const size_t rows = (directions.size() + columns - 1) / columns;
+  const double width = std::floor(area.width / static_cast<double>(columns));
+  const double height = std::floor(area.height / static_cast<double>(rows));
   std::vector<Panel> panels;
-  for (uint32_t i = 0; i < 6; ++i) {
+  for (size_t n = 0; n < directions.size(); ++n) {
+    const size_t i = directions[n];
     glm::dvec3 direction(0);
     direction[static_cast<glm::length_t>(i / 2)] = i % 2 == 0 ? 1 : -1;
-    const uint32_t column = i % columns, row = i / columns;
+    const auto column = static_cast<double>(n % columns), row = static_cast<double>(n / columns);
     const Area cell{area.x + column * width, area.y + row * height, width, height};
     panels.push_back(view_from(direction, cell.inner(std::round(26 * unit_))));
     panels.back().label = std::string("from ") + (i % 2 == 0 ? "+" : "\u2212") + "xyz"[i / 2];

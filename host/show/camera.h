@@ -59,6 +59,11 @@ struct Camera {
     const glm::dvec2 middle = area.centre();
     return {middle.x + scale * t.x, middle.y - scale * t.y, t.z};
   }
+  /// Vulkan's clip space, of a pixel with its depth.
+  glm::dvec3 clipped(const glm::dvec3& pixel) const {
+    return {2 * (pixel.x - area.x) / area.width - 1, 2 * (pixel.y - area.y) / area.height - 1,
+            (before - pixel.z) / (before + reach)};
+  }
 };
 
 struct Box {
@@ -161,6 +166,7 @@ class Views {
 
  private:
   Panel corner_view(const Area& area) const;
+  std::vector<size_t> seeing_directions() const;
   std::vector<Panel> six_views(const Area& area) const;
   Panel view_from(glm::dvec3 direction, const Area& area) const;
   glm::dvec3 normal_at_spot() const;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/base/parallel.h"
+#include "host/show/light.h"
 
 namespace vkh::drawing {
 namespace {
@@ -16,20 +17,6 @@ double largest_finite(const std::vector<double>& values) {
     if (std::isfinite(v)) largest = std::max(largest, v);
   }
   return largest;
-}
-
-/// The light on a face: 1 if it looks at the viewer, so that its colour is the map's own. Light
-/// comes from the upper left, and falls on both sides of a face. `normal`: as the viewer sees it,
-/// of any length.
-double light_on(glm::dvec3 normal) {
-  constexpr double kDarkest = 0.6;
-  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.32, 0.42, 0.85));
-  const double length = glm::length(normal);
-  if (!(length > 0)) return 1;
-  // The light wraps around the edges of the lit part, so that faces turned away keep their shape.
-  const double lit = glm::dot(normal, light) * (normal.z < 0 ? -1 : 1) / length;
-  const double share = std::min((1 + lit) / (1 + light.z), 1.0);
-  return kDarkest + (1 - kDarkest) * share * share;
 }
 
 /// The darkness of edges: 0 for a face so thin that its edges would be most of it.
@@ -55,35 +42,23 @@ class FaceWriter {
       at[i] = camera_.pixel(picture_.mesh.vertices[picture_.mesh.faces[face][corner]]);
     }
     const FaceLook look = look_of(picture_, scale_, face);
-    const double light = light_on(normal_of(at));
+    const double light = light_on(normal_seen(at, camera_.scale));
     const auto lit = [&](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
     const uint8_t edges = edge_strength(at[0], at[1], at[2]);
     for (size_t i = 0; i < at.size(); ++i) {
-      const glm::dvec3 clip = clipped(at[i]);
+      const glm::dvec3 clip = camera_.clipped(at[i]);
       corners[i] = {static_cast<float>(clip.x),
                     static_cast<float>(clip.y),
                     static_cast<float>(clip.z),
+                    0,
                     {lit(look.colour.red), lit(look.colour.green), lit(look.colour.blue), edges},
                     static_cast<uint8_t>(look.hatched ? 1 : 0),
+                    0,
                     {}};
     }
   }
 
  private:
-  // The normal of the face as it is seen, so a pixel's y turns around, and its depth is in pixels,
-  // too.
-  glm::dvec3 normal_of(const std::array<glm::dvec3, 3>& at) const {
-    const auto seen = [&](size_t i) {
-      return glm::dvec3(at[i].x, -at[i].y, at[i].z * camera_.scale);
-    };
-    return glm::cross(seen(1) - seen(0), seen(2) - seen(0));
-  }
-  glm::dvec3 clipped(const glm::dvec3& pixel) const {
-    const Area& area = camera_.area;
-    return {2 * (pixel.x - area.x) / area.width - 1, 2 * (pixel.y - area.y) / area.height - 1,
-            (camera_.before - pixel.z) / (camera_.before + camera_.reach)};
-  }
-
   const Picture& picture_;
   const Scale& scale_;
   const Camera& camera_;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "host/base/error.h"
-#include "host/show/legend.h"
+#include "host/show/map_legend.h"
 
 namespace vkh {
 namespace drawing {
@@ -38,9 +38,18 @@ class Drawing {
         scale_(picture, options),
         unit_(unit_of(options)),
         sheet_{canvas_, picture, scale_, unit_},
-        views_(picture, options, unit_) {}
+        views_(picture, options, unit_) {
+    if (picture.map == nullptr) return;
+    constexpr size_t kMostPlaces = 5;
+    map_scale_.emplace(picture, options);
+    counts_ = counts_of(*picture.map, *map_scale_);
+    places_ = map_places(picture.mesh, *picture.map, kMostPlaces);
+  }
 
-  Image draw() {
+  Image draw() { return picture_.map != nullptr ? draw_map() : draw_faces(); }
+
+ private:
+  Image draw_faces() {
     const std::vector<std::string> footer = footer_lines();
     const Places places = places_for(footer.size());
     const std::vector<Panel> panels = views_.panels_in(places.views);
@@ -54,8 +63,8 @@ class Drawing {
     draw_legend(places.side);
     return std::move(image_);
   }
+  Image draw_map();
 
- private:
   std::vector<std::string> footer_lines() const;
   Places places_for(size_t footer_lines) const;
   static uint32_t most_pixels(const std::vector<Panel>& panels, const std::optional<Panel>& inset,
@@ -67,7 +76,12 @@ class Drawing {
   void draw_views(Raster& raster, const std::vector<Panel>& panels,
                   const std::optional<Panel>& inset);
   void draw_pin(const Panel& panel, const Layer& layer, double clear);
-  Area place_for_label(const Panel& panel, const Layer& layer, double clear, glm::dvec2 size) const;
+  struct Label {
+    glm::dvec2 tip, size;
+    double clear;  ///< no nearer to the tip than that
+  };
+  Area place_for_label(const Panel& panel, const Layer& layer, const Label& label,
+                       const std::vector<Area>& taken) const;
   /// The colour of pointers to the witness: none of the faces' colours.
   Rgb pin_colour() const { return picture_.limit ? kInk : kSignal; }
   void draw_ring(glm::dvec2 at, double radius);
@@ -75,6 +89,12 @@ class Drawing {
   void draw_inset(Raster& raster, const Panel& inset, const Panel& best);
   bool draw_closest(const Camera& camera);
   void draw_legend(const Area& side);
+  std::string map_colours_text() const;
+  void draw_panel_frame(const Panel& panel);
+  void draw_axes_and_ruler(const std::vector<Panel>& panels, const Camera& camera);
+  void draw_numbers(const Panel& panel, const Layer& layer, bool is_single);
+  void draw_label(const Panel& panel, const Layer& layer, size_t place, std::vector<Area>& taken);
+  void draw_map_legend(const Area& side);
 
   const Device& device_;
   const Picture& picture_;
@@ -85,14 +105,26 @@ class Drawing {
   double unit_;
   Sheet sheet_;
   Views views_;
+  std::optional<MapScale> map_scale_;
+  MapCounts counts_;
+  std::vector<MapPlace> places_;
 };
+
+/// Says what a colour is, and how well it is known.
+std::string Drawing::map_colours_text() const {
+  const std::string other = picture_.back ? "A" : "B";
+  return "Colour: the estimated distance from " + other +
+         ", off by at most 5 % of the bar, where it is not hatched.";
+}
 
 std::vector<std::string> Drawing::footer_lines() const {
   const std::string other = picture_.back ? "A" : "B";
   std::vector<std::string> lines = {
-      picture_.limit
+      picture_.map != nullptr ? map_colours_text()
+      : picture_.limit
           ? "Colour of a face: the verdict on its largest distance from " + other + "."
           : "Colour of a face: a proven upper bound of its largest distance from " + other + "."};
+  if (!picture_.unfinished.empty()) lines[0] += " Not finished: " + picture_.unfinished + ".";
   for (const std::string& text : picture_.caption) {
     for (std::string& line : wrapped(text, 15 * unit_, options_.width - 72 * unit_, 2))
       lines.push_back(std::move(line));
@@ -133,8 +165,11 @@ uint32_t Drawing::most_pixels(const std::vector<Panel>& panels, const std::optio
 Layer Drawing::paint(Raster& raster, const Camera& camera) {
   const VkExtent2D pixels{static_cast<uint32_t>(camera.area.width),
                           static_cast<uint32_t>(camera.area.height)};
-  Layer layer = raster.draw(pixels, std::max(1.0, 1.3 * unit_), picture_.mesh.faces.size(),
-                            faces_for(picture_, scale_, camera));
+  const double line = std::max(1.0, 1.3 * unit_);
+  Layer layer = picture_.map != nullptr ? raster.draw(pixels, line, picture_.map->cells.size(),
+                                                      cells_for(picture_, *map_scale_, camera))
+                                        : raster.draw(pixels, line, picture_.mesh.faces.size(),
+                                                      faces_for(picture_, scale_, camera));
   canvas_.paste(layer, static_cast<uint32_t>(camera.area.x), static_cast<uint32_t>(camera.area.y));
   return layer;
 }
@@ -207,12 +242,7 @@ void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
   const Panel& best = panels[views_.best_of(panels)];
   for (size_t i = 0; i < panels.size(); ++i) {
     const Panel& panel = panels[i];
-    const Area& area = panel.camera.area;
-    if (!panel.label.empty()) {
-      canvas_.frame(area.inner(-std::round(20 * unit_)), 1, kPale);
-      write(canvas_, {area.x - 8 * unit_, area.y + 4 * unit_}, panel.label,
-            {15 * unit_, kGrey, Align::kLeft});
-    }
+    draw_panel_frame(panel);
     const glm::dvec2 spot(panel.camera.pixel(views_.spot().point));
     if (&panel == &best) {
       const double magnified = inset && panel.shows_spot ? inset->camera.scale : 0;
@@ -224,11 +254,89 @@ void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
       draw_ring(spot, 7 * unit_);
     }
   }
-  const double bottom = panels.back().camera.area.bottom() + 64 * unit_;
-  const double left = 36 * unit_;
-  if (panels.size() == 1)
-    draw_axes(sheet_, best.camera.axes, {left + 46 * unit_, bottom - 22 * unit_});
-  draw_ruler(sheet_, best.camera, {left + (panels.size() == 1 ? 120 : 4) * unit_, bottom});
+  draw_axes_and_ruler(panels, best.camera);
+}
+
+void Drawing::draw_panel_frame(const Panel& panel) {
+  if (panel.label.empty()) return;
+  const Area& area = panel.camera.area;
+  canvas_.frame(area.inner(-std::round(20 * unit_)), 1, kPale);
+  write(canvas_, {area.x - 8 * unit_, area.y + 4 * unit_}, panel.label,
+        {15 * unit_, kGrey, Align::kLeft});
+}
+
+void Drawing::draw_axes_and_ruler(const std::vector<Panel>& panels, const Camera& camera) {
+  const double bottom = panels.back().camera.area.bottom() + 64 * unit_, left = 36 * unit_;
+  const bool is_one = panels.size() == 1;
+  if (is_one) draw_axes(sheet_, camera.axes, {left + 46 * unit_, bottom - 22 * unit_});
+  draw_ruler(sheet_, camera, {left + (is_one ? 120 : 4) * unit_, bottom});
+}
+
+Image Drawing::draw_map() {
+  const std::vector<std::string> footer = footer_lines();
+  Places places = places_for(footer.size());
+  places.side.height = places.views.height;
+  const std::vector<Panel> panels = views_.panels_in(places.views);
+  Raster raster(device_, most_pixels(panels, {}, false), most_pixels(panels, {}, true));
+  raster.set_palette(map_scale_->palette());
+  draw_header();
+  draw_lines(footer, places.footer);
+  std::vector<Layer> layers;
+  for (const Panel& panel : panels) layers.push_back(paint(raster, panel.camera));
+  for (size_t i = 0; i < panels.size(); ++i) {
+    draw_panel_frame(panels[i]);
+    draw_numbers(panels[i], layers[i], panels.size() == 1);
+  }
+  draw_axes_and_ruler(panels, panels[0].camera);
+  draw_map_legend(places.side);
+  return std::move(image_);
+}
+
+/// Draws the numbers of the places; in a single view with their distances, and those that are
+/// hidden in grey.
+void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_single) {
+  std::vector<Area> taken;
+  for (size_t i = places_.size(); i-- > 0;) {  // the worst one is drawn last
+    const bool is_hidden = !is_seen(picture_.mesh, panel.camera, places_[i].point);
+    if (is_hidden && !is_single) continue;
+    const glm::dvec2 at(panel.camera.pixel(places_[i].point));
+    if (panel.camera.area.inner(-20 * unit_).has(at)) draw_number(sheet_, at, i + 1, is_hidden);
+  }
+  for (size_t i = 0; is_single && i < places_.size(); ++i) draw_label(panel, layer, i, taken);
+}
+
+/// Draws a place's distance near its number, clear of other labels.
+void Drawing::draw_label(const Panel& panel, const Layer& layer, size_t place,
+                         std::vector<Area>& taken) {
+  const double u = unit_, size = 17 * u;
+  const std::string text = place_text(sheet_, {*map_scale_, counts_, places_}, places_[place]);
+  const glm::dvec2 box_size(text_width(text, size) + 16 * u, 28 * u);
+  const glm::dvec2 tip(panel.camera.pixel(places_[place].point));
+  if (!panel.camera.area.inner(-20 * u).has(tip)) return;
+  const Area box = place_for_label(panel, layer, {tip, box_size, 16 * u}, taken);
+  taken.push_back(box);
+  const glm::dvec2 from =
+      glm::clamp(tip, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
+  const glm::dvec2 end =
+      tip + (from - tip) * std::min(1.0, 13 * u / std::max(glm::distance(from, tip), 1e-9));
+  canvas_.line(from, end, 4 * u, kPaper);
+  canvas_.line(from, end, 1.6 * u, kInk);
+  canvas_.fill(box.inner(-1.5 * u), kInk, 1, 6 * u);
+  canvas_.fill(box, kPaper, 1, 5 * u);
+  write(canvas_, {box.centre().x, box.y + 20 * u}, text, {size, kInk, Align::kCentre});
+}
+
+void Drawing::draw_map_legend(const Area& side) {
+  const MapLegend legend{*map_scale_, counts_, places_};
+  const double u = unit_, gap = 18 * u;
+  const double list = places_.empty() ? 0 : (34 + 28 * static_cast<double>(places_.size())) * u;
+  const double histogram = std::min(side.height / 3, 250 * u);
+  const bool has_all = side.height > list + histogram + 260 * u;
+  const double bar = side.height - (has_all ? list + histogram + 2 * gap : 0);
+  draw_map_bar(sheet_, legend, {side.x, side.y, side.width, bar});
+  if (!has_all) return;
+  draw_places(sheet_, legend, {side.x, side.y + bar + gap, side.width, list});
+  draw_histogram(sheet_, legend, {side.x, side.bottom() - histogram, side.width, histogram});
 }
 
 /// The share of the box that lies over the mesh, from 0 to 1; and as much again if any of it does.
@@ -246,17 +354,16 @@ double covered(const Layer& layer, const Area& views, const Area& box) {
   return sum / static_cast<double>(std::max<size_t>(count, 1)) + (sum > 0 ? 1 : 0);
 }
 
-/// Places the label near the spot, but no nearer than `clear`, and beside the mesh if there is
-/// room.
-Area Drawing::place_for_label(const Panel& panel, const Layer& layer, double clear,
-                              glm::dvec2 size) const {
+/// Places a label near its tip, beside the mesh if there is room, and clear of others.
+Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Label& label,
+                              const std::vector<Area>& taken) const {
+  const auto& [tip, size, clear] = label;
   constexpr int kDirections = 24;
   constexpr double kTurn = 2 * 3.14159265358979 / kDirections;
   const Area& views = panel.camera.area;
-  const glm::dvec2 tip(panel.camera.pixel(views_.spot().point));
   Area best{};
   double least = std::numeric_limits<double>::infinity();
-  for (const double far : {90.0, 140.0, 200.0, 280.0, 380.0, 520.0, 680.0}) {
+  for (const double far : {50.0, 90.0, 140.0, 200.0, 280.0, 380.0, 520.0, 680.0}) {
     for (int i = 0; i < kDirections; ++i) {
       const glm::dvec2 way(1.25 * std::cos(i * kTurn), -std::sin(i * kTurn));
       const glm::dvec2 middle = tip + way * (far * unit_);
@@ -264,7 +371,12 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, double cle
       box.x = std::clamp(box.x, views.x, std::max(views.x, views.right() - size.x));
       box.y = std::clamp(box.y, views.y, std::max(views.y, views.bottom() - size.y));
       const bool meets = box.inner(-clear).has(tip);
-      const double cost = covered(layer, views, box) + far / 500 + (meets ? 9 : 0);
+      const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const Area& other) {
+        return box.x < other.right() && other.x < box.right() && box.y < other.bottom() &&
+               other.y < box.bottom();
+      });
+      const double cost =
+          covered(layer, views, box) + far / 500 + (meets ? 9 : 0) + (is_taken ? 9 : 0);
       if (cost >= least) continue;
       least = cost;
       best = box;
@@ -282,7 +394,7 @@ void Drawing::draw_pin(const Panel& panel, const Layer& layer, double clear) {
   const std::string what = panel.shows_spot ? "at the witness" : "at the witness, hidden here";
   const double width = std::max(text_width(number, 19 * u), text_width(what, 14 * u));
   const glm::dvec2 size(std::min(width + 26 * u, panel.camera.area.width), 54 * u);
-  const Area box = place_for_label(panel, layer, clear, size);
+  const Area box = place_for_label(panel, layer, {tip, size, clear}, {});
   const glm::dvec2 from =
       glm::clamp(tip, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
   const double off = (panel.shows_spot ? 2 : 13) * u;

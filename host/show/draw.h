@@ -1,5 +1,6 @@
-// A picture of A for a report, drawn off screen: each face in the colour of its certified upper
-// bound, or of its verdict if a limit was asked about.
+// A picture of A for a report, drawn off screen: by cells in the colours of estimated distances, or
+// each face in the colour of its certified upper bound, or of its verdict if a limit was asked
+// about.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "host/gpu/device.h"
+#include "host/survey/cell_map.h"
 #include "host/survey/field.h"
 #include "host/write/colour_map.h"
 
@@ -39,13 +41,18 @@ struct Picture {
   std::string name = {}, against = {};    ///< names of both meshes, as people know them
   bool back = false;                      ///< the mesh is B, and was measured against A
   std::vector<std::string> caption = {};  ///< lines below the picture
+  /// The mesh by cells, for distances in place of bounds of faces; null: faces are drawn.
+  const CellMap* map = nullptr;
+  const Statistics* statistics = nullptr;  ///< figures for a picture by cells; null: none
+  std::optional<SidedLimits> sided = {};   ///< limits that differ by side, of a picture by cells
+  std::string unfinished = {};             ///< why the survey was cut short; empty: it was not
 };
 
 /// The view of the mesh.
 struct View {
   enum class Kind {
-    kIso,        ///< from a corner of the box, the first from which the witness is seen
-    kSix,        ///< along each axis, in one picture
+    kIso,        ///< from above a corner of the box
+    kSix,        ///< along each axis, in one picture; without those that see nothing
     kDirection,  ///< from `direction`
   };
   Kind kind = Kind::kIso;
@@ -55,13 +62,18 @@ struct View {
 /// The axis that points up in a picture.
 enum class Up { kZ, kY };
 
+/// The parts of a mesh that have a colour each.
+enum class FieldBy { kCells, kFaces };
+
 struct PictureOptions {
+  FieldBy by = FieldBy::kCells;  ///< cells only where the picture has a map
   uint32_t width = 1600, height = 1000;
   View view = {};
   Up up = Up::kZ;
   ColourMap map = ColourMap::kViridis;
   /// The lengths at the ends of the colour bar, the same for all pictures of a batch; otherwise
-  /// from 0 to the largest upper that is finite.
+  /// from 0 to one and a half times the limit, or else to CellMap::bar, or for faces to the largest
+  /// upper that is finite.
   std::optional<Enclosure> range = {};
   uint32_t bands = 0;  ///< number of steps of colour; 0: as smooth as the map
 };

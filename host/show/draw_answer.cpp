@@ -1,11 +1,15 @@
 #include "host/show/draw_answer.h"
 
+#include <algorithm>
+
 #include "host/base/error.h"
 #include "host/base/system.h"
 #include "host/show/page.h"
 
 namespace vkh {
 namespace {
+
+constexpr double kPixelsOfDiagonal = 0.7;  // of a picture's larger side, in the view from a corner
 
 PictureOptions options_of(const PictureStyle& look, const Answer& answer) {
   PictureOptions options = look.options;
@@ -26,6 +30,29 @@ std::string limit_as(const Asked& max) {
   return typed + (typed.ends_with("diag") ? "(A)" : " of A's diagonal");
 }
 
+const char* unfinished_text(SurveyEnd end) {
+  switch (end) {
+    case SurveyEnd::kEffort:
+      return "its effort was used, more --effort shows more";
+    case SurveyEnd::kTime:
+      return "its time ended, more --time shows more";
+    case SurveyEnd::kCancelled:
+      return "it was interrupted";
+    case SurveyEnd::kMemory:
+      return "there was no memory for it";
+    default:
+      return "";
+  }
+}
+
+void add_map(const Side& side, const Answer& answer, Picture& picture) {
+  if (!side.survey.map || side.survey.map->cells.empty()) return;
+  picture.map = &*side.survey.map;
+  if (side.survey.statistics) picture.statistics = &*side.survey.statistics;
+  picture.unfinished = unfinished_text(side.survey.ended);
+  if (answer.max && answer.max->sides) picture.sided = answer.max->sides->limits;
+}
+
 }  // namespace
 
 std::vector<Side> sides_of(const Measured& measured) {
@@ -44,6 +71,16 @@ std::string label_of(const Answer& answer, bool back) {
 
 Enclosure interval_of(const Side& side) { return {side.report.lower, side.report.upper}; }
 
+void ask_for(const PictureStyle& look, Question& question) {
+  const PictureOptions& options = look.options;
+  if (options.by == FieldBy::kFaces || question.limits.any_triangulation) {
+    question.faces = true;
+    return;
+  }
+  question.map_pixels = kPixelsOfDiagonal * std::max(options.width, options.height);
+  if (look.range) question.map_bar = (*look.range)[1];
+}
+
 std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
                        const Device& device) {
   Picture picture{.mesh = side.mesh,
@@ -54,6 +91,7 @@ std::string picture_of(const Side& side, const Answer& answer, const PictureStyl
                   .against = label_of(answer, !side.back),
                   .back = side.back,
                   .caption = {in_words(answer)}};
+  if (look.options.by == FieldBy::kCells) add_map(side, answer, picture);
   if (answer.max) picture.limit = answer.max->limit;
   if (answer.max) picture.limit_as = limit_as(*answer.max);
   if (answer.max) picture.verdict = verdict_of(answer, side.back);

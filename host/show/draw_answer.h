@@ -33,6 +33,9 @@ struct Side {
   bool back;
 };
 
+/// Asks for what such a picture shows: a map by cells, or bounds of faces.
+void ask_for(const PictureStyle& look, Question& question);
+
 /// Returns one, or both of a symmetric answer. Throws OutputError if nothing was surveyed.
 std::vector<Side> sides_of(const Measured& measured);
 

@@ -1,19 +1,26 @@
-// One sample of a face: its colour, hatched where it is undecided, darker along its edges.
+// One sample of a face: its colour, or that of its share of the bar (palette.h), hatched where it
+// is undecided or not resolved, darker along its edges.
 #version 450
 
 layout(location = 0) flat in vec4 face_colour;
 layout(location = 1) noperspective in vec3 barycentric;
-layout(location = 2) flat in uint face_hatched;
+layout(location = 2) flat in uvec2 face_is_so;
+layout(location = 3) noperspective in float bar_share;
+
+const int kOutside = 6, kWithin = 16;
 
 layout(push_constant) uniform Samples {
   float half_edge;     // half of an edge's width, in samples
   float hatch_period;  // period along a row, in samples
+  float from, to;      // the limits, as shares of the bar
+  uint colours[2 * kOutside + kWithin];  // below, within, above; alpha of the first: bands
 };
 
 layout(location = 0) out vec4 colour;
 
 const float kStripe = 0.42;  // share of a period
 const vec3 kStripeColour = vec3(0.29, 0.25, 0.20);
+const vec3 kOver = vec3(214, 32, 140) / 255, kBelow = vec3(91, 15, 128) / 255;  // map_scale.h
 
 float nearest_edge() {
   const vec3 across =
@@ -22,10 +29,27 @@ float nearest_edge() {
   return min(min(samples.x, samples.y), samples.z);
 }
 
+vec3 between(int first, int count, float share) {
+  const float at = clamp(share, 0.0, 1.0) * float(count - 1);
+  const int i = min(int(at), count - 2);
+  return mix(unpackUnorm4x8(colours[first + i]).rgb, unpackUnorm4x8(colours[first + i + 1]).rgb,
+             at - float(i));
+}
+
+vec3 bar_colour(float share) {
+  if (share > 1) return kOver;
+  if (share < 0) return kBelow;
+  const float bands = float(colours[0] >> 24);
+  if (bands > 0) share = (min(floor(share * bands), bands - 1) + 0.5) / bands;
+  if (share < from) return between(0, kOutside, share / from);
+  if (share > to) return between(kOutside + kWithin, kOutside, (share - to) / (1 - to));
+  return between(kOutside, kWithin, to > from ? (share - from) / (to - from) : 0);
+}
+
 void main() {
   const float edge = nearest_edge();
-  vec3 shown = face_colour.rgb;
-  if (face_hatched != 0 && fract((gl_FragCoord.x + gl_FragCoord.y) / hatch_period) < kStripe)
+  vec3 shown = face_is_so.y != 0 ? bar_colour(bar_share) * face_colour.r : face_colour.rgb;
+  if (face_is_so.x != 0 && fract((gl_FragCoord.x + gl_FragCoord.y) / hatch_period) < kStripe)
     shown = kStripeColour;
   if (edge < half_edge) shown *= 1 - face_colour.a;
   colour = vec4(shown, 1);

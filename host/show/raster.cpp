@@ -24,9 +24,25 @@ constexpr size_t kFacesAtOnce = size_t{1} << 19;
 constexpr uint32_t kMostSamples = 4;                 // per side: 16 a pixel
 constexpr uint64_t kMostInAll = uint64_t{40} << 20;  // 320 MiB of colour and depth
 
+// As mesh.frag has them; every device takes so many bytes.
 struct Constants {
-  float half_edge, hatch_period;
+  float half_edge, hatch_period, from, to;
+  std::array<uint32_t, 2 * Palette::kOutside + Palette::kWithin> colours{};
+
+  void add(const Palette& palette) {
+    from = static_cast<float>(palette.from);
+    to = static_cast<float>(palette.to);
+    size_t at = 0;
+    const auto put = [&](const Rgb& c) {
+      colours[at++] = c.red | uint32_t{c.green} << 8 | uint32_t{c.blue} << 16;
+    };
+    for (const Rgb& c : palette.below) put(c);
+    for (const Rgb& c : palette.within) put(c);
+    for (const Rgb& c : palette.above) put(c);
+    colours[0] |= palette.bands << 24;
+  }
 };
+static_assert(sizeof(Constants) == 128);
 
 uint32_t most_side(const Device& device) {
   VkPhysicalDeviceProperties2 properties{};
@@ -112,10 +128,11 @@ class Shader {
 };
 
 constexpr VkVertexInputBindingDescription kBinding{0, sizeof(Corner), VK_VERTEX_INPUT_RATE_VERTEX};
-constexpr std::array<VkVertexInputAttributeDescription, 3> kInputs{
+constexpr std::array<VkVertexInputAttributeDescription, 4> kInputs{
     {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Corner, x)},
      {1, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Corner, colour)},
-     {2, 0, VK_FORMAT_R8_UINT, offsetof(Corner, hatched)}}};
+     {2, 0, VK_FORMAT_R8G8_UINT, offsetof(Corner, hatched)},
+     {3, 0, VK_FORMAT_R32_SFLOAT, offsetof(Corner, share)}}};
 
 /// All of a pipeline's state but shaders, layout and pass. Both sides of a face are drawn.
 struct FixedState {
@@ -298,8 +315,11 @@ void Raster::draw_some(VkExtent2D samples, double line, size_t face_count, bool 
   const VkRect2D scissor{{0, 0}, samples};
   vk.CmdSetViewport(commands, 0, 1, &viewport);
   vk.CmdSetScissor(commands, 0, 1, &scissor);
-  const Constants constants{static_cast<float>(line * samples_ / 2),
-                            static_cast<float>(line * samples_ * kHatchLines)};
+  Constants constants{.half_edge = static_cast<float>(line * samples_ / 2),
+                      .hatch_period = static_cast<float>(line * samples_ * kHatchLines),
+                      .from = 0,
+                      .to = 1};
+  constants.add(palette_);
   vk.CmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                       sizeof(constants), &constants);
   const VkBuffer corners = corners_.handle();

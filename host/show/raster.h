@@ -6,14 +6,16 @@
 
 #include "host/gpu/attachment.h"
 #include "host/show/camera.h"
+#include "host/show/palette.h"
 
 namespace vkh::drawing {
 
 /// One corner of a face, as mesh.vert reads it.
 struct Corner {
   float x, y, z;      ///< in Vulkan's clip space
-  uint8_t colour[4];  ///< the last: the darkness of the face's edges
-  uint8_t hatched, pad[3];
+  float share;        ///< of the bar, with `by_share`
+  uint8_t colour[4];  ///< the last: the darkness of the face's edges; the first by share: the light
+  uint8_t hatched, by_share, pad[2];
 };
 
 /// Writes the corners of `face_count` faces; one that is not to be seen has three times the same.
@@ -63,6 +65,9 @@ class Raster {
   /// `line`: the width of edges, in pixels; hatches go with it.
   Layer draw(VkExtent2D pixels, double line, size_t face_count, const FillFaces& fill);
 
+  /// The colours of shares, from now on.
+  void set_palette(const Palette& palette) { palette_ = palette; }
+
  private:
   struct Empty {};
   Raster(const Device& device, Empty, uint32_t width, uint32_t height);
@@ -78,6 +83,7 @@ class Raster {
   Submitter submitter_;
   Buffer corners_, read_;
   RasterPipeline pipeline_;
+  Palette palette_;
   VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
 };
 

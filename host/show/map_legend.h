@@ -1,0 +1,34 @@
+// The legend of a map by cells: its bar, its worst places, its distribution.
+#pragma once
+
+#include <vector>
+
+#include "host/show/legend.h"
+#include "host/show/map_places.h"
+#include "host/show/map_scale.h"
+
+namespace vkh::drawing {
+
+/// The legend's input, besides the sheet.
+struct MapLegend {
+  const MapScale& scale;
+  const MapCounts& counts;
+  const std::vector<MapPlace>& places;
+};
+
+/// Draws the bar with its limits, and below it what the bar's colours do not tell.
+void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area);
+/// Lists the places by their numbers: distance and coordinates. Returns the height that it takes.
+double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area);
+/// Draws the distribution of area over the bar, and figures.
+void draw_histogram(const Sheet& sheet, const MapLegend& legend, const Area& area);
+
+/// A distance of a place: "0.348 mm", "−0.348 mm" under the other mesh where sides are known.
+std::string place_text(const Sheet& sheet, const MapLegend& legend, const MapPlace& place);
+/// A share of area for people: "12 %", "0.03 %", "under 0.01 %".
+std::string percent_text(double share);
+
+/// The disc with a place's number.
+void draw_number(const Sheet& sheet, glm::dvec2 at, size_t number, bool is_hidden);
+
+}  // namespace vkh::drawing

@@ -1,0 +1,169 @@
+#include "host/show/map_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <optional>
+#include <unordered_map>
+
+namespace vkh {
+namespace {
+
+constexpr double kLeastOfLargest = 0.1, kFall = 0.5;
+constexpr int64_t kGrid = 64;
+
+float largest_of(const MapCell& cell) {
+  return std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
+}
+
+// The place at a corner of a cell.
+MapPlace place_at(const Mesh& mesh, const CellMap& map, const MapCell& cell, size_t corner) {
+  const glm::dvec3 w = weights_of(cell)[corner];
+  const glm::uvec3 f = mesh.faces[cell.face];
+  const glm::dvec3 a = mesh.vertices[f.x], b = mesh.vertices[f.y], c = mesh.vertices[f.z];
+  return {w.x * a + w.y * b + w.z * c, map.unit * static_cast<double>(cell.estimate[corner]),
+          cell.side, cell.face};
+}
+
+// The boxes of a grid over the mesh, each with the farthest place in it. A cell that is larger than
+// a box links the boxes of its corners.
+class MapGrid {
+ public:
+  explicit MapGrid(const Mesh& mesh) {
+    glm::dvec3 lo = mesh.vertices[0], hi = lo;
+    for (const glm::dvec3 v : mesh.vertices) {
+      lo = glm::min(lo, v);
+      hi = glm::max(hi, v);
+    }
+    const glm::dvec3 size = hi - lo;
+    const double extent = std::max({size.x, size.y, size.z});
+    lo_ = lo;
+    step_ = extent > 0 ? extent / static_cast<double>(kGrid) : 1;
+  }
+
+  /// Adds the corners of a cell that are at least so far.
+  void add(const Mesh& mesh, const CellMap& map, const MapCell& cell, float least) {
+    std::optional<size_t> last;
+    for (size_t corner = 0; corner < cell.estimate.size(); ++corner) {
+      if (cell.estimate[corner] < least) continue;
+      const size_t box = add(place_at(mesh, map, cell, corner));
+      if (last && *last != box) link(*last, box);
+      last = box;
+    }
+  }
+
+  const std::vector<MapPlace>& places() const { return places_; }
+
+  /// Calls visit(number) for the boxes around a box, and those that cells link to it.
+  template <class Visit>
+  void around(size_t number, const Visit& visit) const {
+    for (const size_t other : linked_[number]) visit(other);
+    const std::array<int64_t, 3> box = box_of(places_[number].point);
+    for (int64_t i = 0; i < 27; ++i) {
+      const auto found = number_.find(
+          key_of_box({box[0] + i % 3 - 1, box[1] + i / 3 % 3 - 1, box[2] + i / 9 - 1}));
+      if (found != number_.end()) visit(found->second);
+    }
+  }
+
+ private:
+  size_t add(const MapPlace& place) {
+    const auto [found, is_new] = number_.try_emplace(key_of(place.point), places_.size());
+    if (is_new) {
+      places_.push_back(place);
+      linked_.emplace_back();
+    } else if (place.distance > places_[found->second].distance) {
+      places_[found->second] = place;
+    }
+    return found->second;
+  }
+  void link(size_t one, size_t two) {
+    linked_[one].push_back(two);
+    linked_[two].push_back(one);
+  }
+  std::array<int64_t, 3> box_of(const glm::dvec3& p) const {
+    const glm::dvec3 at = glm::floor((p - lo_) / step_);
+    return {static_cast<int64_t>(at.x), static_cast<int64_t>(at.y), static_cast<int64_t>(at.z)};
+  }
+  static int64_t key_of_box(const std::array<int64_t, 3>& box) {
+    constexpr int64_t kRow = kGrid + 4;
+    return (box[0] + 1) + kRow * ((box[1] + 1) + kRow * (box[2] + 1));
+  }
+  int64_t key_of(const glm::dvec3& p) const { return key_of_box(box_of(p)); }
+
+  glm::dvec3 lo_{};
+  double step_ = 1;
+  std::unordered_map<int64_t, size_t> number_;
+  std::vector<MapPlace> places_;
+  std::vector<std::vector<size_t>> linked_;
+};
+
+// Boxes from the farthest down: each joins the clusters beside it. Where two meet, the less far one
+// ends, unless it rises to twice what it is where they meet.
+class FarClusters {
+ public:
+  explicit FarClusters(const MapGrid& grid)
+      : grid_(grid), first_(grid.places().size()), is_seen_(first_.size()) {
+    std::vector<size_t> order(first_.size());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = first_[i] = i;
+    std::sort(order.begin(), order.end(), [&](size_t x, size_t y) {
+      const MapPlace &p = grid.places()[x], &q = grid.places()[y];
+      return p.distance != q.distance ? p.distance > q.distance : x < y;
+    });
+    for (const size_t box : order) add(box);
+    for (const size_t box : order) {
+      if (first_of(box) == box) peaks_.push_back(box);
+    }
+    peaks_.insert(peaks_.end(), kept_.begin(), kept_.end());
+    std::sort(peaks_.begin(), peaks_.end(), [&](size_t x, size_t y) { return is_before(x, y); });
+  }
+
+  const std::vector<size_t>& peaks() const { return peaks_; }
+
+ private:
+  bool is_before(size_t x, size_t y) const {
+    const double p = grid_.places()[x].distance, q = grid_.places()[y].distance;
+    return p != q ? p > q : x < y;
+  }
+  size_t first_of(size_t box) {
+    while (first_[box] != box) box = first_[box] = first_[first_[box]];
+    return box;
+  }
+  void add(size_t box) {
+    is_seen_[box] = true;
+    const MapPlace& here = grid_.places()[box];
+    grid_.around(box, [&](size_t other) {
+      if (!is_seen_[other]) return;
+      size_t one = first_of(box), two = first_of(other);
+      if (one == two) return;
+      if (!is_before(one, two)) std::swap(one, two);
+      if (here.distance < kFall * grid_.places()[two].distance) kept_.push_back(two);
+      first_[two] = one;
+    });
+  }
+
+  const MapGrid& grid_;
+  std::vector<size_t> first_;
+  std::vector<bool> is_seen_;
+  std::vector<size_t> kept_, peaks_;
+};
+
+}  // namespace
+
+std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most) {
+  float largest = 0;
+  for (const MapCell& cell : map.cells) largest = std::max(largest, largest_of(cell));
+  if (static_cast<double>(largest) <= map.least) return {};
+  MapGrid grid(mesh);
+  const auto least = static_cast<float>(kLeastOfLargest * static_cast<double>(largest));
+  for (const MapCell& cell : map.cells) grid.add(mesh, map, cell, least);
+  std::vector<MapPlace> places;
+  const FarClusters clusters(grid);
+  for (const size_t peak : clusters.peaks()) {
+    if (places.size() < most) places.push_back(grid.places()[peak]);
+  }
+  return places;
+}
+
+}  // namespace vkh

@@ -1,0 +1,203 @@
+#include "host/show/map_scale.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/base/parallel.h"
+#include "host/show/light.h"
+
+namespace vkh::drawing {
+namespace {
+
+Rgb mixed(Rgb from, Rgb to, double share) {
+  const auto mix = [share](uint8_t x, uint8_t y) {
+    return static_cast<uint8_t>(std::lround(x + (y - x) * share));
+  };
+  return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
+}
+
+// From blue over nearly white to red; paler within limits, so that what is beyond stands out.
+Rgb signed_colour(double share, bool is_pale) {
+  constexpr Rgb kMiddle{238, 236, 230};
+  const Rgb under = is_pale ? Rgb{126, 176, 214} : Rgb{33, 76, 168};
+  const Rgb over = is_pale ? Rgb{243, 166, 138} : Rgb{178, 24, 43};
+  return share < 0.5 ? mixed(under, kMiddle, 2 * share) : mixed(kMiddle, over, 2 * share - 1);
+}
+
+constexpr std::array<Rgb, 2> kBeyond{{{240, 100, 20}, {120, 0, 20}}};
+constexpr std::array<Rgb, 2> kUnderBeyond{{{8, 28, 96}, {28, 84, 190}}};
+
+}  // namespace
+
+MapScale::MapScale(const Picture& picture, const PictureOptions& options)
+    : map_(*picture.map), is_signed_(picture.map->has_sides) {
+  if (picture.limit) limit_ = picture.limit->within;
+  if (picture.limit && is_signed_) limit_under_ = -picture.limit->within;
+  if (picture.sided) {
+    limit_ = picture.sided->over.within;
+    limit_under_ = -picture.sided->under.within;
+  }
+  set_range(picture, options);
+  set_palette(options);
+}
+
+void MapScale::set_range(const Picture& picture, const PictureOptions& options) {
+  constexpr double kTimesLimit = 1.5;
+  high_ = limit_ ? kTimesLimit * *limit_ : map_.bar;
+  if (!limit_) high_ = std::min(high_, picture.interval.upper);
+  if (is_signed_) low_ = limit_under_ ? kTimesLimit * *limit_under_ : -high_;
+  if (options.range) {
+    low_ = is_signed_ ? -options.range->upper : options.range->lower;
+    high_ = options.range->upper;
+  }
+}
+
+void MapScale::set_palette(const PictureOptions& options) {
+  const auto at = [&](double limit) { return std::clamp(share_of(limit), 0.0, 1.0); };
+  palette_.bands = std::min(options.bands, 255u);
+  palette_.from = limit_under_ ? at(*limit_under_) : 0;
+  palette_.to = limit_ ? at(*limit_) : 1;
+  const auto step = [](size_t i, size_t count) {
+    return static_cast<double>(i) / static_cast<double>(count - 1);
+  };
+  for (size_t i = 0; i < Palette::kOutside; ++i) {
+    const double share = step(i, Palette::kOutside);
+    palette_.below[i] = mixed(kUnderBeyond[0], kUnderBeyond[1], share);
+    palette_.above[i] = mixed(kBeyond[0], kBeyond[1], share);
+  }
+  const double nought =
+      std::clamp((share_of(0) - palette_.from) / (palette_.to - palette_.from), 1e-3, 1 - 1e-3);
+  for (size_t i = 0; i < Palette::kWithin; ++i) {
+    const double share = step(i, Palette::kWithin);
+    const double turned = share < nought ? share / nought / 2 : 1 - (1 - share) / (1 - nought) / 2;
+    palette_.within[i] =
+        is_signed_ ? signed_colour(turned, limit_.has_value()) : map_colour(options.map, share);
+  }
+}
+
+double MapScale::share_of(double distance) const {
+  const double width = high_ - low_;
+  if (!(width > 0)) return distance > high_ ? 2 : 0;  // a bar without width has one colour
+  return distance / width - low_ / width;
+}
+
+Rgb MapScale::colour(double distance) const {
+  const double share = share_of(distance);
+  if (share > 1) return kOver;
+  return share < 0 ? kBelow : palette_.colour(share);
+}
+
+bool MapScale::is_without_side(const MapCell& cell) const {
+  if (!is_signed_ || cell.side != SurfaceSide::kUnsigned) return false;
+  const float most = std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
+  return static_cast<double>(most) > map_.least &&
+         static_cast<double>(most) * map_.unit > CellMap::kUnresolved * high_;
+}
+
+double MapScale::distance_at(const MapCell& cell, size_t corner) const {
+  const double distance = map_.unit * static_cast<double>(cell.estimate[corner]);
+  if (!is_signed_) return distance;
+  return cell.side == SurfaceSide::kUnsigned ? 0 : distance * static_cast<double>(cell.side);
+}
+
+double MapScale::distance_of(const MapCell& cell) const {
+  return (distance_at(cell, 0) + distance_at(cell, 1) + distance_at(cell, 2)) / 3;
+}
+
+bool MapScale::is_unresolved(const MapCell& cell) const {
+  return map_.is_unresolved(cell, std::max(high_, -low_));
+}
+
+namespace {
+
+class CellWriter {
+ public:
+  CellWriter(const Picture& picture, const MapScale& scale, const Camera& camera)
+      : picture_(picture), scale_(scale), camera_(camera) {}
+
+  void operator()(size_t i, Corner* corners) const {
+    const MapCell& cell = picture_.map->cells[i];
+    const std::array<glm::dvec3, 3> at = pixels_of(cell);
+    const double light = light_on(normal_seen(at, camera_.scale));
+    const bool is_grey = scale_.is_without_side(cell);
+    const auto lit = [light](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
+    for (size_t k = 0; k < at.size(); ++k) {
+      const glm::dvec3 clip = camera_.clipped(at[k]);
+      Corner& corner = corners[k];
+      corner = {.x = static_cast<float>(clip.x),
+                .y = static_cast<float>(clip.y),
+                .z = static_cast<float>(clip.z),
+                .share = static_cast<float>(
+                    std::clamp(scale_.share_of(scale_.distance_at(cell, k)), -8.0, 8.0)),
+                .colour = {lit(255), 0, 0, 0},
+                .hatched = static_cast<uint8_t>(scale_.is_unresolved(cell) ? 1 : 0),
+                .by_share = 1,
+                .pad = {}};
+      if (!is_grey) continue;
+      corner.by_share = 0;
+      corner.colour[0] = corner.colour[1] = corner.colour[2] = lit(kNoSide.red);
+    }
+  }
+
+ private:
+  std::array<glm::dvec3, 3> pixels_of(const MapCell& cell) const {
+    const glm::uvec3 f = picture_.mesh.faces[cell.face];
+    const std::array<glm::dvec3, 3> face{picture_.mesh.vertices[f.x], picture_.mesh.vertices[f.y],
+                                         picture_.mesh.vertices[f.z]};
+    const std::array<glm::dvec3, 3> weights = weights_of(cell);
+    std::array<glm::dvec3, 3> at;
+    for (size_t i = 0; i < at.size(); ++i) {
+      at[i] =
+          camera_.pixel(weights[i].x * face[0] + weights[i].y * face[1] + weights[i].z * face[2]);
+    }
+    return at;
+  }
+
+  const Picture& picture_;
+  const MapScale& scale_;
+  const Camera& camera_;
+};
+
+}  // namespace
+
+FillFaces cells_for(const Picture& picture, const MapScale& scale, const Camera& camera) {
+  return
+      [writer = CellWriter(picture, scale, camera)](size_t first, size_t count, Corner* corners) {
+        constexpr size_t kPiece = 4096;
+        for_each_range_of(kPiece, count, [&](size_t, size_t begin, size_t end) {
+          for (size_t i = begin; i < end; ++i) writer(first + i, corners + 3 * i);
+        });
+      };
+}
+
+MapCounts counts_of(const CellMap& map, const MapScale& scale) {
+  MapCounts counts;
+  const auto is_within = [&](double distance) {
+    if (!scale.limit()) return true;
+    return distance <= *scale.limit() && distance >= scale.limit_under().value_or(distance);
+  };
+  for (const MapCell& cell : map.cells) {
+    const auto area = static_cast<double>(cell.share);
+    const float sum = cell.estimate[0] + cell.estimate[1] + cell.estimate[2];
+    counts.mean += area * map.unit * static_cast<double>(sum) / 3;
+    if (scale.is_unresolved(cell)) counts.unresolved += area;
+    if (scale.is_without_side(cell)) {
+      counts.no_side += area;
+      continue;
+    }
+    const double distance = scale.distance_of(cell), share = scale.share_of(distance);
+    if (is_within(distance)) counts.within += area;
+    if (share > 1) {
+      counts.above += area;
+    } else if (share < 0) {
+      counts.below += area;
+    } else {
+      const auto bin = static_cast<size_t>(share * MapCounts::kBins);
+      counts.bins[std::min(bin, MapCounts::kBins - 1)] += area;
+    }
+  }
+  return counts;
+}
+
+}  // namespace vkh::drawing

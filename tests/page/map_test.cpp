@@ -1,0 +1,257 @@
+// Pictures by cells: colours of distances, what they do not tell, worst places, fixed views.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "host/show/camera.h"
+#include "host/show/draw.h"
+#include "host/show/map_legend.h"
+#include "host/show/map_places.h"
+#include "host/show/map_scale.h"
+#include "host/survey/cell_corners.h"
+#include "tests/support/kernel_bench.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::drawing;
+
+const Device& drawing_device() {
+  Device& made = vkh::test::test_device();
+  if (!made.has_graphics()) {
+    std::puts("SKIP: the device draws nothing");
+    std::fflush(nullptr);
+    std::_Exit(77);
+  }
+  return made;
+}
+
+/// A square of n x n squares, of side 1 each.
+Mesh sheet(uint32_t n) {
+  std::vector<DVec3> vertices;
+  std::vector<UVec3> faces;
+  for (uint32_t i = 0; i <= n; ++i) {
+    for (uint32_t j = 0; j <= n; ++j) vertices.emplace_back(i, j, 0);
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j < n; ++j) {
+      const uint32_t v = i * (n + 1) + j, w = v + n + 1;
+      faces.insert(faces.end(), {{v, w, w + 1}, {v, w + 1, v + 1}});
+    }
+  }
+  return make_mesh("sheet", vertices, faces);
+}
+
+/// A map of whole faces, with distances by the place.
+template <class Distance>
+CellMap map_of_faces(const Mesh& mesh, const Distance& distance) {
+  CellMap map;
+  gpu::Cell whole{};
+  set_corners(whole, lib::whole_root());
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    const glm::uvec3 face = mesh.faces[f];
+    const auto at = [&](uint32_t v) {
+      return static_cast<float>(distance(glm::dvec3(mesh.vertices[v])));
+    };
+    map.cells.push_back(
+        {.corners = {whole.corners.x, whole.corners.y, whole.corners.z, whole.corners.w},
+         .face = static_cast<uint32_t>(f),
+         .estimate = {at(face.x), at(face.y), at(face.z)},
+         .width = 0,
+         .share = 1.0f / static_cast<float>(mesh.faces.size())});
+  }
+  map.bar = 1;
+  return map;
+}
+
+struct Drawn {
+  Mesh mesh = sheet(8);
+  Field field;
+  CellMap map;
+  Picture picture{.mesh = mesh, .field = field, .interval = {0, 1}};
+  PictureOptions options;
+
+  template <class Distance>
+  explicit Drawn(const Distance& distance) : map(map_of_faces(mesh, distance)) {
+    field.lower.assign(mesh.faces.size(), 0);
+    field.upper.assign(mesh.faces.size(), 1);
+    picture.map = &map;
+    options.width = 800;
+    options.height = 500;
+    options.view = parse_view("--view", "0,0,1");
+  }
+  Drawn(const Drawn&) = delete;
+  Drawn& operator=(const Drawn&) = delete;
+
+  Image image() const { return draw(drawing_device(), picture, options); }
+  /// The number of pixels among the views that have about this colour, lit from the front.
+  size_t count(Rgb colour) const {
+    const Image all = image();
+    size_t found = 0;
+    const auto is_near = [](uint8_t x, uint8_t y) { return std::abs(x - y) <= 2; };
+    for (uint32_t y = all.height / 8; y < all.height * 3 / 4; ++y) {
+      for (uint32_t x = 0; x < all.width * 2 / 3; ++x) {
+        const uint8_t* p = &all.rgba[4 * (size_t{y} * all.width + x)];
+        found +=
+            is_near(p[0], colour.red) && is_near(p[1], colour.green) && is_near(p[2], colour.blue);
+      }
+    }
+    return found;
+  }
+};
+
+constexpr Rgb kStripes{74, 64, 51};
+
+TEST_CASE("a cell has the colour of its distance") {
+  for (const double distance : {0.0, 0.25, 0.8}) {
+    const Drawn drawn([&](const glm::dvec3&) { return distance; });
+    const MapScale scale(drawn.picture, drawn.options);
+    CHECK(scale.high() == 1);
+    CHECK(drawn.count(scale.colour(distance)) > 20000);
+    CHECK(drawn.count(kOver) == 0);
+  }
+}
+
+TEST_CASE("a slope has a colour a place") {
+  const Drawn drawn([](const glm::dvec3& p) { return p.x / 8; });
+  const MapScale scale(drawn.picture, drawn.options);
+  for (const double distance : {0.1, 0.5, 0.9}) CHECK(drawn.count(scale.colour(distance)) > 400);
+}
+
+TEST_CASE("what is over the bar has a colour of its own, and a share") {
+  Drawn drawn([](const glm::dvec3& p) { return p.x > 4 ? 3.0 : 0.2; });
+  drawn.picture.interval = {3, 3};
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(drawn.count(kOver) > 5000);
+  const MapCounts counts = counts_of(drawn.map, scale);
+  CHECK(counts.above > 0.4);
+  CHECK(counts.above < 0.6);
+  CHECK(counts.unresolved == 0);
+}
+
+TEST_CASE("a cell that is not resolved is hatched, and counted") {
+  Drawn drawn([](const glm::dvec3&) { return 0.2; });
+  CHECK(drawn.count(kStripes) == 0);
+  for (size_t i = 0; i < drawn.map.cells.size() / 4; ++i) drawn.map.cells[i].width = 0.06f;
+  for (size_t i = drawn.map.cells.size() / 2; i < drawn.map.cells.size(); ++i)
+    drawn.map.cells[i].width = 0.04f;
+  CHECK(drawn.count(kStripes) > 1000);
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(counts_of(drawn.map, scale).unresolved == doctest::Approx(0.25));
+}
+
+TEST_CASE("in a gate the bar ends at one and a half limits, and what is beyond stands out") {
+  Drawn drawn([](const glm::dvec3& p) { return p.x / 8; });
+  drawn.picture.limit = Limit{0.4, 0.4};
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(scale.high() == doctest::Approx(0.6));
+  CHECK(drawn.count(kOver) > 5000);
+  CHECK(scale.colour(0.4).green > 200);  // the map's yellow
+  CHECK(scale.colour(0.401).green < 120);
+  CHECK(counts_of(drawn.map, scale).within == doctest::Approx(0.4).epsilon(0.1));
+}
+
+TEST_CASE("a signed map tells over from under, and greys what has no side") {
+  Drawn drawn([](const glm::dvec3&) { return 0.8; });
+  drawn.map.has_sides = true;
+  for (size_t i = 0; i < drawn.map.cells.size(); ++i) {
+    drawn.map.cells[i].side = i % 4 == 0   ? SurfaceSide::kUnsigned
+                              : i % 2 == 0 ? SurfaceSide::kOver
+                                           : SurfaceSide::kUnder;
+  }
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(scale.low() == -1);
+  CHECK(scale.colour(0.8).red > scale.colour(0.8).blue);
+  CHECK(scale.colour(-0.8).blue > scale.colour(-0.8).red);
+  for (const Rgb colour : {scale.colour(0.8), scale.colour(-0.8), kNoSide})
+    CHECK(drawn.count(colour) > 2000);
+  CHECK(counts_of(drawn.map, scale).no_side == doctest::Approx(0.25));
+}
+
+TEST_CASE("limits that differ by side end the bar on either side") {
+  Drawn drawn([](const glm::dvec3&) { return 0.3; });
+  drawn.map.has_sides = true;
+  for (MapCell& cell : drawn.map.cells) cell.side = SurfaceSide::kUnder;
+  drawn.picture.limit = Limit{0.4, 0.4};
+  drawn.picture.sided = SidedLimits{{0.4, 0.4}, {0.2, 0.2}};
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(scale.high() == doctest::Approx(0.6));
+  CHECK(scale.low() == doctest::Approx(-0.3));
+  CHECK(counts_of(drawn.map, scale).within == 0);
+  CHECK(scale.colour(-0.19) != scale.colour(-0.21));
+}
+
+double bump(const glm::dvec3& p, double x, double y, double height) {
+  return height * std::exp(-4 * ((p.x - x) * (p.x - x) + (p.y - y) * (p.y - y)));
+}
+
+TEST_CASE("a place is a cluster, not a cell") {
+  const Mesh mesh = sheet(40);
+  const CellMap map = map_of_faces(mesh, [](const glm::dvec3& p) {
+    return bump(p, 10, 10, 1) + bump(p, 30, 12, 0.6) + bump(p, 20, 33, 0.3) + bump(p, 35, 35, 0.05);
+  });
+  const std::vector<MapPlace> places = map_places(mesh, map, 5);
+  REQUIRE(places.size() == 3);
+  CHECK(places[0].distance == doctest::Approx(1));
+  CHECK(places[0].point.x == 10);
+  CHECK(places[1].distance == doctest::Approx(0.6));
+  CHECK(places[2].point.y == 33);
+  CHECK(map_places(mesh, map, 2).size() == 2);
+  const CellMap flat = map_of_faces(mesh, [](const glm::dvec3&) { return 0.0; });
+  CHECK(map_places(mesh, flat, 5).empty());
+}
+
+TEST_CASE("a ridge is one place") {
+  const Mesh mesh = sheet(40);
+  const CellMap map = map_of_faces(mesh, [](const glm::dvec3& p) {
+    return std::abs(p.x - 20) < 1.5 ? 0.8 + 0.2 * std::sin(p.y) * std::sin(p.y) : 0.01;
+  });
+  CHECK(map_places(mesh, map, 5).size() == 1);
+}
+
+TEST_CASE("the view from a corner does not depend on the answer") {
+  const Drawn drawn([](const glm::dvec3& p) { return p.x / 8; });
+  PictureOptions options;
+  Picture picture = drawn.picture;
+  const Area area{0, 0, 1000, 800};
+  const Panel one = Views(picture, options, 1).panels_in(area)[0];
+  picture.witness = Witness{{3, {1, 0, 0}, {0, 8, 0}}, {0, {}, {0, 8, -1}}};
+  const Panel other = Views(picture, options, 1).panels_in(area)[0];
+  CHECK(one.camera.axes.back == other.camera.axes.back);
+  CHECK(one.camera.scale == other.camera.scale);
+}
+
+TEST_CASE("six views leave out those that see a line") {
+  const Drawn drawn([](const glm::dvec3&) { return 0.5; });
+  PictureOptions options;
+  options.view.kind = View::Kind::kSix;
+  const std::vector<Panel> flat = Views(drawn.picture, options, 1).panels_in({0, 0, 1000, 800});
+  REQUIRE(flat.size() == 2);
+  CHECK(flat[0].label == "from +z");
+  Mesh solid = drawn.mesh;
+  solid.vertices[0].z = 3;
+  const Picture picture{.mesh = solid, .field = drawn.field, .interval = {0, 1}};
+  CHECK(Views(picture, options, 1).panels_in({0, 0, 1000, 800}).size() == 6);
+}
+
+TEST_CASE("shares are printed for people") {
+  CHECK(percent_text(0) == "0 %");
+  CHECK(percent_text(1e-6) == "under 0.01 %");
+  CHECK(percent_text(0.12345) == "12.3 %");
+  CHECK(percent_text(0.99995) == "over 99.9 %");
+  CHECK(percent_text(1) == "100 %");
+}
+
+TEST_CASE("a map has the same bytes each time, in any size") {
+  Drawn drawn([](const glm::dvec3& p) { return p.x / 6; });
+  drawn.map.cells[0].width = 1;
+  drawn.picture.unfinished = "its effort was used";
+  for (const char* size : {"640x400", "640x2000", "2000x400"}) {
+    parse_picture_size("--size", size, drawn.options);
+    CHECK(drawn.image().rgba == drawn.image().rgba);
+  }
+}
+
+}  // namespace
