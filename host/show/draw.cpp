@@ -113,8 +113,11 @@ class Drawing {
 /// Says what a colour is, and how well it is known.
 std::string Drawing::map_colours_text() const {
   const std::string other = picture_.back ? "A" : "B";
-  return "Colour: the estimated distance from " + other +
-         ", off by at most 5 % of the bar, where it is not hatched.";
+  std::string text = "Colour: the estimated distance from " + other +
+                     ", off by at most 5 % of the bar, where it is not hatched.";
+  if (!places_.empty() && options_.view.kind != View::Kind::kSix)
+    text += " A grey number is hidden in this view.";
+  return text;
 }
 
 std::vector<std::string> Drawing::footer_lines() const {
@@ -293,16 +296,16 @@ Image Drawing::draw_map() {
 }
 
 /// Draws the numbers of the places; in a single view with their distances, and those that are
-/// hidden in grey.
+/// hidden in grey. Lines of labels are under the numbers.
 void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_single) {
   std::vector<Area> taken;
+  for (size_t i = 0; is_single && i < places_.size(); ++i) draw_label(panel, layer, i, taken);
   for (size_t i = places_.size(); i-- > 0;) {  // the worst one is drawn last
     const bool is_hidden = !is_seen(picture_.mesh, panel.camera, places_[i].point);
     if (is_hidden && !is_single) continue;
     const glm::dvec2 at(panel.camera.pixel(places_[i].point));
     if (panel.camera.area.inner(-20 * unit_).has(at)) draw_number(sheet_, at, i + 1, is_hidden);
   }
-  for (size_t i = 0; is_single && i < places_.size(); ++i) draw_label(panel, layer, i, taken);
 }
 
 /// Draws a place's distance near its number, clear of other labels.

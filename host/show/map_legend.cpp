@@ -27,6 +27,12 @@ struct Row {
   std::string text;
 };
 
+// A survey that was not cut short leaves parts that are smaller than a pixel.
+std::string unresolved_text(const Picture& picture, double share) {
+  return (picture.unfinished.empty() ? "not resolved, smaller than a pixel: " : "not resolved: ") +
+         percent_text(share);
+}
+
 std::vector<Row> rows_of(const Sheet& sheet, const MapLegend& legend) {
   const MapCounts& counts = legend.counts;
   const auto number = [&](double x) { return with_unit(sheet.picture, short_number(x)); };
@@ -42,7 +48,7 @@ std::vector<Row> rows_of(const Sheet& sheet, const MapLegend& legend) {
   if (counts.no_side > 0)
     rows.push_back({kNoSide, false, "no side known: " + percent_text(counts.no_side)});
   if (counts.unresolved > 0)
-    rows.push_back({kUnbounded, true, "not resolved: " + percent_text(counts.unresolved)});
+    rows.push_back({kUnbounded, true, unresolved_text(sheet.picture, counts.unresolved)});
   return rows;
 }
 
