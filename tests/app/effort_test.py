@@ -119,7 +119,7 @@ class Effort(unittest.TestCase):
         self.assertGreater(batch("--report-dir", str(reports), "--effort", "2000"), drawn)
         done = self.run_program("batch", str(folder / "list.csv"), "--out", str(folder / "other.jsonl"), "--effort", "5")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("--effort: is of what is drawn", done.stderr)
+        self.assertIn("--effort: is of figures and of what is drawn", done.stderr)
 
 
 if __name__ == "__main__":
