@@ -10,9 +10,9 @@ layout(location = 3) noperspective in float bar_share;
 const int kOutside = 6, kWithin = 16;
 
 layout(push_constant) uniform Samples {
-  float half_edge;     // half of an edge's width, in samples
-  float hatch_period;  // period along a row, in samples
-  float from, to;      // the limits, as shares of the bar
+  float half_edge;                       // half of an edge's width, in samples
+  float hatch_period;                    // period along a row, in samples
+  float from, to;                        // the limits, as shares of the bar
   uint colours[2 * kOutside + kWithin];  // below, within, above; alpha of the first: bands
 };
 

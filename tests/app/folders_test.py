@@ -330,7 +330,7 @@ class SideBySide(Folders):
             for word in ("VUID", "SYNC-HAZARD", "Validation"):
                 self.assertNotIn(word, text)
         self.assertEqual(len(self.files()), 31)
-        alone = self.batch("--image-dir", "e", "--together", "1", "--lanes", "1", out="alone.jsonl")
+        alone = self.batch("--image-dir", "e", "--report-dir", "e", "--together", "1", "--lanes", "1", out="alone.jsonl")
         self.assertNotIn("vkhausdorff: ", alone.stderr)  # but perhaps lines of progress
         for i in range(10):
             self.assertEqual((self.folder / "d" / f"{i}.png").read_bytes(), (self.folder / "e" / f"{i}.png").read_bytes())

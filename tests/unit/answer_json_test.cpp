@@ -350,12 +350,12 @@ TEST_CASE("a stranger in place of any value is refused, or read as another answe
 
 TEST_CASE("a member that is missing is refused, unless it may be or says nothing new") {
   const std::set<std::string> dispensable = {
-      "name",     "stop_reason", "to",    "code",         "text",        "value",
-      "unit",                              // says nothing new
-      "file",     "face",        "notes",  // or is of a note
-      "part",     "parts",       "boxes", "more_devices", "barycentric", "certificate",
-      "coverage", "faces_a",     "field", "verified",     "exact",       "u1",
-      "transform", "estimate",   "jump"};
+      "name",      "stop_reason", "to",    "code",         "text",        "value",
+      "unit",                               // says nothing new
+      "file",      "face",        "notes",  // or is of a note
+      "part",      "parts",       "boxes", "more_devices", "barycentric", "certificate",
+      "coverage",  "faces_a",     "field", "verified",     "exact",       "u1",
+      "transform", "estimate",    "jump"};
   for (const Answer& answer : all_kinds()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {
