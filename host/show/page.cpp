@@ -38,7 +38,7 @@ class PageWriter {
     find_top();
     const std::optional<Limit> asked =
         answer_.max ? std::optional<Limit>(answer_.max->limit) : std::nullopt;
-    steps_ = tolerance_steps(top_, bar_end(), asked);
+    steps_ = tolerance_steps(top_, std::min(bar_end(), top_), asked);
     find_places();
   }
 
@@ -78,14 +78,11 @@ class PageWriter {
 
   // The length at the end of the colour bar: one stray triangle must not darken all the rest.
   double bar_end() const {
+    if (answer_.max) return kBarOfLimit * answer_.max->limit.beyond;
     double end = 0;
-    if (answer_.max) {
-      end = kBarOfLimit * answer_.max->limit.beyond;
-    } else {
-      for (const PageDirection* side : sides_) {
-        const bool has_any = side->statistics && !side->statistics->percentiles.empty();
-        end = std::max(end, has_any ? side->statistics->percentiles.back().distance.upper : top_);
-      }
+    for (const PageDirection* side : sides_) {
+      const bool has_any = side->statistics && !side->statistics->percentiles.empty();
+      end = std::max(end, has_any ? side->statistics->percentiles.back().distance.upper : top_);
     }
     return end > 0 && end < top_ ? end : top_;
   }

@@ -265,6 +265,9 @@ TEST_CASE("one stray triangle does not set the colours of all others") {
   pair.ask(0.5);
   CHECK(script(vkh::to_page(pair.contents()), "data")["bar"] ==
         doctest::Approx(1.5 * pair.answer.max->limit.beyond));
+  pair.ask(20);  // a good part is in the colours of a small deviation
+  CHECK(script(vkh::to_page(pair.contents()), "data")["bar"] ==
+        doctest::Approx(1.5 * pair.answer.max->limit.beyond));
 }
 
 TEST_CASE("a page has the colours of the map that was asked for") {

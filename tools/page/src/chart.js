@@ -121,9 +121,16 @@ export class Chart {
 
 export const OVER = '#d6208c';  // as the picture has it
 
-/// The colour of each step: of faces that are at most the step's distance away.
+/// The step from which on a face is farther than the colours reach.
+export function barEnd(data) {
+  const end = data.steps.value.findIndex((value) => value >= data.bar);
+  return end < 0 ? data.steps.value.length - 1 : end;
+}
+
+/// The colour of each step: of faces that are at most the step's distance away, and farther than the one before it.
 export function stepColours(data, palette) {
   const over = [1, 3, 5].map((i) => parseInt(OVER.slice(i, i + 2), 16));
-  const colours = data.steps.value.map((value) => (value > data.bar * 1.0001 && data.bar > 0 ? over : colourAt(palette, value / (data.bar || 1))));
+  const end = barEnd(data);
+  const colours = data.steps.value.map((value, i) => (i > end ? over : colourAt(palette, value / (data.bar || 1))));
   return [...colours, [128, 128, 128]];
 }

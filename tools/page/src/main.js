@@ -1,5 +1,5 @@
 // The page's movable parts. All that it says stands in the page already; this shows and measures.
-import { Chart, stepColours } from './chart.js';
+import { barEnd, Chart, stepColours } from './chart.js';
 import { readMesh } from './mesh.js';
 import { drawAxes, drawRuler, readingText } from './overlay.js';
 import { readPalette } from './palette.js';
@@ -13,8 +13,16 @@ const findAll = (selector) => document.querySelectorAll(selector);
 const data = JSON.parse(find('data').textContent);
 const palette = readPalette(data.palette);
 
+const COARSE = 0.05;  // a share of the colour bar, as in pictures
 const PRINTED_VIEW = [1600, 1000];  // a picture's shape
 const POINT = find('readout').textContent;
+
+// A face is known coarsely if its bounds are farther apart than one colour is from another.
+function isCoarse(within, beyond) {
+  const { value } = data.steps;
+  const upper = within < value.length ? value[within - 1] ?? 0 : Infinity;
+  return upper - (beyond > 0 ? value[beyond] : 0) > COARSE * data.bar;
+}
 
 class Page {
   constructor() {
@@ -36,8 +44,8 @@ class Page {
 
   // What the colours' end is, where something is farther.
   nameOver() {
-    const end = data.steps.value.findLastIndex((value) => value <= data.bar);
-    find('over').hidden = !(data.top > data.bar);
+    const end = barEnd(data);
+    find('over').hidden = !(data.top > data.steps.value[end]);
     find('over').textContent = `more than ${this.slider.text(end)}`;
   }
 
@@ -140,7 +148,7 @@ class Page {
   }
 
   async meshOf(index) {
-    this.meshes[index] ??= readMesh(data.sides[index].mesh, data.sides[0].mesh);
+    this.meshes[index] ??= readMesh(data.sides[index].mesh, data.sides[0].mesh, isCoarse);
     return (this.meshes[index] = await this.meshes[index]);
   }
 
@@ -150,6 +158,7 @@ class Page {
     if (this.side !== index) return;
     this.shown = mesh;
     this.view.setMesh(mesh);
+    find('coarse').hidden = !mesh.steps.some((flag, i) => i % 3 === 2 && flag > 0);
     if (isFirst) this.view.look('corner', true);
     document.body.dataset.shown = index;
     for (let i = 0; i < data.sides.length; ++i) await this.meshOf(i);  // a print needs them all at once

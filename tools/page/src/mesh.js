@@ -41,9 +41,9 @@ function undoCorners(codes) {
   return codes;
 }
 
-/// {positions, steps}: nine numbers and six a face, in units of `frame`, so that both meshes lie as
+/// {positions, steps}: nine numbers each a face (within, beyond, and whether it is known coarsely, thrice), in units of `frame`, so that both meshes lie as
 /// they are.
-export async function readMesh(packed, frame) {
+export async function readMesh(packed, frame, isCoarse) {
   const read = reader(await bytesOf(packed));
   const corners = undoCorners(read(3 * packed.faces, 3));
   const points = undoDifferences(read(3 * packed.vertices, 2), 3);
@@ -52,14 +52,15 @@ export async function readMesh(packed, frame) {
   const scale = frame.size > 0 ? packed.size / frame.size / 65535 : 0;
   const shift = packed.lo.map((lo, i) => (frame.size > 0 ? (lo - frame.lo[i]) / frame.size : 0));
   const positions = new Float32Array(9 * packed.faces);
-  const steps = new Float32Array(6 * packed.faces);
+  const steps = new Float32Array(9 * packed.faces);
   for (let corner = 0; corner < 3 * packed.faces; ++corner) {
     for (let axis = 0; axis < 3; ++axis) {
       positions[3 * corner + axis] = points[3 * corners[corner] + axis] * scale + shift[axis];
     }
     const face = Math.floor(corner / 3);
-    steps[2 * corner] = within[face];
-    steps[2 * corner + 1] = within[face] - gaps[face];
+    steps[3 * corner] = within[face];
+    steps[3 * corner + 1] = within[face] - gaps[face];
+    steps[3 * corner + 2] = isCoarse(within[face], within[face] - gaps[face]) ? 1 : 0;
   }
   return { positions, steps };
 }

@@ -40,7 +40,7 @@ function coordinate(x, size) {
 /// "0.0412 to 0.0424 mm at (29.86, 12.005, 9.648)".
 export function readingText(data, frame, mesh, hit) {
   const { value, label } = data.steps;
-  const within = mesh.steps[6 * hit.face], beyond = mesh.steps[6 * hit.face + 1];
+  const within = mesh.steps[9 * hit.face], beyond = mesh.steps[9 * hit.face + 1];
   const unit = data.unit ? ` ${data.unit}` : '';
   const point = hit.point.map((x, i) => coordinate(frame.lo[i] + frame.size * x, frame.size)).join(', ');
   const low = beyond > 0 ? label[beyond - 1] : null;

@@ -4,8 +4,8 @@ import { BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Mesh, 
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const VERTEX = `
-attribute vec2 steps;
-flat varying vec2 faceSteps;
+attribute vec3 steps;
+flat varying vec3 faceSteps;
 varying vec3 place;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
@@ -13,23 +13,26 @@ void main() {
   faceSteps = steps;
   gl_Position = projectionMatrix * seen;
 }`;
-// A face is proven within the tolerance from its first step on, and beyond it before its second.
+// A face is proven within the tolerance from its first step on, and beyond it before its second. One
+// that is known coarsely is striped: it is no farther than its colour, and may be much nearer.
 const FRAGMENT = `
 uniform sampler2D colours;
 uniform float tolerance;
 uniform float stripe;
 uniform bool distanceOnly;
 uniform vec3 beyondColour;
-flat varying vec2 faceSteps;
+flat varying vec3 faceSteps;
 varying vec3 place;
 void main() {
   vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
   float light = 0.55 + 0.45 * abs(dot(normal, normalize(vec3(0.2, 0.35, 1.0))));
   vec3 colour = texelFetch(colours, ivec2(int(faceSteps.x + 0.5), 0), 0).rgb;
+  bool isStripe = fract((gl_FragCoord.x + gl_FragCoord.y) / (2.0 * stripe)) < 0.5;
+  if (faceSteps.z > 0.5 && isStripe) colour = mix(colour, vec3(1.0), 0.6);
   if (!distanceOnly && tolerance < faceSteps.y) {
     colour = beyondColour;
   } else if (!distanceOnly && tolerance < faceSteps.x) {
-    colour = fract((gl_FragCoord.x + gl_FragCoord.y) / (2.0 * stripe)) < 0.5 ? vec3(1.0) : vec3(0.23, 0.26, 0.32);
+    colour = isStripe ? vec3(1.0) : vec3(0.23, 0.26, 0.32);
   }
   gl_FragColor = vec4(colour * light, 1.0);
 }`;
@@ -81,7 +84,7 @@ export class View {
   setMesh({ positions, steps }) {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    geometry.setAttribute('steps', new BufferAttribute(steps, 2));
+    geometry.setAttribute('steps', new BufferAttribute(steps, 3));
     geometry.computeBoundingBox();
     const ball = geometry.boundingBox.getBoundingSphere(new Sphere());
     this.ball = { centre: ball.center, radius: ball.radius || 0.5 };
