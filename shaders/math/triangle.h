@@ -262,6 +262,10 @@ VKH_FN Edges edges_from_base(Surface s, Closest c) {
   return e;
 }
 
+VKH_FN Two3 stepped_offset(Two3 offset, Edges e, Step step) {
+  return two_combination(offset, -step.v, e.to_end, -step.w, e.to_third);
+}
+
 // p - q for a point q of S that is nearer than the one `c` names, which is off the foot of p by
 // some kUlp R, since v and w are plain floats: `offset` is p less that point. It is off by another
 // 4 kUlp2 of the offset and of both steps along their edges: with steps of up to 2^-8, and an
@@ -270,7 +274,7 @@ VKH_FN Edges edges_from_base(Surface s, Closest c) {
 VKH_FN Two3 nearer_offset(Two3 offset, Surface s, Closest c) {
   Edges e = edges_from_base(s, c);
   Step step = step_to_foot(rounded(offset), e.to_end.hi, e.to_third.hi, c);
-  Two3 stepped = two_combination(offset, -step.v, e.to_end, -step.w, e.to_third);
+  Two3 stepped = stepped_offset(offset, e, step);
   if (dot3(stepped.hi, stepped.hi) < dot3(offset.hi, offset.hi)) return stepped;
   return offset;
 }

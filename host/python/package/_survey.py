@@ -262,7 +262,7 @@ def _signed(found, source):
 
     def field(side):
         interval = found[side]
-        return _field(found[side + "_field"], (mesh, *interval, *about[2:]) if source is not None else None)
+        return _field(found[side + "_field"], (mesh, *interval[:2], *about[2:]) if source is not None else None)
 
     areas = found["areas"]
     if areas is not None:
