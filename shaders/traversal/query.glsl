@@ -17,7 +17,7 @@ struct Item {
 
 Query query_at(uint i) {
   return Query(Two3(points[i].position, points[i].position_lo), control.base, control.tight != 0u,
-               has_subroots());
+               has_subroots() && control.base == 0.0);
 }
 
 Item point_item(uint i, bool mine) {

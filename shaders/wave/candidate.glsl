@@ -59,7 +59,7 @@ float cull_threshold(float lower, bool tolerant) {
 View view_of(LocalCorners placed, bool plain) {
   float distance = control.base + uintBitsToFloat(control.maximum[kMaxLower]);
   return View(placed.origin, placed.reach, control.base, needs_sharp(distance), plain, 0.0,
-              has_subroots());
+              is_fine(control.base));
 }
 
 // The order in which candidates are refined if there is no room for all: the smallest u first; of

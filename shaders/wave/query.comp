@@ -101,7 +101,7 @@ Item new_item(bool by_group, out uint i) {
   i = each * r.slot + k;
   mine = mine && (!by_group || lane == 0u);
   return Item(mine, mine && n.asked, n.start, -1.0,
-              Query(n.p, control.base, control.tight != 0u, has_subroots()));
+              Query(n.p, control.base, control.tight != 0u, is_fine(control.base)));
 }
 
 void main() {

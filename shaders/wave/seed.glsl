@@ -82,7 +82,7 @@ Item known_item(uint i, bool mine) {
   item.nearest = is_vertex ? vertex_nearest[i] : control.witness.nearest;
   float distance = is_vertex ? uintBitsToFloat(vertex_distance[i]) : control.witness.distance;
   item.distance = max(distance - base, 0.0);
-  item.query = Query(seed_point(i), base, is_tight(base) || control.tight != 0u, has_subroots());
+  item.query = Query(seed_point(i), base, is_tight(base) || control.tight != 0u, is_fine(base));
   item.asked = item.query.tight && item.distance > 0.0;
   return item;
 }
