@@ -174,10 +174,11 @@ double typed_length(const Limit& limit) {
 
 std::string length_in_words(const Limit& limit) {
   const double length = typed_length(limit);
-  const std::string all = decimal(length, 12, Rounding::kDown);
-  return std::strtod(all.c_str(), nullptr) == length
-             ? all
-             : "about " + decimal(length, 4, Rounding::kDown);
+  for (const Rounding rounding : {Rounding::kDown, Rounding::kUp}) {  // a decimal is either's
+    const std::string all = decimal(length, 12, rounding);
+    if (std::strtod(all.c_str(), nullptr) == length) return all;
+  }
+  return "about " + decimal(length, 4, Rounding::kDown);
 }
 
 }  // namespace vkh

@@ -212,7 +212,8 @@ void Drawing::draw_header() {
     write(canvas_, {pill.centre().x, 97.5 * u}, word, {18 * u, letters, Align::kCentre});
     at = pill.right() + 14 * u;
   }
-  std::string text = std::string(picture_.back ? "h(B,A)" : "h(A,B)") + " is in " +
+  std::string text = std::string("the largest deviation of ") +
+                     (picture_.back ? "B from A" : "A from B") + " is in " +
                      with_unit(picture_, "[" + h.lower + ", " + h.upper + "]");
   if (picture_.limit) text += "; the limit is " + limit_caption(picture_);
   write(canvas_, {at, 98 * u}, shortened(text, 20 * u, x + width - at),

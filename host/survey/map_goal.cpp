@@ -105,7 +105,8 @@ std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& p
 
 CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapOptions& options,
                const Estimates& estimates) {
-  const auto& [store, areas, known] = surface;
+  const CellStore& store = surface.store;
+  const Areas& areas = surface.areas;
   CellMap map;
   map.unit = pair.frame.length_down(1);
   map.least = least_width(pair);

@@ -171,6 +171,19 @@ TEST_CASE("a length is enclosed in the files' unit") {
   CHECK_THROWS_AS(in("1e308m", "um"), UsageError);
 }
 
+// The double of 0.3 is a little less than it, that of 0.1 a little more.
+TEST_CASE("a limit is written as it was typed") {
+  for (const std::string text : {"0.1", "0.2", "0.3", "0.7", "2.54", "1.1"}) {
+    CAPTURE(text);
+    for (const char* unit : {"mm", "abs"}) {
+      const Length length = parsed((text + unit).c_str());
+      CHECK(length_in_words(limit_in_files(length, "--max", "mm", 1)) == text);
+    }
+  }
+  const double third = 1.0 / 3;
+  CHECK(length_in_words({third, third}) == "about 0.3333");
+}
+
 TEST_CASE("a share of a diagonal that no double holds to all its bits decides nothing") {
   const auto limit = [](const char* text, double diagonal) {
     return limit_in_files(parsed(text), "--max", "mm", diagonal);
