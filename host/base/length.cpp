@@ -175,7 +175,7 @@ double typed_length(const Limit& limit) {
 std::string length_in_words(const Limit& limit) {
   const double length = typed_length(limit);
   for (const Rounding rounding : {Rounding::kDown, Rounding::kUp}) {  // a decimal is either's
-    const std::string all = decimal(length, 12, rounding);
+    std::string all = decimal(length, 12, rounding);
     if (std::strtod(all.c_str(), nullptr) == length) return all;
   }
   return "about " + decimal(length, 4, Rounding::kDown);

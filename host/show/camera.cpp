@@ -61,7 +61,8 @@ std::vector<Panel> Views::six_views(const Area& area) const {
     const size_t i = directions[n];
     glm::dvec3 direction(0);
     direction[static_cast<glm::length_t>(i / 2)] = i % 2 == 0 ? 1 : -1;
-    const auto column = static_cast<double>(n % columns), row = static_cast<double>(n / columns);
+    const size_t row_number = n / columns;
+    const auto column = static_cast<double>(n % columns), row = static_cast<double>(row_number);
     const Area cell{area.x + column * width, area.y + row * height, width, height};
     panels.push_back(view_from(direction, cell.inner(std::round(26 * unit_))));
     panels.back().label = std::string("from ") + (i % 2 == 0 ? "+" : "\u2212") + "xyz"[i / 2];

@@ -286,6 +286,7 @@ Image Drawing::draw_map() {
   draw_header();
   draw_lines(footer, places.footer);
   std::vector<Layer> layers;
+  layers.reserve(panels.size());
   for (const Panel& panel : panels) layers.push_back(paint(raster, panel.camera));
   for (size_t i = 0; i < panels.size(); ++i) {
     draw_panel_frame(panels[i]);
