@@ -70,13 +70,13 @@ _Mesh = Union[
 
 class DeviceError(RuntimeError): ...
 
-class Interval(tuple[float, float]):
+class _Bounds(NamedTuple):
+    lower: float
+    upper: float
+
+class Interval(_Bounds):
     """An enclosure: its value lies in [lower, upper], in exact arithmetic."""
 
-    @property
-    def lower(self) -> float: ...
-    @property
-    def upper(self) -> float: ...
     estimate: float | None
     jump: bool
     def __new__(cls, lower: float, upper: float, estimate: float | None = None, jump: bool = False) -> Interval: ...
