@@ -159,8 +159,9 @@ class Types(unittest.TestCase):
             cls = getattr(vkh, name)
             members = stub_of(node.body)
             fields = getattr(cls, "__match_args__", ())  # of a dataclass or a named tuple
-            bases = [base.id for base in node.bases if isinstance(base, ast.Name) and base.id.startswith("_")]
-            body = [member for base in bases for member in stub_of(STUB.body)[base].body] + node.body
+            stub = stub_of(STUB.body)
+            bases = [base.id for base in node.bases if isinstance(base, ast.Name) and base.id in stub]
+            body = [member for base in bases for member in stub[base].body] + node.body
             said = [member.target.id for member in body if isinstance(member, ast.AnnAssign)]
             values = [value for value in said if value in fields or value not in vars(cls)]
             self.assertEqual(values, list(fields), name)
