@@ -248,7 +248,7 @@ VKH_API void vkhDestroyContext(VkhContext context);
  * The first, after recording: VKH_ERROR_MEMORY if one could not be allocated; VKH_ERROR_MISUSE if a
  * checked call broke a rule. Commands are then missing: do not submit. The second frees the sets
  * and forgets broken rules: once the command buffer has run, and is freed or to be recorded anew.
- */
+ * With push descriptors and no broken rule it has nothing to free, and may be left out. */
 VKH_API VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
 VKH_API void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
@@ -284,7 +284,7 @@ typedef struct VkhMesh {
 typedef struct VkhMemory {
   VkBuffer buffer;
   VkDeviceSize offset; /* bytes */
-  VkDeviceSize size;   /* bytes */
+  VkDeviceSize size;   /* bytes: what is required, or more */
 } VkhMemory;
 
 enum { VKH_MAX_RANGES = 8 };
@@ -480,8 +480,8 @@ typedef struct VkhReport {
   /* The same interval with more bits than two float32 near h have: certified, base + lowerAbove <=
    * h(A, B) <= base + upperAbove, the sums taken exactly (in double). */
   float base, lowerAbove, upperAbove;
-  uint32_t status; /* VkhStatus */
-  uint32_t waves;
+  uint32_t status;    /* VkhStatus */
+  uint32_t waves;     /* that ran, vkhCmdBegin's among them: none runs after the end */
   uint32_t remaining; /* candidates still open */
   uint32_t wanted; /* the run pauses: vkhGetWorkspaceSize of so many candidates would do; else 0 */
   float witnessPosition[3]; /* the point of A that proves `lower`, rounded */

@@ -225,6 +225,7 @@ std::vector<double> Estimates::percentiles(std::span<const double> shares,
     }
   }
   std::vector<double> found;
+  found.reserve(at.size());
   for (const Enclosure& e : at) found.push_back((e.lower + e.upper) / 2);
   return found;
 }
@@ -246,6 +247,7 @@ void put_shares(const Estimates& estimates, const SurveyedPair& pair,
   std::sort(order.begin(), order.end(),
             [&](size_t x, size_t y) { return shares[x].distance < shares[y].distance; });
   std::vector<double> ascending;
+  ascending.reserve(order.size());
   for (const size_t i : order) ascending.push_back(pair.frame.to_frame(shares[i].distance));
   const std::vector<double> within = estimates.shares_within(ascending);
   for (size_t k = 0; k < order.size(); ++k) put(within[k], shares[order[k]].share);

@@ -253,6 +253,7 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
 void add_jumps(const CellStore& store, const Areas& areas, const Asked& asked,
                std::vector<AreaWithin>& bands) {
   std::vector<Enclosure> shares;
+  shares.reserve(bands.size());
   for (const AreaWithin& band : bands) shares.push_back(band.share);
   const std::vector<bool> jumps = jumps_of(store, areas, asked, bands_of(asked), shares);
   for (size_t i = 0; i < bands.size(); ++i) bands[i].jump = jumps[i];
