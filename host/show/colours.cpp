@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "host/base/parallel.h"
 #include "host/show/light.h"
 
 namespace vkh::drawing {
@@ -67,13 +66,7 @@ class FaceWriter {
 }  // namespace
 
 FillFaces faces_for(const Picture& picture, const Scale& scale, const Camera& camera) {
-  return
-      [writer = FaceWriter(picture, scale, camera)](size_t first, size_t count, Corner* corners) {
-        constexpr size_t kPiece = 4096;
-        for_each_range_of(kPiece, count, [&](size_t, size_t begin, size_t end) {
-          for (size_t i = begin; i < end; ++i) writer(first + i, corners + 3 * i);
-        });
-      };
+  return filled_by(FaceWriter(picture, scale, camera));
 }
 
 Scale::Scale(const Picture& picture, const PictureOptions& options)

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "host/base/parallel.h"
 #include "host/show/light.h"
 
 namespace vkh::drawing {
@@ -162,13 +161,7 @@ class CellWriter {
 }  // namespace
 
 FillFaces cells_for(const Picture& picture, const MapScale& scale, const Camera& camera) {
-  return
-      [writer = CellWriter(picture, scale, camera)](size_t first, size_t count, Corner* corners) {
-        constexpr size_t kPiece = 4096;
-        for_each_range_of(kPiece, count, [&](size_t, size_t begin, size_t end) {
-          for (size_t i = begin; i < end; ++i) writer(first + i, corners + 3 * i);
-        });
-      };
+  return filled_by(CellWriter(picture, scale, camera));
 }
 
 MapCounts counts_of(const CellMap& map, const MapScale& scale) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "host/base/parallel.h"
 #include "host/gpu/attachment.h"
 #include "host/show/camera.h"
 #include "host/show/palette.h"
@@ -20,6 +21,17 @@ struct Corner {
 
 /// Writes the corners of `face_count` faces; one that is not to be seen has three times the same.
 using FillFaces = std::function<void(size_t first_face, size_t face_count, Corner* corners)>;
+
+/// Calls writer(face, its three corners) for each face, on several threads.
+template <class Writer>
+FillFaces filled_by(Writer writer) {
+  return [writer](size_t first, size_t count, Corner* corners) {
+    constexpr size_t kPiece = 4096;
+    for_each_range_of(kPiece, count, [&](size_t, size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) writer(first + i, corners + 3 * i);
+    });
+  };
+}
 
 /// A part of a picture; opacity is the share of a pixel that faces cover, white is the rest.
 struct Layer {

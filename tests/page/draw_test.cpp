@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <set>
@@ -24,15 +23,7 @@ using namespace vkh;
 
 constexpr Rgb kStripe{74, 64, 51};
 
-const Device& device() {
-  Device& made = vkh::test::test_device();
-  if (!made.has_graphics()) {
-    std::puts("SKIP: the device draws nothing");
-    std::fflush(nullptr);
-    std::_Exit(77);
-  }
-  return made;
-}
+const Device& device() { return test::drawing_device(); }
 
 /// Two faces, each on its side of x = 0, seen whole from above.
 Mesh two_faces() {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "host/show/camera.h"
 #include "host/show/draw.h"
@@ -17,16 +16,6 @@ namespace {
 
 using namespace vkh;
 using namespace vkh::drawing;
-
-const Device& drawing_device() {
-  Device& made = vkh::test::test_device();
-  if (!made.has_graphics()) {
-    std::puts("SKIP: the device draws nothing");
-    std::fflush(nullptr);
-    std::_Exit(77);
-  }
-  return made;
-}
 
 /// A square of n x n squares, of side 1 each.
 Mesh sheet(uint32_t n) {
@@ -85,7 +74,7 @@ struct Drawn {
   Drawn(const Drawn&) = delete;
   Drawn& operator=(const Drawn&) = delete;
 
-  Image image() const { return draw(drawing_device(), picture, options); }
+  Image image() const { return draw(test::drawing_device(), picture, options); }
   /// The number of pixels among the views that have about this colour, lit from the front.
   size_t count(Rgb colour) const {
     const Image all = image();
