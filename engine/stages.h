@@ -20,7 +20,8 @@ struct Stage {
   const char* column;
 };
 
-// Of the sort, whose passes engine/paper.cpp records, only the kernel that no build of a BVH needs.
+// The sort has one kernel here, the only one that no build of a BVH needs: engine/paper.cpp records
+// its passes.
 inline constexpr std::array kStages{
     Stage{kIndexOfWaveSort, &gpu::WaveSizes::sort_keys, gpu::sorts_frontier, "order"},
     Stage{kIndexOfPaperSubdivide, &gpu::WaveSizes::sorted, gpu::sorts_frontier, "subdivide"},

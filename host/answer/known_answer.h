@@ -1,4 +1,4 @@
-// What is known of an answer while threads work on it.
+// An answer as far as it is known, shared with the threads that work on it.
 #pragma once
 
 #include <limits>

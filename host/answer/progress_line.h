@@ -41,7 +41,7 @@ inline std::string progress_text(const WorkDone& done, double left_s) {
   return text;
 }
 
-/// What --verbose adds to it during a search, in the method's words.
+/// Describes a search in the method's words, for --verbose.
 inline std::string search_words(const Progress& p) {
   std::array<char, 160> words{};
   std::snprintf(words.data(), words.size(), "%s  wave %u  %llu candidates  gap %s",
@@ -50,7 +50,7 @@ inline std::string search_words(const Progress& p) {
   return words.data();
 }
 
-/// What --verbose adds to it during a survey or while a certificate is made.
+/// Counts the work of a survey or of a certificate, for --verbose.
 inline std::string count_words(const char* what, const SideCount& side, const char* of) {
   return std::string(what) + " of " + (side.back ? "B" : "A") + "  " + std::to_string(side.count) +
          " " + of;

@@ -20,7 +20,7 @@ struct Observer {
   std::function<double()> left_s = {};               ///< the seconds left for all of it
   std::function<bool(const Progress&)> search = {};  ///< of the search; false: end
   std::function<void(const SideCount&)> cells = {}, leaves = {};  ///< of a survey; a certificate
-  /// What is known: after the search, after the search for the worst point, and after surveys.
+  /// Hears the answer after the search, after the search for the worst point, and after surveys.
   std::function<void(const Answer&)> found = {};
 
   bool is_to_go_on() const { return !goes_on || goes_on(); }

@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// What is known while a question is worked on.
+/// The share of the work that is done, and the interval that is known by then.
 struct WorkDone {
   double fraction = 0;  ///< in [0, 1]; it never falls, and is 1 once all work is done
   /// Enclose the whole answer's distance, in the files' units. They never widen.

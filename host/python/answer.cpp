@@ -120,7 +120,7 @@ struct SurveyedSide {
   const std::string& against;  ///< the other one's name
 };
 
-/// What Field.save() writes besides the bounds of faces.
+/// Gathers everything but the bounds of faces that Field.save() writes.
 py::object source_of(const SurveyedSide& side, const Answer& answer) {
   if (side.mesh == nullptr) return py::none();
   return py::make_tuple(mesh_object(side.mesh), side.report.lower, side.report.upper, answer.unit,

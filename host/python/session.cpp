@@ -104,7 +104,7 @@ pybind11::value_error Session::closed() const {
   return pybind11::value_error(std::string("this ") + owner_name_ + " is closed");
 }
 
-// What is dropped meanwhile is freed, too. A forked process leaves all to its parent.
+// Frees meshes that are dropped meanwhile, too. A forked process leaves all to its parent.
 void Session::end_turn() {
   for (bool is_over = is_forked(); !is_over;) {
     std::vector<Key> dropped;

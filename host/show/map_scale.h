@@ -33,7 +33,7 @@ class MapScale {
   /// Whether a cell has no colour but grey: it has no side, and is not so near that it looks like
   /// nought.
   bool is_without_side(const MapCell& cell) const;
-  /// What a corner of a cell is drawn as.
+  /// The distance by which a corner of a cell is coloured.
   double distance_at(const MapCell& cell, size_t corner) const;
   double distance_of(const MapCell& cell) const;  ///< about its middle
   bool is_unresolved(const MapCell& cell) const;

@@ -29,7 +29,7 @@ nlohmann::ordered_json side_view(const PageText& page, bool back,
                                  const std::vector<WorstPlace>& places,
                                  const Statistics* statistics);
 
-/// What was measured, on which device, and how: rows of two tables, and notes.
+/// Describes the inputs, the device and the run: rows of two tables, and notes.
 nlohmann::ordered_json record_view(const PageText& page);
 
 }  // namespace vkh

@@ -41,7 +41,7 @@ std::string band_text(const Answer& answer, const AreaWithin& band);
 Enclosure deviation_of(const Answer& answer, const Report& report);
 Enclosure deviation_of(const Answer& answer);
 
-/// What stands beside the verdict.
+/// The verdict and the text beside it.
 struct Headline {
   std::string word;   ///< PASS, FAIL, UNDECIDED or DISTANCE
   std::string style;  ///< pass, fail, undecided or plain: a class of style.css
@@ -49,8 +49,8 @@ struct Headline {
 };
 Headline headline_of(const Answer& answer);
 
-/// What a reader has to know before the figures: that the pair is odd, that one direction was
-/// measured, that a search or a survey was cut short. A sentence each.
+/// Warns, in a sentence each, of an odd pair, of a single direction, and of a search or a survey
+/// that was cut short.
 std::vector<std::string> warnings_of(const Answer& answer);
 
 /// "mm, by --unit": the unit of all lengths, and who says so.

@@ -1,5 +1,5 @@
-// What figures of A probably are: distances taken in double at a few points of each cell. They
-// prove nothing, and are put within what is proven, which moves none away from the truth.
+// Estimates of A's figures, from distances taken in double at a few points of each cell. They prove
+// nothing, and are clamped to the proven interval, which moves none away from the truth.
 #pragma once
 
 #include <array>

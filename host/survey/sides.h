@@ -13,7 +13,7 @@
 
 namespace vkh {
 
-/// What was found of the sides of a survey's cells so far. A cell that is split keeps its side.
+/// The sides of a survey's cells that are known so far. A cell that is split keeps its side.
 class KnownSides {
  public:
   /// Whether the cell was looked at as it is, or has a side from before it was split.

@@ -183,7 +183,7 @@ double SidedCells::enough(const Enclosure& figure, const Moments& plain,
 
 namespace {
 
-// What the cell has of a figure's width, or 0 where a split would gain nothing.
+// Returns `width`, the cell's part of a figure's width, or 0 where a split would gain nothing.
 double gain_of(const gpu::CellBounds& b, const CellSide& side, double width) {
   const double highest = static_cast<double>(b.highest);
   const bool is_sided = side.side != SurfaceSide::kUnsigned;

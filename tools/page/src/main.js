@@ -42,7 +42,7 @@ class Page {
     document.body.dataset.ready = this.view ? 'view' : 'picture';
   }
 
-  // What the colours' end is, where something is farther.
+  // Names the colours' end where something is farther.
   nameOver() {
     const end = barEnd(data);
     find('over').hidden = !(data.top > data.steps.value[end]);

@@ -1,4 +1,4 @@
-// What lies over the view: the axes, the ruler, and the reading under the cursor.
+// The overlay of the view: the axes, the ruler, and the reading under the cursor.
 
 const COLOURS = ['#b3161f', '#146c37', '#1f56b5'];
 
