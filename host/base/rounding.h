@@ -46,6 +46,22 @@ inline double multiply_down(double x, double y) {
   return float128(product) > exact ? std::nextafter(product, 0.0) : product;
 }
 
+/// The same, rounded up; infinite where it overflows.
+inline double multiply_up(double x, double y) {
+  const Float128 exact = float128(x) * float128(y);
+  const double product = static_cast<double>(exact);
+  return float128(product) < exact
+             ? std::nextafter(product, std::numeric_limits<double>::infinity())
+             : product;
+}
+
+/// Rounds x / y of a number that is not negative by a positive one down.
+inline double divide_down(double x, double y) {
+  const double quotient = x / y;
+  if (!std::isfinite(quotient)) return std::numeric_limits<double>::max();
+  return float128(quotient) * float128(y) > float128(x) ? std::nextafter(quotient, 0.0) : quotient;
+}
+
 /// Rounds x / y of a number that is not negative by a positive one up.
 inline double divide_up(double x, double y) {
   const double quotient = x / y;

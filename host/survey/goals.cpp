@@ -30,10 +30,8 @@ double enough(const Enclosure& figure, const Asked& asked) {
   return std::max(asked.options.mean_tolerance * figure.lower, asked.least);
 }
 
-// A distance of the files in the frame, from below and above what it is on the stored meshes.
 Threshold in_frame(const Asked& asked, double distance) {
-  const double d = asked.frame.to_frame(distance);
-  return {d * (1 - 1e-15) - asked.displacement, d * (1 + 1e-15) + asked.displacement};
+  return threshold_at(asked.frame, asked.displacement, distance);
 }
 
 // The distance between a cell's bounds.
@@ -195,6 +193,12 @@ Scores score_moments(const CellStore& store, const Areas& areas, const Asked& as
 
 }  // namespace
 
+double largest_upper(const CellStore& store, const SurveyedPair& pair) {
+  const std::vector<float> highest = store.highest_of_faces();
+  const float most = *std::max_element(highest.begin(), highest.end());
+  return in_files(pair, {0, static_cast<double>(most)}).upper;
+}
+
 double least_width(const SurveyedPair& pair) {
   return std::max(1e-6 * pair.frame.to_frame(diagonal(bounding_box(pair.a))), 3 * kFloor);
 }
@@ -227,12 +231,6 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
 namespace {
 
 constexpr int kCurveSteps = 100;
-
-double largest_upper(const CellStore& store, const SurveyedPair& pair) {
-  const std::vector<float> highest = store.highest_of_faces();
-  const float most = *std::max_element(highest.begin(), highest.end());
-  return in_files(pair, {0, static_cast<double>(most)}).upper;
-}
 
 std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const Asked& asked,
                                const std::vector<double>& distances) {

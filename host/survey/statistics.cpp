@@ -252,6 +252,12 @@ Enclosure share_of(double least, double most, const Areas& areas) {
 
 }  // namespace
 
+// Scaling by a power of two rounds subnormal results alone, which are far below `displacement`.
+Threshold threshold_at(const Frame& frame, double displacement, double distance) {
+  const double d = frame.to_frame(distance);
+  return {d * (1 - 1e-15) - displacement, d * (1 + 1e-15) + displacement};
+}
+
 std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
                                      std::span<const Threshold> thresholds) {
   std::vector<size_t> order(thresholds.size());

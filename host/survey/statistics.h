@@ -33,6 +33,10 @@ struct Threshold {
   double down, up;
 };
 
+/// A distance of the files in the frame, from below and above what it is on the stored meshes.
+/// `displacement`: of both, in the frame.
+Threshold threshold_at(const Frame& frame, double displacement, double distance);
+
 /// The share of A's area within each threshold. `areas.whole` exceeds its error twice.
 std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
                                      std::span<const Threshold> thresholds);

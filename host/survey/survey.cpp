@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/survey/distribution.h"
 #include "host/survey/goals.h"
 #include "host/survey/map_goal.h"
 #include "host/survey/signed_figures.h"
@@ -293,7 +294,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
     CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
     bounding.faces(store);
-    const Areas areas = areas_of(pair.a);
+    Areas areas = areas_of(pair.a);
     std::vector<Enclosure> percentiles;
     std::vector<Goal> goals = goals_of(options, pair, areas, percentiles);
     if (sided) add_signed_goals(*sided, options, areas, goals);
@@ -305,18 +306,21 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     result.faces = options.faces;
     if (sided) result.sides = sided->figures({store, areas, percentiles}, options);
     result.ended = std::max(result.ended, bounding.ended());
+    result.cells = store.count();
     if ((options.statistics || options.map) && areas.is_positive()) {
-      const Estimates estimates(pair, store, areas);
+      const double largest = largest_upper(store, pair);
+      const auto whole =
+          std::make_shared<Distribution>(pair, std::move(store), std::move(areas), largest);
+      const SurveyedArea surface{whole->cells(), whole->areas(), percentiles};
       if (options.statistics)
-        result.statistics = statistics_of({store, areas, percentiles}, pair, options, estimates);
-      if (options.map)
-        result.map = map_of({store, areas, percentiles}, pair, *options.map, estimates);
-      if (result.map && sided) add_sides(sided->of(store), *result.map);
+        result.statistics = statistics_of(surface, pair, options, whole->estimates());
+      if (options.map) result.map = map_of(surface, pair, *options.map, whole->estimates());
+      if (result.map && sided) add_sides(sided->of(whole->cells()), *result.map);
+      if (options.keeps_distribution && result.statistics) result.distribution = whole;
     }
     if (options.statistics && !result.statistics)
       result.ended = std::max(result.ended, SurveyEnd::kBits);
     result.effort = bounding.effort();
-    result.cells = store.count();
     result.bounded = bounding.bounded();
     result.device_ms = bounding.device_ms();
     result.ms = bounding.ms();

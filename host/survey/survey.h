@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,8 @@ const char* survey_end_name(SurveyEnd end);
 /// on a GPU what the goals of all but a few of the public pairs need (docs/log/measurements.md).
 size_t default_effort(bool on_cpu);
 
+class Distribution;
+
 struct SurveyOptions {
   bool faces = false;  ///< each face's bounds are to be narrow; otherwise it is bounded once
   /// The width to reach, in the files' units; 0: `face_tolerance` of what the largest distance is
@@ -49,7 +52,9 @@ struct SurveyOptions {
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
-  std::optional<MapOptions> map = {};                        ///< result.map is wanted
+  /// With statistics: result.distribution is wanted, as metrics_of() needs it.
+  bool keeps_distribution = false;
+  std::optional<MapOptions> map = {};  ///< result.map is wanted
   /// The sides of A are wanted, of 95 % of its area that is farther from B than a hundredth of the
   /// largest distance: result.sides.
   bool is_signed = false;
@@ -83,6 +88,8 @@ struct SurveyResult {
   std::optional<Statistics> statistics;
   std::optional<SignedFigures> sides = {};
   std::optional<CellMap> map = {};  ///< none where A has no area
+  /// With SurveyOptions::keeps_distribution and `statistics`: it refers to the surveyed A.
+  std::shared_ptr<const Distribution> distribution = {};
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default

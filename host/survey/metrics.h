@@ -1,0 +1,97 @@
+// Metrics of two surfaces by the names that papers use (docs/metrics.md), each enclosed, from the
+// surveys of both directions.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/solve/report.h"
+#include "host/survey/field.h"
+#include "host/survey/survey.h"
+
+namespace vkh {
+
+/// A figure, and whether it is as narrow as it is to be. Before anything is known it is neither.
+struct Metric {
+  Enclosure value{0, std::numeric_limits<double>::infinity()};
+  bool is_met = false;
+  /// So much area lies at this distance, or so little around it, that no effort narrows it.
+  bool jump = false;
+};
+
+/// The figures at a distance: shares of area, in [0, 1].
+struct MetricsWithin {
+  double distance = 0;                ///< in the files' units
+  Metric nsd, precision, recall, f1;  ///< of both areas; of A's; of B's; of the last two
+};
+
+/// The figures of a pair. Lengths are in the files' units, chamfer_l2 in their square.
+struct Metrics {
+  double percentile = 95;  ///< of hd_p and hd_p_pooled, in percent
+  Metric hausdorff, hd_p, hd_p_pooled, masd, assd, rms, chamfer_l1, chamfer_l2;
+  std::vector<MetricsWithin> within;
+
+  bool is_met() const;
+};
+
+/// The wish for metrics.
+struct MetricsOptions {
+  double percentile = 95;  ///< in (0, 100]
+  /// The width that is enough: of a length, as a fraction of its own lower end, but no less than a
+  /// millionth of the larger diagonal or what floats leave; of a share.
+  static constexpr double kTolerance = 0.02, kShareTolerance = 0.001;
+};
+
+/// A figure by its name in JSON.
+struct NamedMetric {
+  const char* name;
+  Metric Metrics::*figure;
+  int dimension;  ///< the power of the unit
+};
+inline constexpr std::array<NamedMetric, 8> kNamedMetrics{
+    {{"hausdorff", &Metrics::hausdorff, 1},
+     {"hd_p", &Metrics::hd_p, 1},
+     {"hd_p_pooled", &Metrics::hd_p_pooled, 1},
+     {"masd", &Metrics::masd, 1},
+     {"assd", &Metrics::assd, 1},
+     {"rms", &Metrics::rms, 1},
+     {"chamfer_l1", &Metrics::chamfer_l1, 1},
+     {"chamfer_l2", &Metrics::chamfer_l2, 2}}};
+struct NamedShare {
+  const char* name;
+  Metric MetricsWithin::*figure;
+};
+inline constexpr std::array<NamedShare, 4> kNamedShares{{{"nsd", &MetricsWithin::nsd},
+                                                         {"precision", &MetricsWithin::precision},
+                                                         {"recall", &MetricsWithin::recall},
+                                                         {"f1", &MetricsWithin::f1}}};
+
+/// The name with the percentile in place of p: "hd95_pooled".
+std::string name_of(const NamedMetric& metric, double percentile);
+
+/// One direction: its interval, and the survey of the mesh that it begins at, whose only percentile
+/// is the one that is asked for.
+struct MeasuredDirection {
+  const Report& report;
+  const Statistics& statistics;
+  const Distribution& distribution;
+};
+
+/// Computes the figures. Both directions have the same bands.
+Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
+                   const MeasuredDirection& b);
+
+// The formulas, for tests: each encloses what it is of numbers within its arguments.
+
+/// w x + (1 - w) y for w in `weight`, which lies in [0, 1]; x and y are not negative.
+Enclosure weighted(const Enclosure& weight, const Enclosure& x, const Enclosure& y);
+/// a / (a + b) of positive numbers.
+Enclosure weight_of(const Enclosure& a, const Enclosure& b);
+/// The harmonic mean of two numbers in [0, 1]; 0 of two zeros.
+Enclosure harmonic_mean(const Enclosure& x, const Enclosure& y);
+/// sqrt(w x^2 + (1 - w) y^2).
+Enclosure weighted_rms(const Enclosure& weight, const Enclosure& x, const Enclosure& y);
+
+}  // namespace vkh
