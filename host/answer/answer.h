@@ -17,6 +17,7 @@
 #include "host/base/sha256.h"
 #include "host/solve/frame.h"
 #include "host/solve/report.h"
+#include "host/survey/metrics.h"
 #include "host/survey/prover.h"
 #include "host/survey/survey.h"
 
@@ -81,7 +82,7 @@ struct Waits {
 /// The question about a pair of meshes, and its answer.
 struct Answer {
   std::string version = program_version();
-  std::string command;                     ///< "distance", "gate" or "demo"
+  std::string command;                     ///< "distance", "gate", "metrics" or "demo"
   std::vector<std::string> words;          ///< the words typed after the program's name
   std::string started, host;               ///< UTC in ISO 8601; the machine's name
   std::array<Input, 2> inputs;             ///< A, B
@@ -96,6 +97,7 @@ struct Answer {
   std::optional<Report> b_to_a;                    ///< set for a symmetric run
   std::optional<SurveyResult> survey_a, survey_b;  ///< A's; B's in the reverse direction
   std::optional<Proof> proof_a, proof_b;           ///< the same two for a certificate
+  std::optional<Metrics> metrics;                  ///< of both directions, if they were asked for
   Waits waits;
   /// in_words() as it was read from JSON, which has no limits of single faces; empty otherwise.
   std::string first_line = {};
@@ -180,13 +182,16 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose);
 /// Prints one line of such a table.
 void print_row(std::ostream& out, const char* label, const std::string& text);
 
-// survey_rows.cpp defines this one.
+// survey_rows.cpp defines these.
 
 /// A survey's results as rows of that table.
 struct TableRow {
   std::string label, text;
 };
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey);
+/// The first line, and the rows, of an answer that has metrics.
+std::string metrics_in_words(const Answer& answer);
+std::vector<TableRow> metrics_rows(const Answer& answer);
 
 // junit_github.cpp defines these: the formats that build servers read.
 

@@ -520,6 +520,16 @@ void check_interval(const Json& json, const CertifiedInterval& implied) {
     throw InputError("a status that is not that of its directions");
 }
 
+/// Metrics that are known have the answer's interval as their first figure.
+void check_metrics(const Answer& answer) {
+  if (!answer.metrics) return;
+  const Enclosure& whole = answer.metrics->hausdorff.value;
+  const CertifiedInterval implied = interval_of(answer);
+  const bool is_known = std::isfinite(whole.upper);
+  if (is_known && (whole.lower != implied.lower || whole.upper != implied.upper))
+    throw InputError("metrics: hausdorff is not the answer's interval");
+}
+
 /// Compares what the answer implies with what is written.
 void check_implied(const Json& json, Answer& answer) {
   for (const Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
@@ -528,6 +538,7 @@ void check_implied(const Json& json, Answer& answer) {
     check_interval(direction, {r->lower, r->upper, r->gap(), r->status});
   }
   check_interval(json, interval_of(answer));
+  check_metrics(answer);
   if (json.contains("verdict") != answer.max.has_value())
     throw InputError("a verdict without a limit, or a limit without one");
   if (answer.max && verdict_at(json) != verdict_of(answer))
@@ -561,6 +572,7 @@ Answer answer_from(const Json& json) {
   read_question(json, answer);
   read_meshes(json, answer);
   read_directions(json, answer);
+  if (json.contains("metrics")) answer.metrics = metrics_from(json.at("metrics"));
   read_run(json, answer);
   check_implied(json, answer);
   drop_implied_notes(answer);

@@ -16,7 +16,9 @@ using Clock = std::chrono::steady_clock;
 
 Question of_meshes(Question question) {
   question.dashes = "";
-  if (question.command.empty()) question.command = question.max ? "gate" : "distance";
+  if (question.metrics) question.symmetric = true;
+  if (question.command.empty())
+    question.command = question.metrics ? "metrics" : question.max ? "gate" : "distance";
   return question;
 }
 

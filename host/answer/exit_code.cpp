@@ -6,6 +6,7 @@
 namespace vkh {
 
 ExitCode code_of(const Answer& answer) {
+  if (answer.metrics) return answer.metrics->is_met() ? kExitClosed : kExitNotClosed;
   if (!answer.max) {
     const Status status = interval_of(answer).status;
     const bool is_pruned = answer.part && status == Status::kPruned;  // all that it was to do

@@ -71,6 +71,14 @@ std::optional<MapOptions> map_options(const Finishing& at) {
   return map;
 }
 
+// The slope of f1 in a share is 2 at most, and both its shares are enclosed.
+void ask_for_metrics(const MetricsOptions& metrics, SurveyOptions& options) {
+  options.mean_tolerance = MetricsOptions::kTolerance;
+  options.area_tolerance = MetricsOptions::kShareTolerance / 2;
+  options.percentiles = {metrics.percentile / 100};
+  options.keeps_distribution = true;
+}
+
 // `left`: the surveys that are still to come, this one among them.
 SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left) {
   const Question& question = at.question;
@@ -82,12 +90,14 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   if (at.answer.max && !at.answer.max->sides) options.limit = at.answer.max->limit;
   options.is_signed = question.is_signed;
   if (at.answer.max && at.answer.max->sides) options.sided = at.answer.max->sides->limits;
-  options.statistics = question.statistics || question.area;
+  const bool has_figures = question.statistics || question.metrics;
+  options.statistics = has_figures || question.area;
   for (const Limit& band : bands_of(question, at.answer))
     options.bands.insert(options.bands.end(), {band.within, band.beyond});
   options.enough = question.area;
-  if (!question.statistics) options.percentiles.clear();
-  if (!question.statistics) {  // a share of area is all that is asked
+  if (question.metrics) ask_for_metrics(*question.metrics, options);
+  if (!has_figures) options.percentiles.clear();
+  if (!has_figures) {  // a share of area is all that is asked
     options.mean_tolerance = std::numeric_limits<double>::infinity();
     options.signed_tolerance = options.signed_floor = 1;
   }
@@ -193,6 +203,18 @@ SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   return result;
 }
 
+/// Computes the metrics from both surveys, and frees what only they needed. A survey that ended
+/// before it had figures leaves them unknown.
+void take_metrics(Answer& answer) {
+  SurveyResult &a = *answer.survey_a, &b = *answer.survey_b;
+  if (a.distribution && b.distribution)
+    answer.metrics =
+        metrics_of({answer.metrics->percentile}, {answer.a_to_b, *a.statistics, *a.distribution},
+                   {*answer.b_to_a, *b.statistics, *b.distribution});
+  a.distribution.reset();
+  b.distribution.reset();
+}
+
 std::optional<Proof> prove_side(const Finishing& at, const Side& side) {
   std::optional<Proof> proof;
   if (!std::isfinite(side.report.upper)) return proof;
@@ -235,6 +257,7 @@ void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
   if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", true, *answer.b_to_a});
   for (size_t i = 0; question.asks_for_survey() && i < sides.size(); ++i)
     (i == 0 ? answer.survey_a : answer.survey_b) = survey_side(at, sides[i], sides.size() - i);
+  if (question.metrics && answer.survey_a && answer.survey_b) take_metrics(answer);
   if (observer.found) observer.found(answer);
   for (size_t i = 0; question.certificate && i < sides.size(); ++i)
     (i == 0 ? answer.proof_a : answer.proof_b) = prove_side(at, sides[i]);

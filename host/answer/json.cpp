@@ -265,6 +265,7 @@ void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
   std::string directions = direction_json(answer, answer.a_to_b, false, detail);
   if (answer.b_to_a) directions += "," + direction_json(answer, *answer.b_to_a, true, detail);
   json.add_text("directions", "[" + directions + "]");
+  if (answer.metrics) add_metrics(json, answer);
   json.add("inputs",
            Json::array({input_json("a", answer.inputs[0]), input_json("b", answer.inputs[1])}));
   json.add("notes", notes_json(notes_of(answer), ""));

@@ -69,6 +69,10 @@ enum class Detail { kFull, kBrief };
 /// they were asked for.
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer, Detail detail);
 
+/// Adds `metrics` of an answer that has some, and reads them back. Reading throws InputError.
+void add_metrics(JsonObject& json, const Answer& answer);
+Metrics metrics_from(const Json& json);
+
 /// Adds an answer's members in docs/schema/answer.schema.json from `words` to `options`.
 void add_answer(JsonObject& json, const Answer& answer, Detail detail);
 /// Adds `device` and `driver`; `times`.

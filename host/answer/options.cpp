@@ -152,6 +152,14 @@ double parse_share(const char* option, const std::string& text) {
   return share;
 }
 
+double parse_percentile(const char* option, const std::string& text) {
+  Quantity quantity;
+  const bool is_percentile = split(text, quantity) && quantity.number <= 100 &&
+                             (quantity.unit.empty() || quantity.unit == "%");
+  if (!is_percentile) refuse(option, text, "a percentile above 0 and at most 100, such as 95");
+  return quantity.number;
+}
+
 PartOf parse_part(const std::string& text) {
   PartOf part;
   const char* end = text.data() + text.size();

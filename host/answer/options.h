@@ -34,6 +34,9 @@ void put_max(const char* option, const std::string& text, Question& question);
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);
 
+/// "95", or "95%": above 0 and at most 100. Throws UsageError.
+double parse_percentile(const char* option, const std::string& text);
+
 /// "3/8": part 3, from 0, of 8. Throws UsageError.
 PartOf parse_part(const std::string& text);
 

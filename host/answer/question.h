@@ -11,6 +11,7 @@
 #include "host/mesh/mesh_transform.h"
 #include "host/read/read_limits.h"
 #include "host/solve/solve_options.h"
+#include "host/survey/metrics.h"
 
 namespace vkh {
 
@@ -61,8 +62,10 @@ struct Question {
   bool faces = false;                    ///< bounds of each face: for a picture, or a file
   std::optional<Length> face_tolerance;  ///< the width of those
   bool statistics = false;
-  bool is_signed = false;               ///< the sides of B on which A lies
-  std::vector<Length> bands;            ///< shares of A's area within these distances
+  bool is_signed = false;     ///< the sides of B on which A lies
+  std::vector<Length> bands;  ///< shares of A's area within these distances
+  /// Answer::metrics is wanted, of both directions; of percentiles, theirs alone is sought.
+  std::optional<MetricsOptions> metrics;
   double map_pixels = 0;                ///< MapOptions::pixels of a map of A by cells; 0: none
   std::optional<Length> map_bar;        ///< MapOptions::bar; none: the limit decides, or the map
   std::optional<uint64_t> effort;       ///< SurveyOptions::effort
@@ -79,7 +82,8 @@ struct Question {
   bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
   bool asks_for_sides() const { return is_signed || max_sides; }
   bool asks_for_survey() const {
-    return faces || statistics || !bands.empty() || area || map_pixels > 0 || asks_for_sides();
+    return faces || statistics || metrics || !bands.empty() || area || map_pixels > 0 ||
+           asks_for_sides();
   }
   std::string option(const char* name) const { return std::string(dashes) + name; }
   bool asks_for_cells() const { return certificate || asks_for_survey(); }

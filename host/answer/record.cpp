@@ -109,6 +109,7 @@ void read_answer(const Json& json, Record& record) {
   for (size_t i = 0; directions.is_array() && i < std::min<size_t>(directions.size(), 2); ++i)
     record.directions[i] = bounds_in(member(directions[i], "interval"));
   if (directions.is_array() && !directions.empty()) record.sides = signed_in(directions[0]);
+  if (member(json, "metrics").is_object()) record.metrics = metrics_from(json.at("metrics"));
   record.status = text_in(json, "status");
   record.verdict = text_in(json, "verdict");
   record.lower = whole.lower;
@@ -202,6 +203,7 @@ Record record_of(const RecordName& name, const Answer& answer) {
   record.diagonal = answer.a_to_b.diagonal_a;
   record.unit = answer.unit;
   record.sides = signed_of(answer);
+  record.metrics = answer.metrics;
   record.notes = notes_of(answer);
   record.words = in_words(answer);
   return record;

@@ -65,9 +65,10 @@ struct Record {
         {};  ///< no more of A's area has no side; none: A has none
   };
   std::optional<Signed> sides;
-  std::vector<Note> notes;  ///< on the pair
-  std::string words;        ///< the answer's first line, or the error
-  std::string error_file;   ///< the file that an error is about, as an input's path; or empty
+  std::optional<Metrics> metrics;  ///< where they were asked for
+  std::vector<Note> notes;         ///< on the pair
+  std::string words;               ///< the answer's first line, or the error
+  std::string error_file;  ///< the file that an error is about, as an input's path; or empty
   double total_ms = 0, gpu_ms = 0;
   std::string host, started;
 

@@ -99,6 +99,7 @@ Answer unread_answer(const Question& question) {
   if (!question.face_max_a.empty()) known.max->faces_a = FaceLimits{.path = question.face_max_a};
   if (!question.face_max_b.empty()) known.max->faces_b = FaceLimits{.path = question.face_max_b};
   known.a_to_b.upper = std::numeric_limits<double>::infinity();
+  if (question.metrics) known.metrics.emplace().percentile = question.metrics->percentile;
   if (question.symmetric) known.b_to_a = known.a_to_b;
   return known;
 }
@@ -107,6 +108,8 @@ namespace {
 
 // Refuses a share of no area, which is no question.
 void check_area(const Question& question, const Mesh& mesh) {
+  if (question.metrics && !areas_of(mesh).is_positive())
+    reject(mesh.name, "", "faces without area", "a surface: metrics weigh distances by area");
   if (!question.max || !question.area || areas_of(mesh).is_positive()) return;
   reject(mesh.name, "", "faces without area",
          "a surface, of which --area " + question.area_requested + " asks a share");

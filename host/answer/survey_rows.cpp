@@ -1,4 +1,4 @@
-// A survey as rows of the table.
+// Surveys and metrics as rows of the table.
 #include <algorithm>
 #include <cmath>
 
@@ -151,6 +151,81 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
   if (!survey.is_met()) work += end_text(survey);
   rows.push_back({"survey", work});
+  return rows;
+}
+
+namespace {
+
+constexpr double kShownPercent = 0.01;
+
+// Three digits, or those that the interval leaves.
+std::string likely_text(const Enclosure& e, double least_gap) {
+  if (!std::isfinite(e.upper)) return "not known";
+  const double gap = std::max(e.upper - e.lower, least_gap);
+  return number(e.estimate.value_or(e.lower), gap, Rounding::kDown);
+}
+
+std::string in_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+std::string metric_unit(const Answer& answer, int dimension) {
+  return answer.unit.empty() || dimension == 1 ? answer.unit : answer.unit + "^2";
+}
+
+std::string goal_text(const Metric& metric) {
+  if (metric.is_met) return "";
+  return metric.jump ? "; a jump of the distribution: no --effort narrows it"
+                     : "; wider than asked: more --effort narrows it";
+}
+
+std::string metric_text(const Metric& metric, const std::string& unit) {
+  const Enclosure& e = metric.value;
+  if (!std::isfinite(e.upper)) return "not known";
+  return figure(e, unit) + goal_text(metric);
+}
+
+std::string share_metric_text(const Metric& metric) {
+  const Enclosure percent = in_percent(metric.value);
+  if (percent.lower == percent.upper) return likely_text(percent, kShownPercent) + " %";
+  return likely_text(percent, kShownPercent) + " %, in " + share_text(metric.value) +
+         goal_text(metric);
+}
+
+std::string distance_text(const Answer& answer, const MetricsWithin& at) {
+  return in_unit(length_in_words({at.distance, at.distance}), answer.unit);
+}
+
+}  // namespace
+
+std::string metrics_in_words(const Answer& answer) {
+  const Metrics& m = *answer.metrics;
+  std::string text;
+  for (const NamedMetric& metric : kNamedMetrics) {
+    const bool is_first = metric.figure == &Metrics::hausdorff || metric.figure == &Metrics::hd_p ||
+                          metric.figure == &Metrics::assd || metric.figure == &Metrics::chamfer_l1;
+    if (!is_first) continue;
+    const Enclosure& e = (m.*metric.figure).value;
+    text += (text.empty() ? "" : ", ") + name_of(metric, m.percentile) + " " +
+            in_unit(likely_text(e, 1e-3 * e.lower), answer.unit);
+  }
+  for (const MetricsWithin& at : m.within)
+    text += ", f1 " + likely_text(in_percent(at.f1.value), kShownPercent) + " % within " +
+            distance_text(answer, at);
+  return text + (m.is_met() ? "" : "; not all are as narrow as asked");
+}
+
+std::vector<TableRow> metrics_rows(const Answer& answer) {
+  const Metrics& m = *answer.metrics;
+  std::vector<TableRow> rows;
+  for (const NamedMetric& metric : kNamedMetrics)
+    rows.push_back({name_of(metric, m.percentile),
+                    metric_text(m.*metric.figure, metric_unit(answer, metric.dimension))});
+  for (const MetricsWithin& at : m.within) {
+    for (const NamedShare& share : kNamedShares)
+      rows.push_back({share.name, share_metric_text(at.*share.figure) + " within " +
+                                      distance_text(answer, at)});
+  }
   return rows;
 }
 

@@ -318,9 +318,19 @@ void print_summary(std::ostream& out, const Answer& answer) {
 
 }  // namespace
 
+namespace {
+
+void print_metrics(std::ostream& out, const Answer& answer) {
+  for (const TableRow& row : metrics_rows(answer))
+    out << printed("  %-12s ", row.label.c_str()) << row.text << '\n';
+}
+
+}  // namespace
+
 void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   const Report& r = answer.a_to_b;
   out << in_words(answer) << '\n';
+  if (answer.metrics) print_metrics(out, answer);
   print_summary(out, answer);
   if (verbose) print_names(out, "off", r.switched_off);
   if (answer.b_to_a) print_row(out, "h(A,B)", direction_text(answer, r));

@@ -60,16 +60,46 @@ void add_sides(const Record& r, std::vector<std::string>& cells) {
   cells.push_back(has_share ? bound(*r.sides->unsigned_share, Rounding::kUp) : "");
 }
 
+// Each figure has three columns: what it probably is, and its ends.
+void add_names(const std::string& name, std::vector<std::string>& cells) {
+  for (const char* end : {"", "_lower", "_upper"}) cells.push_back(name + end);
+}
+
+void add_names_of_metrics(size_t distances, std::vector<std::string>& cells) {
+  cells.emplace_back("percentile");
+  for (const NamedMetric& metric : kNamedMetrics) add_names(metric.name, cells);
+  for (size_t i = 1; i <= distances; ++i) {
+    cells.push_back("within" + std::to_string(i));
+    for (const NamedShare& share : kNamedShares) add_names(share.name + std::to_string(i), cells);
+  }
+}
+
+void add_figure(const Metric& metric, std::vector<std::string>& cells) {
+  const Enclosure& e = metric.value;
+  cells.push_back(e.estimate ? shortest_decimal(*e.estimate) : "");
+  cells.push_back(bound(e.lower, Rounding::kDown));
+  cells.push_back(bound(e.upper, Rounding::kUp));
+}
+
+void add_metrics_cells(const Metrics& m, std::vector<std::string>& cells) {
+  cells.push_back(shortest_decimal(m.percentile));
+  for (const NamedMetric& metric : kNamedMetrics) add_figure(m.*metric.figure, cells);
+  for (const MetricsWithin& at : m.within) {
+    cells.push_back(shortest_decimal(at.distance));
+    for (const NamedShare& share : kNamedShares) add_figure(at.*share.figure, cells);
+  }
+}
+
 }  // namespace
 
 std::string csv_heading(const CsvColumns& with) {
   std::vector<std::string> cells{"id",   "code", "status", "verdict", "lower",   "upper", "gap",
                                  "unit", "a",    "b",      "faces_a", "faces_b", "words", "notes"};
   if (with.run) cells.insert(cells.end(), {"gpu_ms", "total_ms", "host", "started"});
-  if (!with.sides) return row_of(cells);
-  for (const std::string& name : names_of_sides())
+  for (const std::string& name : with.sides ? names_of_sides() : std::vector<std::string>())
     cells.insert(cells.end(), {name + "_lower", name + "_upper"});
-  cells.emplace_back("unsigned_share");
+  if (with.sides) cells.emplace_back("unsigned_share");
+  if (with.metrics) add_names_of_metrics(with.distances, cells);
   return row_of(cells);
 }
 
@@ -95,6 +125,13 @@ std::string csv_row(const Record& r, const CsvColumns& with) {
     cells.insert(cells.end(),
                  {milliseconds(r.gpu_ms), milliseconds(r.total_ms), r.host, r.started});
   if (with.sides) add_sides(r, cells);
+  const size_t before = cells.size();
+  if (with.metrics && r.metrics) add_metrics_cells(*r.metrics, cells);
+  if (with.metrics) {
+    std::vector<std::string> names;
+    add_names_of_metrics(with.distances, names);
+    cells.resize(before + names.size());
+  }
   return row_of(cells);
 }
 

@@ -10,8 +10,10 @@ namespace vkh {
 
 /// The columns of a CSV besides those that each has.
 struct CsvColumns {
-  bool run = false;    ///< times, which two runs do not have in common
-  bool sides = false;  ///< signed figures: some record has them
+  bool run = false;      ///< times, which two runs do not have in common
+  bool sides = false;    ///< signed figures: some record has them
+  bool metrics = false;  ///< some record has them
+  size_t distances = 0;  ///< the most distances that a record's metrics have shares within
 };
 /// CSV (RFC 4180): a heading, and a row per pair.
 std::string csv_heading(const CsvColumns& with);

@@ -403,6 +403,7 @@ std::string printable(const std::string& text) {
 
 std::string in_words(const Answer& answer) {
   if (!answer.first_line.empty()) return answer.first_line;
+  if (answer.metrics) return warned(answer, metrics_in_words(answer));
   if (!answer.max) return warned(answer, distance_in_words(answer));
   return warned(answer, gate_in_words(answer)) +
          (is_one_way_pass(answer) ? std::string(". ") + one_way_text(answer) : "");

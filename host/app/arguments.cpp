@@ -28,7 +28,7 @@ struct Program {
       "Encloses the directed Hausdorff distance h(A,B) of two triangle meshes in a certified "
       "interval, or proves that it is within a limit or beyond.",
       "vkhausdorff"};
-  Typed distance, gate, demo, doctor;
+  Typed distance, gate, metrics, demo, doctor;
   TypedMany batch, merge;
 
   Program() {
@@ -50,6 +50,8 @@ struct Program {
     add_search_options(*command, distance);
 
     add_gate(*app.add_subcommand("gate", "Is the distance of two mesh files within a limit?"));
+    add_metrics(*app.add_subcommand(
+        "metrics", "Figures of two mesh files by the names that papers use, both directions"));
     add_batch(*app.add_subcommand("batch", "Distances or verdicts of many pairs"), batch);
     add_merge(*app.add_subcommand("merge", "Results of several batches as one, by id"), merge);
 
@@ -123,6 +125,16 @@ struct Program {
                      "the run ($GITHUB_STEP_SUMMARY)");
     add_output_options(command, gate);
     add_search_options(command, gate);
+  }
+
+  void add_metrics(CLI::App& command) {
+    metrics.metrics = true;
+    add_pair(command, metrics);
+    add_metrics_options(command, metrics);
+    add_tolerance(command, metrics, "1e-6");
+    add_effort_option(command, metrics);
+    add_output_options(command, metrics);
+    add_search_options(command, metrics);
   }
 
   /// The help on the command that was named, or on the program.
@@ -284,6 +296,7 @@ CommandLine understand(const Words& given) {
   const std::string name = program.app.get_subcommands()[0]->get_name();
   if (name == "distance") return pair_line(Command::kDistance, program.distance, words, "distance");
   if (name == "gate") return pair_line(Command::kGate, program.gate, words, "gate");
+  if (name == "metrics") return pair_line(Command::kMetrics, program.metrics, words, "metrics");
   if (name == "demo") return pair_line(Command::kDemo, program.demo, words, "demo");
   if (name == "batch") return batch_line(program.batch, words);
   if (name == "merge") return merge_line(program.merge);

@@ -15,7 +15,7 @@ namespace vkh {
 
 using Words = std::vector<std::string>;
 
-enum class Command { kHelp, kDistance, kGate, kDemo, kDoctor, kBatch, kMerge };
+enum class Command { kHelp, kDistance, kGate, kMetrics, kDemo, kDoctor, kBatch, kMerge };
 
 /// The places for answers besides the table.
 struct Outputs {

@@ -32,6 +32,12 @@ const std::map<std::string, HelpOfCommand>& help_of_commands() {
         std::string("0 PASS; 1 FAIL; 2 usage; 3 UNDECIDED (the interval is true); 4 bad input; 5 "
                     "device or driver; ") +
             kOutputCode + "."}},
+      {"metrics",
+       {{"percentile", "bands", "unit", "tol", "effort", "json", "verbose", "device", "time"},
+        std::string("0 each figure is as narrow as it is to be; 2 usage; 3 a figure is not "
+                    "(intervals are true); 4 bad input, or a mesh without area; 5 device or "
+                    "driver; ") +
+            kOutputCode + "."}},
       {"batch",
        {{"out", "max", "unit", "symmetric", "against", "csv", "junit", "github", "report-dir",
          "resume"},
@@ -68,10 +74,10 @@ struct HelpGroup {
 
 const std::vector<HelpGroup>& help_groups() {
   static const std::vector<HelpGroup> known{
-      {"What is asked",
-       {"max", "face-max", "face-max-b", "area", "worst", "tol", "symmetric", "polygons", "bodies",
-        "part", "known-lower", "stats", "signed", "bands", "field-tol", "effort", "against",
-        "allow-unpaired"}},
+      {"What is asked", {"max",         "face-max",  "face-max-b", "area",    "worst",
+                         "tol",         "symmetric", "polygons",   "bodies",  "part",
+                         "known-lower", "stats",     "signed",     "metrics", "percentile",
+                         "bands",       "field-tol", "effort",     "against", "allow-unpaired"}},
       {"What the meshes are in, and where A lies",
        {"unit", "unit-a", "unit-b", "transform", "scale"}},
       {"What is printed and written",

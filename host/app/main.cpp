@@ -140,6 +140,7 @@ int run(const Words& words, Clock::time_point start) {
       return printed(run_merge_command(line.merge));
     case Command::kDistance:
     case Command::kGate:
+    case Command::kMetrics:
     case Command::kDemo:
       break;
   }

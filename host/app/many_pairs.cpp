@@ -50,6 +50,8 @@ class Tables {
     CsvColumns with{.run = with_run};
     results.for_each([&](const Record& record, const std::string&) {
       with.sides = with.sides || record.sides.has_value();
+      with.metrics = with.metrics || record.metrics.has_value();
+      if (record.metrics) with.distances = std::max(with.distances, record.metrics->within.size());
     });
     std::vector<std::pair<Rank, std::string>> rows;
     std::vector<JunitCase> cases;

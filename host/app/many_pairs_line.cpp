@@ -102,6 +102,9 @@ void add_batch(CLI::App& command, TypedMany& typed) {
                    "End with the first pair that is beyond its limit or has no answer");
   add_limits(command, typed.of_pairs);
   add_signed_option(command, typed.of_pairs, "with the signed mean and percentiles");
+  command.add_flag("--metrics", typed.of_pairs.metrics,
+                   "Both directions' figures by the names that papers use, as of 'metrics'");
+  add_metrics_options(command, typed.of_pairs);
   add_folder_options(command, typed.of_pairs.pictures);
   add_effort_option(command, typed.of_pairs);
   command.add_option("--device", typed.of_pairs.device,
@@ -130,12 +133,24 @@ void add_merge(CLI::App& command, TypedMany& typed) {
                    "byte");
 }
 
+namespace {
+
+void check_metrics(const Typed& typed) {
+  if (typed.metrics && !typed.max.empty())
+    throw UsageError("--metrics: figures are no verdict: leave out --max, or ask for it by itself");
+  if (!typed.metrics && (!typed.bands.empty() || !typed.percentile.empty()))
+    throw UsageError("--bands, --percentile: are of --metrics");
+}
+
+}  // namespace
+
 CommandLine batch_line(const TypedMany& typed, const Words& words) {
   Typed of_pairs = typed.of_pairs;
   const bool has_limit = !of_pairs.max.empty();
   if (of_pairs.tolerance.empty()) of_pairs.tolerance = has_limit ? "1e-7" : "1e-6";
   CommandLine line;
   line.command = Command::kBatch;
+  check_metrics(of_pairs);
   line.question = question_of(of_pairs, words, "batch");
   line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   line.question.statistics = line.question.is_signed;  // a line of results has figures
@@ -156,8 +171,8 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   batch.folders = folders_of(of_pairs.pictures);
   if (line.question.effort && !batch.folders.any() && !line.question.asks_for_survey())
     throw UsageError(
-        "--effort: is of figures and of what is drawn: ask for --signed, --image-dir or "
-        "--report-dir");
+        "--effort: is of figures and of what is drawn: ask for --signed, --metrics, "
+        "--image-dir or --report-dir");
   batch.folders.effort = line.question.effort;
   return line;
 }

@@ -1,6 +1,7 @@
 #include "host/app/outputs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -95,7 +96,10 @@ void tell_misuse(const Words& words, const UsageError& error) {
   const bool is_batch = !words.empty() && words[0] == "batch";
   if (is_batch && std::find(words.begin(), words.end(), "--github") != words.end())
     std::cout << github_annotation(failure_of(error)) << std::flush;
-  if (words.empty() || (words[0] != "distance" && words[0] != "gate" && words[0] != "demo")) return;
+  constexpr std::array kOfAPair{"distance", "gate", "metrics", "demo"};
+  const bool is_of_a_pair =
+      !words.empty() && std::find(kOfAPair.begin(), kOfAPair.end(), words[0]) != kOfAPair.end();
+  if (!is_of_a_pair) return;
   Words others;
   const Outputs outputs = outputs_in(words, others);
   try {

@@ -42,7 +42,12 @@ void add_survey_of(const Typed& typed, Question& question) {
         parse_length("--field-tol", typed.field_tolerance, PlainNumber::kSmallFraction);
   for (const std::string& band : typed.bands)
     question.bands.push_back(parse_length("--bands", band, PlainNumber::kRefused));
-  question.statistics = typed.statistics || !typed.bands.empty();
+  question.statistics = typed.statistics || (!typed.bands.empty() && !typed.metrics);
+  if (typed.metrics) {
+    question.metrics.emplace();
+    if (!typed.percentile.empty())
+      question.metrics->percentile = parse_percentile("--percentile", typed.percentile);
+  }
   if (!typed.area.empty()) question.area = parse_share("--area", typed.area);
   question.area_requested = typed.area;
   question.is_signed = typed.is_signed;
@@ -73,12 +78,13 @@ void check_together(const Typed& typed) {
     throw UsageError("--area: faces with limits of their own are asked about whole");
   if (!typed.pictures.certificate.empty() && (by_face || !typed.area.empty()))
     throw UsageError("--certificate: is of the interval, not to be had with --area or --face-max");
-  const bool is_of_triangles = typed.statistics || typed.is_signed || !typed.bands.empty() ||
-                               !typed.area.empty() || typed.pictures.is_of_triangles();
+  const bool is_of_triangles = typed.statistics || typed.metrics || typed.is_signed ||
+                               !typed.bands.empty() || !typed.area.empty() ||
+                               typed.pictures.is_of_triangles();
   if (typed.polygons == "any" && is_of_triangles)
     throw UsageError(
-        "--polygons any: areas and certificates are of one triangulation: no --stats, --signed, "
-        "--bands, --area, --report, --figures-csv or --certificate");
+        "--polygons any: areas and certificates are of one triangulation: no metrics, --stats, "
+        "--signed, --bands, --area, --report, --figures-csv or --certificate");
 }
 
 void check_part(const Typed& typed) {
@@ -119,7 +125,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   if (typed.known_lower)
     question.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
   question.several_devices = question.command == "distance";
-  question.symmetric = typed.symmetric;
+  question.symmetric = typed.symmetric || typed.metrics;
   question.worst = typed.worst || typed.pictures.shows_cells();
   add_survey_of(typed, question);
   question.verify = typed.verify;
@@ -236,6 +242,20 @@ void add_effort_option(CLI::App& command, Typed& typed) {
                       std::to_string(default_effort(false)) + " on a GPU, " +
                       std::to_string(default_effort(true)) + " on a CPU]")
       ->type_name("N");
+}
+
+void add_metrics_options(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--percentile", typed.percentile,
+                  "The percentile of hd_p and hd_p_pooled, in percent [95]")
+      ->type_name("P");
+  command
+      .add_option("--bands", typed.bands,
+                  "Also the shares of area within these distances, nsd, precision (A's), recall "
+                  "(B's) and f1: 0.5mm,1%; a percentage is of A's diagonal")
+      ->delimiter(',')
+      ->type_name("LENGTH,..")
+      ->allow_extra_args(false);
 }
 
 void add_pair(CLI::App& command, Typed& typed) {

@@ -24,6 +24,8 @@ struct Typed {
   std::string json, junit, area, field_tolerance;
   TypedPictures pictures;
   std::vector<std::string> bands;
+  std::string percentile;    ///< of metrics
+  bool metrics = false;      ///< both directions' figures by name
   bool may_stretch = false;  ///< --scale
   bool worst = false;
   bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
@@ -48,6 +50,7 @@ void add_survey_options(CLI::App& command, Typed& typed);
 void add_signed_option(CLI::App& command, Typed& typed, const char* figures);
 void add_effort_option(CLI::App& command, Typed& typed);
 void add_output_options(CLI::App& command, Typed& typed);
+void add_metrics_options(CLI::App& command, Typed& typed);
 
 /// Turn the typed options into questions. Throw UsageError.
 Question question_of(const Typed& typed, const Words& words, const char* command);

@@ -68,6 +68,8 @@ void add_sides(const Question& question, std::string& text) {
     text += "\nover " + question.max_sides->over.requested + " under " +
             question.max_sides->under.requested;
   if (question.is_signed) text += "\nsigned";
+  if (question.metrics) text += "\nmetrics " + shortest_decimal(question.metrics->percentile);
+  for (const Length& band : question.bands) text += "\nwithin " + band.requested;
   if (question.asks_for_survey() && question.effort)
     text += "\neffort " + std::to_string(*question.effort);
 }
@@ -153,6 +155,10 @@ NamedEntry EntryReader::name(const Entry& entry) {
   question.symmetric = entry.symmetric.value_or(question.symmetric);
   question.is_signed = entry.is_signed.value_or(question.is_signed);
   question.statistics = question.is_signed;
+  if (question.metrics && (!question.symmetric || question.max))
+    throw UsageError(
+        "--metrics: figures are of both directions and no verdict: leave out 'max', and "
+        "'symmetric' that is false");
   named.known = unread_answer(question);
   const bool shares_b = shared_.count(entry.file_b) > 0;
   named.known.inputs[0].path = entry.a;

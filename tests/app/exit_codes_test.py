@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 PROGRAM, GUIDE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-COMMANDS = ("distance", "gate", "demo", "batch", "merge", "doctor")
+COMMANDS = ("distance", "gate", "metrics", "demo", "batch", "merge", "doctor")
 SQUARE = "v 0 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
 FULL = "> /dev/full"  # standard output is a full disk
 NO_DEVICE = ("--device", "no such device")
@@ -61,6 +61,7 @@ class ExitCodes(unittest.TestCase):
             "distance": {0: pair, 2: pair + wrong, 3: (*pair, "--waves", "0"), 4: bad, 5: pair + NO_DEVICE, 6: (*pair, FULL)},
             "gate": {0: (*pair, "--max", "1abs"), 1: (*pair, "--max", "0.1abs"), 2: pair, 3: (*pair, "--max", "0.25abs"), 4: (*bad, "--max", "1abs"),
                      5: (*pair, "--max", "1abs", *NO_DEVICE), 6: (*pair, "--max", "1abs", FULL)},
+            "metrics": {0: pair, 2: pair + wrong, 3: (*pair, "--bands", "0.25abs", "--effort", "2000"), 4: bad, 5: pair + NO_DEVICE, 6: (*pair, FULL)},
             "demo": {0: ("--tol", "1e-4"), 2: wrong, 3: ("--waves", "1"), 5: NO_DEVICE, 6: ("--tol", "1e-4", FULL)},
             "batch": {0: ("closed.csv", *out), 1: ("fail.csv", *out), 2: ("unit.csv", *out), 3: ("open.csv", *out), 4: ("bad.csv", *out),
                       5: ("closed.csv", *out, *NO_DEVICE), 6: ("closed.csv", *out, FULL)},

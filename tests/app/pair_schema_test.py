@@ -101,7 +101,7 @@ class Batch(unittest.TestCase):
         ours, answers = schema_of("pair")["$defs"], schema_of("answer")["$defs"]
         shared = {"interval", "unit", "status", "witness", "files", "input", "max", "face_limits", "tolerance", "options", "device",
                   "note", "box", "boxes", "transform", "enclosure", "area_within", "statistics", "signed_enclosure", "sided_point",
-                  "signed", "survey", "sided_max"}
+                  "signed", "survey", "sided_max", "metric", "metrics"}
         # A line has no times or waves of a direction, and names of its own in answers and failures.
         self.assertEqual(set(ours) & set(answers), shared | {"direction", "answer", "failure"})
         for name in ("survey", "signed"):

@@ -57,6 +57,7 @@ class Outputs(unittest.TestCase):
                             (["distance", "a.obj", "wide.obj", "--symmetric", "--stats", "--bands", "0.1abs,20%", "--field-tol", "1%"], 0),
                             (["distance", "a.obj", "b.obj", "--time", "1ms", "--stats"], 3),
                             (["distance", "a.obj", "wide.obj", "--symmetric", "--certificate", "out.vhc"], 0),
+                            (["metrics", "a.obj", "wide.obj", "--bands", "0.1abs,20%", "--unit", "mm"], 0), (["metrics", "a.obj", "b.obj", "--time", "1ms"], 3),
                             (["gate", "a.obj", "b.obj", "--max", "0.3abs", "--area", "99%"], 0),
                             (["distance", "a.obj", "b.obj", "--signed"], 0), (["distance", "a.obj", "wide.obj", "--signed", "--stats", "--symmetric"], 0),
                             (["gate", "a.obj", "b.obj", "--max=+0.3abs,-0.3abs", "--signed", "--stats"], 0),

@@ -1,7 +1,7 @@
 # Completion of vkhausdorff for bash.
 _vkhausdorff() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
-  local commands="distance gate batch merge demo doctor help"
+  local commands="distance gate metrics batch merge demo doctor help"
   local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
   search="--device --time $engine"
   local look="--view --field-by --up --size --map --range --steps"
@@ -24,14 +24,15 @@ _vkhausdorff() {
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
     --unit | --unit-a | --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-      --area | --bands | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
+      --area | --percentile | --bands | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
       --part | --known-lower) return ;;
   esac
   case $command in
     distance) options="$search $outputs $files --certificate --part --known-lower" ;;
     gate) options="$search $outputs $files --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
+    metrics) options="$search $files --percentile --bands --tol --effort --json --verbose --verify" ;;
     batch)
-      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed $files"
+      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands $files"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;

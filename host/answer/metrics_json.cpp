@@ -1,0 +1,97 @@
+// Metrics as JSON, both ways.
+#include "host/answer/json_object.h"
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+std::string metric_json(const Metric& metric, const Json& unit) {
+  JsonObject json;
+  json.add_bound("lower", metric.value.lower, Rounding::kDown);
+  json.add_bound("upper", metric.value.upper, Rounding::kUp);
+  if (metric.value.estimate) json.add("estimate", *metric.value.estimate);
+  json.add("unit", unit);
+  json.add("met", metric.is_met);
+  if (metric.jump) json.add("jump", true);
+  return json.text();
+}
+
+std::string metrics_within_json(const MetricsWithin& at, const Json& unit) {
+  JsonObject json;
+  json.add("distance", at.distance);
+  json.add("unit", unit);
+  for (const NamedShare& share : kNamedShares)
+    json.add_text(share.name, metric_json(at.*share.figure, nullptr));
+  return json.text();
+}
+
+const Json& metric_member(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  if (found == object.end()) throw InputError(std::string("metrics: no ") + key);
+  return *found;
+}
+
+double metric_number(const Json& object, const char* key) {
+  const Json& value = metric_member(object, key);
+  if (!value.is_number()) throw InputError(std::string("metrics: ") + key + " is no number");
+  return value.get<double>();
+}
+
+bool metric_truth(const Json& object, const char* key) {
+  const Json& value = metric_member(object, key);
+  if (!value.is_boolean()) throw InputError(std::string("metrics: ") + key + " is no truth value");
+  return value.get<bool>();
+}
+
+Metric metric_from(const Json& json) {
+  Metric metric{{bound_in(json, "lower"), bound_in(json, "upper")}, metric_truth(json, "met")};
+  if (json.contains("estimate")) metric.value.estimate = metric_number(json, "estimate");
+  const Enclosure& e = metric.value;
+  if (!(e.lower <= e.upper)) throw InputError("metrics: an interval of which lower is above upper");
+  if (e.estimate && !(*e.estimate >= e.lower && *e.estimate <= e.upper))
+    throw InputError("metrics: an estimate that is not in its interval");
+  metric.jump = json.contains("jump") && metric_truth(json, "jump");
+  return metric;
+}
+
+MetricsWithin metrics_within_from(const Json& json) {
+  MetricsWithin at;
+  at.distance = metric_number(json, "distance");
+  for (const NamedShare& share : kNamedShares)
+    at.*share.figure = metric_from(metric_member(json, share.name));
+  return at;
+}
+
+}  // namespace
+
+void add_metrics(JsonObject& json, const Answer& answer) {
+  const Metrics& m = *answer.metrics;
+  const Json unit = text_or_null(answer.unit);
+  const Json area = answer.unit.empty() ? Json() : Json(answer.unit + "^2");
+  JsonObject metrics;
+  metrics.add("percentile", m.percentile);
+  metrics.add("met", m.is_met());
+  for (const NamedMetric& metric : kNamedMetrics)
+    metrics.add_text(metric.name,
+                     metric_json(m.*metric.figure, metric.dimension == 1 ? unit : area));
+  std::string within;
+  for (const MetricsWithin& at : m.within)
+    within += (within.empty() ? "" : ",") + metrics_within_json(at, unit);
+  metrics.add_text("within", "[" + within + "]");
+  json.add_text("metrics", metrics.text());
+}
+
+Metrics metrics_from(const Json& json) {
+  Metrics m;
+  m.percentile = metric_number(json, "percentile");
+  for (const NamedMetric& metric : kNamedMetrics)
+    m.*metric.figure = metric_from(metric_member(json, metric.name));
+  const Json& within = metric_member(json, "within");
+  if (!within.is_array()) throw InputError("metrics: within is no array");
+  for (const Json& at : within) m.within.push_back(metrics_within_from(at));
+  if (metric_truth(json, "met") != m.is_met())
+    throw InputError("metrics: met contradicts the figures");
+  return m;
+}
+
+}  // namespace vkh
