@@ -235,6 +235,25 @@ py::dict stats_of(const Answer& answer, bool is_forward) {
   return stats;
 }
 
+py::tuple metric_of(const Metric& metric) {
+  return py::make_tuple(interval_of(metric.value, metric.jump), metric.is_met);
+}
+
+/// Returns what _metrics.py makes Metrics of.
+py::dict metrics_of(const Question& question, const Metrics& m) {
+  py::dict lengths;
+  for (const NamedMetric& metric : kNamedMetrics)
+    lengths[metric.name] = metric_of(m.*metric.figure);
+  py::list within;
+  for (size_t i = 0; i < m.within.size(); ++i) {
+    py::dict shares;
+    for (const NamedShare& share : kNamedShares)
+      shares[share.name] = metric_of(m.within[i].*share.figure);
+    within.append(py::make_tuple(key_of(question.bands[i]), shares));
+  }
+  return py::dict("percentile"_a = m.percentile, "lengths"_a = lengths, "within"_a = within);
+}
+
 void add_limit(const Answer& answer, Result& result) {
   if (!answer.max) return;
   result.verdict = verdict_of(answer);
@@ -269,6 +288,7 @@ Result result_of(const Question& question, const Answer& answer, const MeshPoint
   if (answer.b_to_a)
     result.survey_back = survey_of(question, answer, {*answer.b_to_a, answer.survey_b, b, path_a});
   if (question.certificate) result.stats["certificate"] = certificate_of(answer);
+  if (answer.metrics) result.stats["metrics"] = metrics_of(question, *answer.metrics);
   return result;
 }
 

@@ -301,6 +301,14 @@ FileMesh read(const py::args& positional, const py::kwargs& named) {
   return {read_now(file_from("path", path), limits_of(given))};
 }
 
+/// A mesh whose coordinates are each within `delta` of their exact place.
+FileMesh surface_of(const py::object& vertices, const py::object& faces, double delta) {
+  const Call call;
+  Mesh mesh = mesh_from("a mask", vertices, faces);
+  mesh.delta = delta;
+  return {std::make_shared<const Mesh>(std::move(mesh))};
+}
+
 template <class Get>
 auto of_mesh(Get get) {
   return [get](const py::object& self) { return get(mesh_in(self)); };
@@ -349,6 +357,9 @@ void define_mesh(py::module_& m) {
            }))
       .def(py::pickle([](const py::object& self) { return state_of(self); },
                       [](const py::tuple& state) { return mesh_from_state(state); }));
+  m.def("_surface", surface_of,
+        "_surface(vertices, faces, delta): the Mesh of rounded coordinates, each off by up to "
+        "delta.");
   m.def(
       "read", read,
       "read(path, *, max_input=None, polygons='refuse', bodies='solid')\n--\n\n"

@@ -97,6 +97,10 @@ void define_gate(py::module_& m) {
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
+void define_metrics(py::module_& m) {
+  m.def("_metrics", metrics, "As vkhausdorff.metrics, of meshes: a Result with stats['metrics'].");
+}
+
 void define_closest(py::module_& m) {
   m.def(
       "closest", closest,
@@ -207,6 +211,7 @@ PYBIND11_MODULE(_core, m) {
   define_distance(m);
   define_devices(m);
   define_gate(m);
+  define_metrics(m);
   define_closest(m);
   define_device(m);
   define_solver(m);

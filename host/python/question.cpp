@@ -184,6 +184,18 @@ void read_survey(const Arguments& given, Question& question) {
   if (*question.survey_time_s < 0) refuse_value("survey_time", kTime, given.at("survey_time"));
 }
 
+/// Reads what metrics() asks for: both directions, and no statistics beside them.
+void read_metrics(const Arguments& given, Question& question) {
+  constexpr const char* kExpected = "a number above 0 and at most 100, such as 95";
+  if (!given.knows("percentile")) return;
+  MetricsOptions& metrics = question.metrics.emplace();
+  metrics.percentile = number_from("percentile", kExpected, given.at("percentile"));
+  if (!(metrics.percentile > 0 && metrics.percentile <= 100))
+    refuse_value("percentile", kExpected, given.at("percentile"));
+  question.symmetric = true;
+  question.statistics = false;
+}
+
 std::string unit_from(const Arguments& given, const char* name) {
   constexpr const char* kExpected = "'um', 'mm', 'cm', 'm', 'in' or 'ft', or None";
   const py::object* unit = given.find(name);
@@ -263,6 +275,7 @@ Question question_of(const char* command, const Arguments& given) {
   question.worst = given.flag("worst");
   read_area(given, question);
   read_survey(given, question);
+  read_metrics(given, question);
   read_placement(given, question);
   check_together(question);
   return question;

@@ -11,6 +11,7 @@ namespace vkh::python {
 
 Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Does the same with a limit: the result has a verdict.
+Result metrics(const pybind11::args& positional, const pybind11::kwargs& named);
 Result gate(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Returns a Closest of the package's.
 pybind11::object closest(const pybind11::args& positional, const pybind11::kwargs& named);

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Result", "SidedPoint", "Signed", "SignedField", "Solver", "Survey", "Witness", "__version__",
-    "assert_within", "closest", "devices", "distance", "distances", "gate", "read",
+    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Solver", "Survey", "Witness", "__version__",
+    "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read",
 ]
 __version__: str
 
@@ -455,6 +455,55 @@ def gate(
     worst: bool = False,
     on_progress: _OnProgress | None = None,
 ) -> Result: ...
+class Metrics:
+    """Figures of two surfaces, each an Interval with an estimate."""
+
+    percentile: float
+    hausdorff: Interval
+    hd_p: Interval
+    hd_p_pooled: Interval
+    masd: Interval
+    assd: Interval
+    rms: Interval
+    chamfer_l1: Interval
+    chamfer_l2: Interval
+    nsd: dict[float | str, Interval]
+    precision: dict[float | str, Interval]
+    recall: dict[float | str, Interval]
+    f1: dict[float | str, Interval]
+    met: bool
+    unmet: tuple[str, ...]
+    result: Result
+    # hd95 and hd95_pooled, by the percentile.
+    def __getattr__(self, name: str) -> Interval: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def to_frame(self) -> Any: ...
+
+def metrics(
+    a: _Mesh | npt.NDArray[Any],
+    b: _Mesh | npt.NDArray[Any],
+    *,
+    percentile: _Number = 95,
+    bands: _Bands = (),
+    spacing: npt.ArrayLike | None = None,
+    affine: npt.ArrayLike | None = None,
+    tol: _Number | str = 1e-6,
+    device: str | SupportsIndex | Device = "",
+    time: _Number | None = None,
+    waves: SupportsIndex | None = None,
+    memory: SupportsIndex | str | None = None,
+    disable: _Names = (),
+    progress: _Progress | None = None,
+    enable: _Names = (),
+    preset: _Preset = "",
+    effort: SupportsIndex | None = None,
+    survey_time: _Number | None = None,
+    unit_a: _Unit | None = None,
+    unit_b: _Unit | None = None,
+    transform: npt.ArrayLike | _Path | None = None,
+    scale: bool = False,
+    on_progress: _OnProgress | None = None,
+) -> Metrics: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str], *, max_input: SupportsIndex | str | None = None,
          polygons: Literal["refuse", "fan", "any"] = "refuse", bodies: Literal["solid", "all"] = "solid") -> Mesh: ...

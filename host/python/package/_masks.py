@@ -1,0 +1,112 @@
+"""Surfaces of masks: the faces of voxels between the label and what is not it. Outside of the array is not the label."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from vkhausdorff import _core
+
+_ROUNDING = 2.0**-53
+
+
+def is_mask(value):
+    """Whether it is an array of three dimensions: no mesh is."""
+    return isinstance(value, np.ndarray) and value.ndim == 3
+
+
+def _checked(name, mask):
+    if mask.dtype.kind not in "biu":
+        raise TypeError(f"{name}: expected booleans or whole numbers, not {mask.dtype}; make a mask first: image > level")
+    label = mask != 0
+    if not label.any():
+        raise ValueError(f"{name}: no voxel is set, so that there is no surface")
+    return label
+
+
+def _quads(label):
+    """The corners of each face between a voxel that is set and one that is not: (n, 4, 3) whole numbers, from outside
+    counter-clockwise. Voxel i has the corners i and i + 1 along each axis."""
+    padded = np.pad(label, 1)
+    quads = []
+    for axis in range(3):
+        ahead, behind = np.moveaxis(padded, axis, 0)[1:], np.moveaxis(padded, axis, 0)[:-1]
+        u, v = np.eye(3, dtype=np.int64)[(axis + 1) % 3], np.eye(3, dtype=np.int64)[(axis + 2) % 3]
+        for is_face, turn in ((behind & ~ahead, (0, 1, 2, 3)), (ahead & ~behind, (0, 3, 2, 1))):
+            at = np.argwhere(np.moveaxis(is_face, 0, axis)).astype(np.int64)
+            others = [i for i in range(3) if i != axis]
+            at[:, others] -= 1  # of the padding; along the axis the pair of voxels is named by its first
+            corners = np.stack([at, at + u, at + u + v, at + v], axis=1)
+            quads.append(corners[:, turn])
+    return np.concatenate(quads)
+
+
+def _along_axes(shape, spacing, offset):
+    """Coordinates of the corners along each axis, and the largest error of one: exact rational arithmetic finds it."""
+    lines, errors = [], []
+    for count, step, start in zip(shape, spacing, offset):
+        exact = [Fraction(step) * Fraction(2 * k - 1, 2) + Fraction(start) for k in range(count + 1)]
+        line = np.array([float(x) for x in exact])
+        errors.append(max(abs(Fraction(x) - e) for x, e in zip(line.tolist(), exact)))
+        lines.append(line)
+    return lines, errors
+
+
+def _length_up(errors):
+    """A double no smaller than the length of a vector with these components."""
+    return float(sum(errors)) * (1 + 2**-50)  # a sum of components is no smaller than their root of squares
+
+
+def _placed(corners, shape, affine):
+    """Coordinates of corners (n, 3), and how far each is from its exact place at most."""
+    matrix, offset = affine[:3, :3], affine[:3, 3]
+    if np.array_equal(matrix, np.diag(np.diag(matrix))):
+        lines, errors = _along_axes(shape, np.diag(matrix).tolist(), offset.tolist())
+        return np.stack([line[corners[:, i]] for i, line in enumerate(lines)], axis=1), _length_up(errors)
+    centres = corners - 0.5  # exact
+    places = np.zeros(centres.shape)
+    for axis in range(3):
+        places += centres[:, axis, None] * matrix[None, :, axis]
+    places += offset
+    # Three products and three sums, each rounded once, the first sum exactly: fewer than 6 roundings of the sum of sizes.
+    sizes = np.abs(centres).max(axis=0) @ np.abs(matrix).T + np.abs(offset)
+    return places, _length_up([6 * _ROUNDING * size * (1 + 2**-40) for size in sizes])
+
+
+def _affine_of(spacing, affine):
+    if affine is None:
+        steps = np.array([1.0, 1.0, 1.0] if spacing is None else spacing, dtype=np.float64)
+        if steps.shape != (3,) or not (np.isfinite(steps).all() and (steps > 0).all()):
+            raise ValueError("spacing: expected three positive numbers")
+        return np.diag([*steps, 1.0])
+    if spacing is not None:
+        raise TypeError("spacing: an affine has it; give one of the two")
+    matrix = np.array(affine, dtype=np.float64)
+    is_affine = matrix.shape == (4, 4) and np.isfinite(matrix).all() and matrix[3].tolist() == [0, 0, 0, 1]
+    if not is_affine or np.linalg.det(matrix[:3, :3]) == 0:
+        raise ValueError("affine: expected four rows of four numbers, the last 0 0 0 1, that maps voxels to space")
+    return matrix
+
+
+def _surface(name, mask, affine):
+    label = _checked(name, mask)
+    quads = _quads(label)
+    shape = np.array(label.shape) + 1
+    flat = np.ravel_multi_index(tuple(quads.reshape(-1, 3).T), shape)
+    used, places = np.unique(flat, return_inverse=True)
+    corners = np.stack(np.unravel_index(used, shape), axis=1)
+    vertices, delta = _placed(corners, label.shape, affine)
+    square = places.reshape(-1, 4).astype(np.uint32)
+    if np.linalg.det(affine[:3, :3]) < 0:
+        square = square[:, ::-1]
+    return _core._surface(vertices, np.concatenate([square[:, [0, 1, 2]], square[:, [0, 2, 3]]]), delta)
+
+
+def surfaces(a, b, spacing, affine):
+    """The surfaces of two masks on one grid, as Meshes."""
+    for name, mask in (("a", a), ("b", b)):
+        if not is_mask(mask):
+            raise TypeError(f"{name}: expected a mask, an array of three dimensions, since the other one is one")
+    if a.shape != b.shape:
+        raise ValueError(f"b: expected a mask on the grid of the other one, {a.shape}, not {b.shape}")
+    matrix = _affine_of(spacing, affine)
+    return _surface("a", a, matrix), _surface("b", b, matrix)

@@ -1,0 +1,109 @@
+"""Metrics of two surfaces by the names that papers use: vkhausdorff.metrics()."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from vkhausdorff import _core, _masks
+from vkhausdorff._survey import Interval
+
+_LENGTHS = ("hausdorff", "hd_p", "hd_p_pooled", "masd", "assd", "rms", "chamfer_l1", "chamfer_l2")
+_SHARES = ("nsd", "precision", "recall", "f1")
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """Figures of two surfaces, each an Interval with an estimate. Lengths are in the coordinates' unit, chamfer_l2 squared.
+
+    percentile: of hd_p and hd_p_pooled, which are also called by it: hd95, hd95_pooled. nsd, precision, recall and f1 are
+    {distance as it was given: Interval} of shares, from 0 to 1, for each of bands. met: whether all are as narrow as they
+    are to be; unmet: the names of those that are not. result: the Result of both directions that they were made of.
+    """
+
+    percentile: float
+    hausdorff: Interval
+    hd_p: Interval
+    hd_p_pooled: Interval
+    masd: Interval
+    assd: Interval
+    rms: Interval
+    chamfer_l1: Interval
+    chamfer_l2: Interval
+    nsd: dict[Any, Interval]
+    precision: dict[Any, Interval]
+    recall: dict[Any, Interval]
+    f1: dict[Any, Interval]
+    met: bool
+    unmet: tuple[str, ...]
+    result: Any
+
+    __hash__ = None
+
+    def __getattr__(self, name):
+        if name.startswith("hd") and name[2:].removesuffix("_pooled") == f"{self.percentile:g}":
+            return self.hd_p_pooled if name.endswith("_pooled") else self.hd_p
+        raise AttributeError(f"no figure is called {name!r}; the percentile is {self.__dict__.get('percentile')!r}")
+
+    def _rows(self):
+        """Each figure with its name and its Interval; shares with their distance."""
+        for name in _LENGTHS:
+            yield name.replace("_p", f"{self.percentile:g}", 1) if name.startswith("hd_p") else name, getattr(self, name)
+        for name in _SHARES:
+            for distance, interval in getattr(self, name).items():
+                yield f"{name}@{distance}", interval
+
+    def to_dict(self):
+        """All of it as plain values, which json.dumps takes."""
+        figures = {name: {"lower": e.lower, "upper": e.upper, "estimate": e.estimate, "jump": e.jump} for name, e in self._rows()}
+        return {"percentile": self.percentile, "met": self.met, "unmet": list(self.unmet), **figures}
+
+    def to_frame(self):
+        """A pandas.DataFrame of one row: each figure's estimate by its name, with its ends beside, as hd95_lower."""
+        import pandas
+
+        return pandas.DataFrame([self._row()])
+
+    def _row(self):
+        row = {}
+        for name, e in self._rows():
+            row[name], row[f"{name}_lower"], row[f"{name}_upper"] = e.estimate, e.lower, e.upper
+        return {**row, "met": self.met}
+
+    def __repr__(self):
+        return f"<vkhausdorff.Metrics {', '.join(f'{name}={tuple(e)}' for name, e in self._rows())}{'' if self.met else ', not met'}>"
+
+
+Metrics.__module__ = "vkhausdorff"
+
+
+def _made(result):
+    found = result.stats.pop("metrics")
+    shares = {name: {} for name in _SHARES}
+    unmet = [name for name, (_, met) in found["lengths"].items() if not met]
+    for distance, figures in found["within"]:
+        for name, (bounds, met) in figures.items():
+            shares[name][distance] = Interval(*bounds)
+            unmet += [] if met else [f"{name}@{distance}"]
+    lengths = {name: Interval(*bounds) for name, (bounds, _) in found["lengths"].items()}
+    return Metrics(percentile=found["percentile"], **lengths, **shares, met=not unmet, unmet=tuple(unmet), result=result)
+
+
+def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-6, device="", time=None, waves=None, memory=None,
+            disable=(), progress=None, enable=(), preset="", effort=None, survey_time=None, unit_a=None, unit_b=None,
+            transform=None, scale=False, on_progress=None):
+    """Encloses the figures of two surfaces that papers report: HD95, ASSD, Chamfer distances, surface Dice, F-scores.
+
+    a, b: meshes, as distance() takes them; or two masks on one grid, arrays of three dimensions that are not 0 where the
+    label is, whose surfaces are the faces of voxels between label and not-label. percentile: of hd_p. bands: distances in
+    the coordinates' unit, or strings such as '0.5%' of A's diagonal: the shares of area within each are nsd (of both),
+    precision (of A), recall (of B) and f1. spacing: of masks, the sizes of a voxel, 1 by default; or affine: four rows that
+    map the number of a voxel's middle to space, as NIfTI's. The rest is as in distance(). Returns Metrics. ValueError if
+    a surface has no area.
+    """
+    if _masks.is_mask(a) or _masks.is_mask(b):
+        a, b = _masks.surfaces(a, b, spacing, affine)
+    elif spacing is not None or affine is not None:
+        raise TypeError(f"{'affine' if spacing is None else 'spacing'}: is of masks, arrays of three dimensions")
+    return _made(_core._metrics(a, b, percentile=percentile, bands=bands, tol=tol, device=device, time=time, waves=waves,
+                                memory=memory, disable=disable, progress=progress, enable=enable, preset=preset, effort=effort,
+                                survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
+                                on_progress=on_progress))
