@@ -11,6 +11,7 @@
 #include "host/solve/cells.h"
 #include "host/solve/verify.h"
 #include "host/survey/certificate.h"
+#include "host/survey/distribution.h"
 
 namespace vkh {
 namespace {
@@ -203,14 +204,66 @@ SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   return result;
 }
 
+void compute_metrics(Answer& answer) {
+  const SurveyResult &a = *answer.survey_a, &b = *answer.survey_b;
+  answer.metrics =
+      metrics_of({answer.metrics->percentile}, {answer.a_to_b, *a.statistics, *a.distribution},
+                 {*answer.b_to_a, *b.statistics, *b.distribution});
+}
+
+/// Goes on with a survey until the pooled percentile is narrow, or the other mesh's cells are more
+/// in its way. Returns whether cells were split. The reason why the survey ended stays.
+bool go_on_for_pooled(const Finishing& at, const Side& side, SurveyResult& found,
+                      const Distribution& other) {
+  SurveyOptions options = survey_options(at, side, 2);
+  const size_t spent = found.bounded - std::min(found.bounded, side.from.faces.size());
+  options.upper = side.report.upper;
+  options.effort = found.effort - std::min(found.effort, spent);
+  options.pooled = PooledSearch{.cells = found.distribution.get(),
+                                .other = &other,
+                                .share = options.percentiles[0],
+                                .known = at.answer.metrics->hd_p_pooled.value};
+  SurveyResult more = survey_of(at, side, options);
+  if (!more.distribution) {  // the cells may be lost: the figures stay as they are
+    found.distribution.reset();
+    return false;
+  }
+  join(side.report, more, side.from.faces.size());
+  const bool has_split = more.cells > found.cells;
+  more.bounded += found.bounded;
+  more.ms += found.ms;
+  more.effort = found.effort;
+  more.ended = found.ended;
+  found = std::move(more);
+  return has_split;
+}
+
+/// Splits the cells of both meshes around the pooled percentile, which may lie far from their own
+/// percentiles: first those of the mesh that has more undecided area there.
+void narrow_pooled(const Finishing& at, const std::vector<Side>& sides) {
+  constexpr int kMostTurns = 4;
+  SurveyResult &a = *at.answer.survey_a, &b = *at.answer.survey_b;
+  bool goes_on = true;
+  for (int turn = 0; goes_on && turn < kMostTurns && at.observer.is_to_go_on(); ++turn) {
+    const Metric& pooled = at.answer.metrics->hd_p_pooled;
+    if (pooled.is_met || pooled.jump) return;
+    const bool back =
+        b.distribution->undecided_area(pooled.value) > a.distribution->undecided_area(pooled.value);
+    goes_on = go_on_for_pooled(at, sides[back ? 1 : 0], back ? b : a,
+                               back ? *a.distribution : *b.distribution);
+    if (!a.distribution || !b.distribution) return;
+    compute_metrics(at.answer);
+  }
+}
+
 /// Computes the metrics from both surveys, and frees what only they needed. A survey that ended
 /// before it had figures leaves them unknown.
-void take_metrics(Answer& answer) {
-  SurveyResult &a = *answer.survey_a, &b = *answer.survey_b;
-  if (a.distribution && b.distribution)
-    answer.metrics =
-        metrics_of({answer.metrics->percentile}, {answer.a_to_b, *a.statistics, *a.distribution},
-                   {*answer.b_to_a, *b.statistics, *b.distribution});
+void take_metrics(const Finishing& at, const std::vector<Side>& sides) {
+  SurveyResult &a = *at.answer.survey_a, &b = *at.answer.survey_b;
+  if (a.distribution && b.distribution) {
+    compute_metrics(at.answer);
+    narrow_pooled(at, sides);
+  }
   a.distribution.reset();
   b.distribution.reset();
 }
@@ -257,7 +310,7 @@ void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
   if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", true, *answer.b_to_a});
   for (size_t i = 0; question.asks_for_survey() && i < sides.size(); ++i)
     (i == 0 ? answer.survey_a : answer.survey_b) = survey_side(at, sides[i], sides.size() - i);
-  if (question.metrics && answer.survey_a && answer.survey_b) take_metrics(answer);
+  if (question.metrics && answer.survey_a && answer.survey_b) take_metrics(at, sides);
   if (observer.found) observer.found(answer);
   for (size_t i = 0; question.certificate && i < sides.size(); ++i)
     (i == 0 ? answer.proof_a : answer.proof_b) = prove_side(at, sides[i]);

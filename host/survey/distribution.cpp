@@ -35,6 +35,13 @@ std::vector<Enclosure> Distribution::shares_within(std::span<const double> ascen
   return shares;
 }
 
+double Distribution::undecided_area(const Enclosure& at) const {
+  const std::vector<double> ends{at.lower, at.upper};
+  double share = 0;
+  for (const Enclosure& within : shares_within(ends)) share += within.upper - within.lower;
+  return share * area().upper;
+}
+
 // The exact sum of the faces' areas is within `error` of `whole`, in the unit of the areas; its
 // square is a power of four, by which scaling is exact but for subnormal results.
 Enclosure Distribution::area() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/survey/estimate.h"
@@ -18,12 +19,16 @@ class Distribution {
   Distribution& operator=(const Distribution&) = delete;
 
   const CellStore& cells() const { return cells_; }
+  /// Gives the cells to a survey that goes on with them: this is of no use any more.
+  CellStore take_cells() { return std::move(cells_); }
   const Areas& areas() const { return areas_; }
   const Estimates& estimates() const { return estimates_; }
 
   /// Returns the share of A's area within each of some distances, which are in the files' units and
   /// ascend. Each has an estimate.
   std::vector<Enclosure> shares_within(std::span<const double> ascending) const;
+  /// Returns the area that is undecided at both ends of an interval, in the files' units.
+  double undecided_area(const Enclosure& at) const;
   /// Encloses A's area, in the files' units.
   Enclosure area() const;
   /// Returns the width, in the files' units, that is enough for any length: a millionth of A's
@@ -33,7 +38,7 @@ class Distribution {
   double rounding() const { return rounding_; }
 
  private:
-  const CellStore cells_;
+  CellStore cells_;
   const Areas areas_;
   const Estimates estimates_;  // of the two before it
   const Frame frame_;

@@ -80,7 +80,8 @@ double undecided_share(const gpu::CellBounds& b, const Threshold& at) {
   return std::max(perhaps - surely, 0.0);
 }
 
-// Scores a cell by its undecided area, added up over some distances.
+}  // namespace
+
 Scores score_undecided(const CellStore& store, const Areas& areas,
                        const std::vector<Threshold>& distances) {
   return scored(store, [&](size_t i) -> std::optional<double> {
@@ -91,6 +92,8 @@ Scores score_undecided(const CellStore& store, const Areas& areas,
     return share * area_of(store, areas, i);
   });
 }
+
+namespace {
 
 std::vector<Threshold> bands_of(const Asked& asked) {
   std::vector<Threshold> at;

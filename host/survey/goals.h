@@ -55,6 +55,10 @@ Scores scored(const CellStore& store, const Score& score) {
   return all;
 }
 
+/// Scores a cell by its undecided area, added up over some distances.
+Scores score_undecided(const CellStore& store, const Areas& areas,
+                       const std::vector<Threshold>& distances);
+
 /// Converts lengths in the frame, on the stored meshes, to the files' units.
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
 

@@ -6,7 +6,7 @@
 
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
-#include "host/survey/distribution.h"
+#include "host/survey/pooled.h"
 
 namespace vkh {
 namespace {
@@ -157,75 +157,6 @@ Enclosure weighted_rms(const Enclosure& weight, const Enclosure& x, const Enclos
 
 namespace {
 
-// Both surfaces as one: the share of their area within a distance is w F_A + (1 - w) F_B.
-class Pooled {
- public:
-  Pooled(const MeasuredDirection& a, const MeasuredDirection& b)
-      : a_(a.distribution), b_(b.distribution), weight_(weight_of(a_.area(), b_.area())) {}
-
-  const Enclosure& weight() const { return weight_; }
-
-  std::vector<Enclosure> shares_within(const std::vector<double>& ascending) const {
-    const std::vector<Enclosure> a = a_.shares_within(ascending), b = b_.shares_within(ascending);
-    std::vector<Enclosure> shares;
-    for (size_t i = 0; i < a.size(); ++i) shares.push_back(weighted(weight_, a[i], b[i]));
-    return shares;
-  }
-
- private:
-  const Distribution& a_;
-  const Distribution& b_;
-  const Enclosure weight_;
-};
-
-// Distances that cut an interval, without its own ends; they ascend.
-std::vector<double> cuts_of(const Enclosure& e) {
-  constexpr int kSections = 32;
-  std::vector<double> cuts;
-  for (int k = 1; k < kSections; ++k) {
-    const double cut = e.lower + (e.upper - e.lower) * k / kSections;
-    if (cut > e.lower && cut < e.upper && (cuts.empty() || cut > cuts.back())) cuts.push_back(cut);
-  }
-  return cuts;
-}
-
-/// The share that is sought, which no double may be: p / 100 lies between.
-struct Share {
-  double down, up;
-};
-Share share_of_percentile(double percentile) {
-  const double share = percentile / 100;
-  return {share * (1 - 0x1p-52), std::min(share * (1 + 0x1p-52), 1.0)};
-}
-
-// A distance at which less than the share may be within is below the percentile; one at which it
-// surely is within is not. `known` encloses it: the share is within the larger of the directed
-// percentiles of both surfaces, and within less than the smaller of neither.
-Enclosure pooled_percentile(const Pooled& pooled, const Share& share, Enclosure known) {
-  constexpr int kPasses = 4;  // 20 bits
-  Enclosure likely{known.lower, known.upper};
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<double> cuts = cuts_of(known);
-    const std::vector<Enclosure> within = pooled.shares_within(cuts);
-    for (size_t i = 0; i < cuts.size(); ++i) {
-      if (within[i].upper < share.down) known.lower = cuts[i];
-      if (within[i].lower >= share.up) known.upper = std::min(known.upper, cuts[i]);
-    }
-    if (cuts.empty()) break;
-  }
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<double> cuts = cuts_of(likely);
-    const std::vector<Enclosure> within = pooled.shares_within(cuts);
-    for (size_t i = 0; i < cuts.size(); ++i) {
-      const bool is_reached = within[i].estimate && *within[i].estimate >= share.down;
-      double& end = is_reached ? likely.upper : likely.lower;
-      end = is_reached ? std::min(end, cuts[i]) : std::max(end, cuts[i]);
-    }
-  }
-  known.estimate = std::clamp((likely.lower + likely.upper) / 2, known.lower, known.upper);
-  return known;
-}
-
 // What is enough for lengths and shares: the surveys' goals, and what roundings add to them.
 class Goals {
  public:
@@ -289,7 +220,8 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
                    const MeasuredDirection& b) {
   const Statistics &of_a = a.statistics, &of_b = b.statistics;
   const Percentile &p = of_a.percentiles[0], &q = of_b.percentiles[0];
-  const Pooled pooled(a, b);
+  const PooledPart part_a = part_of(a.distribution), part_b = part_of(b.distribution);
+  const Enclosure weight = weight_of(part_a.area, part_b.area);
   const Goals goals(a, b);
   const Enclosure between{std::min(p.distance.lower, q.distance.lower),
                           std::max(p.distance.upper, q.distance.upper)};
@@ -299,16 +231,19 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
   m.percentile = options.percentile;
   m.hausdorff = goals.length(hausdorff_of(a.report, b.report), false);
   m.hd_p = goals.length(larger(p.distance, q.distance), false, p.jump || q.jump);
-  m.hd_p_pooled =
-      goals.length(pooled_percentile(pooled, share_of_percentile(options.percentile), between),
-                   false, p.jump && q.jump);
+  Enclosure pooled = pooled_percentile(part_a, part_b, p.share, between);
+  pooled.estimate = likely_pooled_percentile(part_a, part_b, p.share, pooled);
+  m.hd_p_pooled = goals.length(
+      pooled, false, is_pooled_jump(part_a, part_b, pooled, goals.of_length(pooled.lower)));
   m.masd = goals.length(half(sum(of_a.mean, of_b.mean)), means);
-  m.assd = goals.length(weighted(pooled.weight(), of_a.mean, of_b.mean), means);
-  m.rms = goals.length(weighted_rms(pooled.weight(), of_a.rms, of_b.rms), roots);
+  m.assd = goals.length(weighted(weight, of_a.mean, of_b.mean), means);
+  m.rms = goals.length(weighted_rms(weight, of_a.rms, of_b.rms), roots);
   m.chamfer_l1 = goals.length(sum(of_a.mean, of_b.mean), means);
-  m.chamfer_l2 = {sum(square(of_a.rms), square(of_b.rms)), roots};
+  const Enclosure squares = sum(square(of_a.rms), square(of_b.rms));
+  m.chamfer_l2 = {squares,
+                  roots || known_to(squares) <= 2 * MetricsOptions::kTolerance * squares.lower};
   for (size_t i = 0; i < std::min(of_a.bands.size(), of_b.bands.size()); ++i)
-    m.within.push_back(within_of(pooled.weight(), of_a.bands[i], of_b.bands[i]));
+    m.within.push_back(within_of(weight, of_a.bands[i], of_b.bands[i]));
   return m;
 }
 

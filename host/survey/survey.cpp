@@ -8,6 +8,7 @@
 #include "host/survey/distribution.h"
 #include "host/survey/goals.h"
 #include "host/survey/map_goal.h"
+#include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
 
 namespace vkh {
@@ -292,11 +293,16 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     Bounding bounding(pair, bound, options);
     std::optional<SidedCells> sided = sided_cells(pair, options, bounding);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
-    CellStore store(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
-    bounding.faces(store);
+    CellStore store =
+        options.pooled
+            ? options.pooled->cells->take_cells()
+            : CellStore(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
+    if (!options.pooled) bounding.faces(store);
     Areas areas = areas_of(pair.a);
     std::vector<Enclosure> percentiles;
-    std::vector<Goal> goals = goals_of(options, pair, areas, percentiles);
+    std::vector<Goal> goals = options.pooled
+                                  ? std::vector<Goal>{pooled_goal(*options.pooled, pair, areas)}
+                                  : goals_of(options, pair, areas, percentiles);
     if (sided) add_signed_goals(*sided, options, areas, goals);
     const std::optional<Goal> map = map_goal(options, pair, areas);
     refine_map(store, bounding, map, false);

@@ -34,6 +34,16 @@ size_t default_effort(bool on_cpu);
 
 class Distribution;
 
+/// The wish for the percentile of two surfaces together, at the share of
+/// SurveyOptions::percentiles.
+struct PooledSearch {
+  /// An earlier survey of the same pair, whose cells are taken, and the other surface's.
+  Distribution* cells = nullptr;
+  const Distribution* other = nullptr;
+  double share = 0;
+  Enclosure known = {};  ///< encloses it, in the files' units
+};
+
 struct SurveyOptions {
   bool faces = false;  ///< each face's bounds are to be narrow; otherwise it is bounded once
   /// The width to reach, in the files' units; 0: `face_tolerance` of what the largest distance is
@@ -54,6 +64,8 @@ struct SurveyOptions {
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
   /// With statistics: result.distribution is wanted, as metrics_of() needs it.
   bool keeps_distribution = false;
+  /// If set: the survey goes on with cells of an earlier one, and has this goal alone.
+  std::optional<PooledSearch> pooled = {};
   std::optional<MapOptions> map = {};  ///< result.map is wanted
   /// The sides of A are wanted, of 95 % of its area that is farther from B than a hundredth of the
   /// largest distance: result.sides.
@@ -89,7 +101,7 @@ struct SurveyResult {
   std::optional<SignedFigures> sides = {};
   std::optional<CellMap> map = {};  ///< none where A has no area
   /// With SurveyOptions::keeps_distribution and `statistics`: it refers to the surveyed A.
-  std::shared_ptr<const Distribution> distribution = {};
+  std::shared_ptr<Distribution> distribution = {};
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default

@@ -15,6 +15,7 @@
 
 #include "host/answer/asking.h"
 #include "host/answer/exit_code.h"
+#include "host/survey/distribution.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 
@@ -263,8 +264,8 @@ uint32_t few(Random& random) { return 1 + static_cast<uint32_t>(random.unit() * 
 // A wedge: A rises from B's edge with slope s, over `length`; B reaches to the foot of A's upper
 // edge, at length (1 + s^2). In the plane across, each distance is to the line of the other one:
 // s x for A at x, and s x / sqrt(1 + s^2) for B.
-void add_wedge(Random& random, double offset, DistributedPair& pair) {
-  const double s = 0.05 + 0.9 * random.unit(), length = 0.2 + random.unit();
+void add_wedge(Random& random, double slope, double offset, DistributedPair& pair) {
+  const double s = slope, length = 0.2 + random.unit();
   const double width = 0.2 + random.unit(), root = std::sqrt(1 + s * s);
   const glm::dvec3 from{offset, 0, 0};
   pair.a = joined(pair.a, sheet(from, {length, s * length}, width, few(random), few(random)));
@@ -282,12 +283,22 @@ void add_stack(Random& random, double offset, DistributedPair& pair) {
   pair.of_b.parts.push_back({height, length * width, true});
 }
 
+// Rises of up to 3: B's distances are then up to three times A's.
+double any_slope(Random& random) {
+  return random.unit() < 0.8 ? random.range(0.05, 0.95) : random.range(0.95, 3);
+}
+
 // Islands so far apart that none is nearer to another one.
 DistributedPair distributed_pair(Random& random) {
   DistributedPair pair;
   const int count = 1 + static_cast<int>(random.unit() * 4);
-  for (int i = 0; i < count; ++i)
-    (random.unit() < 0.75 ? add_wedge : add_stack)(random, 8.0 * i, pair);
+  for (int i = 0; i < count; ++i) {
+    if (random.unit() < 0.75) {
+      add_wedge(random, any_slope(random), 40.0 * i, pair);
+    } else {
+      add_stack(random, 40.0 * i, pair);
+    }
+  }
   const double angle = 6 * random.unit();
   for (Mesh* mesh : {&pair.a, &pair.b}) *mesh = rotated(*mesh, {1, 2, 3}, angle);
   return pair;
@@ -353,13 +364,67 @@ TEST_CASE("generated pairs with exact distributions: every figure is enclosed") 
 
 // --- Answers ---
 
-TEST_CASE("a question for metrics is of both directions, and its code is whether all are met") {
-  const auto a = std::make_shared<const Mesh>(square_patch(4, 0.25));
-  const auto b = std::make_shared<const Mesh>(square_patch(3, 0.0));
+Answer answered(const Mesh& a, const Mesh& b, double percentile = 95) {
   Question question;
-  question.metrics.emplace();
+  question.metrics.emplace().percentile = percentile;
   Solver* const on[] = {&solver()};
-  const Answer answer = Asking(question, a, b, on).answer();
+  return Asking(question, std::make_shared<const Mesh>(a), std::make_shared<const Mesh>(b), on)
+      .answer();
+}
+
+Metrics metrics_in(const Measured& m, double percentile) {
+  return metrics_of({percentile}, {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
+                    {m.distance.b_to_a, *m.b.statistics, *m.b.distribution});
+}
+
+TEST_CASE("a survey that goes on for the pooled percentile narrows it, and stays true") {
+  const Mesh a = cube(1.0), b = icosphere(1.3, 3);
+  SurveyOptions options;
+  options.percentiles = {0.3};
+  options.mean_tolerance = 0.5;
+  Measured m = measured(a, b, options);
+  const Metrics wide = metrics_in(m, 30);
+  REQUIRE_FALSE(wide.hd_p_pooled.is_met);
+  Enclosure known = wide.hd_p_pooled.value;
+  for (int turn = 0; turn < 6; ++turn) {
+    const bool back =
+        m.b.distribution->undecided_area(known) > m.a.distribution->undecided_area(known);
+    SurveyResult& found = back ? m.b : m.a;
+    options.pooled =
+        PooledSearch{found.distribution.get(),
+                     back ? m.a.distribution.get() : m.b.distribution.get(), 0.3, known};
+    options.statistics = options.keeps_distribution = true;
+    const SurveyResult more =
+        survey_mesh(solver(), {.a = back ? b : a, .b = back ? a : b}, options);
+    REQUIRE(more.distribution);
+    found = more;
+    const Metrics now = metrics_in(m, 30);
+    known = now.hd_p_pooled.value;
+    CHECK(known.lower >= wide.hd_p_pooled.value.lower);
+    CHECK(known.upper <= wide.hd_p_pooled.value.upper);
+    if (now.hd_p_pooled.is_met) break;
+  }
+  CHECK(metrics_in(m, 30).hd_p_pooled.is_met);
+  // The same, by surveys that were narrow from the start.
+  const Enclosure narrow = metrics_between(a, b, 30, {}).hd_p_pooled.value;
+  CHECK(known.lower <= narrow.upper);
+  CHECK(known.upper >= narrow.lower);
+}
+
+TEST_CASE("a pooled percentile in a gap of the distribution is a jump, and costs no effort") {
+  const auto stacks = [](double low, double high) {
+    return joined(sheet({0, 0, low}, {1, 0}, 1, 2, 2), sheet({40, 0, high}, {1, 0}, 1, 2, 2));
+  };
+  const Answer answer = answered(stacks(0.1, 0.3), stacks(0, 0), 50);
+  const Metric& pooled = answer.metrics->hd_p_pooled;
+  CHECK(pooled.value.lower <= 0.1);
+  CHECK(pooled.value.upper >= 0.1);
+  if (!pooled.is_met) CHECK(pooled.jump);
+  CHECK(answer.survey_a->bounded + answer.survey_b->bounded < 100000);
+}
+
+TEST_CASE("a question for metrics is of both directions, and its code is whether all are met") {
+  const Answer answer = answered(square_patch(4, 0.25), square_patch(3, 0.0));
   REQUIRE(answer.metrics);
   CHECK(answer.b_to_a);
   CHECK(answer.command == "metrics");
@@ -372,13 +437,8 @@ TEST_CASE("a mesh without area is refused") {
   Mesh line;
   line.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   line.faces = {{0, 1, 2}};
-  const auto a = std::make_shared<const Mesh>(line);
-  const auto b = std::make_shared<const Mesh>(square_patch(3, 0.0));
-  Question question;
-  question.metrics.emplace();
-  Solver* const on[] = {&solver()};
-  CHECK_THROWS_AS(Asking(question, a, b, on).answer(), InputError);
-  CHECK_THROWS_AS(Asking(question, b, a, on).answer(), InputError);
+  CHECK_THROWS_AS(answered(line, square_patch(3, 0.0)), InputError);
+  CHECK_THROWS_AS(answered(square_patch(3, 0.0), line), InputError);
 }
 
 }  // namespace
