@@ -21,6 +21,7 @@ const char* outcome_word(const Record& record) {
     case Outcome::kNoAnswer:
       return "NO ANSWER";
     case Outcome::kOpen:
+      if (record.metrics) return "WIDER THAN ASKED";
       return record.verdict.empty() ? "NOT CLOSED" : "UNDECIDED";
     case Outcome::kClosed:
       return "CLOSED";

@@ -218,6 +218,7 @@ std::string metrics_in_words(const Answer& answer) {
 std::vector<TableRow> metrics_rows(const Answer& answer) {
   const Metrics& m = *answer.metrics;
   std::vector<TableRow> rows;
+  rows.reserve(kNamedMetrics.size() + kNamedShares.size() * m.within.size());
   for (const NamedMetric& metric : kNamedMetrics)
     rows.push_back({name_of(metric, m.percentile),
                     metric_text(m.*metric.figure, metric_unit(answer, metric.dimension))});

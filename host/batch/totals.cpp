@@ -45,6 +45,7 @@ void Totals::add(const Record& record) {
     return;
   }
   const bool has_verdict = !record.verdict.empty();
+  has_metrics_ = has_metrics_ || record.metrics.has_value();
   ++(record.code == kExitBeyond      ? beyond_
      : record.code == kExitNotClosed ? open_
      : has_verdict                   ? within_
@@ -90,10 +91,13 @@ std::string Totals::in_words(const Run& run) const {
     return std::string(verdict) + "  " + std::to_string(within_) + " of " + all +
            " are within their limit, " + std::to_string(beyond_) + " are beyond it, proven" + rest;
   }
-  add(open_, "not closed");
+  add(open_, has_metrics_ ? "with a figure that is wider" : "not closed");
   add_without_answer();
   add(run.left, "left");
-  return std::to_string(closed_) + " of " + all + " have an interval within the tolerance" + rest;
+  return std::to_string(closed_) + " of " + all +
+         (has_metrics_ ? " have all figures as narrow as asked"
+                       : " have an interval within the tolerance") +
+         rest;
 }
 
 std::string Totals::percentiles() const {

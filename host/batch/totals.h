@@ -55,6 +55,7 @@ class Totals {
 
   ExitCode worst_ = kExitClosed;
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
+  bool has_metrics_ = false;           // some record has metrics
   size_t unpaired_ = 0;                // failures of files without a partner
   std::vector<Place> top_;             // the worst answers, in order
   std::vector<double> ratios_;         // upper / diag(A), without a limit

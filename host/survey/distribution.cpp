@@ -21,6 +21,8 @@ Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas area
 std::vector<Enclosure> Distribution::shares_within(std::span<const double> ascending) const {
   std::vector<Threshold> at;
   std::vector<double> in_frame;
+  at.reserve(ascending.size());
+  in_frame.reserve(ascending.size());
   for (const double distance : ascending) {
     at.push_back(threshold_at(frame_, displacement_, distance));
     in_frame.push_back(frame_.to_frame(distance));

@@ -86,6 +86,7 @@ PooledPart part_of_store(const CellStore& store, const Areas& areas, const Surve
                          const Enclosure& area) {
   return {[&](const std::vector<double>& ascending) {
             std::vector<Threshold> at;
+            at.reserve(ascending.size());
             for (const double d : ascending)
               at.push_back(threshold_at(pair.frame, pair.displacement, d));
             return shares_within(store, areas, at);

@@ -90,7 +90,8 @@ class Metrics(unittest.TestCase):
 
     def test_batch(self):
         (self.folder / "list.csv").write_text("id,a,b\nlifted,a.obj,b.obj\nsame,a.obj,a.obj\n")
-        self.batch("list", "--metrics", "--bands", "0.2abs,1abs")
+        said = self.batch("list", "--metrics", "--bands", "0.2abs,1abs").stdout
+        self.assertEqual(said.splitlines()[0], "2 of 2 pairs have all figures as narrow as asked")
         lines = {line["id"]: line for line in map(json.loads, (self.folder / "list.jsonl").read_text().splitlines())}
         self.check_lifted(lines["lifted"]["metrics"], None, 95)
         self.assertEqual({lines["same"]["metrics"][name]["upper"] for name in LENGTHS}, {0})
@@ -112,6 +113,12 @@ class Metrics(unittest.TestCase):
             now = (self.folder / "list.jsonl").read_bytes()
             self.assertGreater(len(now), len(before), "another question has another key")
             before = now
+
+    def test_a_batch_tells_what_is_wider(self):
+        (self.folder / "jump.csv").write_text("id,a,b\njump,a.obj,b.obj\n")
+        said = self.batch("jump", "--metrics", "--bands", "0.25abs", "--effort", "2000", code=3).stdout
+        self.assertEqual(said.splitlines()[0], "0 of 1 pairs have all figures as narrow as asked; 1 with a figure that is wider")
+        self.assertIn("WIDER THAN ASKED  [", said)
 
     def test_rows_that_contradict_metrics(self):
         (self.folder / "odd.csv").write_text("id,a,b,max,symmetric\nlimit,a.obj,b.obj,1abs,\none way,a.obj,b.obj,,false\nline,a.obj,line.obj,,\n")
