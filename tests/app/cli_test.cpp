@@ -90,7 +90,7 @@ TEST_CASE("usage errors: exit code 2 and one line") {
   const Words pair = {"distance", square_a(), square_b()};
   check_refused({}, 2, "subcommand");
   check_refused({"distanse", "a", "b"}, 2,
-                "'distanse': expected distance, gate, batch, merge, demo or doctor");
+                "'distanse': expected distance, gate, metrics, batch, merge, demo or doctor");
   check_refused({"distance"}, 2, "A is required");
   check_refused({"distance", square_a()}, 2, "B is required");
   check_refused(pair + Words{"third.obj"}, 2, "third.obj");

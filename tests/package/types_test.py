@@ -57,11 +57,16 @@ with vkh.Device("cpu") as device:
 vkh.distance(v, f, v, f, field=True).field.save(pathlib.Path("f.ply"), map="batlow")
 weights: tuple[float, float, float] = r.witness.barycentric
 width: float = r.gap + r.interval.upper
+figures = vkh.metrics((v, f), mesh, percentile=90, bands=[0.5, "1%"], effort=1000)
+figure: float = figures.hd90.lower + figures.assd.upper + figures.f1["1%"].upper
+masks: bool = vkh.metrics(np.ones((3, 3, 3), dtype=bool), np.ones((3, 3, 3), dtype=bool), spacing=(1, 1, 2.5)).met
 vkh.distances([], device=vkh.Device())  # wrong
 vkh.distance(v, f, v, f, on_progress=lambda fraction: None)  # wrong
 vkh.Device(1.5)  # wrong
 vkh.distance(v, f, v, f, field=[1])  # wrong
 vkh.closest((v, f))  # wrong
+vkh.metrics((v, f))  # wrong
+vkh.metrics((v, f), mesh, max=1)  # wrong
 vkh.gate((v, f), (v, f), 0.1, certificate=1)  # wrong
 vkh.gate(v, 1, 0.1)  # wrong
 vkh.distance(v, f, v)  # wrong
@@ -134,7 +139,7 @@ def errors_of_mypy(test: unittest.TestCase, files: dict) -> str:
 
 
 # The names that every class of pybind11 has.
-COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__", "__contains__", "__len__", "__iter__"}
+COMMON = {"__module__", "__doc__", "__new__", "__repr__", "__init__", "__contains__", "__len__", "__iter__", "__getattr__"}
 
 
 class Types(unittest.TestCase):
@@ -143,7 +148,7 @@ class Types(unittest.TestCase):
         core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
         said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
         self.assertEqual(said, public)
-        in_python = {"Closest", "Field", "Interval", "SidedPoint", "Signed", "SignedField", "Survey", "Witness", "assert_within", "distances"}
+        in_python = {"Closest", "Field", "Interval", "Metrics", "SidedPoint", "Signed", "SignedField", "Survey", "Witness", "assert_within", "distances", "metrics"}
         self.assertEqual(core | in_python, public, "the package does not pass on what the module has")
         self.assertEqual(set(vkh.__all__), public | {"__version__"})
 
