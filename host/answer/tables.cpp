@@ -69,8 +69,9 @@ void add_names_of_metrics(size_t distances, std::vector<std::string>& cells) {
   cells.emplace_back("percentile");
   for (const NamedMetric& metric : kNamedMetrics) add_names(metric.name, cells);
   for (size_t i = 1; i <= distances; ++i) {
-    cells.push_back("within" + std::to_string(i));
-    for (const NamedShare& share : kNamedShares) add_names(share.name + std::to_string(i), cells);
+    cells.push_back("within_" + std::to_string(i));
+    for (const NamedShare& share : kNamedShares)
+      add_names(share.name + ("_" + std::to_string(i)), cells);
   }
 }
 

@@ -103,8 +103,8 @@ class Metrics(unittest.TestCase):
                     self.assertEqual(float(rows[name][f"{figure}_{end}"]), line["metrics"][figure][end])
                 self.assertEqual(float(rows[name][figure]), line["metrics"][figure]["estimate"])
             for i, at in enumerate(line["metrics"]["within"], 1):
-                self.assertEqual(float(rows[name][f"within{i}"]), at["distance"])
-                self.assertEqual(float(rows[name][f"f1{i}_upper"]), at["f1"]["upper"])
+                self.assertEqual(float(rows[name][f"within_{i}"]), at["distance"])
+                self.assertEqual(float(rows[name][f"f1_{i}_upper"]), at["f1"]["upper"])
         before = (self.folder / "list.jsonl").read_bytes()
         self.batch("list", "--metrics", "--bands", "0.2abs,1abs", "--resume")
         self.assertEqual((self.folder / "list.jsonl").read_bytes(), before, "nothing was left to do")

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
