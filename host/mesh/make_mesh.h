@@ -14,6 +14,9 @@ enum class Positions { kAny, kDiffer };  ///< whether two vertices may be at one
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces,
                const ThreadPool& pool, Positions positions = Positions::kAny);
 
+/// Does the same as make_points of mesh.h, whatever the pool.
+Mesh make_points(std::string name, std::vector<glm::dvec3> points, const ThreadPool& pool);
+
 /// Whether a triangle is a segment or a point: exact for all finite coordinates.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 

@@ -155,6 +155,20 @@ uint64_t count_degenerate(const Mesh& mesh, const ThreadPool& pool) {
   });
 }
 
+void check_points(const Mesh& mesh, const ThreadPool& pool) {
+  if (!mesh.are_points) return;
+  Least wrong;
+  pool.for_parts(mesh.faces.size(), [&](size_t, size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      if (mesh.faces[f] != glm::uvec3(static_cast<uint32_t>(f))) return wrong.see(f);
+    }
+  });
+  const bool all = mesh.faces.size() == mesh.vertices.size();
+  if (wrong.found() || !all)
+    reject(mesh.name, "face " + std::to_string(wrong.found() ? wrong.number() : mesh.faces.size()),
+           "are_points, and this face is not the point of its number", "make_points()");
+}
+
 void check_sizes(const Mesh& mesh) {
   if (mesh.faces.empty()) reject(mesh.name, "face 0", "there is no face", "at least one triangle");
   if (std::max(mesh.faces.size(), mesh.vertices.size()) >= UINT32_MAX)
@@ -167,6 +181,7 @@ void check_mesh(const Mesh& mesh) {
   check_sizes(mesh);
   const ThreadPool pool(threads_for(mesh_bytes(mesh)), {}, {});
   check_indices(mesh, pool);
+  check_points(mesh, pool);
   check_finite(mesh, pool);
   if (!(mesh.delta >= 0) || !std::isfinite(mesh.delta))
     reject(mesh.name, "delta", std::to_string(mesh.delta), "a finite number, at least 0");
@@ -199,6 +214,37 @@ Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<g
   mesh.counts.degenerate = count_degenerate(mesh, pool);
   mesh.counts.duplicate = count_duplicates(mesh, positions, pool);
   return mesh;
+}
+
+Mesh make_points(std::string name, std::vector<glm::dvec3> points, const ThreadPool& pool) {
+  const FloatEnvironment ours;
+  Mesh mesh{.name = std::move(name),
+            .vertices = std::move(points),
+            .faces = {},
+            .counts = {},
+            .notes = {}};
+  const size_t count = mesh.vertices.size();
+  if (count == 0) reject(mesh.name, "vertex 0", "there is no point", "at least one point");
+  if (count >= UINT32_MAX)
+    reject(mesh.name, "vertex 4294967294", "too many points", "fewer than 2^32 - 1");
+  resize_together(pool, mesh.faces, count);
+  pool.for_parts(count, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) mesh.faces[i] = glm::uvec3(static_cast<uint32_t>(i));
+  });
+  check_finite(mesh, pool);
+  mesh.are_points = true;
+  mesh.counts.vertices = mesh.counts.faces = mesh.counts.degenerate = count;
+  mesh.counts.duplicate = count_duplicates(mesh, Positions::kAny, pool);
+  return mesh;
+}
+
+Mesh make_points(std::string name, std::vector<glm::dvec3> points) {
+  return make_points(std::move(name), std::move(points), ThreadPool());
+}
+
+void refuse_points(const Mesh& mesh, const std::string& option, const std::string& lacks) {
+  if (mesh.are_points)
+    throw UsageError(option + ": " + mesh.name + " is points, which have no " + lacks);
 }
 
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces) {

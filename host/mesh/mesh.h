@@ -78,7 +78,7 @@ struct Polygons {
 
 /// Coordinates are float64, so that float32 and float64 input are both held exactly. Face i is the
 /// i-th triangle of the input (polygons triangulated in place); degenerate and duplicate faces
-/// stay.
+/// stay. Points alone are faces whose three corners are one vertex: the set is the same.
 struct Mesh {
   std::string name;  ///< the file's path, or what a caller named it; starts every error line
   std::vector<DVec3> vertices;
@@ -93,6 +93,7 @@ struct Mesh {
   double delta = 0;
   std::optional<PlacedFrom> placed = {};  ///< a user put it elsewhere than its file has it: place()
   bool has_all_bodies = false;            ///< every shape of a scene was read, printed or not
+  bool are_points = false;                ///< no surface: face i is the point vertices[i]
   std::string unit = {};    ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
   std::vector<Note> notes;  ///< such as polygons: 3 faces of more than three corners were
                             ///< triangulated
@@ -107,8 +108,9 @@ inline uint64_t mesh_bytes(const Mesh& mesh) {
 }
 
 /// Throws InputError that names the element if a coordinate is not finite, an index is out of
-/// range, there is no face, `delta` is not a finite number of 0 or more, or `file_faces` do not fit
-/// so many triangles. Solver checks every mesh so, since a caller may write anything into one.
+/// range, there is no face, `delta` is not a finite number of 0 or more, `file_faces` do not fit
+/// so many triangles, or face i of points is not the point i. Solver checks every mesh so, since a
+/// caller may write anything into one.
 void check_mesh(const Mesh& mesh);
 
 /// Throws UsageError if the interval covers every triangulation of A's or B's polygons, and `what`,
@@ -119,5 +121,12 @@ void refuse_any_triangulation(const Mesh& a, const Mesh& b, const std::string& w
 /// Throws InputError that names the element if a referenced coordinate is not finite, an index is
 /// out of range or there is no face. `faces` index into `vertices`.
 Mesh make_mesh(std::string name, std::vector<DVec3> vertices, std::vector<UVec3> faces);
+
+/// Makes a mesh of points alone: every point is a face of its own, in their order. Throws
+/// InputError that names the point if a coordinate is not finite, or if there is no point.
+Mesh make_points(std::string name, std::vector<DVec3> points);
+
+/// Throws UsageError that names `option` if the mesh is points, which have no `lacks`.
+void refuse_points(const Mesh& mesh, const std::string& option, const std::string& lacks);
 
 }  // namespace vkh

@@ -223,7 +223,22 @@ void FileMeshBuilder::refuse_no_face(const std::string& place) const {
          "at least one face: a distance between no surfaces is undefined");
 }
 
+Mesh FileMeshBuilder::finish_points(const std::string& place) && {
+  if (const uint64_t faces = faces_.size() + short_faces_; faces > 0)
+    reject(name_, place, counted(faces, "face") + " in a file of points", kPointsAlone);
+  if (vertices_.empty())
+    reject(name_, place, "the file ends without a point", "at least one point");
+  if (vertices_.size() >= UINT32_MAX)
+    reject(name_, place, "too many points", "fewer than 2^32 - 1");
+  check_room(vertices_.size(), vertices_.size());
+  const ThreadPool pool = pool_of({.name = name_, .bytes = {}, .limits = limits_});
+  Mesh mesh = make_points(name_, std::move(vertices_), pool);
+  mesh.notes = std::move(notes);
+  return mesh;
+}
+
 Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
+  if (limits_.points) return std::move(*this).finish_points(place);
   if (faces_.empty()) refuse_no_face(place);
   if (faces_.size() + short_faces_ >= UINT32_MAX)
     reject(name_, place, "too many faces", "fewer than 2^32 - 1");

@@ -12,7 +12,12 @@
 namespace vkh {
 
 /// Ends an error about points alone: what was expected.
-inline constexpr const char* kAMesh = "a mesh: export the surface as triangles (STL, OBJ, PLY)";
+inline constexpr const char* kAMesh =
+    "a mesh: export the surface as triangles (STL, OBJ, PLY); or --points (a, b or both), which "
+    "measures points";
+/// Ends an error about faces in a file of points.
+inline constexpr const char* kPointsAlone =
+    "points alone; a mesh is measured without --points, which never drops its faces";
 
 /// Returns "1 face", "2 faces": for notes and errors.
 std::string counted(uint64_t count, const std::string& noun);
@@ -76,6 +81,7 @@ class FileMeshBuilder {
   bool is_measurable(std::span<const glm::uvec3> faces) const;
   void note_polygons(const Polygons& polygons);
   void refuse_odd(const Polygons& polygons) const;
+  Mesh finish_points(const std::string& place) &&;
   [[noreturn]] void refuse_no_face(const std::string& place) const;
   [[noreturn]] void refuse_size(uint64_t vertex_count, uint64_t face_count) const;
 

@@ -19,6 +19,7 @@ namespace vkh {
 namespace {
 
 constexpr const char* kExpectedFormats = "an OBJ, STL, PLY, OFF, glTF or 3MF file";
+constexpr const char* kExpectedPoints = "points as PLY, OBJ, OFF, XYZ, PTS or LAS";
 
 void refuse_stranger(const std::string& name, const Stranger& stranger) {
   if (!stranger.what.empty()) reject(name, "byte 0", stranger.what, stranger.expected);
@@ -37,12 +38,15 @@ void reject_known_strangers(const MeshSource& source, std::string_view head) {
       {"\xfe\xff", "UTF-16 text", "ASCII or UTF-8"},
       {"\xff\xfe", "UTF-16 text", "ASCII or UTF-8"},
   }};
-  if (head.empty()) reject(source.name, "byte 0", "the file is empty", kExpectedFormats);
+  if (head.empty())
+    reject(source.name, "byte 0", "the file is empty",
+           source.limits.points ? kExpectedPoints : kExpectedFormats);
   if (is_exact_binary_stl(head, source.size())) return;
   for (const Wrapped& wrapped : kWrapped) {
     if (head.starts_with(wrapped.magic))
       reject(source.name, "byte 0", wrapped.what, wrapped.expected);
   }
+  if (source.limits.points && head.starts_with(kLasMagic)) return;
   refuse_stranger(source.name, stranger_by_content(head));
 }
 
@@ -97,6 +101,30 @@ bool looks_like_obj(std::string_view head) {
   TextScanner scanner(head, "", '#', MixedLineEnds::kIgnored);
   scanner.next_full_line();
   return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
+}
+
+// Recognises rows of numbers, perhaps behind a count.
+bool looks_like_xyz(std::string_view head) {
+  TextScanner scanner(head, "", '#', MixedLineEnds::kIgnored);
+  double number = 0;
+  return scanner.next_full_line() && parse_number(scanner.word(), number);
+}
+
+// Formats that hold points, besides those that hold faces, too.
+Parse parser_of_points(const std::string& extension, std::string_view head) {
+  if (head.starts_with(kLasMagic)) return parse_las;
+  if (extension == ".xyz" || extension == ".pts" || extension == ".asc") return parse_xyz;
+  return nullptr;
+}
+
+// STL, glTF and 3MF hold faces alone, as far as they are read.
+void refuse_without_points(Parse parse, const std::string& name) {
+  for (const auto& [other, what] : {std::pair{&parse_stl, "an STL file"},
+                                    {&parse_gltf, "a glTF file"},
+                                    {&parse_3mf, "a 3MF file"}}) {
+    if (parse == other)
+      reject(name, "byte 0", std::string(what) + ", of which points are not read", kExpectedPoints);
+  }
 }
 
 MeshSource without_byte_order_mark(const MeshSource& given, std::string_view head) {
@@ -160,14 +188,19 @@ RecognisedFile recognise_format(const MeshSource& file) {
   const MeshSource source = without_byte_order_mark(file, start);
   const std::string_view head = std::string_view(start).substr(file.size() - source.size(), kHead);
   const std::string extension = extension_of(source.name);
-  Parse parse = parser_by_content(head, source.size());
+  const bool points = source.limits.points;
+  Parse parse = points ? parser_of_points(extension, head) : nullptr;
+  if (!parse) parse = parser_by_content(head, source.size());
   // Other formats are zip archives, too.
   if (parse == parse_3mf) refuse_stranger(source.name, stranger_by_extension(extension));
   if (!parse) parse = parser_by_extension(extension);
   if (!parse && looks_like_obj(head)) parse = parse_obj;
   if (!parse) refuse_stranger(source.name, stranger_by_extension(extension));
+  if (!parse && points && looks_like_xyz(head)) parse = parse_xyz;
   if (!parse)
-    reject(source.name, "byte 0", "neither content nor name tells what it is", kExpectedFormats);
+    reject(source.name, "byte 0", "neither content nor name tells what it is",
+           points ? kExpectedPoints : kExpectedFormats);
+  if (points) refuse_without_points(parse, source.name);
   return {parse, source};
 }
 
@@ -187,6 +220,13 @@ Mesh parse_mesh(const MeshSource& file) {
 
 bool has_mesh_extension(const std::filesystem::path& path) {
   return parser_by_extension(lower_case(name_of(path.extension()))) != nullptr;
+}
+
+bool has_points_extension(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 7> kKnown = {".ply", ".obj", ".off", ".xyz",
+                                                      ".pts", ".asc", ".las"};
+  const std::string extension = lower_case(name_of(path.extension()));
+  return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {

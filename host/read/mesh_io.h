@@ -1,5 +1,5 @@
-// Reads mesh files: OBJ, STL, PLY, OFF, glTF, 3MF. The content decides the format first, the
-// extension where content cannot.
+// Reads mesh files: OBJ, STL, PLY, OFF, glTF, 3MF; and files of points: PLY, OBJ, OFF, LAS, XYZ,
+// PTS. The content decides the format first, the extension where content cannot.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +19,9 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {})
 
 /// Whether the path has the extension of a format that read_mesh reads, in letters of any size.
 bool has_mesh_extension(const std::filesystem::path& path);
+
+/// Whether it has that of a format that read_mesh reads with ReadLimits::points.
+bool has_points_extension(const std::filesystem::path& path);
 
 /// A file that holds numbers of a mesh file, such as a glTF document's buffer.
 struct FileBeneath {

@@ -315,7 +315,7 @@ template <class Body>
 Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
   const Layout layout = layout_of(header, source);
   FileMeshBuilder builder(source);
-  builder.reserve(layout.vertex->count, layout.face->count);
+  builder.reserve(layout.vertex->count, layout.face_count());
   std::optional<BodyReader<Body>> reader;
   reader.emplace(header, layout, Body(scanner, source), builder);
   reader->read(0, UINT64_MAX);
@@ -341,7 +341,7 @@ Mesh read_ply_whole(const MeshSource& source) {
 
 Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
   const Layout layout = layout_of(header, source);
-  FileMeshBuilder(source).check_room(layout.vertex->count, layout.face->count);
+  FileMeshBuilder(source).check_room(layout.vertex->count, layout.face_count());
   uint64_t row_count = 0;
   for (const Element& element : header.elements) row_count += element.count;
   RowBlocks blocks(source, body_begin, '\0');

@@ -69,7 +69,7 @@ class BlockReader {
         block_bytes_(block_bytes_of(source)) {}
 
   Mesh read(uint64_t body_begin) {
-    FileMeshBuilder(source_).check_room(layout_.vertex->count, layout_.face->count);
+    FileMeshBuilder(source_).check_room(layout_.vertex->count, layout_.face_count());
     uint64_t at = body_begin;
     const Element* last = nullptr;
     for (const Element& element : header_.elements) {

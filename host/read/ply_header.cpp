@@ -174,6 +174,14 @@ void check_has_faces(const Header& header, const MeshSource& source, uint64_t po
            kAMesh);
 }
 
+void check_has_no_faces(const Header& header, const MeshSource& source) {
+  for (const Element& element : header.elements) {
+    if (element.name == "face" && element.count > 0)
+      reject(source.name, element.place(), counted(element.count, "face") + " in a file of points",
+             kPointsAlone);
+  }
+}
+
 // Returns the index of the only property that has one of the names. Rejects an element that has
 // none or several of them, and a property of the wrong kind: with `list` it must be a list of
 // integers, without it no list.
@@ -225,13 +233,18 @@ Header read_header(TextScanner& scanner, const MeshSource& source) {
 Layout layout_of(const Header& header, const MeshSource& source) {
   Layout layout;
   layout.vertex = &only_element(header, source, "vertex");
-  check_has_faces(header, source, layout.vertex->count);
-  layout.face = &only_element(header, source, "face");
+  if (source.limits.points) {
+    check_has_no_faces(header, source);
+  } else {
+    check_has_faces(header, source, layout.vertex->count);
+    layout.face = &only_element(header, source, "face");
+  }
   const auto axis = [&](std::string_view name) {
     return only_property(*layout.vertex, source, {&name, 1}, false);
   };
   layout.axes = {axis("x"), axis("y"), axis("z")};
-  layout.corners = only_property(*layout.face, source, kCornerLists, true);
+  if (layout.face != nullptr)
+    layout.corners = only_property(*layout.face, source, kCornerLists, true);
   if (layout.vertex->count >= UINT32_MAX)
     reject(source.name, layout.vertex->place(), "too many vertices", "fewer than 2^32 - 1");
   return layout;

@@ -66,12 +66,15 @@ Header read_header(TextScanner& scanner, const MeshSource& source);
 /// The parts of a body that are read.
 struct Layout {
   const Element* vertex = nullptr;
-  const Element* face = nullptr;
+  const Element* face = nullptr;  ///< null for points
+
+  uint64_t face_count() const { return face != nullptr ? face->count : 0; }
   std::array<size_t, 3> axes{};  ///< properties in `vertex`
   size_t corners = 0;            ///< the property in `face`
 };
 
-/// Rejects a header that lacks one of each, or has one of the wrong kind.
+/// Rejects a header that lacks one of each, or has one of the wrong kind; and, of points, one that
+/// has faces.
 Layout layout_of(const Header& header, const MeshSource& source);
 
 /// The property of `layout.face` of that name; rejects none, several and a list.

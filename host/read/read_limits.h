@@ -41,6 +41,9 @@ struct ReadLimits {
                               std::span<glm::uvec3> fan)>
       triangulate = {};
   Bodies bodies = Bodies::kSolid;
+  /// Reads points alone, as Mesh::are_points. A file that has faces is refused then, as one without
+  /// faces is otherwise: neither is taken for the other.
+  bool points = false;
   /// Asked now and then while a file is read, by one thread at a time, perhaps another than the one
   /// that waits: false ends the reading with an Interrupted.
   std::function<bool()> keep_going = {};

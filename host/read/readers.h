@@ -28,6 +28,8 @@ Mesh parse_ply(const MeshSource& source);
 Mesh parse_off(const MeshSource& source);
 Mesh parse_gltf(const MeshSource& source);  ///< GLB, too
 Mesh parse_3mf(const MeshSource& source);
+Mesh parse_las(const MeshSource& source);  ///< points, whatever limits.points says
+Mesh parse_xyz(const MeshSource& source);  ///< the same; PTS, too
 
 /// The files that parse_gltf reads besides: see files_beneath. Throws what parse_gltf throws for a
 /// document that is refused before its numbers are looked at.
@@ -35,6 +37,9 @@ std::vector<FileBeneath> files_of_gltf(const MeshSource& source);
 
 /// The face property of a PLY: see read_face_property.
 std::vector<double> parse_face_property(const MeshSource& source, std::string_view name);
+
+/// The first bytes of a LAS file.
+inline constexpr std::string_view kLasMagic = "LASF";
 
 /// Returns true if a file of that beginning is exactly as long as the triangle count at byte 80
 /// requires. No text passes: its bytes there would announce more than 6 GB.

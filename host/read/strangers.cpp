@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <array>
 
+#include "host/read/file_mesh_builder.h"
+
 namespace vkh {
 namespace {
 
-enum class Holds { kSurfaces, kPoints, kVoxels, kPath, kMesh };
+enum class Holds {
+  kSurfaces,
+  kPoints,  ///< points that are read where points are asked for
+  kScans,   ///< points in a format that is not read
+  kVoxels,
+  kPath,
+  kMesh
+};
 
 struct Format {
   std::string_view name;  ///< with its article
@@ -15,7 +24,7 @@ struct Format {
   std::string_view magic = {};  ///< the beginning of such files
 };
 
-constexpr std::array<Format, 41> kFormats = {{
+constexpr std::array<Format, 43> kFormats = {{
     {"a STEP file", Holds::kSurfaces, " .step .stp .p21 ", "ISO-10303-21"},
     {"an IGES file", Holds::kSurfaces, " .iges .igs "},
     {"a Parasolid file", Holds::kSurfaces, " .x_t .x_b .xmt_txt .xmt_bin ",
@@ -32,11 +41,13 @@ constexpr std::array<Format, 41> kFormats = {{
     {"a Rhino file", Holds::kSurfaces, " .3dm ", "3D Geometry File Format"},
     {"a DWG file", Holds::kSurfaces, " .dwg ", "AC10"},
     {"a DXF file", Holds::kSurfaces, " .dxf "},
-    {"a LAS file", Holds::kPoints, " .las .laz ", "LASF"},
-    {"an E57 file", Holds::kPoints, " .e57 ", "ASTM-E57"},
-    {"a PCD file", Holds::kPoints, " .pcd ", "# .PCD"},
-    {"a text of points", Holds::kPoints, " .xyz .pts .ptx .asc "},
-    {"a scanner's file", Holds::kPoints, " .rcp .rcs .fls .fws "},
+    {"a LAS file", Holds::kPoints, " .las ", "LASF"},
+    {"a text", Holds::kPoints, " .xyz .pts .asc "},
+    {"a LAZ file", Holds::kScans, " .laz "},
+    {"an E57 file", Holds::kScans, " .e57 ", "ASTM-E57"},
+    {"a PCD file", Holds::kScans, " .pcd ", "# .PCD"},
+    {"a PTX file", Holds::kScans, " .ptx "},
+    {"a scanner's file", Holds::kScans, " .rcp .rcs .fls .fws "},
     {"a DICOM file", Holds::kVoxels, " .dcm "},
     {"a NIfTI file", Holds::kVoxels, " .nii "},
     {"a volume", Holds::kVoxels, " .mha .mhd .nrrd .vti ", "NRRD"},
@@ -68,7 +79,10 @@ Stranger told(const Format& format) {
     case Holds::kSurfaces:
       return {name + " (CAD geometry, no plain triangles)", "a mesh: export the part" + as};
     case Holds::kPoints:
-      return {name + " (points, no faces)", "a mesh: export the scan's surface" + as};
+      return {name + " (points, no faces)", kAMesh};
+    case Holds::kScans:
+      return {name + " of points, which is not read",
+              "the points as PLY, LAS or XYZ, with --points; or a mesh of them" + as};
     case Holds::kVoxels:
       return {name + " (voxels, no faces)", "a mesh: export the segmented surface" + as};
     case Holds::kPath:

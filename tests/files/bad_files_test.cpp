@@ -26,7 +26,7 @@ using vkh::test::check_error_line;
 /// One case of the corpus.
 struct Case {
   std::filesystem::path path;
-  std::string expected;  ///< R, or A and the count of faces
+  std::string expected;  ///< R, or A and the count of faces; Q, or P, for a file read as points
   std::string says;      ///< stands in the refusal or in a note
 };
 
@@ -47,10 +47,12 @@ std::vector<Case> corpus() {
 
 void check_case(const Case& file) {
   CAPTURE(file.path);
-  std::string outcome = "R", said;
+  const bool points = file.expected[0] == 'P' || file.expected[0] == 'Q';
+  std::string outcome = points ? "Q" : "R", said;
   try {
-    const Mesh mesh = vkh::read_mesh(file.path);
-    outcome = "A" + std::to_string(mesh.faces.size());
+    const Mesh mesh = vkh::read_mesh(file.path, {.points = points});
+    CHECK(mesh.are_points == points);
+    outcome = (points ? "P" : "A") + std::to_string(mesh.faces.size());
     for (const std::string& note : lines_of(mesh.notes)) said += note + "\n";
   } catch (const InputError& error) {
     said = error.what();
@@ -118,6 +120,8 @@ std::filesystem::path shared_folder() {
 TEST_CASE("every malformed file is refused or read whole, as its case says") {
   const std::vector<Case> cases = corpus();
   CHECK(cases.size() > 600);
+  CHECK(std::count_if(cases.begin(), cases.end(),
+                      [](const Case& file) { return file.expected[0] == 'P'; }) > 50);
   for (const Case& file : cases) check_case(file);
 }
 

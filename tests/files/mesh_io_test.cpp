@@ -27,9 +27,9 @@ Mesh parse(const std::string& bytes, const std::string& name) {
   return vkh::parse_mesh({.name = name, .bytes = bytes});
 }
 
-std::string error_of(const std::string& bytes, const std::string& name) {
+std::string error_of(const std::string& bytes, const std::string& name, bool points = false) {
   try {
-    parse(bytes, name);
+    vkh::parse_mesh({.name = name, .bytes = bytes, .limits = {.points = points}});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -426,9 +426,10 @@ TEST_CASE("formats that are not read are named, with what to do") {
       {"a.iges", "x", "an IGES file"},
       {"pipe", iges, "an IGES file"},
       {"a.x_t", "**PART1;", "a Parasolid file"},
-      {"a.las", "LASF" + std::string(300, '\0'), "a LAS file (points, no faces)"},
-      {"a.xyz", rows, "a text of points (points, no faces)"},
-      {"a.pcd", "# .PCD v0.7\nVERSION 0.7\n", "a PCD file (points, no faces)"},
+      {"a.laz", "x", "a LAZ file of points, which is not read"},
+      {"a.e57", "ASTM-E57", "an E57 file of points, which is not read"},
+      {"a.ptx", rows, "a PTX file of points, which is not read"},
+      {"a.pcd", "# .PCD v0.7\nVERSION 0.7\n", "a PCD file of points, which is not read"},
       {"a.dae", "<?xml version=\"1.0\"?>\n<COLLADA>", "a COLLADA file, which is not read"},
       {"a.obj", "<!DOCTYPE html><html>404</html>", "a web page"},
       {"a.FCStd", "PK\x03\x04" + std::string(40, '\0'), "a FreeCAD file"},
@@ -440,7 +441,10 @@ TEST_CASE("formats that are not read are named, with what to do") {
     const std::string line = error_of(file.bytes, file.name);
     check_error_line(line, file.name);
     CHECK(line.find(std::string(": ") + file.says) != std::string::npos);
-    CHECK(line.find("points", line.find("; expected")) == std::string::npos);
+    const bool are_points = std::string_view(file.says).find("of points") != std::string::npos;
+    const size_t advice = line.find("--points", line.find("; expected"));
+    CHECK((advice != std::string::npos) == are_points);
+    CHECK(error_of(file.bytes, file.name, true).find(file.says) != std::string::npos);
   }
   // Content that reads as a mesh is one, whatever the file's name.
   const Sample sample = random_strip(6, 9, true);

@@ -56,9 +56,10 @@ std::string outcome_of(const File& file, const ReadLimits& limits, bool* by_bloc
       {.name = file.name, .bytes = file.bytes, .limits = limits, .by_blocks = by_blocks});
 }
 
-ReadLimits whole(uint64_t most = UINT64_MAX) {
+ReadLimits whole(uint64_t most = UINT64_MAX, bool points = false) {
   return {.max_input_bytes = most,
           .odd_polygons = OddPolygons::kFanned,
+          .points = points,
           .threads = 1,
           .block_bytes = SIZE_MAX};
 }
@@ -118,15 +119,16 @@ struct Case {
 };
 constexpr std::array<Case, 5> kCases = {{{1, 1}, {7, 4}, {16, 1}, {50, 3}, {211, 2}}};
 
-void check(const File& file, const Case& how, uint64_t most = UINT64_MAX) {
+void check(const File& file, const Case& how, uint64_t most = UINT64_MAX, bool points = false) {
   CAPTURE(file.name);
   CAPTURE(how.block_bytes);
   CAPTURE(how.threads);
   const ReadLimits limits{.max_input_bytes = most,
                           .odd_polygons = OddPolygons::kFanned,
+                          .points = points,
                           .threads = how.threads,
                           .block_bytes = how.block_bytes};
-  CHECK(outcome_of(file, limits) == outcome_of(file, whole(most)));
+  CHECK(outcome_of(file, limits) == outcome_of(file, whole(most, points)));
 }
 
 using Rows = std::vector<std::vector<uint32_t>>;
@@ -242,6 +244,16 @@ TEST_CASE("good files of every format are read by blocks, and as in one") {
       CHECK(by_blocks);
     }
   }
+}
+
+TEST_CASE("points of every format are read by blocks, and as in one") {
+  size_t read = 0;
+  for (const File& file : corpus()) {
+    if (file.bytes.size() > 10'000) continue;
+    for (const Case& how : kCases) check(file, how, UINT64_MAX, true);
+    read += outcome_of(file, whole(UINT64_MAX, true)).starts_with("mesh ") ? 1 : 0;
+  }
+  CHECK(read > 50);
 }
 
 TEST_CASE("each triangle has the number that its face has in the file") {

@@ -210,13 +210,14 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 // A mesh of a refused file counts as the largest that a file of its size can have: 12 bytes for
 // each of a polygon's corners of one byte.
-Cost cost_of(const File& file) {
+Cost cost_of(const File& file, bool points = false) {
   Cost cost{.file = file.bytes.size(), .mesh = 12 * file.bytes.size()};
   const size_t before = g_in_use;
   g_peak = before;
   const double start = cpu_seconds();
   try {
-    const Mesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes});
+    const Mesh mesh =
+        parse_mesh({.name = file.name, .bytes = file.bytes, .limits = {.points = points}});
     cost.mesh = mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces) +
                 mesh.file_faces.runs().size() * sizeof(FileFaces::Run);
   } catch (const InputError&) {
@@ -325,6 +326,7 @@ TEST_CASE("memory stays within that bound on every malformed file") {
                        std::string(std::istreambuf_iterator<char>(in), {})};
     CAPTURE(file.name);
     check_memory(cost_of(file));
+    check_memory(cost_of(file, true));
     ++files;
   }
   CHECK(files > 600);

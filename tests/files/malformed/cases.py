@@ -7,7 +7,7 @@ import dataclasses
 class Case:
     name: str
     content: bytes
-    expected: str  # 'R': refused in one line that names the file; 'A4': accepted with 4 faces
+    expected: str  # 'R': refused in one line that names the file; 'A4': accepted with 4 faces; 'Q', 'P4': the same as points
     says: str  # words of the refusal or a note; '' if any will do
 
 
@@ -23,6 +23,12 @@ class Cases(list):
 
     def accept(self, name, faces, content, says=''):
         self._add(name, content, f'A{faces}', says)
+
+    def refuse_points(self, name, content, says=''):
+        self._add('points_' + name, content, 'Q', says)
+
+    def accept_points(self, name, points, content, says=''):
+        self._add('points_' + name, content, f'P{points}', says)
 
     def _add(self, name, content, expected, says):
         if isinstance(content, str):

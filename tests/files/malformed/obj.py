@@ -229,10 +229,19 @@ def geometry(cases):
     cases.accept('long_name', 4, 'o ' + 'x' * 5000000 + '\n' + TETRAHEDRON)
 
 
+def points(cases):
+    cases.accept_points('alone', 4, VERTICES)
+    cases.accept_points('colours_and_names', 4, 'o scan\n' + VERTICES.replace('\n', ' 0.1 0.2 0.3\n') + 'vn 0 0 1\n')
+    cases.accept_points('p_lines', 4, VERTICES + 'p 1 2 3 4\n', 'elements: 1 line with points')
+    cases.refuse_points('and_faces', TETRAHEDRON, '4 faces in a file of points')
+    cases.refuse_points('and_short_face', VERTICES + 'f 1 2\n', '1 face in a file of points')
+    cases.refuse_points('none', 'o a\n', 'without a point')
+
+
 def all_cases():
     cases = Cases('obj')
     cases.accept('base', 4, TETRAHEDRON)
     for part in (face_forms, vertex_numbers, continued_lines, keywords, line_ends,
-                 encodings_and_strangers, geometry):
+                 encodings_and_strangers, geometry, points):
         part(cases)
     return cases

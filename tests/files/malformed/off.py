@@ -102,8 +102,13 @@ def coordinates(cases):
                  "line 5: '1' behind vertex 1, which begins in line 4")
 
 
+def points(cases):
+    cases.accept_points('without_faces', 4, f'OFF\n4 0 0\n{VERTEX_ROWS}')
+    cases.refuse_points('and_faces', BASE, '4 faces in a file of points')
+
+
 def all_cases():
     cases = Cases('off')
-    for part in (counts, keywords, lines, faces, coordinates):
+    for part in (counts, keywords, lines, faces, coordinates, points):
         part(cases)
     return cases

@@ -351,12 +351,32 @@ def coordinates(cases):
                                     '0 0 0\n1 0 0\n2 0 0\n3 0 0\n' + FACE_ROWS))
 
 
+def points(cases):
+    big = binary_vertices('>')
+    cases.accept_points('ascii', 4, ply('ascii', VERTEX, VERTEX_ROWS))
+    cases.accept_points('little', 4, ply(LITTLE, VERTEX, V))
+    cases.accept_points('big', 4, ply(BIG, VERTEX, big))
+    cases.accept_points('no_faces_announced', 4, ply(LITTLE, VERTEX + ['element face 0', CORNERS], V))
+    cases.accept_points('face_element_of_nothing', 4, ply('ascii', VERTEX + ['element face 0'], VERTEX_ROWS))
+    cases.accept_points('colours', 4, ply('ascii', VERTEX + ['property uchar red'], VERTEX_ROWS.replace('\n', ' 7\n')))
+    cases.accept_points('other_element', 4, ply(LITTLE, ['element camera 1', 'property float f'] + VERTEX, floats(1) + V))
+    cases.refuse_points('ascii_mesh', ASCII, 'line 7: 4 faces in a file of points; expected points alone')
+    cases.refuse_points('binary_mesh', BINARY, '4 faces in a file of points')
+    cases.refuse_points('strips', ply('ascii', VERTEX + ['element tristrips 1', CORNERS], VERTEX_ROWS + '3 0 1 2\n'), 'lists corners')
+    cases.refuse_points('nan', ply(LITTLE, VERTEX, floats(0, math.nan, 0) + V[12:]), 'vertex 0: (0, nan, 0) is not finite')
+    cases.refuse_points('cut', ply(LITTLE, VERTEX, V[:-1]))
+    cases.refuse_points('row_more', ply('ascii', VERTEX, VERTEX_ROWS + '1 1 1\n'), 'a row more than announced')
+    cases.refuse_points('row_less', ply('ascii', VERTEX, VERTEX_ROWS[:-6]), 'a count that fits the file')
+    cases.refuse_points('none', ply('ascii', ['element vertex 0'] + XYZ), 'without a point')
+    cases.refuse_points('no_vertices', ply('ascii', ['element face 0', CORNERS]), "a header without element 'vertex'")
+
+
 def all_cases():
     cases = Cases('ply')
     cases.accept('base_ascii', 4, ASCII)
     cases.accept('base_binary', 4, BINARY)
     cases.refuse('empty', '')
     for part in (header_counts, rows_and_counts, trailing, list_counts, skipped_lists, indices,
-                 formats, header_line_ends, elements, coordinates):
+                 formats, header_line_ends, elements, coordinates, points):
         part(cases)
     return cases

@@ -143,6 +143,7 @@ def text_without_line_ends(cases):
 
 def all_cases():
     cases = Cases('stl')
+    cases.refuse_points('text', TEXT, 'an STL file, of which points are not read; expected points as PLY')
     for part in (binary_counts, binary_bodies, binary_headers, text, text_without_line_ends):
         part(cases)
     cases.accept('is_ply', 4, 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n'

@@ -2,23 +2,26 @@
 """Writes the corpus of malformed files into a folder, and manifest.tsv: name, outcome, words.
 
 usage: write.py FOLDER
-The outcome is R for a refusal in one line that names the file, A and a count of faces otherwise.
+The outcome is R for a refusal in one line that names the file, A and a count of faces otherwise; Q and P are the same
+for a file that is read as points.
 The words have to stand in the refusal or in a note."""
 
 import pathlib
 import sys
 
 import gltf
+import las
 import obj
 import off
 import ply
 import stl
 import threemf
+import xyz
 
 
 def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
-    cases = [case for part in (gltf, obj, off, ply, stl, threemf) for case in part.all_cases()]
+    cases = [case for part in (gltf, las, obj, off, ply, stl, threemf, xyz) for case in part.all_cases()]
     names = {case.name for case in cases}
     if len(names) != len(cases):
         sys.exit('write.py: two cases of one name')

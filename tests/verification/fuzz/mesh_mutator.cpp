@@ -233,6 +233,23 @@ std::string mutated_stl(std::string_view text, size_t room, Random& random) {
   return out;
 }
 
+std::string mutated_las(std::string_view text, size_t room, Random& random) {
+  constexpr size_t kOldCount = 107, kCount = 247, kHeader = 227, kHeader14 = 375;
+  std::string out = changed(text, room);
+  if (out.size() < kHeader || pick(random, 4) == 0) return out;
+  uint32_t begin = 0;
+  uint16_t record = 0;
+  std::memcpy(&begin, out.data() + 96, sizeof(begin));
+  std::memcpy(&record, out.data() + 105, sizeof(record));
+  if (record == 0 || begin > out.size()) return out;
+  const uint64_t count = (out.size() - begin) / record;
+  const auto old_count = static_cast<uint32_t>(count);
+  std::memcpy(out.data() + kOldCount, &old_count, sizeof(old_count));
+  if (out[25] == 4 && out.size() >= kHeader14)
+    std::memcpy(out.data() + kCount, &count, sizeof(count));
+  return out;
+}
+
 using MutateText = std::string (*)(std::string_view, size_t, Random&);
 
 size_t mutate(MutateText with, uint8_t* data, size_t size, size_t max_size, unsigned seed) {
@@ -262,6 +279,10 @@ size_t mutate_stl(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   return mutate(mutated_stl, data, size, max_size, seed);
 }
 
+size_t mutate_las(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
+  return mutate(mutated_las, data, size, max_size, seed);
+}
+
 size_t mutate_gltf(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   return mutate(mutated_json, data, size, max_size, seed);
 }
@@ -279,6 +300,7 @@ size_t mutate_any(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   if (text.starts_with("ply")) return mutate_ply(data, size, max_size, seed);
   if (text.starts_with("{")) return mutate_gltf(data, size, max_size, seed);
   if (text.starts_with("PK")) return mutate(mutated_bytes, data, size, max_size, seed);
+  if (text.starts_with("LASF")) return mutate_las(data, size, max_size, seed);
   if (text.starts_with("glTF")) return mutate_glb(data, size, max_size, seed);
   if (text.find("OFF") < 8) return mutate_off(data, size, max_size, seed);
   if (text.find('\0') != std::string_view::npos) return mutate_stl(data, size, max_size, seed);

@@ -17,6 +17,8 @@ size_t mutate_off(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 size_t mutate_ply(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 /// Changes bytes, and sets the count at byte 80 to that of the bytes behind it.
 size_t mutate_stl(uint8_t* data, size_t size, size_t max_size, unsigned seed);
+/// Changes bytes, and sets the counts of a LAS header to that of the records behind it.
+size_t mutate_las(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 /// Numbers become edge cases, members change places; JSON stays JSON, mostly.
 size_t mutate_gltf(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 /// Changes only the JSON or the binary chunk, and then makes the lengths fit.

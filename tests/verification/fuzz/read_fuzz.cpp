@@ -59,7 +59,9 @@ constexpr Reader kReaders[] = {{"any", "fuzz", parse_mesh, mutate_any},
                                {"ply-ascii", "fuzz.ply", parse_ply, mutate_ply},
                                {"ply-binary", "fuzz.ply", parse_ply, mutate_ply},
                                {"stl-ascii", "fuzz.stl", parse_stl, mutate_text},
-                               {"stl-binary", "fuzz.stl", parse_stl, mutate_stl}};
+                               {"stl-binary", "fuzz.stl", parse_stl, mutate_stl},
+                               {"las", "fuzz.las", parse_las, mutate_las},
+                               {"xyz", "fuzz.xyz", parse_xyz, mutate_text}};
 const Reader* g_reader = &kReaders[0];
 
 void require(bool holds, const char* what) {
@@ -182,6 +184,19 @@ void check_bodies(const MeshSource& source, const Mesh* solid) {
           "all is no less than solid");
 }
 
+// Requires points of a file that is read as such, and a mesh's faces to be refused then.
+void check_points(const MeshSource& source, const Mesh* surface) {
+  MeshSource alone = source;
+  alone.limits.points = true;
+  Mesh mesh;
+  bool accepted = false;
+  read_counted(alone, mesh, accepted);
+  if (!accepted) return;
+  require_valid(mesh);
+  require(mesh.are_points && mesh.faces.size() == mesh.vertices.size(), "points are faces");
+  require(surface == nullptr || surface->are_points, "a file is a mesh or points, not both");
+}
+
 // The files beneath a document are found, or the document is refused; none is opened.
 void check_files(const MeshSource& source) {
   if (g_reader->parse != parse_gltf) return;
@@ -224,6 +239,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   check_files(source);
   const bool is_scene = g_reader->parse == parse_gltf || g_reader->parse == parse_3mf_model;
   if (is_scene && size % 2 == 1) check_bodies(source, accepted ? &mesh : nullptr);  // for speed
+  if (!is_scene && size % 2 == 1) check_points(source, accepted ? &mesh : nullptr);
   if (!accepted) return 0;
   require_valid(mesh);
   if (size % 4 == 0) {  // for speed

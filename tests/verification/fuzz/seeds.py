@@ -12,11 +12,13 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / 'files/malformed'))
 
 import gltf  # noqa: E402
+import las  # noqa: E402
 import obj  # noqa: E402
 import off  # noqa: E402
 import ply  # noqa: E402
 import stl  # noqa: E402
 import threemf  # noqa: E402
+import xyz  # noqa: E402
 
 MOST_BYTES = 1536  # in larger files a fuzzer changes unimportant bytes
 
@@ -33,7 +35,7 @@ def reader_of(case):
 
 def main(folder):
     shutil.rmtree(folder, ignore_errors=True)
-    for part in (gltf, obj, off, ply, stl, threemf):
+    for part in (gltf, las, obj, off, ply, stl, threemf, xyz):
         for case in part.all_cases():
             if len(case.content) > MOST_BYTES:
                 continue

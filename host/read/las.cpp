@@ -1,0 +1,235 @@
+// LAS 1.2 to 1.4, point data formats 0 to 10 (ASPRS, LAS specification 1.4 R15). A record begins
+// with three integers: a coordinate is its integer times the header's scale, plus the header's
+// offset. Points that are withheld, which the specification calls deleted, are left out and noted.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "host/base/note.h"
+#include "host/base/reject.h"
+#include "host/base/rounding.h"
+#include "host/read/readers.h"
+
+namespace vkh {
+namespace las {
+namespace {
+
+/// The parts of the header that say where the points lie.
+struct LasHeader {
+  uint64_t begin = 0, count = 0;  ///< the byte of the first record; records
+  uint64_t record_bytes = 0;
+  unsigned format = 0;
+  glm::dvec3 scale{}, offset{};
+};
+
+template <class T>
+T at(std::string_view head, size_t offset) {
+  return load<T>(head.data() + offset);
+}
+
+constexpr uint64_t kHeaderBytes = 227;    // of LAS 1.2
+constexpr uint64_t kHeaderBytes14 = 375;  // of LAS 1.4
+constexpr std::array<uint64_t, 11> kRecordBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+[[noreturn]] void refuse(const MeshSource& source, uint64_t byte, const std::string& what,
+                         const std::string& expected) {
+  reject(source.name, "byte " + std::to_string(byte), what, expected);
+}
+
+void check_version(const MeshSource& source, std::string_view head) {
+  const unsigned major = at<uint8_t>(head, 24), minor = at<uint8_t>(head, 25);
+  if (major != 1 || minor < 2 || minor > 4)
+    refuse(source, 24, "LAS " + std::to_string(major) + "." + std::to_string(minor),
+           "LAS 1.2, 1.3 or 1.4");
+  const uint64_t least = minor == 4 ? kHeaderBytes14 : kHeaderBytes;
+  if (head.size() < least || at<uint16_t>(head, 94) < least)
+    refuse(source, 94, "a header that ends early", "a whole LAS header");
+}
+
+unsigned format_of(const MeshSource& source, std::string_view head) {
+  constexpr unsigned kCompressed = 0xc0;
+  const unsigned format = at<uint8_t>(head, 104);
+  if ((format & kCompressed) != 0)
+    refuse(source, 104, "points compressed as LAZ, which is not read",
+           "LAS: unpack the file, such as by laszip or las2las");
+  if (format >= kRecordBytes.size())
+    refuse(source, 104, "point data format " + std::to_string(format), "one of 0 to 10");
+  return format;
+}
+
+// LAS 1.4 counts in 64 bits. Its count of 32 bits is for older readers, and may be 0.
+uint64_t count_of(const MeshSource& source, std::string_view head) {
+  const uint64_t old = at<uint32_t>(head, 107);
+  if (at<uint8_t>(head, 25) < 4) return old;
+  const auto count = at<uint64_t>(head, 247);
+  if (old != 0 && old != count)
+    refuse(source, 107,
+           std::to_string(old) + " points, and " + std::to_string(count) + " at byte 247",
+           "one count, or 0 here");
+  return count;
+}
+
+void check_places(const MeshSource& source, const LasHeader& header) {
+  for (int i = 0; i < 3; ++i) {
+    const bool is_finite = std::isfinite(header.scale[i]) && std::isfinite(header.offset[i]);
+    if (!is_finite || header.scale[i] == 0)
+      refuse(source, 131 + 8 * static_cast<uint64_t>(i),
+             "a scale or an offset that gives no coordinates", "finite numbers, and no scale of 0");
+  }
+}
+
+LasHeader read_las_header(const MeshSource& source) {
+  const std::string head = head_of(source, kHeaderBytes14);
+  if (head.size() < kHeaderBytes)
+    refuse(source, head.size(), "the file ends", "a whole LAS header");
+  check_version(source, head);
+  LasHeader header{.begin = at<uint32_t>(head, 96),
+                   .count = count_of(source, head),
+                   .record_bytes = at<uint16_t>(head, 105),
+                   .format = format_of(source, head)};
+  if (header.record_bytes < kRecordBytes[header.format])
+    refuse(source, 105, "records of " + counted(header.record_bytes, "byte"),
+           "at least " + std::to_string(kRecordBytes[header.format]) + " in this format");
+  for (size_t i = 0; i < 3; ++i) {
+    header.scale[static_cast<int>(i)] = at<double>(head, 131 + 8 * i);
+    header.offset[static_cast<int>(i)] = at<double>(head, 155 + 8 * i);
+  }
+  check_places(source, header);
+  const uint64_t begin = header.begin, size = source.size();
+  if (begin < at<uint16_t>(head, 94) || begin > size ||
+      header.count > (size - begin) / header.record_bytes)
+    refuse(source, 107,
+           counted(header.count, "point") + " of " + counted(header.record_bytes, "byte") +
+               " from byte " + std::to_string(begin) + " on",
+           "a file that holds them");
+  if (header.count >= UINT32_MAX) refuse(source, 107, "too many points", "fewer than 2^32 - 1");
+  return header;
+}
+
+bool is_withheld(unsigned format, const char* record) {
+  const auto flags = load<uint8_t>(record + 15);
+  return (flags & (format < 6 ? 0x80 : 0x04)) != 0;
+}
+
+/// The largest sizes that roundings depend on.
+struct Largest {
+  glm::dvec3 product{}, place{};
+
+  void see(const glm::dvec3& p, const glm::dvec3& x) {
+    for (int i = 0; i < 3; ++i) {
+      product[i] = std::max(product[i], std::abs(p[i]));
+      place[i] = std::max(place[i], std::abs(x[i]));
+    }
+  }
+};
+
+// Bounds how far a point is from n * scale + offset. With u = 2^-53, the product p is rounded by at
+// most u |p| + 2^-1075 and the sum x by at most u |x|, since |exact| <= |rounded| (1 + u) and a sum
+// of doubles has no underflow; the factor 1.01 covers (1 + u) and the roundings here, and 2^-1070
+// the least numbers.
+double delta_of(const Largest& largest) {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  double length = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double error = 1.01 * kUnit * (largest.product[i] + largest.place[i]) + 0x1p-1070;
+    length = std::hypot(length, error);
+  }
+  return 1.01 * length;
+}
+
+/// The points of one block, from the first record on.
+struct LasBlock {
+  std::vector<glm::dvec3> points;
+  FileFaces file_faces;
+  Largest largest;
+  uint64_t withheld = 0;
+};
+
+LasBlock read_block(const LasHeader& header, std::string_view bytes, bool keeps_withheld) {
+  LasBlock block;
+  block.points.reserve(bytes.size() / header.record_bytes);
+  for (size_t at = 0; at < bytes.size(); at += header.record_bytes) {
+    const char* const record = bytes.data() + at;
+    if (is_withheld(header.format, record) && ++block.withheld > 0 && !keeps_withheld) {
+      block.file_faces.add(block.points.size(), 0);
+      continue;
+    }
+    const glm::dvec3 numbers(load<int32_t>(record), load<int32_t>(record + 4),
+                             load<int32_t>(record + 8));
+    const glm::dvec3 product = numbers * header.scale;
+    block.points.push_back(product + header.offset);
+    block.largest.see(product, block.points.back());
+  }
+  return block;
+}
+
+std::vector<LasBlock> read_blocks(const MeshSource& source, const LasHeader& header,
+                                  const ThreadPool& pool) {
+  Windows windows(source);
+  const uint64_t rows = std::max<uint64_t>(1, block_bytes_of(source) / header.record_bytes);
+  std::vector<LasBlock> blocks((header.count + rows - 1) / rows);
+  pool.for_each(blocks.size(), [&](size_t i) {
+    const uint64_t first = i * rows, count = std::min(rows, header.count - first);
+    const uint64_t begin = header.begin + first * header.record_bytes;
+    Windows::Window window(windows);
+    const auto bytes = window.read(begin, begin + count * header.record_bytes);
+    blocks[i] = read_block(header, bytes, source.limits.bodies == Bodies::kAll);
+    count_read(source, bytes.size());
+  });
+  return blocks;
+}
+
+struct LasPoints {
+  std::vector<glm::dvec3> points;
+  FileFaces file_faces;
+  Largest largest;
+  uint64_t withheld = 0;
+};
+
+LasPoints joined(const ThreadPool& pool, std::vector<LasBlock> blocks) {
+  std::vector<size_t> starts;
+  starts.reserve(blocks.size());
+  for (const LasBlock& block : blocks) starts.push_back(block.points.size());
+  LasPoints all;
+  resize_together(pool, all.points, starts_of(starts));
+  pool.for_each(blocks.size(), [&](size_t i) {
+    std::copy(blocks[i].points.begin(), blocks[i].points.end(),
+              all.points.begin() + static_cast<std::ptrdiff_t>(starts[i]));
+    blocks[i].points = {};
+  });
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    all.file_faces.append(blocks[i].file_faces, starts[i]);
+    all.largest.see(blocks[i].largest.product, blocks[i].largest.place);
+    all.withheld += blocks[i].withheld;
+  }
+  return all;
+}
+
+Mesh read_las(const MeshSource& source) {
+  const LasHeader header = read_las_header(source);
+  FileMeshBuilder(source).check_room(header.count, header.count);
+  const ThreadPool pool = pool_of(source);
+  LasPoints read = joined(pool, read_blocks(source, header, pool));
+  if (read.points.empty())
+    refuse(source, 107, read.withheld > 0 ? "no point that is not withheld" : "no point",
+           "at least one point");
+  Mesh mesh = make_points(source.name, std::move(read.points), pool);
+  mesh.file_faces = std::move(read.file_faces);
+  mesh.delta = delta_of(read.largest);
+  const bool keeps = source.limits.bodies == Bodies::kAll;
+  if (read.withheld > 0)
+    mesh.notes.push_back(
+        note_of(NoteCode::kBodies,
+                (keeps ? "included, though withheld: " : "left out as withheld: ") +
+                    counted(read.withheld, "point"),
+                {static_cast<double>(read.withheld), "points"}));
+  return mesh;
+}
+
+}  // namespace
+}  // namespace las
+
+Mesh parse_las(const MeshSource& source) { return las::read_las(source); }
+
+}  // namespace vkh
