@@ -38,6 +38,7 @@ struct Placement {
 
 /// The way from the file's contents to corners.
 struct Description {
+  bool are_points = false;      ///< every face is a point: the file has no surface
   bool has_all_bodies = false;  ///< of a scene every shape, whether it is printed or not
   double ambiguity = 0;         ///< error of another triangulation: stated, not proven
   uint64_t ambiguous_face = 0;
@@ -253,7 +254,9 @@ inline Placement read_placement(Bytes& bytes) {
 
 inline Description read_description(Bytes& bytes) {
   Description out;
-  bytes.expect(bytes.word() == 0, "not read as a surface");
+  const uint32_t points = bytes.word();
+  bytes.expect(points <= 1, "neither a surface nor points");
+  out.are_points = points == 1;
   const uint32_t bodies = bytes.word();
   bytes.expect(bodies <= 1, "bodies of no kind");
   out.has_all_bodies = bodies == 1;

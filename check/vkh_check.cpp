@@ -62,6 +62,7 @@ Mesh read(const Certificate& certificate, size_t which, const std::string& name)
   const Description& how = certificate.read[which];
   if (certificate.version > 1) limits.triangulate = GivenPolygons(how.polygons, name);
   if (how.has_all_bodies) limits.bodies = Bodies::kAll;
+  limits.points = how.are_points;
   const auto expect_file = [&] {
     const std::string& file = certificate.file[which];
     expect(file.empty() || sha256_of(path_of(name), [] { return true; }) == file,
@@ -179,6 +180,7 @@ std::string described(const Certificate& certificate, size_t which) {
   const std::string name = which == 0 ? "  A: " : "  B: ";
   std::string out;
   out += described(name, read.placement);
+  if (read.are_points) out += name + "points alone, no surface\n";
   if (read.has_all_bodies) out += name + "all shapes of a scene, whether they are printed or not\n";
   if (read.polygons.size() > fans)
     out += name + counted(read.polygons.size() - fans, "polygon") + ", tiled by triangles\n";

@@ -77,9 +77,19 @@ class Other(ValueError):
     """Well formed, but not of these files."""
 
 
+class Points(dict):
+    """Stated triangles of a mesh that was read as points alone: there should be none."""
+
+
 def triangles_of(points, polygons, given):
     """The triangles of each face; `given` states those of faces that are not the fan of a convex
-    one; None states no face's."""
+    one; None states no face's. Points are triangles whose three corners are one."""
+    if isinstance(given, Points) == bool(polygons):
+        raise ValueError("points have faces" if polygons else "there is no face")
+    if isinstance(given, Points):
+        if given:
+            raise Other("there are no such polygons")
+        return [(p, p, p) for p in points]
     if any(len(polygon) < 3 or min(polygon) < 0 for polygon in polygons):
         raise ValueError("a face has fewer than three corners, or a corner that is not there")
     out, left = [], dict(given or {})
@@ -234,12 +244,12 @@ class Certificate:
     def description(self):
         """The reading of a mesh: the triangles of its polygons, by their faces."""
         points, bodies, ambiguity, at, over, under, matrix = self.take("<IIdQddQ")
-        self.need(points == 0 and matrix < 2 and bodies < 2, "points, bodies or a matrix of no kind")
+        self.need(points < 2 and matrix < 2 and bodies < 2, "points, bodies or a matrix of no kind")
         self.need(all(1 <= n <= 1 << 53 and n == int(n) for n in (over, under)), "a unit")
         self.need(0 <= ambiguity < math.inf and math.copysign(1, ambiguity) == 1 and (ambiguity or not at), "an ambiguity")
         rows = [self.take("<4d") for _ in range(3)] if matrix else None
         self.need(all(math.isfinite(x) and (x or math.copysign(1, x) == 1) for row in rows or () for x in row), "a matrix")
-        given, face, (count,) = {}, -1, self.take("<Q")
+        given, face, (count,) = Points() if points else {}, -1, self.take("<Q")
         for _ in range(count):
             face += 1 + self.count()
             corners, axis = self.count(), self.count()

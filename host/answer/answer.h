@@ -29,6 +29,7 @@ const char* program_version();  ///< defined in words.cpp
 struct Input {
   std::string path;
   bool is_read = false;
+  bool are_points = false;  ///< it has no surface: its faces are points
   MeshCounts counts = {};
   MeshAccuracy place = {};
   std::string sha256 = {};           ///< the file's hash in hexadecimal digits; empty: not known

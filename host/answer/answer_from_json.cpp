@@ -163,6 +163,7 @@ Input input_of(const Json& json) {
   input.sha256 = text_or_empty_at(json, "sha256");
   input.files = files_beneath_of(json);
   input.is_read = !member_at(json, "faces").is_null();
+  if (json.contains("points")) input.are_points = truth_at(json, "points");
   MeshCounts& counts = input.counts;
   for (const auto& [key, count] : {std::pair{"vertices", &counts.vertices},
                                    {"faces", &counts.faces},
@@ -281,6 +282,11 @@ std::vector<AreaWithin> shares_at(const Json& json, const char* key) {
 Statistics statistics_of(const Json& json) {
   Statistics s;
   s.area = number_or_infinity_at(json, "area");
+  if (json.contains("points")) s.points = count_in(json, "points");
+  if (json.contains("kept")) {
+    s.max_distance = number_at(json, "max_distance");
+    s.kept = enclosure_of(json.at("kept"));
+  }
   s.mean = enclosure_of(member_at(json, "mean"));
   s.rms = enclosure_of(member_at(json, "rms"));
   s.bands = shares_at(json, "bands");

@@ -87,14 +87,18 @@ MeshPair read_pair(const std::shared_ptr<SharedState>& at) {
     if (!none) bytes += size;
   }
   const auto bytes_read = std::make_shared<std::atomic<uint64_t>>(0);
-  ReadLimits limits = at->question.limits;
-  limits.bytes_read = bytes_read.get();
-  limits.keep_going = [bytes_read, bytes, at] {
-    if (bytes >= kWorthwhile) at->line.show_reading(*bytes_read, bytes);
-    return !at->stop.is_asked();
+  const auto limits_of = [&](bool is_b) {
+    ReadLimits limits = at->question.limits_of(is_b);
+    limits.bytes_read = bytes_read.get();
+    limits.keep_going = [bytes_read, bytes, at] {
+      if (bytes >= kWorthwhile) at->line.show_reading(*bytes_read, bytes);
+      return !at->stop.is_asked();
+    };
+    return limits;
   };
-  auto b = begin_now([file_b, limits] { return read_mesh(path_of(file_b), limits); });
-  MeshPair pair{read_mesh(path_of(file_a), limits), {}};
+  auto b =
+      begin_now([file_b, limits = limits_of(true)] { return read_mesh(path_of(file_b), limits); });
+  MeshPair pair{read_mesh(path_of(file_a), limits_of(false)), {}};
   pair.b = b.get();
   place_a(at->question, pair.a, pair.b);
   return pair;

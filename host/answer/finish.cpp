@@ -93,6 +93,10 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   if (at.answer.max && at.answer.max->sides) options.sided = at.answer.max->sides->limits;
   const bool has_figures = question.statistics || question.metrics;
   options.statistics = has_figures || question.area;
+  if (question.max_distance)
+    options.max_distance =
+        limit_in_files(*question.max_distance, question.option("max-distance").c_str(),
+                       at.answer.unit, at.answer.a_to_b.diagonal_a);
   for (const Limit& band : bands_of(question, at.answer))
     options.bands.insert(options.bands.end(), {band.within, band.beyond});
   options.enough = question.area;
@@ -168,7 +172,8 @@ SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOption
 /// The distance beyond which B is not covered by A: the limit, or a hundredth of A's diagonal where
 /// that is larger. None unless B is surveyed for figures.
 std::optional<double> uncovered_beyond(const Finishing& at, const Side& side) {
-  if (&side.report == &at.answer.a_to_b || !at.question.statistics) return std::nullopt;
+  if (&side.report == &at.answer.a_to_b || !at.question.statistics || at.question.max_distance)
+    return std::nullopt;
   const double limit = at.answer.max ? at.answer.max->limit.beyond : 0;
   const double beyond = std::max(limit, 0.01 * at.answer.a_to_b.diagonal_a);
   return beyond > 0 && std::isfinite(beyond) ? std::optional(beyond) : std::nullopt;

@@ -41,6 +41,7 @@ Json input_json(const char* name, const Input& input) {
   add("degenerate", input.counts.degenerate);
   add("duplicate", input.counts.duplicate);
   add("polygons", input.counts.polygons);
+  if (input.are_points) json["points"] = true;
   json["delta"] = input.place.delta;
   json["unit"] = text_or_null(input.place.unit);
   json["notes"] = notes_json(input.notes, input.path);

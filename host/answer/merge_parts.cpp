@@ -38,7 +38,7 @@ std::vector<FileHash> files_of(const Input& input) {
 std::string reading_of(const Answer& answer) {
   std::string text;
   for (const Input& input : answer.inputs) {
-    text += std::to_string(input.counts.faces);
+    text += std::to_string(input.counts.faces) + (input.are_points ? " points" : "");
     for (const Note& note : input.notes) {
       if (is_for_servers(note.code)) text += '\n' + line_of(note);
     }

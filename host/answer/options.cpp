@@ -140,6 +140,14 @@ void put_max(const char* option, const std::string& text, Question& question) {
                                     : parse_length(option, text, PlainNumber::kRefused);
 }
 
+void put_points(const char* option, const std::string& text, Question& question) {
+  if (text != "a" && text != "b" && text != "both")
+    throw UsageError(std::string(option) + " '" + text +
+                     "': expected a, b or both, the files that are points without faces");
+  question.points_a = text != "b";
+  question.points_b = text != "a";
+}
+
 double parse_share(const char* option, const std::string& text) {
   const bool is_percent = text.ends_with('%');
   const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));

@@ -31,6 +31,9 @@ std::optional<SidedMax> parse_sided(const char* option, const std::string& text)
 /// Puts a limit, one for both sides or one for each, in place of what the question has.
 void put_max(const char* option, const std::string& text, Question& question);
 
+/// "a", "b" or "both": which files are points. Throws UsageError.
+void put_points(const char* option, const std::string& text, Question& question);
+
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);
 

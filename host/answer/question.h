@@ -35,10 +35,11 @@ struct Question {
   std::string unit;            ///< the unit of files that do not name one; empty: unknown
   std::string unit_a, unit_b;  ///< the same for one of them, in place of `unit`
   std::string transform_file;  ///< a file with the matrix by which A is placed; empty: none
-  std::optional<MatrixRows> transform;  ///< the matrix itself, if it was read before
-  bool may_stretch = false;             ///< the matrix may be any that does not mirror
-  ReadLimits limits;                    ///< all but the callbacks
-  bool hashes = false;                  ///< Input::sha256 is wanted
+  std::optional<MatrixRows> transform;      ///< the matrix itself, if it was read before
+  bool may_stretch = false;                 ///< the matrix may be any that does not mirror
+  ReadLimits limits;                        ///< all but the callbacks, and `points`: limits_of()
+  bool points_a = false, points_b = false;  ///< ReadLimits::points of each
+  bool hashes = false;                      ///< Input::sha256 is wanted
 
   // The distance.
   Length tolerance{.requested = "1e-6", .number = 1e-6};
@@ -62,8 +63,9 @@ struct Question {
   bool faces = false;                    ///< bounds of each face: for a picture, or a file
   std::optional<Length> face_tolerance;  ///< the width of those
   bool statistics = false;
-  bool is_signed = false;     ///< the sides of B on which A lies
-  std::vector<Length> bands;  ///< shares of A's area within these distances
+  bool is_signed = false;              ///< the sides of B on which A lies
+  std::vector<Length> bands;           ///< shares of A's area within these distances
+  std::optional<Length> max_distance;  ///< figures leave out what is farther; none: nothing
   /// Answer::metrics is wanted, of both directions; of percentiles, theirs alone is sought.
   std::optional<MetricsOptions> metrics;
   double map_pixels = 0;                ///< MapOptions::pixels of a map of A by cells; 0: none
@@ -79,6 +81,11 @@ struct Question {
   bool caches = true;            ///< keeps compiled pipelines in the user's folder
   bool verbose = false;          ///< the progress line has words of the method, too
 
+  ReadLimits limits_of(bool is_b) const {
+    ReadLimits own = limits;
+    own.points = is_b ? points_b : points_a;
+    return own;
+  }
   bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
   bool asks_for_sides() const { return is_signed || max_sides; }
   bool asks_for_survey() const {

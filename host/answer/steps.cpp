@@ -37,6 +37,7 @@ std::string utc_now() {
 Input input_of(const Mesh& mesh) {
   return {.path = mesh.name,
           .is_read = true,
+          .are_points = mesh.are_points,
           .counts = mesh.counts,
           .place = {mesh.delta, mesh.unit},
           .notes = mesh.notes};
@@ -113,6 +114,26 @@ void check_area(const Question& question, const Mesh& mesh) {
   if (!question.max || !question.area || areas_of(mesh).is_positive()) return;
   reject(mesh.name, "", "faces without area",
          "a surface, of which --area " + question.area_requested + " asks a share");
+}
+
+// Refuses what a surface alone has.
+void check_points(const Question& question, const Mesh& a, const Mesh& b) {
+  const auto check_from = [&](const Mesh& from, const Mesh& to) {
+    if (question.asks_for_sides()) refuse_points(to, question.option("signed"), "sides");
+    if (question.is_by_face()) refuse_points(from, question.option("face-max"), "faces");
+    if (question.map_pixels > 0) refuse_points(from, "pictures and pages", "surface to draw");
+  };
+  check_from(a, b);
+  if (question.symmetric) check_from(b, a);
+}
+
+// Only figures without sides have a part of A that they are of.
+void check_max_distance(const Question& question) {
+  if (!question.max_distance) return;
+  const std::string option = question.option("max-distance");
+  if (!question.statistics) throw UsageError(option + ": is of figures, which are not asked for");
+  if (question.area || question.asks_for_sides() || question.map_pixels > 0)
+    throw UsageError(option + ": is of figures alone, not of areas to pass, sides or pictures");
 }
 
 // Corners that are off a plane by less than a tenth of the tolerance, as decimals of a slanted
@@ -197,6 +218,8 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   const Units units = units_of(question, a, b);
   if (units.differ())
     throw UsageError("A is in " + units.a + " and B in " + units.b + ": convert one of them");
+  check_points(question, a, b);
+  check_max_distance(question);
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
   const double farthest = farthest_in(join(box_a, box_b), add_up(a.delta, b.delta));

@@ -40,6 +40,11 @@ std::string percentile_json(const Percentile& percentile, const Json& unit) {
 std::string statistics_json(const Statistics& s, const Json& unit) {
   JsonObject json;
   json.add("area", s.area);
+  if (s.points > 0) json.add("points", s.points);
+  if (s.kept) {
+    json.add("max_distance", s.max_distance);
+    json.add_text("kept", enclosure_json(*s.kept, nullptr));
+  }
   json.add_text("mean", enclosure_json(s.mean, unit));
   json.add_text("rms", enclosure_json(s.rms, unit));
   const auto within = [&](const AreaWithin& one) { return within_json(one, unit); };

@@ -38,9 +38,15 @@ Enclosure in_percent(const Enclosure& share) {
   return percent;
 }
 
+bool is_of_points(const SurveyResult& survey, const Answer& answer) {
+  const bool is_of_b = answer.survey_b && &*answer.survey_b == &survey;
+  return answer.inputs[is_of_b ? 1 : 0].are_points;
+}
+
 std::string field_text(const SurveyResult& survey, const Answer& answer) {
   const FieldSummary summary = summary_of(answer, survey);
-  const std::string faces = std::to_string(survey.field.face_count()) + " faces";
+  const std::string faces = std::to_string(survey.field.face_count()) +
+                            (is_of_points(survey, answer) ? " points" : " faces");
   if (!answer.max)
     return faces + " bounded to " + length_up(answer, summary.width, summary.width) + " or closer";
   return faces + ": " + std::to_string(summary.within) + " within the limit, " +
@@ -48,12 +54,15 @@ std::string field_text(const SurveyResult& survey, const Answer& answer) {
          " undecided";
 }
 
-std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit) {
+std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit,
+                             bool are_points) {
   std::string text;
   for (const Percentile& p : percentiles) {
     text += (text.empty() ? "p" : "; p") + shortest_decimal(100 * p.share) + " " +
             figure(p.distance, unit);
-    if (p.jump) text += " (a jump: nearly no area lies between)";
+    if (p.jump)
+      text +=
+          std::string(" (a jump: nearly no ") + (are_points ? "point" : "area") + " lies between)";
   }
   return text;
 }
@@ -71,9 +80,9 @@ std::string share_text(const Enclosure& share) {
 }
 
 // "61.2 % of A's area over B, 38.1 % under it", and why the rest has no side.
-std::string area_of_sides(const SignedFigures::Areas& areas) {
-  std::string text =
-      share_text(areas.over) + " of the area over, " + share_text(areas.under) + " under";
+std::string area_of_sides(const SignedFigures::Areas& areas, bool are_points) {
+  std::string text = share_text(areas.over) + " of the " + (are_points ? "points" : "area") +
+                     " over, " + share_text(areas.under) + " under";
   for (size_t k = 1; k < kDoubts; ++k) {
     if (areas.doubts[k].upper > 0)
       text += ", " + share_text(areas.doubts[k]) + " unsigned (" +
@@ -99,13 +108,16 @@ std::string inside_in_words(const SignedFigures& sides) {
   return "";
 }
 
-void add_sides(const SignedFigures& sides, const std::string& unit, std::vector<TableRow>& rows) {
+void add_sides(const SignedFigures& sides, const std::string& unit, bool are_points,
+               std::vector<TableRow>& rows) {
   rows.push_back({"sides", "farthest over " + enclosure(sides.over, unit) + ", under " +
                                enclosure(sides.under, unit)});
-  if (sides.areas) rows.push_back({"side area", area_of_sides(*sides.areas)});
+  if (sides.areas)
+    rows.push_back(
+        {are_points ? "sides of" : "side area", area_of_sides(*sides.areas, are_points)});
   if (sides.mean) {
     rows.push_back({"signed", "mean " + figure(*sides.mean, unit)});
-    rows.push_back({"signed", percentiles_text(sides.percentiles, unit)});
+    rows.push_back({"signed", percentiles_text(sides.percentiles, unit, are_points)});
   }
   rows.push_back({"side of B", inside_in_words(sides)});
 }
@@ -132,21 +144,56 @@ std::string end_text(const SurveyResult& survey) {
 
 }  // namespace
 
+namespace {
+
+// Counts of points that are surely, and perhaps, so many: n times a share, rounded outward.
+std::string counts_text(const Enclosure& share, uint64_t points) {
+  const auto n = static_cast<double>(points);
+  const double least = std::ceil(std::nextafter(n * share.lower, 0.0));
+  const double most = std::floor(std::nextafter(n * share.upper, n + 1));
+  std::string text = decimal(least, 12, Rounding::kDown);
+  if (most > least) text += " to " + decimal(most, 12, Rounding::kUp);
+  return text;
+}
+
+// Says what figures are of, and what they leave out.
+std::string kept_text(const Statistics& s, const std::string& unit) {
+  const std::string length = length_in_words({s.max_distance, s.max_distance});
+  if (s.kept->upper == 0) return "none: nothing is within " + length;
+  const std::string within = " within " + length + (unit.empty() ? "" : " " + unit);
+  if (s.points > 0)
+    return "of the " + counts_text(*s.kept, s.points) + " of " + std::to_string(s.points) +
+           " points, each alike, that are" + within + ": " + share_text(*s.kept);
+  return "of the " + share_text(*s.kept) + " of the area that are" + within;
+}
+
+void add_statistics(const Statistics& s, const std::string& unit, std::vector<TableRow>& rows) {
+  const bool are_points = s.points > 0;
+  if (s.kept) {
+    rows.push_back({"figures", kept_text(s, unit)});
+    if (s.kept->upper == 0) return;
+  } else if (are_points) {
+    rows.push_back({"figures", "of " + std::to_string(s.points) + " points, each alike"});
+  }
+  rows.push_back({"mean", figure(s.mean, unit) + "; root mean square " + figure(s.rms, unit)});
+  for (const AreaWithin& band : s.bands)
+    rows.push_back(
+        {are_points ? "share" : "area", figure(in_percent(band.share), "%") + " within " +
+                                            length_in_words({band.distance, band.distance}) +
+                                            (unit.empty() ? "" : " " + unit) + jump_text(band)});
+  if (!s.percentiles.empty())
+    rows.push_back({"percentile", percentiles_text(s.percentiles, unit, are_points)});
+}
+
+}  // namespace
+
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey) {
   std::vector<TableRow> rows;
   const std::string& unit = answer.unit;
-  if (survey.faces) rows.push_back({"faces", field_text(survey, answer)});
-  if (survey.statistics) {
-    const Statistics& s = *survey.statistics;
-    rows.push_back({"mean", figure(s.mean, unit) + "; root mean square " + figure(s.rms, unit)});
-    for (const AreaWithin& band : s.bands)
-      rows.push_back({"area", figure(in_percent(band.share), "%") + " within " +
-                                  length_in_words({band.distance, band.distance}) +
-                                  (unit.empty() ? "" : " " + unit) + jump_text(band)});
-    if (!s.percentiles.empty())
-      rows.push_back({"percentile", percentiles_text(s.percentiles, unit)});
-  }
-  if (survey.sides) add_sides(*survey.sides, unit, rows);
+  const bool are_points = is_of_points(survey, answer);
+  if (survey.faces) rows.push_back({are_points ? "points" : "faces", field_text(survey, answer)});
+  if (survey.statistics) add_statistics(*survey.statistics, unit, rows);
+  if (survey.sides) add_sides(*survey.sides, unit, are_points, rows);
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
   if (!survey.is_met()) work += end_text(survey);

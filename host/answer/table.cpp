@@ -65,22 +65,27 @@ std::string ending(const Answer& answer, Status status) {
          reason(answer, status);
 }
 
-std::string at(const SurfacePoint& p) {
-  return printed("face %llu at (%.9g, %.9g, %.9g)", static_cast<Count>(p.file_face), p.point.x,
-                 p.point.y, p.point.z);
+std::string at(const SurfacePoint& p, bool is_point) {
+  return (is_point ? "point " : "face ") + printed("%llu at (%.9g, %.9g, %.9g)",
+                                                   static_cast<Count>(p.file_face), p.point.x,
+                                                   p.point.y, p.point.z);
 }
 
 void print_input(std::ostream& out, const char* label, const Input& input) {
   const MeshCounts& counts = input.counts;
   std::string text = printable(input.path) + ": ";
   if (!input.is_read) return print_row(out, label, text + "not read");
-  text += counted(counts.faces, "face") + ", " + printed("%llu", Count{counts.vertices}) +
-          (counts.vertices == 1 ? " vertex" : " vertices");
+  if (input.are_points) {
+    text += counted(counts.faces, "point");
+  } else {
+    text += counted(counts.faces, "face") + ", " + printed("%llu", Count{counts.vertices}) +
+            (counts.vertices == 1 ? " vertex" : " vertices");
+  }
   const auto also = [&](uint64_t n, const char* what) {
     if (n > 0) text += printed(", %llu %s", static_cast<Count>(n), what);
   };
   also(counts.unreferenced, "unreferenced (dropped)");
-  also(counts.degenerate, "degenerate (kept)");
+  also(input.are_points ? 0 : counts.degenerate, "degenerate (kept)");
   also(counts.duplicate, "duplicate (kept)");
   if (!input.place.unit.empty()) text += ", in " + input.place.unit;
   print_row(out, label, text);
@@ -148,10 +153,14 @@ std::string coverage_text(const CoverageCheck& c) {
          (c.holds ? "nothing is lost" : "SOMETHING IS LOST");
 }
 
-void print_direction(std::ostream& out, const Report& r, const char* a, const char* b) {
+void print_direction(std::ostream& out, const Answer& answer, bool back) {
+  const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+  const auto place = [&](const SurfacePoint& p, bool of_b) {
+    return (of_b ? "B " : "A ") + at(p, answer.inputs[of_b ? 1 : 0].are_points);
+  };
   if (r.has_witness) {
-    print_row(out, "witness", std::string(a) + " " + at(r.witness_a));
-    print_row(out, "", std::string(b) + " " + at(r.witness_b));
+    print_row(out, "witness", place(r.witness_a, back));
+    print_row(out, "", place(r.witness_b, !back));
   }
   if (r.witness_check) print_row(out, "verified", verified_text(*r.witness_check));
   if (r.coverage_check) print_row(out, "", coverage_text(*r.coverage_check));
@@ -334,14 +343,14 @@ void print_table(std::ostream& out, const Answer& answer, bool verbose) {
   print_summary(out, answer);
   if (verbose) print_names(out, "off", r.switched_off);
   if (answer.b_to_a) print_row(out, "h(A,B)", direction_text(answer, r));
-  print_direction(out, r, "A", "B");
+  print_direction(out, answer, false);
   print_survey(out, answer, answer.survey_a);
   print_proof(out, answer.proof_a);
   if (verbose) print_details(out, r);
   if (answer.b_to_a) {
     const Report& back = *answer.b_to_a;
     print_row(out, "h(B,A)", direction_text(answer, back));
-    print_direction(out, back, "B", "A");
+    print_direction(out, answer, true);
     print_survey(out, answer, answer.survey_b);
     print_proof(out, answer.proof_b);
     if (verbose) print_details(out, back);

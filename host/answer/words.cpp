@@ -20,7 +20,7 @@ std::string with_unit(std::string number, const Answer& answer) {
 
 /// Prints a point to a hundred-thousandth of A's diagonal, which is enough to find it; all digits
 /// are in JSON.
-std::string point_text(const Answer& answer, const SurfacePoint& p) {
+std::string point_text(const Answer& answer, const SurfacePoint& p, bool of_b) {
   const double step = 1e-5 * answer.a_to_b.diagonal_a;
   const auto printed = [&](double x) {
     const double size = std::abs(x);
@@ -28,7 +28,8 @@ std::string point_text(const Answer& answer, const SurfacePoint& p) {
     return number_text(x, std::chars_format::general, std::min(digits, 17));
   };
   return "(" + printed(p.point.x) + ", " + printed(p.point.y) + ", " + printed(p.point.z) +
-         ") on face " + std::to_string(p.file_face);
+         (answer.inputs[of_b ? 1 : 0].are_points ? "), point " : ") on face ") +
+         std::to_string(p.file_face);
 }
 
 // Returns upper as a share in percent.
@@ -125,7 +126,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
   const std::string from = back ? "B" : "A";
   std::string text = beyond_in_words(answer, {r.lower, r.upper}, limit);
   text += back ? " from B to A" : " from A to B";
-  text += r.has_witness ? " at " + point_text(answer, r.witness_a) + " of " + from
+  text += r.has_witness ? " at " + point_text(answer, r.witness_a, back) + " of " + from
                         : " at a point of " + from;
   if (answer.max->sides) return text + ", beyond both limits, " + limits_in_words(answer);
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
@@ -158,7 +159,9 @@ std::string area_in_words(const Answer& answer) {
   const bool back =
       answer.b_to_a && share_within(answer, true).lower < share_within(answer, false).lower;
   const Enclosure share = share_within(answer, back);
-  const std::string of = std::string(" of ") + (back ? "B" : "A") + "'s area is within " +
+  const bool are_points = answer.inputs[back ? 1 : 0].are_points;
+  const std::string of = std::string(" of ") + (back ? "B" : "A") +
+                         (are_points ? "'s points are within " : "'s area is within ") +
                          limit_text(answer, answer.max->length) + " of " + (back ? "A" : "B");
   const std::string asked = " (" + answer.max->area_requested + " asked)";
   const Verdict verdict = verdict_of(answer);
@@ -192,7 +195,7 @@ std::string side_failure(const Answer& answer, bool is_over, const SignedFigures
   const bool has_point = witness && witness->lower > limit.beyond;
   if (has_point) reached.lower = witness->lower;
   return beyond_in_words(answer, reached, limit) + (is_over ? " over B" : " under B") +
-         (has_point ? " at " + point_text(answer, witness->at) + " of A" : std::string()) +
+         (has_point ? " at " + point_text(answer, witness->at, false) + " of A" : std::string()) +
          ", limit " + limit_text(answer, is_over ? sides.over : sides.under);
 }
 

@@ -74,10 +74,11 @@ struct HelpGroup {
 
 const std::vector<HelpGroup>& help_groups() {
   static const std::vector<HelpGroup> known{
-      {"What is asked", {"max",         "face-max",  "face-max-b", "area",    "worst",
-                         "tol",         "symmetric", "polygons",   "bodies",  "part",
-                         "known-lower", "stats",     "signed",     "metrics", "percentile",
-                         "bands",       "field-tol", "effort",     "against", "allow-unpaired"}},
+      {"What is asked",
+       {"max",       "face-max", "face-max-b", "area",          "worst", "tol",
+        "symmetric", "polygons", "bodies",     "points",        "part",  "known-lower",
+        "stats",     "signed",   "metrics",    "percentile",    "bands", "max-distance",
+        "field-tol", "effort",   "against",    "allow-unpaired"}},
       {"What the meshes are in, and where A lies",
        {"unit", "unit-a", "unit-b", "transform", "scale"}},
       {"What is printed and written",

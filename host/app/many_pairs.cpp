@@ -67,8 +67,9 @@ class Tables {
   std::optional<OutputFile> csv_, junit_;
 };
 
-PairList list_of(const BatchAsked& asked) {
-  if (!asked.folder_a.empty()) return list_folders(asked.folder_a, asked.folder_b);
+PairList list_of(const BatchAsked& asked, const Question& question) {
+  if (!asked.folder_a.empty())
+    return list_folders({asked.folder_a, question.points_a}, {asked.folder_b, question.points_b});
   return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
 }
 
@@ -177,7 +178,7 @@ ExitCode run_asked_batch(const Question& question, const BatchAsked& asked) {
   if (std::filesystem::equivalent(path_of(asked.list), path_of(asked.results), none))
     throw UsageError("--out '" + asked.results + "': would overwrite the input '" + asked.list +
                      "'");
-  PairList list = list_of(asked);
+  PairList list = list_of(asked, question);
   for (const std::string& text : list.notes) note(text);
   BatchJob batch = batch_of(question, asked, list);
   const std::vector<std::string> inputs = inputs_of(asked, batch.entries);

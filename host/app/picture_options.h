@@ -29,6 +29,10 @@ struct TypedPictures {
     return !field.empty() || !image.empty() || !report.empty() || !figures.empty() ||
            !points.empty();
   }
+  bool draws_surface() const {
+    return !image.empty() || !report.empty() || !figures.empty() || !points.empty() ||
+           image_folder || report_folder;
+  }
   bool is_of_triangles() const {
     return !report.empty() || report_folder || !certificate.empty() || !figures.empty();
   }

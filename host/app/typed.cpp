@@ -48,6 +48,9 @@ void add_survey_of(const Typed& typed, Question& question) {
     if (!typed.percentile.empty())
       question.metrics->percentile = parse_percentile("--percentile", typed.percentile);
   }
+  if (!typed.max_distance.empty())
+    question.max_distance =
+        parse_length("--max-distance", typed.max_distance, PlainNumber::kRefused);
   if (!typed.area.empty()) question.area = parse_share("--area", typed.area);
   question.area_requested = typed.area;
   question.is_signed = typed.is_signed;
@@ -87,6 +90,31 @@ void check_together(const Typed& typed) {
         "--signed, --bands, --area, --report, --figures-csv or --certificate");
 }
 
+// Pictures, pages and places are of surfaces. A field has a value for each point.
+void check_pictures(const Typed& typed, const Question& question) {
+  const bool starts_at_points = question.points_a || (question.points_b && typed.symmetric);
+  if (starts_at_points && typed.pictures.draws_surface())
+    throw UsageError(
+        "--points: pictures and pages draw surfaces: no --image, --report, --figures-csv or "
+        "--points-out from points; --field OUT.ply has a distance for each point, and --stats "
+        "the figures");
+  if (starts_at_points && typed.pictures.field.ends_with(".glb"))
+    throw UsageError("--field: points with their distances are written as .ply, not as .glb");
+}
+
+// A verdict is of all of A; sides and pictures have no such part.
+void check_max_distance(const Typed& typed) {
+  if (typed.max_distance.empty()) return;
+  if (typed.metrics) throw UsageError("--max-distance: metrics are of all of A and B");
+  if (!typed.statistics && typed.bands.empty())
+    throw UsageError("--max-distance: is of figures: ask for --stats or --bands");
+  const bool has_sides = typed.is_signed || typed.max.find(',') != std::string::npos;
+  if (!typed.area.empty() || has_sides || typed.pictures.draws_surface())
+    throw UsageError(
+        "--max-distance: leaves out of the mean, root mean square, percentiles and bands alone: no "
+        "--area, --signed, --image, --report, --figures-csv or --points-out");
+}
+
 void check_part(const Typed& typed) {
   if (typed.known_lower && !typed.part)
     throw UsageError("--known-lower: is what other parts have shown: ask for a --part");
@@ -121,6 +149,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
   question.certificate = !typed.pictures.certificate.empty();
   check_together(typed);
   check_part(typed);
+  check_max_distance(typed);
   if (typed.part) question.part = parse_part(*typed.part);
   if (typed.known_lower)
     question.known_lower = parse_length("--known-lower", *typed.known_lower, PlainNumber::kRefused);
@@ -144,6 +173,8 @@ Question question_of(const Typed& typed, const Words& words, const char* command
     check_names("--bodies", {typed.bodies}, {"solid", "all"});
     if (typed.bodies == "all") question.limits.bodies = Bodies::kAll;
   }
+  if (!typed.points.empty()) put_points("--points", typed.points, question);
+  check_pictures(typed, question);
   return question;
 }
 
@@ -221,6 +252,12 @@ void add_survey_options(CLI::App& command, Typed& typed) {
       ->type_name("LENGTH,..")
       ->allow_extra_args(false);
   command
+      .add_option(
+          "--max-distance", typed.max_distance,
+          "Leave out of these figures what is farther, and say its share: strays of a scan; "
+          "h and verdicts are of all of A")
+      ->type_name("LENGTH");
+  command
       .add_option("--field-tol", typed.field_tolerance,
                   "Bound the largest distance on each face of A, to so much [1 % of the largest]")
       ->type_name("LENGTH");
@@ -286,6 +323,11 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
                   "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
                   "as it lies, such as modifiers, negative volumes and hidden nodes [solid]")
       ->type_name("solid|all");
+  command
+      .add_option("--points", typed.points,
+                  "Which files are points without faces: PLY, OBJ, OFF, XYZ, PTS or LAS; their "
+                  "figures weigh points, not areas [none]")
+      ->type_name("a|b|both");
 }
 
 void add_placement(CLI::App& command, Typed& typed) {

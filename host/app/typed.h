@@ -20,8 +20,8 @@ struct Typed {
   std::string tolerance, max, face_max_a, face_max_b, unit, unit_a, unit_b, transform, device;
   std::optional<std::string> memory, time, waves, effort, max_input, part, known_lower;
   std::vector<std::string> enabled, disabled;
-  std::string preset, polygons, bodies;
-  std::string json, junit, area, field_tolerance;
+  std::string preset, polygons, bodies, points;
+  std::string json, junit, area, field_tolerance, max_distance;
   TypedPictures pictures;
   std::vector<std::string> bands;
   std::string percentile;    ///< of metrics

@@ -30,14 +30,16 @@ void add_mesh(FolderOfMeshes& meshes, const std::filesystem::path& path) {
                    "; expected one mesh of each stem in a folder");
 }
 
-FolderOfMeshes meshes_in(const std::string& folder) {
+FolderOfMeshes meshes_in(const FolderOfFiles& given) {
+  const std::string& folder = given.path;
+  const auto is_read = given.points ? has_points_extension : has_mesh_extension;
   FolderOfMeshes meshes{.folder = folder, .files = {}, .others = {}};
   std::error_code error;
   for (std::filesystem::directory_iterator at(path_of(folder), error), end; !error && at != end;
        at.increment(error)) {
     std::error_code none;
     const std::string name = name_of(at->path().filename());
-    const bool is_mesh = has_mesh_extension(at->path()) && !at->is_directory(none);
+    const bool is_mesh = is_read(at->path()) && !at->is_directory(none);
     if (name.starts_with('.')) continue;  // files of systems and editors
     if (is_mesh) add_mesh(meshes, at->path());
     if (!is_mesh) meshes.others.push_back(at->is_directory(none) ? name + "/" : name);
@@ -85,9 +87,10 @@ std::string missing_in(const FolderOfMeshes& other, const std::string& stem) {
 
 }  // namespace
 
-PairList list_folders(const std::string& a, const std::string& b) {
+PairList list_folders(const FolderOfFiles& of_a, const FolderOfFiles& of_b) {
+  const std::string &a = of_a.path, &b = of_b.path;
   check_folders(a, b);
-  const FolderOfMeshes meshes_a = meshes_in(a), meshes_b = meshes_in(b);
+  const FolderOfMeshes meshes_a = meshes_in(of_a), meshes_b = meshes_in(of_b);
   PairList list;
   for (const auto& [stem, file] : meshes_a.files) {
     const auto partner = meshes_b.files.find(stem);

@@ -21,7 +21,7 @@ namespace vkh {
 namespace {
 
 constexpr const char* kExpected =
-    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, symmetric, signed";
+    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, points, symmetric, signed";
 
 std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -39,11 +39,11 @@ bool truth_of(const std::string& name, const std::string& text) {
 
 /// Returns false for a member that a batch does not know.
 bool put(Entry& entry, const std::string& name, const std::string& text) {
-  constexpr std::array kNames{"id",   "a",      "b",      "tol",      "max",
-                              "unit", "unit_a", "unit_b", "transform"};
-  const std::array<std::string*, 9> places{&entry.id,        &entry.a,      &entry.b,
-                                           &entry.tolerance, &entry.max,    &entry.unit,
-                                           &entry.unit_a,    &entry.unit_b, &entry.transform};
+  constexpr std::array kNames{"id",   "a",      "b",      "tol",       "max",
+                              "unit", "unit_a", "unit_b", "transform", "points"};
+  const std::array<std::string*, 10> places{
+      &entry.id,   &entry.a,      &entry.b,      &entry.tolerance, &entry.max,
+      &entry.unit, &entry.unit_a, &entry.unit_b, &entry.transform, &entry.points};
   for (size_t i = 0; i < kNames.size(); ++i) {
     if (name == kNames[i]) return *places[i] = text, true;
   }

@@ -16,6 +16,7 @@ struct Entry {
   std::string file_a, file_b;  ///< the paths that open from here
   std::string tolerance, max, unit, unit_a, unit_b;
   std::string transform;  ///< a matrix's path that opens from here
+  std::string points;     ///< a, b or both
   std::optional<bool> symmetric, is_signed;
   /// The error of a file without a partner; empty: there is a pair.
   std::string missing = {};
@@ -29,20 +30,26 @@ struct PairList {
 };
 
 /// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform`,
-/// `symmetric` and `signed`. Relative names, of matrices too, start at the list's folder, or at the
-/// current one if the list is a pipe. A list is CSV if its name ends in .csv; its separator is a
-/// comma or a semicolon, as its heading has. Throws InputError with file, line and the expected
-/// form; also for an id that occurs twice.
+/// `points`, `symmetric` and `signed`. Relative names, of matrices too, start at the list's folder,
+/// or at the current one if the list is a pipe. A list is CSV if its name ends in .csv; its
+/// separator is a comma or a semicolon, as its heading has. Throws InputError with file, line and
+/// the expected form; also for an id that occurs twice.
 PairList read_list(const std::string& path);
 
 /// Pairs each of `parts` with one B; its id is its name as the user typed it.
 PairList list_against(const std::string& b, const std::vector<std::string>& parts);
 
+/// A folder, and whether its files are points.
+struct FolderOfFiles {
+  std::string path;
+  bool points = false;
+};
+
 /// Pairs the meshes of two folders by their stems, letter by letter, in the stems' order: a stem,
 /// the name without its last extension, is the id. Files beneath folders in them are left out, as
 /// are names that are none of a mesh. Throws UsageError if one is no folder or both are one, and
 /// InputError if two meshes of a folder have one stem, or no mesh has a partner.
-PairList list_folders(const std::string& a, const std::string& b);
+PairList list_folders(const FolderOfFiles& a, const FolderOfFiles& b);
 
 /// Whether a result line can hold the id.
 bool is_utf8(const std::string& text);

@@ -88,6 +88,9 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   Question question = entry.question;
   question.faces = reports_.has_value();
   ask_for(asked_.look, question);
+  for (const Mesh* mesh : {&*pair.meshes.a, question.symmetric ? &*pair.meshes.b : nullptr}) {
+    if (mesh != nullptr) refuse_points(*mesh, "pictures and pages", "surface to draw");
+  }
   question.statistics = reports_.has_value();
   question.effort = asked_.effort;
   const Observer observer{.goes_on = pair.goes_on,

@@ -89,6 +89,8 @@ std::string key_of(const Question& question, const Answer& known, bool shares_b)
   if (question.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
   if (question.limits.any_triangulation) add("polygons any");
   if (question.limits.bodies == Bodies::kAll) add("bodies all");
+  if (question.points_a) add("points a");
+  if (question.points_b) add("points b");
   add(question.symmetric ? "symmetric" : "");
   add(shares_b ? "prepared" : "");
   const SolveOptions& o = question.options;
@@ -152,6 +154,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
   if (!tolerance.empty())
     question.tolerance = parse_length("tol", tolerance, PlainNumber::kSmallFraction);
   if (!entry.max.empty()) put_max("max", entry.max, question);
+  if (!entry.points.empty()) put_points("points", entry.points, question);
   question.symmetric = entry.symmetric.value_or(question.symmetric);
   question.is_signed = entry.is_signed.value_or(question.is_signed);
   question.statistics = question.is_signed;
@@ -204,7 +207,7 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
   std::shared_future<SharedMesh> theirs;
   {
     const std::lock_guard lock(mutex_);
-    const auto [known, is_new] = meshes_.try_emplace(file);
+    const auto [known, is_new] = meshes_.try_emplace((limits.points ? "points " : "mesh ") + file);
     known->second.last_use = ++uses_;
     if (is_new) known->second.mesh = mine.get_future().share();
     if (is_new) known->second.bytes = kBytesOfAByte * size_of(file);
@@ -224,8 +227,8 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
 }
 
 EntryReader::SharedMesh EntryReader::b_of(const Question& question, bool is_shared) {
-  if (is_shared) return kept_mesh_of(question.file_b, question.limits);
-  const std::shared_ptr<const Mesh> mesh = mesh_of(question.file_b, question.limits);
+  if (is_shared) return kept_mesh_of(question.file_b, question.limits_of(true));
+  const std::shared_ptr<const Mesh> mesh = mesh_of(question.file_b, question.limits_of(true));
   return {mesh, shape_of(*mesh)};
 }
 
@@ -233,7 +236,7 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   const auto start = Clock::now();
   EntryMeshes meshes;
   meshes.shares_b = shared_.count(entry.question.file_b) > 0;
-  const std::shared_ptr<Mesh> a = mesh_of(entry.question.file_a, entry.question.limits);
+  const std::shared_ptr<Mesh> a = mesh_of(entry.question.file_a, entry.question.limits_of(false));
   const SharedMesh b = b_of(entry.question, meshes.shares_b);
   meshes.b = b.mesh;
   place_a(entry.question, *a, *meshes.b);

@@ -75,8 +75,10 @@ py::dict statistics_of(const Question& question, const Statistics& s) {
     percentiles.append(pair_of(py::float_(p.share), p.distance, p.jump));
   for (const AreaWithin& at : s.curve)
     curve.append(pair_of(py::float_(at.distance), at.share, at.jump));
-  return py::dict("area"_a = s.area, "mean"_a = interval_of(s.mean), "rms"_a = interval_of(s.rms),
-                  "bands"_a = bands, "percentiles"_a = percentiles, "curve"_a = curve);
+  const py::object kept = s.kept ? py::object(interval_of(*s.kept)) : py::none();
+  return py::dict("area"_a = s.area, "points"_a = s.points, "kept"_a = kept,
+                  "mean"_a = interval_of(s.mean), "rms"_a = interval_of(s.rms), "bands"_a = bands,
+                  "percentiles"_a = percentiles, "curve"_a = curve);
 }
 
 py::dict areas_of(const SignedFigures::Areas& areas) {

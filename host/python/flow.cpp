@@ -104,12 +104,15 @@ bool Flow::is_over() const {
 
 void Flow::solve(FlowPair pair) {
   const Question& question = asked_.question;
-  ReadLimits limits = question.limits;
-  limits.keep_going = [this] { return !is_over(); };
+  const auto limits_of = [&](bool is_b) {
+    ReadLimits limits = question.limits_of(is_b);
+    limits.keep_going = [this] { return !is_over(); };
+    return limits;
+  };
   const auto running = std::make_shared<Running>();
-  running->a = made_mesh(std::move(pair.a), limits);
+  running->a = made_mesh(std::move(pair.a), limits_of(false));
   const MeshPointer& against = asked_.against.mesh;
-  running->b = against ? against : made_mesh(std::move(pair.b), limits);
+  running->b = against ? against : made_mesh(std::move(pair.b), limits_of(true));
   running->a = placed(question, running->a, *running->b);
   running->answer = unread_answer(question);
   const MeshShape shape_b = against ? asked_.against.shape : shape_of(*running->b);

@@ -1,5 +1,6 @@
 #include "host/python/many.h"
 
+#include "host/answer/options.h"
 #include "host/answer/session.h"
 #include "host/base/error.h"
 #include "host/python/arguments.h"
@@ -69,10 +70,14 @@ FlowQuestion asked_from(const Arguments& given) {
   FlowQuestion asked;
   asked.question = question_of("distances", given);
   asked.question.limits = limits_of(given);
+  if (is_given(given, "points"))
+    put_points("points", text_from("points", "None, 'a', 'b' or 'both'", given.at("points")),
+               asked.question);
   asked.ahead = count_of(given, "ahead");
   asked.devices = devices_of(given);
   if (is_given(given, "against"))
-    asked.against = kept(mesh_of("against", "B", given.at("against"), asked.question.limits));
+    asked.against =
+        kept(mesh_of("against", "B", given.at("against"), asked.question.limits_of(true)));
   return asked;
 }
 
@@ -87,14 +92,15 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 }  // namespace
 
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "distances",
-      {"against",   "tol",         "symmetric", "max",    "device",     "time",   "waves",
-       "memory",    "disable",     "enable",    "preset", "together",   "lanes",  "ahead",
-       "max_input", "polygons",    "bodies",    "field",  "statistics", "signed", "bands",
-       "effort",    "survey_time", "unit_a",    "unit_b", "transform",  "scale"},
-      0,
-      0};
+  static const auto* signature =
+      new Signature{"distances",
+                    {"against",    "tol",       "symmetric", "max",      "device",      "time",
+                     "waves",      "memory",    "disable",   "enable",   "preset",      "together",
+                     "lanes",      "ahead",     "max_input", "polygons", "bodies",      "field",
+                     "statistics", "signed",    "bands",     "effort",   "survey_time", "unit_a",
+                     "unit_b",     "transform", "scale",     "points",   "max_distance"},
+                    0,
+                    0};
   const Call call;
   const Arguments given(*signature, positional, named);
   mark_used();

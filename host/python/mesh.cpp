@@ -272,13 +272,15 @@ py::tuple state_of(const py::object& self) {
   return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
                         mesh.unit, notes_state(mesh), mesh.counts.unreferenced,
                         mesh.counts.polygons, runs_of(mesh.file_faces),
-                        polygons_state(mesh.polygons), mesh.has_all_bodies);
+                        polygons_state(mesh.polygons), mesh.has_all_bodies, mesh.are_points);
 }
 
 FileMesh mesh_from_state(const py::tuple& state) {
   const Call call;
-  if (state.size() != 11) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
-  Mesh mesh = mesh_from("a pickled Mesh", state[1], state[2]);
+  if (state.size() != 12) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
+  const bool are_points = py::cast<bool>(state[11]);
+  Mesh mesh = are_points ? make_points("a pickled Mesh", points_from(state[1]))
+                         : mesh_from("a pickled Mesh", state[1], state[2]);
   mesh.name = py::cast<std::string>(state[0]);
   mesh.delta = py::cast<double>(state[3]);
   mesh.unit = py::cast<std::string>(state[4]);
@@ -291,14 +293,24 @@ FileMesh mesh_from_state(const py::tuple& state) {
   return {std::make_shared<const Mesh>(std::move(mesh))};
 }
 
+MeshPointer points_of(const py::object& array) {
+  std::vector<DVec3> points = points_from(array);
+  const WithoutGil outside;
+  return std::make_shared<const Mesh>(make_points("points", std::move(points)));
+}
+
 FileMesh read(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
-      new Signature{"read", {"path", "max_input", "polygons", "bodies"}, 1, 1};
+      new Signature{"read", {"path", "max_input", "polygons", "bodies", "points"}, 1, 1};
   const Call call;
   const Arguments given(*signature, positional, named);
   const py::object& path = given.at("path");
-  if (!is_path(path)) refuse_type("path", "the path of a mesh file", path);
-  return {read_now(file_from("path", path), limits_of(given))};
+  ReadLimits limits = limits_of(given);
+  limits.points = given.flag("points");
+  if (is_path(path)) return {read_now(file_from("path", path), limits)};
+  if (!limits.points)
+    refuse_type("path", "the path of a mesh file; with points=True, or an array of points", path);
+  return {points_of(path)};
 }
 
 /// A mesh whose coordinates are each within `delta` of their exact place.
@@ -348,12 +360,15 @@ void define_mesh(py::module_& m) {
                              of_mesh([](const Mesh& mesh) { return file_counts_of(mesh.counts); }),
                              "what was counted: vertices, faces, unreferenced, degenerate, "
                              "duplicate, polygons")
+      .def_property_readonly("are_points",
+                             of_mesh([](const Mesh& mesh) { return mesh.are_points; }),
+                             "whether it is points alone: each is a face whose three corners it is")
       .def_property_readonly("notes",
                              of_mesh([](const Mesh& mesh) { return lines_of(mesh.notes); }),
                              "a line each, for people: what was left out, fanned or rounded")
       .def("__repr__", of_mesh([](const Mesh& mesh) {
              return "<vkhausdorff.Mesh " + py::cast<std::string>(py::repr(path_in(mesh))) + ", " +
-                    std::to_string(mesh.faces.size()) + " faces>";
+                    std::to_string(mesh.faces.size()) + (mesh.are_points ? " points>" : " faces>");
            }))
       .def(py::pickle([](const py::object& self) { return state_of(self); },
                       [](const py::tuple& state) { return mesh_from_state(state); }));
@@ -362,7 +377,7 @@ void define_mesh(py::module_& m) {
         "delta.");
   m.def(
       "read", read,
-      "read(path, *, max_input=None, polygons='refuse', bodies='solid')\n--\n\n"
+      "read(path, *, max_input=None, polygons='refuse', bodies='solid', points=False)\n--\n\n"
       "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
       "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
       "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
@@ -370,7 +385,10 @@ void define_mesh(py::module_& m) {
       "the fan of a polygon whose outline crosses itself or encloses no area; else it is refused.\n"
       "bodies: 'all' measures everything as it lies, also modifiers, negative volumes, what is "
       "not\n"
-      "printed, and hidden nodes; 'solid' what is printed as body, or shown.");
+      "printed, and hidden nodes; 'solid' what is printed as body, or shown. points: the file has\n"
+      "no faces and is points alone: PLY, OBJ, OFF, XYZ, PTS or LAS; or path is an array (n, 3) "
+      "of\n"
+      "them. A file with faces is refused then.");
 }
 
 void raise(const FileFault& fault) {

@@ -23,7 +23,7 @@ void define_distance(py::module_& m) {
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
       "         statistics=False, signed=False, bands=(), effort=None, survey_time=None,\n"
       "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
-      "         on_progress=None)\n--\n\n"
+      "         on_progress=None, max_distance=None)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
@@ -48,6 +48,8 @@ void define_distance(py::module_& m) {
       "of B are oriented against each other.\n"
       "effort: the cells of each mesh that these may bound, besides each face once; the same\n"
       "number gives the same bits on a device. None: 4000000 on a CPU, 10000000 on a GPU.\n"
+      "max_distance: leave out of the statistics what is farther from B, such as a scan's strays;\n"
+      "survey.kept is the share that they are of. The distance and verdicts are of all of A.\n"
       "survey_time: the seconds that they may take of each mesh, besides time; None for no "
       "limit.\n\n"
       "certificate: a path that ends in .vhc: also write a proof of the interval, which vkh_check\n"
@@ -93,7 +95,7 @@ void define_gate(py::module_& m) {
         "     field=False, statistics=False, signed=False, bands=(), area=None, effort=None,\n"
         "     survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, "
         "scale=False,\n"
-        "     worst=False, on_progress=None)\n--\n\n"
+        "     worst=False, on_progress=None, max_distance=None)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
@@ -169,7 +171,8 @@ void define_solver(py::module_& m) {
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
           "         signed=False, bands=(), effort=None, survey_time=None, certificate=None, "
           "unit_a=None,\n"
-          "         unit_b=None, transform=None, scale=False, on_progress=None)\n--\n\n"
+          "         unit_b=None, transform=None, scale=False, on_progress=None,\n"
+          "         max_distance=None)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "closest",

@@ -174,9 +174,13 @@ void read_bands(const Arguments& given, Question& question) {
 void read_survey(const Arguments& given, Question& question) {
   constexpr const char* kTime = "a number of seconds, 0 or more, or None";
   constexpr const char* kEffort = "a whole number of cells, 0 or more, or None";
+  constexpr const char* kDistance =
+      "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs', or None";
   read_field(given, question);
   read_bands(given, question);
   question.statistics = given.flag("statistics") || !question.bands.empty();
+  if (const py::object* most = given.find("max_distance"); most != nullptr && !most->is_none())
+    question.max_distance = length_from("max_distance", kDistance, *most, Length::Of::kFiles);
   question.is_signed = given.flag("signed");
   question.effort = given.whole("effort", kEffort);
   question.survey_time_s =

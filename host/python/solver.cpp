@@ -227,10 +227,10 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
 Result distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "distance",
-      {"va",     "fa",         "vb",        "fb",      "tol",        "symmetric",   "device",
-       "time",   "waves",      "memory",    "disable", "progress",   "enable",      "preset",
-       "field",  "statistics", "signed",    "bands",   "effort",     "survey_time", "certificate",
-       "unit_a", "unit_b",     "transform", "scale",   "on_progress"},
+      {"va",     "fa",         "vb",        "fb",      "tol",         "symmetric",   "device",
+       "time",   "waves",      "memory",    "disable", "progress",    "enable",      "preset",
+       "field",  "statistics", "signed",    "bands",   "effort",      "survey_time", "certificate",
+       "unit_a", "unit_b",     "transform", "scale",   "on_progress", "max_distance"},
       4,
       6};
   const Call call;
@@ -247,7 +247,7 @@ Result gate(const py::args& positional, const py::kwargs& named) {
       {"a",          "b",      "max",       "tol",      "symmetric", "device",      "time",
        "waves",      "memory", "disable",   "progress", "enable",    "preset",      "field",
        "statistics", "signed", "bands",     "area",     "effort",    "survey_time", "certificate",
-       "unit_a",     "unit_b", "transform", "scale",    "worst",     "on_progress"},
+       "unit_a",     "unit_b", "transform", "scale",    "worst",     "on_progress", "max_distance"},
       3,
       3};
   const Call call;
@@ -336,7 +336,7 @@ Result PythonSolver::distance(const py::args& positional, const py::kwargs& name
                     {"va",      "fa",        "tol",    "time",        "waves",       "memory",
                      "disable", "progress",  "enable", "preset",      "field",       "statistics",
                      "signed",  "bands",     "effort", "survey_time", "certificate", "unit_a",
-                     "unit_b",  "transform", "scale",  "on_progress"},
+                     "unit_b",  "transform", "scale",  "on_progress", "max_distance"},
                     2,
                     3};
   const Call call;

@@ -76,10 +76,9 @@ void add_placement(Bytes& out, const MeshTransform& placement) {
   }
 }
 
-// Writes how the file was read, and where it was put. Points are kept for later.
+// Writes how the file was read, and where it was put.
 void add_description(Bytes& out, const Mesh& mesh) {
-  constexpr uint64_t kSurface = 0;
-  out.unsigned_number(kSurface, 4);
+  out.unsigned_number(mesh.are_points ? 1 : 0, 4);
   out.unsigned_number(mesh.has_all_bodies ? 1 : 0, 4);
   out.number(mesh.polygons.ambiguity);
   out.unsigned_number(mesh.polygons.ambiguous_face, 8);

@@ -58,8 +58,13 @@ struct Percentile {
 
 /// Each is weighted by area, and certified. Lengths are in the files' units.
 struct Statistics {
-  double area = 0;      ///< A's area, rounded to nearest
-  Enclosure mean, rms;  ///< moments of d(x, B) over A
+  double area = 0;      ///< A's area, rounded to nearest; 0 for points
+  uint64_t points = 0;  ///< if A is points, how many: all figures weigh them alike, not an area
+  /// The share of A, or of its points, that is within SurveyOptions::max_distance: all figures are
+  /// of this part. Unset: they are of all of A.
+  std::optional<Enclosure> kept = {};
+  double max_distance = 0;  ///< what `kept` is within
+  Enclosure mean, rms;      ///< moments of d(x, B) over A
   std::vector<AreaWithin> bands;
   std::vector<Percentile> percentiles;
   /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.

@@ -215,7 +215,9 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas, std::vector<Enclosure>& known) {
   std::vector<Goal> goals;
-  const Asked asked{options, pair.displacement, pair.frame, least_width(pair)};
+  Asked asked{options, pair.displacement, pair.frame, least_width(pair)};
+  // What is kept is to be known as well as any share.
+  if (options.max_distance) asked.options.bands.push_back(options.max_distance->within);
   if (options.faces && options.limit.within > 0)
     goals.emplace_back([asked](const CellStore& store) { return score_verdicts(store, asked); });
   if (options.faces)
@@ -272,7 +274,11 @@ std::optional<Statistics> statistics_of(const SurveyedArea& surface, const Surve
   const Asked asked{options, pair.displacement, pair.frame, least_width(pair), last};
   const Moments moments = moments_of(store, areas);
   Statistics s;
-  s.area = area;
+  if (pair.a.are_points) {
+    s.points = pair.a.faces.size();
+  } else {
+    s.area = area;
+  }
   s.mean = in_files(pair, moments.mean);
   s.rms = in_files(pair, moments.rms);
   s.bands = within(store, areas, asked, options.bands);
@@ -286,6 +292,7 @@ std::optional<Statistics> statistics_of(const SurveyedArea& surface, const Surve
   for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(last * k / kCurveSteps);
   s.curve = within(store, areas, asked, steps);
   add_estimates(estimates, pair, at, s);
+  if (options.max_distance) keep_within({store, areas, known}, pair, options, s);
   return s;
 }
 

@@ -81,6 +81,9 @@ struct SurveyedArea {
   const Areas& areas;
   const std::vector<Enclosure>& known;  ///< what goals_of() kept
 };
+/// Makes figures those of the part of A that is within options.max_distance.
+void keep_within(const SurveyedArea& surface, const SurveyedPair& pair,
+                 const SurveyOptions& options, Statistics& s);
 /// Returns nothing if A has no area.
 std::optional<Statistics> statistics_of(const SurveyedArea& surface, const SurveyedPair& pair,
                                         const SurveyOptions& options, const Estimates& estimates);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 #include "host/base/parallel.h"
@@ -64,9 +65,20 @@ Frame unit_of(const Mesh& a) {
   return unit;
 }
 
+// Every point counts alike, as one. Sums of ones are exact: the error is of quotients and products
+// with them.
+Areas counts_of(size_t points) {
+  Areas areas;
+  areas.of_face.assign(points, 1.0);
+  areas.whole = static_cast<double>(points);
+  areas.error = 2 * kSumError * areas.whole;
+  return areas;
+}
+
 }  // namespace
 
 Areas areas_of(const Mesh& a) {
+  if (a.are_points) return counts_of(a.faces.size());
   Areas areas;
   areas.unit = unit_of(a);
   areas.of_face.reserve(a.faces.size());
@@ -545,11 +557,33 @@ struct Sums {
   }
 };
 
-Sums sums_of(const CellStore& cells, const Areas& areas) {
+float least_float_above(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) < x
+             ? std::nextafter(near, std::numeric_limits<float>::infinity())
+             : near;
+}
+
+// Bounds the integrals over the part of a cell that is within `most`: all of a cell that surely is,
+// nothing of one that surely is not. Of one that may be, nothing is known from below, and from
+// above no distance that counts exceeds `most`.
+gpu::CellBounds within_most(const Threshold& most, gpu::CellBounds b) {
+  if (static_cast<double>(b.highest) <= most.down) return b;
+  const double cap = static_cast<double>(lowest(b)) > most.up ? 0 : most.up;
+  const float up = least_float_above(std::max(cap, 0.0));
+  b.lower_a = b.lower_b = b.lower_c = 0;
+  b.mean_upper = std::min(b.mean_upper, up);
+  b.highest = std::min(b.highest, up);
+  b.square_upper =
+      std::min(b.square_upper, least_float_above(std::max(cap, 0.0) * cap * (1 + 4 * kUnit)));
+  return b;
+}
+
+Sums sums_of(const CellStore& cells, const Areas& areas, const Threshold& most) {
   std::vector<Sums> blocks(block_count(cells.count()));
   for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      blocks[block].add(cells.bounds(i), part_of(cells, areas, i));
+      blocks[block].add(within_most(most, cells.bounds(i)), part_of(cells, areas, i));
   });
   Sums all;
   for (const Sums& block : blocks) all.add(block);
@@ -558,8 +592,8 @@ Sums sums_of(const CellStore& cells, const Areas& areas) {
 
 }  // namespace
 
-Moments moments_of(const CellStore& cells, const Areas& areas) {
-  const Sums sums = sums_of(cells, areas);
+Moments moments_of(const CellStore& cells, const Areas& areas, const Threshold& most) {
+  const Sums sums = sums_of(cells, areas, most);
   const double square = sums.largest * sums.largest;
   const double rms_down = std::sqrt(mean_down(sums.square_lower, square, areas)) * (1 - 2 * kUnit);
   const double rms_up = std::sqrt(mean_up(sums.square_upper, square, areas)) * (1 + 2 * kUnit);

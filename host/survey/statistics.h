@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,7 +13,7 @@
 namespace vkh {
 
 /// The areas of A's faces, in a unit that A's own size decides, so that none is lost beside a large
-/// B.
+/// B. Points have no area: each weighs 1.
 struct Areas {
   std::vector<double> of_face;
   double whole = 0;
@@ -77,6 +78,9 @@ double mean_lower(const gpu::CellBounds& bounds);
 struct Moments {
   Enclosure mean, rms;  ///< in the frame
 };
-Moments moments_of(const CellStore& cells, const Areas& areas);
+/// Those of all of A, where a distance beyond `most` counts as 0.
+Moments moments_of(const CellStore& cells, const Areas& areas,
+                   const Threshold& most = {std::numeric_limits<double>::infinity(),
+                                            std::numeric_limits<double>::infinity()});
 
 }  // namespace vkh

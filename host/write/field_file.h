@@ -31,7 +31,8 @@ SidedFace sided_face(const SignedFigures& sides, size_t face);
 /// largest upper of its faces as quality for each vertex; colours by quality, from 0 to the
 /// largest. With sides, each face has signed_lower, signed_upper and side (sided_face()), and each
 /// vertex `signed`: the end of these of its faces that is farthest from 0. If the mesh's file has
-/// faces other than triangles, each face has its number there too.
+/// faces other than triangles, each face has its number there too. Points have no faces: each has
+/// lower, upper, distance, which is the middle of both, and with sides what a face has.
 std::string to_ply(const FieldFile& file);
 
 /// A binary glTF 2.0: positions as floats about a node's translation, each corner of each face a

@@ -96,6 +96,43 @@ void add_sides(const FieldFile& file, size_t f, Bytes& out) {
   out.add(static_cast<int8_t>(face.side));
 }
 
+std::string header_of_points(const FieldFile& file) {
+  const std::string unit = file.unit.empty() ? "the file's own unit" : file.unit;
+  return "ply\nformat binary_little_endian 1.0\n"
+         "comment VkHausdorff: the distance of each point from " +
+         one_line(file.against) +
+         "\ncomment lower <= it <= upper, certified; distance is the middle of both; in " + unit +
+         "\ncomment the largest is in [" +
+         decimal(file.interval.lower, kJsonDigits, Rounding::kDown) + ", " +
+         decimal(file.interval.upper, kJsonDigits, Rounding::kUp) + "]\nelement vertex " +
+         std::to_string(file.mesh.vertices.size()) +
+         "\nproperty double x\nproperty double y\nproperty double z\nproperty float distance\n"
+         "property float lower\nproperty float upper\n" +
+         signed_header(file) + "property uchar red\nproperty uchar green\nproperty uchar blue\n" +
+         (file.mesh.file_faces.are_triangles() ? "" : "property uint file_point\n") +
+         "end_header\n";
+}
+
+// Writes points: face i of the mesh is point i.
+std::string to_points_ply(const FieldFile& file) {
+  const double largest = largest_upper(file.field);
+  const FileFaces& file_points = file.mesh.file_faces;
+  Bytes out;
+  out.text = header_of_points(file);
+  for (size_t i = 0; i < file.mesh.vertices.size(); ++i) {
+    const glm::dvec3& p = file.mesh.vertices[i];
+    const double lower = file.field.lower[i], upper = file.field.upper[i];
+    for (const double x : {p.x, p.y, p.z}) out.add(x);
+    out.add(static_cast<float>(lower + (upper - lower) / 2));
+    out.add(float_down(lower));
+    out.add(float_up(upper));
+    add_sides(file, i, out);
+    out.add(colour_of(file, upper, largest));
+    if (!file_points.are_triangles()) out.add(static_cast<uint32_t>(file_points.of(i)));
+  }
+  return std::move(out.text);
+}
+
 }  // namespace
 
 SidedFace sided_face(const SignedFigures& sides, size_t face) {
@@ -105,6 +142,7 @@ SidedFace sided_face(const SignedFigures& sides, size_t face) {
 }
 
 std::string to_ply(const FieldFile& file) {
+  if (file.mesh.are_points) return to_points_ply(file);
   const double largest = largest_upper(file.field);
   const std::vector<double> quality = quality_of_vertices(file);
   const std::vector<double> signs = signed_of_vertices(file);

@@ -95,6 +95,44 @@ class Meshes(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "^bodies.*expected "):
                 vkh.read(file, bodies="none")
 
+    def test_points(self):
+        random = np.random.default_rng(40)
+        points = random.uniform(-1, 1, (50, 3))
+        b = np.float64([[-9, -9, 0], [9, -9, 0], [0, 9, 0]]), np.uint32([[0, 1, 2]])
+        heights = np.abs(points[:, 2])
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "scan.xyz"
+            file.write_text("".join("{!r} {!r} {!r}\n".format(*p) for p in points.tolist()))
+            with self.assertRaisesRegex(ValueError, "points, no faces"):
+                vkh.read(file)
+            clouds = vkh.read(file, points=True), vkh.read(points, points=True)
+            by_name = next(vkh.distances([(file, b)], points="a", tol=1e-6))
+            self.assertIsInstance(next(vkh.distances([(file, b)])).error, ValueError)
+            with self.assertRaisesRegex(ValueError, "points.*expected a, b or both"):
+                vkh.distances([(file, b)], points="c")
+            with self.assertRaisesRegex(ValueError, "faces in a file of points"):
+                vkh.read(obj(folder, "mesh.obj", PAIRS[0][0]), points=True)
+        again = pickle.loads(pickle.dumps(clouds[0]))
+        for cloud in (*clouds, again):
+            self.assertTrue(cloud.are_points)
+            self.assertTrue((cloud.vertices == points).all())
+            self.assertTrue((cloud.faces == np.arange(50)[:, None]).all())
+            r = vkh.distance(cloud, b, statistics=True, max_distance=0.5)
+            self.assertEqual((r.lower, r.upper), (by_name.lower, by_name.upper))
+            self.assertTrue(r.lower <= heights.max() <= r.upper)
+            self.assertEqual((r.survey.points, r.survey.area), (50, 0))
+            kept = heights[heights <= 0.5]
+            self.assertTrue(r.survey.kept.lower <= len(kept) / 50 <= r.survey.kept.upper)
+            self.assertTrue(r.survey.mean.lower <= kept.mean() <= r.survey.mean.upper)
+        self.assertIn("50 points", repr(clouds[1]))
+        for wrong, kind in ((np.zeros((3, 2)), ValueError), (np.zeros((0, 3)), ValueError), (np.full((1, 3), np.nan), ValueError), ("no file", OSError)):
+            with self.assertRaises(kind):
+                vkh.read(wrong, points=True)
+        with self.assertRaises(TypeError):
+            vkh.read(points)
+        with self.assertRaisesRegex(ValueError, "no sides"):
+            vkh.distance(b, clouds[0], signed=True)
+
     def test_faces_of_the_file(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "mixed.obj"

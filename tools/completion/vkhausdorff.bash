@@ -5,8 +5,8 @@ _vkhausdorff() {
   local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
   search="--device --time $engine"
   local look="--view --field-by --up --size --map --range --steps"
-  local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --field-tol --effort --field --image --report --title --figures-csv --points-out $look"
-  local files="--unit --unit-a --unit-b --transform --scale --max-input --polygons --bodies"
+  local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out $look"
+  local files="--unit --unit-a --unit-b --transform --scale --max-input --polygons --bodies --points"
   local options="--help --help-all --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
@@ -22,9 +22,10 @@ _vkhausdorff() {
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --polygons) mapfile -t COMPREPLY < <(compgen -W "fan any" -- "$current"); return ;;
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
+    --points) mapfile -t COMPREPLY < <(compgen -W "a b both" -- "$current"); return ;;
     --unit | --unit-a | --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-      --area | --percentile | --bands | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
+      --area | --percentile | --bands | --max-distance | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
       --part | --known-lower) return ;;
   esac
   case $command in

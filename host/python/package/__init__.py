@@ -16,7 +16,7 @@ __all__ = ["Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Met
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
          progress=None, enable=(), preset="", field=False, statistics=False, signed=False, bands=(), area=None,
          effort=None, survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,
-         worst=False, on_progress=None):
+         worst=False, on_progress=None, max_distance=None):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
@@ -33,7 +33,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
                       disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
                       signed=signed, bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
                       unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale, worst=worst,
-                      on_progress=on_progress)
+                      on_progress=on_progress, max_distance=max_distance)
 
 
 def _say_area(r, max):

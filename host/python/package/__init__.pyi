@@ -146,6 +146,8 @@ class Survey:
     ended: Literal["met", "effort", "bits", "time", "cancelled", "memory"]
     stats: dict[str, Any]
     signed: Signed | Any
+    points: int | Any
+    kept: Interval | Any
     def area_within(self, distance: _Number | str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
 
@@ -166,6 +168,8 @@ class Mesh:
     def delta(self) -> float: ...
     @property
     def counts(self) -> dict[str, int]: ...
+    @property
+    def are_points(self) -> bool: ...
     @property
     def notes(self) -> list[str]: ...
 
@@ -287,6 +291,7 @@ class Solver:
         transform: npt.ArrayLike | _Path | None = None,
         scale: bool = False,
         on_progress: _OnProgress | None = None,
+        max_distance: _Number | str | None = None,
     ) -> Result: ...
     @overload
     def distance(
@@ -314,6 +319,7 @@ class Solver:
         transform: npt.ArrayLike | _Path | None = None,
         scale: bool = False,
         on_progress: _OnProgress | None = None,
+        max_distance: _Number | str | None = None,
     ) -> Result: ...
     def closest(self, points: npt.ArrayLike) -> Closest: ...
     def close(self) -> None: ...
@@ -351,6 +357,7 @@ def distance(
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
     on_progress: _OnProgress | None = None,
+    max_distance: _Number | str | None = None,
 ) -> Result: ...
 @overload
 def distance(
@@ -381,6 +388,7 @@ def distance(
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
     on_progress: _OnProgress | None = None,
+    max_distance: _Number | str | None = None,
 ) -> Result: ...
 def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex | Device = "") -> Closest: ...
 class _Results(Iterator[Result]):
@@ -423,7 +431,9 @@ def distances(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    points: Literal["a", "b", "both"] | None = None,
     on_progress: _OnProgress | None = None,
+    max_distance: _Number | str | None = None,
 ) -> _Results: ...
 def gate(
     a: _Mesh,
@@ -454,6 +464,7 @@ def gate(
     scale: bool = False,
     worst: bool = False,
     on_progress: _OnProgress | None = None,
+    max_distance: _Number | str | None = None,
 ) -> Result: ...
 class Metrics:
     """Figures of two surfaces, each an Interval with an estimate."""
@@ -505,5 +516,9 @@ def metrics(
     on_progress: _OnProgress | None = None,
 ) -> Metrics: ...
 def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
+@overload
 def read(path: str | PathLike[str], *, max_input: SupportsIndex | str | None = None,
-         polygons: Literal["refuse", "fan", "any"] = "refuse", bodies: Literal["solid", "all"] = "solid") -> Mesh: ...
+         polygons: Literal["refuse", "fan", "any"] = "refuse", bodies: Literal["solid", "all"] = "solid",
+         points: bool = False) -> Mesh: ...
+@overload
+def read(path: npt.ArrayLike, *, points: Literal[True]) -> Mesh: ...

@@ -175,6 +175,8 @@ class Survey:
     the same for distances that ascend from 0 to the largest. met: whether all is as narrow as was asked. ended: why the
     survey ended, 'met', 'effort' (that many cells were bounded), 'bits' (no split would narrow more), 'time' (survey_time
     ended it early: the next run may differ), 'cancelled' or 'memory'. stats: its effort and cost. signed: a Signed, or None.
+    points: of a mesh of points, how many: area is 0, and all figures and shares weigh points alike; otherwise None.
+    kept: with max_distance, the Interval of the share of the mesh that is within it, of which figures are; otherwise None.
     """
 
     upper: float
@@ -189,6 +191,8 @@ class Survey:
     ended: str
     stats: Any = _member(compare=False)
     signed: Any = None
+    points: Any = None
+    kept: Any = None
 
     __hash__ = None
 
@@ -234,7 +238,7 @@ class Survey:
                 plain["field"]["signed"] = {"lower": signed.lower.tolist(), "upper": signed.upper.tolist()}
         if self.bands is not None:
             plain["statistics"] = {
-                "area": self.area, "mean": list(self.mean), "rms": list(self.rms),
+                "area": self.area, "points": self.points, "kept": self.kept and list(self.kept), "mean": list(self.mean), "rms": list(self.rms),
                 "mean_estimate": self.mean.estimate, "rms_estimate": self.rms.estimate,
                 "bands": [{"distance": d, "share": list(share), "estimate": share.estimate, "jump": share.jump}
                           for d, share in self.bands.items()],
@@ -292,5 +296,7 @@ def made(field, statistics, upper, ended, stats, signed=None, source=None):
     def pairs(name):
         return [(key, Interval(*bounds)) for key, bounds in statistics[name]]
 
+    kept = statistics["kept"]
     return Survey(upper, field, statistics["area"], Interval(*statistics["mean"]), Interval(*statistics["rms"]),
-                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, ended, stats, signed)
+                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, ended, stats, signed,
+                  statistics["points"] or None, kept and Interval(*kept))

@@ -292,6 +292,9 @@ def description(rng, model):
     if how == "bodies" and rng.random() < 0.5:
         one.bodies = 1  # which these files do not have
         return PROVEN
+    if how == "points" and rng.random() < 0.5:
+        one.points = 1  # which files of faces are not
+        return BROKEN
     setattr(one, how, rng.choice([2, 3, 2 ** 31]) if how in ("points", "bodies", "matrix", "face") else
             rng.choice([0.0, -1.0, 25.4, math.nan, math.inf]) if how != "count" else rng.choice([1, 2 ** 40, 2 ** 64 - 1]))
     return BROKEN

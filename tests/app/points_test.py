@@ -1,0 +1,332 @@
+#!/usr/bin/env python3
+"""--points: clouds against brute force in double, their certificates, figures that weigh points alike, and what is refused.
+
+usage: points_test.py PROGRAM VKH_CHECK
+
+VKH_POINTS_COUNT has how many random clouds there are, 100 by default, and VKH_POINTS_RUNS how often one question is asked
+for the same bits, 10 by default.
+"""
+
+import json
+import math
+import os
+import pathlib
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CHECK = os.path.abspath(sys.argv.pop(2))
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+COUNT = int(os.environ.get("VKH_POINTS_COUNT", "100"))
+RUNS = int(os.environ.get("VKH_POINTS_RUNS", "10"))
+
+
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def dot(a, b):
+    return math.fsum(x * y for x, y in zip(a, b))
+
+
+def from_segment(p, a, b):
+    edge, to = minus(b, a), minus(p, a)
+    size = dot(edge, edge)
+    t = min(max(dot(to, edge) / size, 0.0), 1.0) if size > 0 else 0.0
+    return math.dist(p, tuple(x + t * y for x, y in zip(a, edge)))
+
+
+def from_triangle(p, a, b, c):
+    """The distance of p from a triangle in double: the least of its edges', or its plane's where p is over it."""
+    e, f, to = minus(b, a), minus(c, a), minus(p, a)
+    ee, ef, ff, pe, pf = dot(e, e), dot(e, f), dot(f, f), dot(to, e), dot(to, f)
+    least = min(from_segment(p, a, b), from_segment(p, b, c), from_segment(p, c, a))
+    size = ee * ff - ef * ef
+    if size <= 1e-12 * ee * ff:
+        return least
+    u, v = (pe * ff - pf * ef) / size, (pf * ee - pe * ef) / size
+    if u < 0 or v < 0 or u + v > 1:
+        return least
+    return min(least, math.dist(p, tuple(x + u * y + v * z for x, y, z in zip(a, e, f))))
+
+
+def ply(points, faces=None):
+    """Binary, in doubles."""
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+    head += "property double x\nproperty double y\nproperty double z\n"
+    if faces is not None:
+        head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\n"
+    body = b"".join(struct.pack("<3d", *p) for p in points)
+    return (head + "end_header\n").encode() + body + b"".join(struct.pack("<B3i", 3, *f) for f in faces or [])
+
+
+def las(numbers, scale, offset):
+    """LAS 1.2, point format 0."""
+    head = bytearray(227)
+    head[0:4], head[24], head[25] = b"LASF", 1, 2
+    struct.pack_into("<HII", head, 94, 227, 227, 0)
+    struct.pack_into("<HI", head, 105, 20, len(numbers))
+    struct.pack_into("<6d", head, 131, *scale, *offset)
+    return bytes(head) + b"".join(struct.pack("<3i", *n) + bytes(8) for n in numbers)
+
+
+def surface(rng):
+    """Vertices and faces: random triangles, some without area, or a bumpy sheet."""
+    if rng.random() < 0.5:
+        vertices = [tuple(rng.uniform(-1, 1) for _ in range(3)) for _ in range(rng.randrange(1, 30))]
+        return vertices, [tuple(rng.randrange(len(vertices)) for _ in range(3)) for _ in range(rng.randrange(1, 40))]
+    n = rng.randrange(1, 7)
+    vertices = [(x / n, y / n, rng.uniform(0, 0.2)) for y in range(n + 1) for x in range(n + 1)]
+    corners = [(y * (n + 1) + x, n + 1) for y in range(n) for x in range(n)]
+    return vertices, [f for a, row in corners for f in ((a, a + 1, a + row), (a + 1, a + row + 1, a + row))]
+
+
+def cloud(rng, vertices, faces):
+    """Points anywhere, near faces, on vertices, some of them twice."""
+    points = []
+    for _ in range(rng.randrange(1, 120)):
+        kind = rng.randrange(4)
+        if kind == 0:
+            points.append(tuple(rng.uniform(-2, 2) for _ in range(3)))
+        elif kind == 1:
+            points.append(rng.choice(vertices))
+        elif kind == 2 and points:
+            points.append(rng.choice(points))
+        else:
+            corners = [vertices[v] for v in rng.choice(faces)]
+            u, v = sorted((rng.random(), rng.random()))
+            weights, size = (u, v - u, 1 - v), 10 ** rng.uniform(-9, 0)
+            points.append(tuple(math.fsum(w * p[i] for w, p in zip(weights, corners)) + rng.uniform(-size, size) for i in range(3)))
+    return points
+
+
+class Points(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = pathlib.Path(scratch.name)
+
+    def run_here(self, *words):
+        return subprocess.run([str(word) for word in words], cwd=self.folder, capture_output=True, text=True, timeout=600)
+
+    def ask(self, *words, codes=(0,)):
+        done = self.run_here(PROGRAM, *words, "--json")
+        self.assertIn(done.returncode, codes, done.stdout + done.stderr)
+        return json.loads(done.stdout)
+
+    def proven(self, a, b):
+        done = self.run_here(CHECK, "out.vhc", a, b)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("points alone, no surface", done.stdout)
+
+    def write(self, name, data):
+        (self.folder / name).write_bytes(data)
+        return name
+
+    def test_clouds_against_brute_force(self):
+        """Every interval holds the distance in double, but for the rounding of that: 1e-12 of the size, and of the coordinates."""
+        rng, rows, truth = random.Random(40), [], []
+        for i in range(COUNT):
+            vertices, faces = surface(rng)
+            points = cloud(rng, vertices, faces)
+            self.write(f"a{i}.ply", ply(points))
+            self.write(f"b{i}.ply", ply(vertices, faces))
+            distances = [min(from_triangle(p, *(vertices[v] for v in f)) for f in faces) for p in points]
+            back = max(min(math.dist(p, q) for q in points) for p in {vertices[v] for f in faces for v in f})
+            truth.append((max(distances), back))
+            rows.append({"id": str(i), "a": f"a{i}.ply", "b": f"b{i}.ply", "points": "a", "tol": "1e-6abs"})
+            rows.append({"id": f"{i} back", "a": f"b{i}.ply", "b": f"a{i}.ply", "points": "b", "tol": "1e-4abs"})
+        self.write("list.jsonl", "".join(json.dumps(row) + "\n" for row in rows).encode())
+        done = self.run_here(PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl", "--time", "20s")
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        found = {line["id"]: line for line in map(json.loads, (self.folder / "out.jsonl").read_text().splitlines())}
+        self.assertEqual(len(found), 2 * COUNT)
+        for i, (there, back) in enumerate(truth):
+            interval, of_b = (found[name]["interval"] for name in (str(i), f"{i} back"))
+            self.assertLessEqual(interval["lower"], there + 1e-12, i)
+            self.assertGreaterEqual(interval["upper"], there - 1e-12, i)
+            self.assertLess(interval["upper"] - interval["lower"], 2e-6, i)
+            self.assertEqual(found[str(i)]["status"], "closed", i)
+            self.assertGreaterEqual(of_b["upper"], back - 1e-12, i)  # vertices are points of the surface
+            self.assertTrue(found[str(i)]["inputs"][0]["points"])
+            self.assertNotIn("points", found[str(i)]["inputs"][1])
+
+    def test_certificates(self):
+        rng = random.Random(41)
+        for i in range(max(3, COUNT // 20)):
+            vertices, faces = surface(rng)
+            self.write("a.ply", ply(cloud(rng, vertices, faces)))
+            self.write("b.ply", ply(vertices, faces))
+            for words in (["a.ply", "b.ply", "--points", "a"], ["b.ply", "a.ply", "--points", "b", "--tol", "1e-3abs"],
+                          ["a.ply", "a.ply", "--points", "both", "--symmetric"]):
+                self.ask("distance", *words, "--certificate", "out.vhc", codes=(0, 3))
+                self.proven(*words[:2])
+        for how in ("a", "b", "both"):  # another reading is none of this certificate's
+            done = self.run_here(CHECK, "out.vhc", "b.ply", "a.ply")
+            self.assertNotEqual(done.returncode, 0, how)
+
+    def test_las_is_measured_with_its_rounding(self):
+        rng = random.Random(42)
+        vertices, faces = surface(rng)
+        numbers = [tuple(rng.randrange(-2000, 2000) for _ in range(3)) for _ in range(200)]
+        scale, offset = (1e-3, 3e-4, 0.7), (0.1, -4e5, 1e-9)
+        self.write("a.las", las(numbers, scale, offset))
+        self.write("b.ply", ply([tuple(x + o for x, o in zip(p, offset)) for p in vertices], faces))
+        answer = self.ask("distance", "a.las", "b.ply", "--points", "a", "--certificate", "out.vhc")
+        delta = answer["inputs"][0]["delta"]
+        self.assertGreater(delta, 0)
+        self.assertLess(delta, 1e-9)
+        self.proven("a.las", "b.ply")
+
+    def test_a_vertex_that_is_hardly_over_a_triangle(self):
+        """CloudCompare's issue 2247 and its like: the same bits in every run."""
+        height = 8e-6
+        triangle = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.3, 0.9, 0.0)]
+        self.write("over.ply", ply([(0.4, 0.3, height)]))
+        self.write("plane.ply", ply(triangle, [(0, 1, 2)]))
+        turned = [(x * 0.6 - z * 0.8, y, x * 0.8 + z * 0.6) for x, y, z in [*triangle, (0.4, 0.3, height)]]
+        self.write("over_turned.ply", ply([tuple(1000 + x for x in turned[3])]))
+        self.write("plane_turned.ply", ply([tuple(1000 + x for x in p) for p in turned[:3]], [(0, 1, 2)]))
+        rows = [{"id": f"{name} {i}", "a": f"over{name}.ply", "b": f"plane{name}.ply", "points": "a", "tol": "1e-9abs"}
+                for name in ("", "_turned") for i in range(RUNS)]
+        self.write("list.jsonl", "".join(json.dumps(row) + "\n" for row in rows).encode())
+        self.run_here(PROGRAM, "batch", "list.jsonl", "--out", "over.jsonl")
+        found = {}
+        for line in map(json.loads, (self.folder / "over.jsonl").read_text().splitlines()):
+            found.setdefault(line["id"].split(" ")[0], []).append((line["interval"]["lower"], line["interval"]["upper"]))
+        for name, off in (("", 0), ("_turned", 4e-13)):  # the coordinates' own rounding
+            self.assertEqual(len(found[name]), RUNS)
+            self.assertEqual(len(set(found[name])), 1, name)
+            lower, upper = found[name][0]
+            self.assertLessEqual(lower, height + off)
+            self.assertGreaterEqual(upper, height - off)
+            self.assertLess(upper - lower, 1e-8)
+        # An answer of its own has the same bits, too.
+        for name in ("", "_turned"):
+            for _ in range(2):
+                answer = self.ask("distance", f"over{name}.ply", f"plane{name}.ply", "--points", "a", "--tol", "1e-9abs")
+                self.assertEqual((answer["interval"]["lower"], answer["interval"]["upper"]), found[name][0])
+
+    def test_figures_weigh_points_alike(self):
+        heights = [0.0, 0.0, 0.25, 0.5, 1.0, 4.0]
+        self.write("a.ply", ply([(0.5, 0.25, h) for h in heights]))
+        self.write("b.ply", ply([(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(0, 1, 2)]))
+        answer = self.ask("distance", "a.ply", "b.ply", "--points", "a", "--stats", "--bands", "0.3abs", "--field", "f.ply")
+        figures = answer["directions"][0]["statistics"]
+        self.assertEqual((figures["points"], figures["area"]), (6, 0))
+        for name, value in (("mean", sum(heights) / 6), ("rms", math.sqrt(sum(h * h for h in heights) / 6))):
+            self.assertLessEqual(figures[name]["lower"], value)
+            self.assertGreaterEqual(figures[name]["upper"], value)
+            self.assertLess(figures[name]["upper"] - figures[name]["lower"], 1e-4)
+        share = figures["bands"][0]["share"]
+        self.assertLessEqual(share["lower"], 0.5)
+        self.assertGreaterEqual(share["upper"], 0.5)
+        self.assertLess(share["upper"] - share["lower"], 1e-12)
+        for percentile, value in zip(figures["percentiles"], (0.25, 4.0, 4.0, 4.0)):
+            self.assertLessEqual(percentile["distance"]["lower"], value + 1e-12)
+            self.assertGreaterEqual(percentile["distance"]["upper"], value - 1e-12)
+        self.check_field(heights)
+
+    def test_strays_are_left_out_of_figures(self):
+        rng = random.Random(43)
+        self.write("b.ply", ply([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], [(0, 1, 2)]))
+        for case in range(6):
+            heights = [rng.choice((0.0, 0.125, rng.uniform(0, 1), rng.uniform(5, 50))) for _ in range(rng.randrange(1, 60))]
+            self.write("a.ply", ply([(0.1, 0.2, h) for h in heights]))
+            most = rng.choice((0.2, 1.5, 20, 0.003, 100))
+            kept = sorted(h for h in heights if h <= most)
+            answer = self.ask("distance", "a.ply", "b.ply", "--points", "a", "--bands", "0.1abs", "--max-distance", f"{most}abs")
+            self.assertGreaterEqual(answer["interval"]["upper"], max(heights) - 1e-12)
+            figures = answer["directions"][0]["statistics"]
+            self.assertEqual(figures["max_distance"], most)
+            self.assert_in(len(kept) / len(heights), figures["kept"], 1e-12)
+            if not kept:
+                self.assertEqual(figures["kept"]["upper"], 0)
+                continue
+            self.assert_in(math.fsum(kept) / len(kept), figures["mean"], 2e-4)
+            self.assert_in(math.sqrt(math.fsum(h * h for h in kept) / len(kept)), figures["rms"], 2e-4)
+            self.assert_in(sum(h <= 0.1 for h in kept) / len(kept), figures["bands"][0]["share"], 1e-9)
+            for one in figures["percentiles"]:
+                true = kept[min(math.ceil(one["share"] * len(kept) - 1e-9), len(kept)) - 1]
+                self.assertLessEqual(one["distance"]["lower"], true + 1e-12)
+                self.assertGreaterEqual(one["distance"]["upper"], true - 1e-12)
+        for words, what in ((["--stats", "--signed"], "no --area"), ([], "ask for --stats or --bands"), (["--stats", "--image", "x.png"], "no --area")):
+            done = self.run_here(PROGRAM, "distance", "a.ply", "b.ply", "--points", "a", "--max-distance", "1abs", *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(what, done.stderr)
+
+    def assert_in(self, value, enclosure, width):
+        self.assertLessEqual(enclosure["lower"], value + 1e-12)
+        self.assertGreaterEqual(enclosure["upper"], value - 1e-12)
+        self.assertLessEqual(enclosure["upper"] - enclosure["lower"], width)
+
+    def check_field(self, heights):
+        data = (self.folder / "f.ply").read_bytes()
+        head, body = data.split(b"end_header\n", 1)
+        self.assertIn(b"property float distance\nproperty float lower\nproperty float upper\n", head)
+        self.assertNotIn(b"element face", head)
+        rows = list(struct.iter_unpack("<3d3f3B", body))
+        self.assertEqual(len(rows), len(heights))
+        for row, height in zip(rows, heights):
+            self.assertEqual(row[:3], (0.5, 0.25, height))
+            self.assertLessEqual(row[4], height)
+            self.assertGreaterEqual(row[5], height)
+            self.assertLess(abs(row[3] - height), 0.05)
+
+    def test_verdicts_name_points(self):
+        self.write("a.xyz", b"0 0 0\n1 0 0.5\n0 1 0\n0.2 0.2 0.1\n")
+        self.write("b.ply", ply([(-4, -4, 0), (8, -4, 0), (-4, 8, 0)], [(0, 1, 2)]))
+        fail = self.run_here(PROGRAM, "gate", "a.xyz", "b.ply", "--points", "a", "--max", "0.2abs")
+        self.assertEqual(fail.returncode, 1)
+        self.assertIn("point 1 of A, limit 0.2", fail.stdout.splitlines()[0])
+        self.assertIn("a.xyz: 4 points\n", fail.stdout)
+        share = self.run_here(PROGRAM, "gate", "a.xyz", "b.ply", "--points", "a", "--max", "0.2abs", "--area", "70%")
+        self.assertEqual(share.returncode, 0, share.stdout)
+        self.assertRegex(share.stdout, r"^PASS .*at least 7[45][.0-9]* % of A's points are within 0.2 of B")
+        signed = self.ask("gate", "a.xyz", "b.ply", "--points", "a", "--max=+0.6abs,-0.01abs")
+        self.assertEqual(signed["verdict"], "pass")
+
+    def test_what_is_no_question_is_refused(self):
+        self.write("a.ply", ply([(0, 0, 0), (1, 0, 1)]))
+        self.write("b.ply", ply([(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(0, 1, 2)]))
+        for words, code, what in (
+                (["distance", "a.ply", "b.ply"], 4, "2 points and no element 'face'"),
+                (["distance", "b.ply", "a.ply", "--points", "a"], 4, "1 face in a file of points"),
+                (["distance", "b.ply", "b.ply", "--points", "both"], 4, "1 face in a file of points"),
+                (["distance", "a.ply", "b.ply", "--points", "c"], 2, "expected a, b or both"),
+                (["distance", "b.ply", "a.ply", "--points", "b", "--signed"], 2, "--signed: a.ply is points, which have no sides"),
+                (["distance", "a.ply", "b.ply", "--points", "a", "--symmetric", "--signed"], 2, "which have no sides"),
+                (["distance", "a.ply", "b.ply", "--points", "a", "--image", "x.png"], 2, "--points: pictures and pages draw surfaces"),
+                (["distance", "b.ply", "a.ply", "--points", "b", "--symmetric", "--report", "x.html"], 2, "draw surfaces"),
+                (["distance", "a.ply", "b.ply", "--points", "a", "--field", "x.glb"], 2, "written as .ply"),
+                (["gate", "a.ply", "b.ply", "--points", "a", "--max", "1abs", "--face-max", "b.ply"], 2, "which have no faces")):
+            done = self.run_here(PROGRAM, *words)
+            self.assertEqual(done.returncode, code, (words, done.stdout, done.stderr))
+            self.assertIn(what, done.stderr, words)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(self.run_here(PROGRAM, "distance", "b.ply", "a.ply", "--points", "b", "--tol", "1e-3abs").returncode, 0)
+
+    def test_lists_and_folders_take_points(self):
+        for name in ("scans", "parts"):
+            (self.folder / name).mkdir()
+        self.write("scans/p.las", las([(0, 0, 1), (1, 0, 2)], (1, 1, 1), (0, 0, 0)))
+        self.write("parts/p.ply", ply([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], [(0, 1, 2)]))
+        self.write("l.csv", b"id,a,b,points\n1,scans/p.las,parts/p.ply,a\n2,scans/p.las,parts/p.ply,\n3,scans/p.las,parts/p.ply,both\n")
+        done = self.run_here(PROGRAM, "batch", "l.csv", "--out", "l.jsonl")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        lines = {line["id"]: line for line in map(json.loads, (self.folder / "l.jsonl").read_text().splitlines())}
+        self.assertAlmostEqual(lines["1"]["interval"]["upper"], 2, 5)
+        self.assertIn("a LAS file (points, no faces)", lines["2"]["error"]["message"])
+        self.assertIn("1 face in a file of points", lines["3"]["error"]["message"])
+        done = self.run_here(PROGRAM, "batch", "scans", "parts", "--points", "a", "--out", "f.jsonl")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        again = self.run_here(PROGRAM, "batch", "scans", "parts", "--points", "a", "--out", "f.jsonl", "--resume")
+        self.assertIn("1 of them kept" if "kept" in again.stdout else "1", again.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
