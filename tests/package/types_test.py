@@ -40,6 +40,7 @@ if found.mean is not None and found.field is not None:
     least, most = found.mean
     share: float = found.area_within("1%").lower + float(found.field.upper.max())
 mesh: vkh.Mesh = vkh.read("a.stl")
+cloud: bool = vkh.read(v, points=True).are_points
 number: int = int(mesh.file_faces[found.face_a])
 for found in vkh.distances([(mesh, "b.ply"), ("id", (v, f), mesh)], max="1%", device="all"):
     place = (found.index, found.id, found.error)
