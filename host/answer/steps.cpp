@@ -149,6 +149,17 @@ std::optional<PlacedInput> placed_of(const Question& question, const Mesh& a) {
   return PlacedInput{.by = a.placed->by, .from = a.placed->from, .file = question.transform_file};
 }
 
+/// From a surface to points the farthest places lie between points.
+void add_note_on_points(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
+  const bool to_b = b.are_points && !a.are_points;
+  const bool to_a = question.symmetric && a.are_points && !b.are_points;
+  if (!to_a && !to_b) return;
+  answer.notes.push_back(
+      note_of(NoteCode::kPoints,
+              std::string(to_b ? "A to B" : "B to A") +
+                  " is to points: it is no less than the gaps between them, and is slow to close"));
+}
+
 /// A matrix that stretches by s moves points by s times their distance from the origin. That counts
 /// from a tenth of the tolerance on.
 void add_note_on_stretch(const Box& box, Answer& answer) {
@@ -241,6 +252,7 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
             .within;
   }
   add_note_on_stretch(box_a, answer);
+  add_note_on_points(question, a, b, answer);
   for (Input& input : answer.inputs) drop_small_ambiguities(answer.a_to_b.tolerance, input);
   // A run with a limit may end by that, whatever its tolerance is.
   const bool is_share = question.tolerance.of == Length::Of::kDiagonal;

@@ -8,12 +8,12 @@
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 27> kCodeNames = {
+constexpr std::array<std::string_view, 28> kCodeNames = {
     "polygons", "ambiguity", "bodies",    "short-faces", "elements",    "surfaces",     "calls",
     "unread",   "scene",     "rotations", "positions",   "morph",       "animations",   "units",
     "size",     "turn",      "apart",     "one-way",     "coverage",    "unit-assumed", "converted",
-    "stretch",  "tolerance", "memory",    "devices",     "certificate", "survey"};
-static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kSurvey) + 1);
+    "stretch",  "tolerance", "memory",    "devices",     "certificate", "survey",       "points"};
+static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kPoints) + 1);
 
 }  // namespace
 

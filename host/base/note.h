@@ -41,6 +41,7 @@ enum class NoteCode {
   kDevices,      ///< devices that were lost
   kCertificate,  ///< a certificate is missing, or proves less than the interval
   kSurvey,       ///< statistics, a field or a picture are missing
+  kPoints,       ///< the distance is to points: it is no less than the gaps between them
 };
 
 /// The code's name, such as "short-faces".

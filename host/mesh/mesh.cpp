@@ -234,7 +234,6 @@ Mesh make_points(std::string name, std::vector<glm::dvec3> points, const ThreadP
   check_finite(mesh, pool);
   mesh.are_points = true;
   mesh.counts.vertices = mesh.counts.faces = mesh.counts.degenerate = count;
-  mesh.counts.duplicate = count_duplicates(mesh, Positions::kAny, pool);
   return mesh;
 }
 

@@ -122,8 +122,10 @@ void refuse_any_triangulation(const Mesh& a, const Mesh& b, const std::string& w
 /// out of range or there is no face. `faces` index into `vertices`.
 Mesh make_mesh(std::string name, std::vector<DVec3> vertices, std::vector<UVec3> faces);
 
-/// Makes a mesh of points alone: every point is a face of its own, in their order. Throws
-/// InputError that names the point if a coordinate is not finite, or if there is no point.
+/// Makes a mesh of points alone: every point is a face of its own, in their order. Points at one
+/// position are not counted: a scan has many, and a table of 100 million takes longer than reading
+/// them. Throws InputError that names the point if a coordinate is not finite, or if there is no
+/// point.
 Mesh make_points(std::string name, std::vector<DVec3> points);
 
 /// Throws UsageError that names `option` if the mesh is points, which have no `lacks`.

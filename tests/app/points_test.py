@@ -308,7 +308,10 @@ class Points(unittest.TestCase):
             self.assertEqual(done.returncode, code, (words, done.stdout, done.stderr))
             self.assertIn(what, done.stderr, words)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertEqual(self.run_here(PROGRAM, "distance", "b.ply", "a.ply", "--points", "b", "--tol", "1e-3abs").returncode, 0)
+        for words, is_noted in ((["b.ply", "a.ply", "--points", "b"], True), (["a.ply", "b.ply", "--points", "a"], False),
+                                (["a.ply", "b.ply", "--points", "a", "--symmetric"], True), (["a.ply", "a.ply", "--points", "both"], False)):
+            answer = self.ask("distance", *words, "--tol", "1e-3abs")
+            self.assertEqual("points" in [note["code"] for note in answer["notes"]], is_noted, words)
 
     def test_lists_and_folders_take_points(self):
         for name in ("scans", "parts"):

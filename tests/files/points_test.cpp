@@ -117,7 +117,7 @@ TEST_CASE("withheld LAS points keep their numbers for those behind them") {
 TEST_CASE("points are a mesh whose faces are its vertices, and check_mesh keeps it so") {
   Mesh mesh = vkh::make_points("p", {{0, 0, 0}, {1, 2, 3}, {0, 0, 0}});
   CHECK(mesh.counts.faces == 3);
-  CHECK(mesh.counts.duplicate == 1);
+  CHECK(mesh.counts.degenerate == 3);
   check_mesh(mesh);
   mesh.faces[1].z = 2;
   CHECK_THROWS_WITH_AS(check_mesh(mesh), doctest::Contains("face 1: are_points"), vkh::InputError);
