@@ -109,8 +109,9 @@ namespace {
 
 // Refuses a share of no area, which is no question.
 void check_area(const Question& question, const Mesh& mesh) {
-  if (question.metrics && !areas_of(mesh).is_positive())
-    reject(mesh.name, "", "faces without area", "a surface: metrics weigh distances by area");
+  if (question.metrics && (mesh.are_points || !areas_of(mesh).is_positive()))
+    reject(mesh.name, "", mesh.are_points ? "points" : "faces without area",
+           "a surface: metrics weigh distances by area");
   if (!question.max || !question.area || areas_of(mesh).is_positive()) return;
   reject(mesh.name, "", "faces without area",
          "a surface, of which --area " + question.area_requested + " asks a share");
