@@ -1,0 +1,106 @@
+#include "host/simplify/judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/error.h"
+
+namespace vkh {
+namespace {
+
+/// The margin that lets `gate`, whose tolerance is 1e-7 of a diagonal, decide in any later run: the
+/// distance is farther than that from the limit. A small limit keeps all but a thousandth.
+double without_margin(double within, double diagonal) {
+  constexpr double kOfDiagonal = 4e-7, kOfLimit = 1e-3;
+  return within - std::min(kOfDiagonal * diagonal, kOfLimit * within);
+}
+
+double diagonal_of(const Mesh& mesh) {
+  DVec3 lo = mesh.vertices[0], hi = lo;
+  for (const DVec3& v : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::min(lo[axis], v[axis]);
+      hi[axis] = std::max(hi[axis], v[axis]);
+    }
+  }
+  return std::hypot(hi.x - lo.x, hi.y - lo.y, hi.z - lo.z);
+}
+
+void check_limit(const Limit& max) {
+  if (!(max.within > 0 && max.within <= max.beyond && std::isfinite(max.beyond)))
+    throw UsageError("simplify: the limit must be a positive, finite length");
+}
+
+}  // namespace
+
+Judge::Judge(Solver& solver, const Mesh& a, const SimplifyOptions& options,
+             const Deadline& deadline)
+    : solver_(solver),
+      options_((check_limit(options.max), options)),
+      deadline_(deadline),
+      prepared_(solver.prepare(a)),
+      within_(without_margin(options.max.within, diagonal_of(a))) {}
+
+SolveOptions Judge::run_options() const {
+  constexpr double kLeastTime = 1e-3;  // a run wants some
+  SolveOptions run = options_.solve;
+  run.tolerance_is_absolute = true;
+  run.stage_times = false;
+  run.time_limit_s = std::max(deadline_.left_s(), kLeastTime);
+  run.progress = [this](const Progress&) { return goes_on(); };
+  return run;
+}
+
+void Judge::conclude(Deviation& d) const {
+  d.interval = d.b_to_a ? symmetric_interval(d.a_to_b, *d.b_to_a)
+                        : CertifiedInterval{.lower = d.a_to_b.lower,
+                                            .upper = d.a_to_b.upper,
+                                            .gap = d.a_to_b.gap(),
+                                            .status = d.a_to_b.status};
+  d.verdict = verdict_of(d.interval.lower, d.interval.upper, options_.max);
+}
+
+Deviation Judge::decide(const Mesh& b) {
+  SolveOptions run = run_options();
+  run.limit = {within_, within_};
+  run.tolerance = 1e-4 * within_;
+  Deviation d;
+  d.a_to_b.upper = std::numeric_limits<double>::infinity();
+  // The candidate has few faces, and A's BVH is there: the cheaper direction comes first.
+  if (!options_.one_way) d.b_to_a = solver_.distance(b, prepared_, run);
+  if (!d.b_to_a || d.b_to_a->upper <= within_) {
+    run.time_limit_s = run_options().time_limit_s;
+    d.a_to_b = solver_.distance(prepared_.mesh(), b, run);
+  }
+  conclude(d);
+  if (d.verdict == Verdict::kWithin && !(d.interval.upper <= within_))
+    d.verdict = Verdict::kUndecided;
+  return d;
+}
+
+Deviation Judge::measure(const Mesh& b, const Deviation& decided) {
+  SolveOptions run = run_options();
+  run.tolerance = 1e-3 * options_.max.within;
+  Deviation d;
+  d.a_to_b = solver_.distance(prepared_.mesh(), b, run);
+  if (!options_.one_way) {
+    run.time_limit_s = run_options().time_limit_s;
+    run.known_lower = d.a_to_b.lower;
+    d.b_to_a = solver_.distance(b, prepared_, run);
+    d.b_to_a->upper = std::min(d.b_to_a->upper, decided.b_to_a->upper);
+  }
+  d.a_to_b.upper = std::min(d.a_to_b.upper, decided.a_to_b.upper);
+  conclude(d);
+  return d;
+}
+
+std::vector<DVec3> Judge::beyond(const PreparedMesh& to, std::span<const DVec3> points,
+                                 double share) {
+  std::vector<DVec3> found;
+  const ClosestPoints closest = solver_.closest(to, points, [this](size_t) { return goes_on(); });
+  for (size_t i = 0; i < points.size(); ++i)
+    if (closest.upper[i] > share * within_) found.push_back(points[i]);
+  return found;
+}
+
+}  // namespace vkh
