@@ -51,7 +51,7 @@ vkh_label(full ${all})
 # also run by tests of one start, and searches of the same kernels with more cases.
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
-                  python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs
+                  python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
                   folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test)
 # The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)

@@ -9,6 +9,7 @@
 #include "host/app/help_groups.h"
 #include "host/app/help_text.h"
 #include "host/app/many_pairs_line.h"
+#include "host/app/simplify_line.h"
 #include "host/app/typed.h"
 #include "host/base/error.h"
 #include "host/base/meant.h"
@@ -30,6 +31,7 @@ struct Program {
       "vkhausdorff"};
   Typed distance, gate, metrics, demo, doctor;
   TypedMany batch, merge;
+  TypedSimplify simplify;
 
   Program() {
     app.set_version_flag("-V,--version", std::string("vkhausdorff ") + program_version());
@@ -54,6 +56,8 @@ struct Program {
         "metrics", "Figures of two mesh files by the names that papers use, both directions"));
     add_batch(*app.add_subcommand("batch", "Distances or verdicts of many pairs"), batch);
     add_merge(*app.add_subcommand("merge", "Results of several batches as one, by id"), merge);
+
+    add_simplify(*app.add_subcommand("simplify", "Fewer faces, within a proven limit"), simplify);
 
     command = app.add_subcommand("demo", "Distance of a built-in pair");
     add_tolerance(*command, demo, "1e-8");
@@ -300,6 +304,7 @@ CommandLine understand(const Words& given) {
   if (name == "demo") return pair_line(Command::kDemo, program.demo, words, "demo");
   if (name == "batch") return batch_line(program.batch, words);
   if (name == "merge") return merge_line(program.merge);
+  if (name == "simplify") return simplify_line(program.simplify, words);
   CommandLine line;
   line.command = Command::kDoctor;
   line.device = program.doctor.device;

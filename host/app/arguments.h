@@ -15,7 +15,7 @@ namespace vkh {
 
 using Words = std::vector<std::string>;
 
-enum class Command { kHelp, kDistance, kGate, kMetrics, kDemo, kDoctor, kBatch, kMerge };
+enum class Command { kHelp, kDistance, kGate, kMetrics, kDemo, kDoctor, kBatch, kMerge, kSimplify };
 
 /// The places for answers besides the table.
 struct Outputs {
@@ -57,6 +57,13 @@ struct MergeAsked {
   TablesAsked tables;
 };
 
+struct SimplifyAsked {
+  std::string out, certificate;  ///< files; no certificate: empty
+  bool lock_borders = false;
+  size_t levels = 0;  ///< 0: one mesh, as few faces as are found
+  double ratio = 0.5;
+};
+
 struct CommandLine {
   Command command = Command::kHelp;
   std::string help;         ///< the text to print for kHelp
@@ -66,6 +73,7 @@ struct CommandLine {
   std::string device;  ///< the device of doctor
   BatchAsked batch = {};
   MergeAsked merge = {};
+  SimplifyAsked simplify = {};  ///< besides what `question` and `outputs` have
 };
 
 /// Throws UsageError: one line with the expected form, and the option that a misspelt one may mean.

@@ -54,6 +54,11 @@ const std::map<std::string, HelpOfCommand>& help_of_commands() {
                     "the results that are read, or a file of a pair; 5 a pair's device or driver; "
                     "6 an output could not be written. ") +
             kOrder}},
+      {"simplify",
+       {{"max", "out", "one-way", "lock-borders", "unit", "levels", "certificate", "json", "device",
+         "time"},
+        std::string("0 a mesh was written; 2 usage; 3 none was found, and nothing is written; 4 "
+                    "bad input; 5 device or driver; 6 the result could not be written.")}},
       {"demo",
        {{"tol", "symmetric", "stats", "image", "report", "json", "verify", "verbose", "device",
          "time"},
@@ -75,10 +80,11 @@ struct HelpGroup {
 const std::vector<HelpGroup>& help_groups() {
   static const std::vector<HelpGroup> known{
       {"What is asked",
-       {"max",       "face-max", "face-max-b", "area",          "worst", "tol",
-        "symmetric", "polygons", "bodies",     "points",        "part",  "known-lower",
-        "stats",     "signed",   "metrics",    "percentile",    "bands", "max-distance",
-        "field-tol", "effort",   "against",    "allow-unpaired"}},
+       {"max",       "face-max", "face-max-b", "area",           "worst",   "tol",
+        "symmetric", "polygons", "bodies",     "points",         "part",    "known-lower",
+        "stats",     "signed",   "metrics",    "percentile",     "bands",   "max-distance",
+        "field-tol", "effort",   "against",    "allow-unpaired", "one-way", "lock-borders",
+        "levels",    "ratio"}},
       {"What the meshes are in, and where A lies",
        {"unit", "unit-a", "unit-b", "transform", "scale"}},
       {"What is printed and written",

@@ -19,6 +19,7 @@
 #include "host/app/out_of_memory.h"
 #include "host/app/outputs.h"
 #include "host/app/picture_options.h"
+#include "host/app/simplify_command.h"
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
@@ -138,6 +139,9 @@ int run(const Words& words, Clock::time_point start) {
       return printed(run_batch_command(line.question, line.batch));
     case Command::kMerge:
       return printed(run_merge_command(line.merge));
+    case Command::kSimplify:
+      note_interrupts();
+      return printed(run_simplify_command(line, Stop(start, line.time_limit_s)));
     case Command::kDistance:
     case Command::kGate:
     case Command::kMetrics:

@@ -308,6 +308,10 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
                   "What the files are in, where they do not say: um, mm, cm, m, in or ft")
       ->type_name("UNIT");
   add_placement(command, typed);
+  add_input_options(command, typed);
+}
+
+void add_input_options(CLI::App& command, Typed& typed) {
   command.add_option(
       "--max-input", typed.max_input,
       "Refuse a file of more bytes, or with a mesh that takes more, such as 100M or 2GiB; reading "

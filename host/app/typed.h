@@ -38,7 +38,8 @@ extern const char* const kLengths;
 // Adds options that commands share. `typed` must outlive `command`.
 void add_pair(CLI::App& command, Typed& typed);
 void add_unit_and_input(CLI::App& command, Typed& typed);
-void add_placement(CLI::App& command, Typed& typed);  ///< units of each side, and a matrix
+void add_input_options(CLI::App& command, Typed& typed);  ///< how files are read
+void add_placement(CLI::App& command, Typed& typed);      ///< units of each side, and a matrix
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default);
 void add_symmetric(CLI::App& command, Typed& typed);
 void add_part(CLI::App& command, Typed& typed);

@@ -24,13 +24,19 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Throws OutputError.
-  void write(std::string_view text) const;
+  /// Called with the whole file before it has its name; throws if it must not have that.
+  using Check = std::function<void(const std::string&)>;
+
+  /// Throws OutputError, and what `check` throws: the older file, if any, is then as it was. What
+  /// is not replaced but written to is not checked.
+  void write(std::string_view text, const Check& check = {}) const;
+  /// Whether the file is replaced: false for pipes, terminals and standard output.
+  bool is_replaced() const { return special_ == -1; }
 
  private:
   void open_special(unsigned kind);
   void check_place() const;
-  void replace(std::string_view text) const;
+  void replace(std::string_view text, const Check& check) const;
   void write_over(std::string_view text) const;
   [[noreturn]] void refuse(const std::string& why) const;
   [[noreturn]] void fail(const std::string& reason) const;

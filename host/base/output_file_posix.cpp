@@ -70,6 +70,16 @@ int create_beside(const std::string& folder, mode_t mode, std::string& name) {
   return -1;
 }
 
+/// Takes the file away again where the check throws.
+void check_beside(const std::string& beside, const OutputFile::Check& check) {
+  try {
+    if (check) check(beside);
+  } catch (...) {
+    unlink(beside.c_str());
+    throw;
+  }
+}
+
 }  // namespace
 
 OutputFile::OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs)
@@ -133,8 +143,8 @@ void OutputFile::check_place() const {
     refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
 }
 
-void OutputFile::write(std::string_view text) const {
-  if (special_ < 0) return replace(text);
+void OutputFile::write(std::string_view text, const Check& check) const {
+  if (special_ < 0) return replace(text, check);
   if (!write_all(static_cast<int>(special_), text)) fail(std::strerror(errno));
 }
 
@@ -148,7 +158,7 @@ void OutputFile::write_over(std::string_view text) const {
   fail(std::strerror(good ? errno : error));
 }
 
-void OutputFile::replace(std::string_view text) const {
+void OutputFile::replace(std::string_view text, const Check& check) const {
   std::string beside;
   const std::optional<struct stat> older = status_of(target_);
   const int file = create_beside(folder_of(target_), 0666, beside);
@@ -157,6 +167,7 @@ void OutputFile::replace(std::string_view text) const {
   good = good && write_all(file, text);
   int error = good ? 0 : errno;
   if (file >= 0 && close(file) != 0 && good) error = errno;  // a quota or NFS may report here
+  if (error == 0) check_beside(beside, check);
   if (error == 0 && rename(beside.c_str(), target_.c_str()) != 0) error = errno;
   if (error == 0) return;
   if (file >= 0) unlink(beside.c_str());

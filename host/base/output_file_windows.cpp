@@ -112,6 +112,16 @@ bool write_all(HANDLE file, std::string_view text) {
   return true;
 }
 
+/// Takes the file away again where the check throws.
+void check_beside(const fs::path& beside, const OutputFile::Check& check) {
+  try {
+    if (check) check(name_of(beside));
+  } catch (...) {
+    DeleteFileW(beside.c_str());
+    throw;
+  }
+}
+
 }  // namespace
 
 OutputFile::OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs)
@@ -193,8 +203,8 @@ void OutputFile::check_place() const {
   }
 }
 
-void OutputFile::write(std::string_view text) const {
-  if (special_ == -1) return replace(text);
+void OutputFile::write(std::string_view text, const Check& check) const {
+  if (special_ == -1) return replace(text, check);
   if (!write_all(handle_of(special_), text)) fail(text_of(GetLastError()));
 }
 
@@ -205,13 +215,14 @@ void OutputFile::write_over(std::string_view text) const {
   fail(text_of(GetLastError()));
 }
 
-void OutputFile::replace(std::string_view text) const {
+void OutputFile::replace(std::string_view text, const Check& check) const {
   const fs::path target = path_of(target_);
   const bool has_older = GetFileAttributesW(target.c_str()) != INVALID_FILE_ATTRIBUTES;
   fs::path beside;
   File file = create_beside(folder_of(target), 0, beside);
   const bool is_made = file.is_open();
   bool good = is_made && write_all(file.handle(), text) && file.close();
+  if (good) check_beside(beside, check);
   // ReplaceFileW keeps the older file's access list.
   good = good &&
          ((has_older && ReplaceFileW(target.c_str(), beside.c_str(), nullptr,

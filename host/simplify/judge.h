@@ -41,7 +41,9 @@ class Judge {
 
   Solver& solver() { return solver_; }
   const PreparedMesh& a() const { return prepared_; }
-  bool goes_on() const { return deadline_.left_s() > 0 && !is_called_off_; }
+  bool goes_on() const {
+    return deadline_.left_s() > 0 && !is_called_off_ && (!options_.goes_on || options_.goes_on());
+  }
   void call_off() { is_called_off_ = true; }
 
  private:

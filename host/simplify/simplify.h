@@ -28,6 +28,7 @@ struct SimplifyOptions {
   double time_limit_s = std::numeric_limits<double>::infinity();
   SolveOptions solve;  ///< switches, preset and memory of the runs; the rest is not read
   std::function<bool(const SimplifyProgress&)> progress;  ///< false ends the search
+  std::function<bool()> goes_on;  ///< asked within runs, too; false ends the search
 };
 
 /// How far two meshes are apart, both ways or from A alone.

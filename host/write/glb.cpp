@@ -1,12 +1,15 @@
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/write/bytes.h"
 #include "host/write/rounded.h"
 
 namespace vkh {
@@ -131,17 +134,9 @@ Json document(const FieldFile& file, const CornerArrays& corners, const glm::dve
           {"accessors", binary.accessors()}};
 }
 
-void add_word(std::string& out, size_t word) {
-  const auto value = static_cast<uint32_t>(word);
-  char raw[4];
-  std::memcpy(raw, &value, 4);
-  out.append(raw, 4);
-}
-
 }  // namespace
 
 std::string to_glb(const FieldFile& file) {
-  static_assert(std::endian::native == std::endian::little);
   const glm::dvec3 middle = middle_of(file.mesh);
   const double largest = largest_upper(file.field);
   CornerArrays corners;
@@ -149,14 +144,22 @@ std::string to_glb(const FieldFile& file) {
   Binary binary;
   std::string json =
       document(file, corners, middle, binary).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return glb_of(std::move(json), binary.data());
+}
+
+std::string glb_of(std::string json, std::string_view binary) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  const size_t total = 12 + 8 + json.size() + 8 + binary.data().size();
+  const size_t total = 12 + 8 + json.size() + 8 + binary.size();
   if (total > UINT32_MAX) throw OutputError("a GLB holds 4 GiB at most: write a .ply");
-  std::string out = "glTF";
-  for (const size_t word : {size_t{2}, total, json.size(), size_t{0x4e4f534a}}) add_word(out, word);
-  out += json;
-  for (const size_t word : {binary.data().size(), size_t{0x004e4942}}) add_word(out, word);
-  return out + binary.data();
+  Bytes out;
+  out.text = "glTF";
+  const auto add_words = [&out](std::initializer_list<size_t> words) {
+    for (const size_t word : words) out.add(static_cast<uint32_t>(word));
+  };
+  add_words({2, total, json.size(), 0x4e4f534a});
+  out.text += json;
+  add_words({binary.size(), 0x004e4942});
+  return std::move(out.text) + std::string(binary);
 }
 
 }  // namespace vkh

@@ -1,31 +1,18 @@
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "host/base/decimal.h"
+#include "host/write/bytes.h"
 #include "host/write/rounded.h"
 
 namespace vkh {
 namespace {
 
-class Bytes {
- public:
-  template <class T>
-  void add(T value) {
-    static_assert(std::endian::native == std::endian::little);
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    text.append(raw, sizeof(T));
-  }
-  void add(const Rgb& colour) {
-    add(colour.red);
-    add(colour.green);
-    add(colour.blue);
-  }
-
-  std::string text;
-};
+void add_colour(const Rgb& colour, Bytes& out) {
+  out.add(colour.red);
+  out.add(colour.green);
+  out.add(colour.blue);
+}
 
 // Makes it one line, whatever a file's name holds.
 std::string one_line(std::string text) {
@@ -155,7 +142,7 @@ std::string to_ply(const FieldFile& file) {
     out.add(p.z);
     out.add(float_up(quality[v]));
     if (file.sides != nullptr) out.add(float_away(signs[v]));
-    out.add(colour_of(file, quality[v], largest));
+    add_colour(colour_of(file, quality[v], largest), out);
   }
   const FileFaces& file_faces = file.mesh.file_faces;
   for (size_t f = 0; f < file.mesh.faces.size(); ++f) {
@@ -167,7 +154,7 @@ std::string to_ply(const FieldFile& file) {
     out.add(upper);
     out.add(upper);
     add_sides(file, f, out);
-    out.add(colour_of(file, file.field.upper[f], largest));
+    add_colour(colour_of(file, file.field.upper[f], largest), out);
     if (!file_faces.are_triangles()) out.add(static_cast<uint32_t>(file_faces.of(f)));
   }
   return std::move(out.text);

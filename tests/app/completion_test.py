@@ -12,7 +12,7 @@ import sys
 import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-COMMANDS = ("distance", "gate", "metrics", "batch", "merge", "demo", "doctor")
+COMMANDS = ("distance", "gate", "metrics", "batch", "merge", "simplify", "demo", "doctor")
 OPTION = r"--[a-z]+(?:-[a-z]+)*"
 
 
@@ -45,7 +45,7 @@ class Options(unittest.TestCase):
                 self.assertNotIn("\n\n\n", text)
 
     def test_all_options_stand_in_groups(self):
-        for command in ("distance", "gate", "metrics", "batch", "demo"):
+        for command in ("distance", "gate", "metrics", "batch", "simplify", "demo"):
             with self.subTest(command):
                 text = subprocess.run([PROGRAM, command, "--help-all"], capture_output=True, text=True, timeout=60, check=True).stdout
                 first, *groups = re.split(r"^(?:Options|What .*|How .*):$", text.split("Exit codes:")[0], flags=re.MULTILINE)[1:]

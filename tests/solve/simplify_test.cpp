@@ -12,6 +12,7 @@
 
 #include "host/base/error.h"
 #include "host/simplify/collapse.h"
+#include "host/simplify/levels.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 
@@ -210,4 +211,34 @@ TEST_CASE("vertices at one position are one vertex") {
   const Collapser collapser(apart, false, false);
   CHECK(collapser.vertices().size() == 4);
   CHECK(collapser.faces()[1] == UVec3(1, 3, 2));
+}
+
+TEST_CASE("each level of a chain is measured against A, and the limit ends the chain") {
+  const Mesh a = icosphere(1, 4);
+  const LevelsOptions options{.simplify = within(0.1), .levels = 8, .ratio = 0.25};
+  const std::vector<Simplified> levels = simplify_levels(solver(), a, options);
+  REQUIRE(levels.size() >= 2);
+  CHECK(levels.size() < 8);
+  size_t before = a.faces.size();
+  for (const Simplified& level : levels) {
+    check_deviation(a, level, 0.1, false);
+    CHECK(level.complete);
+    CHECK(level.mesh.faces.size() < before);
+    before = level.mesh.faces.size();
+  }
+  CHECK(levels[0].mesh.faces.size() <= a.faces.size() / 4);
+  CHECK(levels[0].deviation.interval.upper < levels[1].deviation.interval.lower);
+}
+
+TEST_CASE("a chain without time, of a single face or of a wrong ratio") {
+  const Mesh a = icosphere(1, 3);
+  LevelsOptions options{.simplify = within(0.1)};
+  options.simplify.time_limit_s = 0;
+  CHECK(simplify_levels(solver(), a, options).empty());
+  const LevelsOptions any{.simplify = within(10)};
+  const Mesh one = single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  CHECK(simplify_levels(solver(), one, any).empty());
+  for (const double ratio : {0.0, 1.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_AS(simplify_levels(solver(), a, {.simplify = within(0.1), .ratio = ratio}),
+                    UsageError);
 }

@@ -1,7 +1,7 @@
 # Completion of vkhausdorff for bash.
 _vkhausdorff() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
-  local commands="distance gate metrics batch merge demo doctor help"
+  local commands="distance gate metrics batch merge simplify demo doctor help"
   local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
   search="--device --time $engine"
   local look="--view --field-by --up --size --map --range --steps"
@@ -26,7 +26,7 @@ _vkhausdorff() {
     --unit | --unit-a | --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
       --area | --percentile | --bands | --max-distance | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
-      --part | --known-lower) return ;;
+      --part | --known-lower | --levels | --ratio) return ;;
   esac
   case $command in
     distance) options="$search $outputs $files --certificate --part --known-lower" ;;
@@ -35,6 +35,7 @@ _vkhausdorff() {
     batch)
       options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands $files"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
+    simplify) options="$search --json --max --out --one-way --lock-borders --levels --ratio --certificate --unit --max-input --polygons --bodies" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;
     doctor) options="--device --help --help-all" ;;

@@ -1,0 +1,163 @@
+#include "host/answer/simplified.h"
+
+#include <cmath>
+#include <ostream>
+
+#include "host/answer/json_object.h"
+#include "host/base/decimal.h"
+
+namespace vkh {
+namespace {
+
+/// "30,268".
+std::string with_commas(uint64_t number) {
+  std::string text = std::to_string(number);
+  for (size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+std::string length_words(std::string number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
+/// The limit as it was typed: "0.1 mm", "0.1 % of A's diagonal".
+std::string asked_words(const SimplifyAnswer& answer) {
+  const std::string& text = answer.max.requested;
+  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
+  if (answer.max.of == Length::Of::kUnit) return digits + " " + answer.max.unit;
+  if (answer.max.of == Length::Of::kFiles) return length_words(digits, answer.unit);
+  return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
+}
+
+/// The limit and the place that it is counted from; a share of A's diagonal names A itself.
+std::string near_words(const SimplifyAnswer& answer) {
+  const bool names_a = answer.max.of == Length::Of::kDiagonal;
+  return asked_words(answer) + (names_a ? "" : " of A");
+}
+
+std::string largest_words(const Deviation& deviation, const std::string& unit) {
+  return length_words(decimal(deviation.interval.upper, 4, Rounding::kUp), unit);
+}
+
+const char* ways_words(const SimplifyAnswer& answer) {
+  return answer.one_way ? "A to it alone" : "both ways";
+}
+
+std::string nothing_words(const SimplifyAnswer& answer) {
+  const std::string why =
+      !answer.complete  ? "the search was ended first: ask for more --time"
+      : answer.is_chain ? "the first level is farther, or A has no faces to give"
+                        : "A itself, rounded to what the format holds, is farther: write .ply";
+  return "nothing written: no mesh within " + near_words(answer) + " was found; " + why;
+}
+
+void print_file(std::ostream& out, const SimplifyAnswer& answer, const SimplifiedFile& file) {
+  print_row(out, "written",
+            printable(file.path) + ": " + with_commas(file.counts.faces) + " faces, " +
+                with_commas(file.counts.vertices) + " vertices, within " +
+                largest_words(file.deviation, answer.unit) + "; read back and measured");
+}
+
+Json side_json(const Report& report) {
+  return {{"lower", report.lower},
+          {"lower_hex", hex_float(report.lower)},
+          {"upper", report.upper},
+          {"upper_hex", hex_float(report.upper)},
+          {"status", status_name(report.status)}};
+}
+
+Json file_json(const SimplifiedFile& file) {
+  const CertifiedInterval& interval = file.deviation.interval;
+  Json json = {{"path", file.path},
+               {"format", file.format},
+               {"sha256", text_or_null(file.sha256)},
+               {"faces", file.counts.faces},
+               {"vertices", file.counts.vertices},
+               {"lower", interval.lower},
+               {"lower_hex", hex_float(interval.lower)},
+               {"upper", interval.upper},
+               {"upper_hex", hex_float(interval.upper)},
+               {"verdict", verdict_name(file.deviation.verdict)},
+               {"a_to_b", side_json(file.deviation.a_to_b)}};
+  json["b_to_a"] = file.deviation.b_to_a ? side_json(*file.deviation.b_to_a) : Json();
+  return json;
+}
+
+Json source_json(const SimplifyAnswer& answer) {
+  Json json = {{"path", answer.input.path}};
+  add_hashes(json, answer.input);
+  json["faces"] = answer.input.counts.faces;
+  json["vertices"] = answer.input.counts.vertices;
+  json["delta"] = answer.input.place.delta;
+  json["notes"] = notes_json(answer.input.notes, answer.input.path);
+  return json;
+}
+
+Json limit_json(const SimplifyAnswer& answer) {
+  return {{"requested", answer.max.requested},
+          {"within", answer.limit.within},
+          {"within_hex", hex_float(answer.limit.within)},
+          {"beyond", answer.limit.beyond},
+          {"beyond_hex", hex_float(answer.limit.beyond)}};
+}
+
+}  // namespace
+
+std::string in_words(const SimplifyAnswer& answer) {
+  if (answer.files.empty()) return nothing_words(answer);
+  const std::string all = with_commas(answer.input.counts.faces) + " faces, proven within " +
+                          near_words(answer) + ", " + ways_words(answer);
+  if (answer.is_chain)
+    return std::to_string(answer.files.size()) + " levels, " +
+           with_commas(answer.files[0].counts.faces) + " to " +
+           with_commas(answer.files.back().counts.faces) + " of " + all;
+  const SimplifiedFile& file = answer.files[0];
+  return with_commas(file.counts.faces) + " of " + all + " (largest deviation " +
+         largest_words(file.deviation, answer.unit) + ")";
+}
+
+void print_table(std::ostream& out, const SimplifyAnswer& answer) {
+  out << in_words(answer) << '\n';
+  for (const SimplifiedFile& file : answer.files) print_file(out, answer, file);
+  if (!answer.certificate.empty()) print_row(out, "proof", printable(answer.certificate));
+  if (!answer.files.empty()) {
+    print_row(out, "promise",
+              "the distance alone: the result may be open, or turned, where A is not");
+    print_row(out, "dropped", "UVs, normals and colours, if A has any");
+  }
+  print_row(out, "search",
+            std::to_string(answer.tried) + (answer.tried == 1 ? " mesh" : " meshes") +
+                " judged in " +
+                number_text(answer.waits.total / 1000, std::chars_format::fixed, 1) + " s" +
+                (answer.complete ? "" : "; ended before it was done"));
+  for (const Note& note : answer.input.notes)
+    print_row(out, "note", "A: " + printable(line_of(note)));
+  print_row(out, "device", answer.device.name + ", driver " + answer.device.driver);
+}
+
+std::string to_json(const SimplifyAnswer& answer) {
+  JsonObject json;
+  json.add("schema", kSimplifySchema);
+  json.add("version", program_version());
+  json.add("words", in_words(answer));
+  json.add("input", source_json(answer));
+  json.add("unit", text_or_null(answer.unit));
+  json.add("max", limit_json(answer));
+  json.add("one_way", answer.one_way);
+  json.add("lock_borders", answer.lock_borders);
+  json.add("found", !answer.files.empty());
+  json.add("complete", answer.complete);
+  json.add("tried", answer.tried);
+  Json files = Json::array();
+  for (const SimplifiedFile& file : answer.files) files.push_back(file_json(file));
+  json.add("files", files);
+  json.add("certificate", text_or_null(answer.certificate));
+  json.add("device", text_or_null(answer.device.name));
+  json.add("driver", text_or_null(answer.device.driver));
+  add_waits(json, answer.waits);
+  json.add("command", "simplify");
+  json.add("arguments", answer.words);
+  return json.text();
+}
+
+}  // namespace vkh

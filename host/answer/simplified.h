@@ -1,0 +1,47 @@
+// The answer of `simplify`: in words, as a table, and as one JSON object.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/answer/answer.h"
+#include "host/simplify/simplify.h"
+
+namespace vkh {
+
+inline constexpr const char* kSimplifySchema = "vkhausdorff.simplify/1";
+
+/// A mesh that was written, and its deviation from A as it was read back.
+struct SimplifiedFile {
+  std::string path;
+  std::string format;  ///< "PLY", "STL", "OBJ" or "GLB"
+  std::string sha256 = {};
+  MeshCounts counts;
+  Deviation deviation;
+};
+
+struct SimplifyAnswer {
+  std::vector<std::string> words;
+  Input input;
+  std::string unit;  ///< every length's; empty: A's own, whatever it is
+  Length max;
+  Limit limit;  ///< the same length in the unit
+  bool one_way = false, lock_borders = false;
+  bool complete = false;  ///< the search, or the chain, came to its own end
+  size_t tried = 0;
+  bool is_chain = false;              ///< of levels, the finest first
+  std::vector<SimplifiedFile> files;  ///< none: nothing was found
+  std::string certificate;            ///< its path; empty: none
+  DeviceDescription device;
+  Waits waits;
+};
+
+/// "1,234 of 30,268 faces, proven within 0.1 mm of A, both ways (largest deviation 0.0987 mm)".
+std::string in_words(const SimplifyAnswer& answer);
+void print_table(std::ostream& out, const SimplifyAnswer& answer);
+/// One line of docs/schema/simplify.schema.json.
+std::string to_json(const SimplifyAnswer& answer);
+
+}  // namespace vkh

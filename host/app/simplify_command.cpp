@@ -1,0 +1,244 @@
+#include "host/app/simplify_command.h"
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "host/answer/progress_line.h"
+#include "host/answer/session.h"
+#include "host/answer/simplified.h"
+#include "host/base/begin_now.h"
+#include "host/base/output_file.h"
+#include "host/base/system.h"
+#include "host/read/readers.h"
+#include "host/simplify/levels.h"
+#include "host/survey/certificate.h"
+#include "host/write/mesh_file.h"
+
+namespace vkh {
+namespace {
+
+/// The files to write, checked before any work.
+struct SimplifyPlaces {
+  std::vector<std::string> paths;
+  std::vector<std::unique_ptr<OutputFile>> meshes;  ///< one for each path
+  std::unique_ptr<OutputFile> json, certificate;
+};
+
+/// A mesh that was found, written and read back.
+struct Written {
+  SimplifiedFile file;
+  Mesh mesh;
+};
+
+/// The names of a chain's levels: B-1.ply, B-2.ply.
+std::vector<std::string> paths_of(const SimplifyAsked& asked) {
+  if (asked.levels == 0) return {asked.out};
+  std::vector<std::string> paths;
+  const size_t stem = asked.out.size() - 4;
+  for (size_t level = 1; level <= asked.levels; ++level)
+    paths.push_back(asked.out.substr(0, stem) + "-" + std::to_string(level) +
+                    asked.out.substr(stem));
+  return paths;
+}
+
+class SimplifyCommand {
+ public:
+  SimplifyCommand(const CommandLine& line, const Stop& stop)
+      : question_(line.question), asked_(line.simplify), outputs_(line.outputs), stop_(stop) {}
+
+  ExitCode run();
+
+ private:
+  SimplifyPlaces places() const;
+  void read();
+  void take_limit();
+  SimplifyOptions options();
+  std::vector<Simplified> search();
+  Written write(const Mesh& mesh, const OutputFile& place, const std::string& path);
+  void prove_it(const Written& written, const OutputFile& place);
+  void tell(const SimplifyPlaces& places);
+  bool hashes() const { return outputs_.json || outputs_.json_file || !asked_.certificate.empty(); }
+
+  const Question& question_;
+  const SimplifyAsked& asked_;
+  const Outputs& outputs_;
+  const Stop& stop_;
+  ProgressLine line_;
+  Session session_;
+  Mesh a_;
+  SimplifyAnswer answer_;
+};
+
+SimplifyPlaces SimplifyCommand::places() const {
+  SimplifyPlaces places;
+  const std::vector<std::string> inputs = {question_.file_a};
+  std::set<std::filesystem::path> taken;
+  const auto open = [&](const char* option, const std::string& path) {
+    if (!taken.insert(place_of(path)).second)
+      throw UsageError("two outputs would be written to '" + path + "'");
+    return std::make_unique<OutputFile>(option, path, inputs);
+  };
+  places.paths = paths_of(asked_);
+  for (const std::string& path : places.paths) {
+    places.meshes.push_back(open("--out", path));
+    if (!places.meshes.back()->is_replaced())
+      throw UsageError("--out '" + path +
+                       "': expected a file, for the result is read back before it has its name");
+  }
+  if (!asked_.certificate.empty()) places.certificate = open("--certificate", asked_.certificate);
+  if (outputs_.json_file) places.json = open("--json", *outputs_.json_file);
+  return places;
+}
+
+/// Opens the device beside reading.
+void SimplifyCommand::read() {
+  auto opening =
+      begin_now([selector = question_.device, options = question_.options,
+                 cache = question_.caches ? user_cache_folder() : std::filesystem::path()] {
+        return open_session(selector, false, options, cache);
+      });
+  ReadLimits limits = question_.limits;
+  limits.keep_going = [this] { return !stop_.is_asked(); };
+  a_ = read_mesh(path_of(question_.file_a), limits);
+  answer_.input = {.path = question_.file_a,
+                   .is_read = true,
+                   .counts = a_.counts,
+                   .place = {a_.delta, a_.unit},
+                   .notes = a_.notes};
+  if (hashes())
+    answer_.input.sha256 =
+        sha256_of(path_of(question_.file_a), [this] { return !stop_.is_asked(); });
+  answer_.waits.read = stop_.elapsed_s() * 1000;
+  session_ = opening.get();
+  answer_.waits.start = session_.setup_ms;
+  answer_.device = session_.device->description();
+}
+
+void SimplifyCommand::take_limit() {
+  if (!question_.unit.empty() && !a_.unit.empty() && question_.unit != a_.unit)
+    throw UsageError("--unit " + question_.unit + ": " + a_.name + " is in " + a_.unit);
+  answer_.unit = a_.unit.empty() ? question_.unit : a_.unit;
+  if (mesh_format_of(asked_.out) == MeshFormat::kGlb && !answer_.unit.empty() &&
+      answer_.unit != "m")
+    throw UsageError("--out '" + asked_.out + "': glTF is in metres, and A is in " + answer_.unit +
+                     ": write .ply, .obj or .stl");
+  answer_.max = *question_.max;
+  answer_.limit = limit_in_files(answer_.max, "--max", answer_.unit, diagonal(bounding_box(a_)));
+}
+
+SimplifyOptions SimplifyCommand::options() {
+  SimplifyOptions options;
+  options.max = answer_.limit;
+  options.one_way = answer_.one_way = !question_.symmetric;
+  options.lock_borders = answer_.lock_borders = asked_.lock_borders;
+  options.rounds_to_float = !holds_doubles(*mesh_format_of(asked_.out));
+  options.time_limit_s = stop_.left_s();
+  options.solve = question_.options;
+  options.goes_on = [this] { return !is_interrupted(); };
+  options.progress = [this](const SimplifyProgress& progress) {
+    line_.show([&] {
+      return std::to_string(progress.tried) + " meshes judged, the smallest of " +
+             std::to_string(progress.faces) + " faces";
+    });
+    return true;
+  };
+  return options;
+}
+
+/// Reads the file under the name that it will have.
+Mesh read_back(const std::string& file, const std::string& name) {
+  const InputFile input(path_of(file));
+  if (!input.is_open()) throw OutputError({.file = name, .problem = "cannot be read back"});
+  return parse_mesh({.name = name, .bytes = {}, .file = &input});
+}
+
+Written SimplifyCommand::write(const Mesh& mesh, const OutputFile& place, const std::string& path) {
+  const MeshFormat format = *mesh_format_of(path);
+  Written written{
+      .file = {.path = path, .format = format_name(format), .counts = {}, .deviation = {}},
+      .mesh = {}};
+  const auto measure = [&](const std::string& file) {
+    written.mesh = read_back(file, path);
+    written.mesh.unit = a_.unit;  // coordinates are written as they are
+    written.file.deviation = measure_deviation(*session_.solver, a_, written.mesh, options());
+    if (written.file.deviation.verdict != Verdict::kWithin)
+      throw OutputError({.option = "--out",
+                         .file = path,
+                         .problem = "is farther from A as it is read back than as it was found"});
+    if (hashes()) written.file.sha256 = sha256_of(path_of(file), [] { return !is_interrupted(); });
+  };
+  place.write(to_mesh_file(mesh, format), measure);
+  if (written.mesh.faces.empty()) measure(path);  // it was written over: its folder is not ours
+  written.file.counts = written.mesh.counts;
+  return written;
+}
+
+void SimplifyCommand::prove_it(const Written& written, const OutputFile& place) {
+  const Deviation& d = written.file.deviation;
+  const SolveOptions& run = question_.options;
+  const auto goes_on = [](size_t) { return !is_interrupted(); };
+  const Proof there = prove(*session_.solver, {a_, written.mesh, d.a_to_b, run, goes_on});
+  std::optional<Proof> back;
+  if (d.b_to_a) back = prove(*session_.solver, {written.mesh, a_, *d.b_to_a, run, goes_on});
+  std::optional<CertifiedDirection> reverse;
+  if (back) reverse.emplace(CertifiedDirection{*d.b_to_a, *back});
+  place.write(certificate_of({a_, answer_.input.sha256}, {written.mesh, written.file.sha256},
+                             {d.a_to_b, there}, reverse));
+  answer_.certificate = asked_.certificate;
+}
+
+void SimplifyCommand::tell(const SimplifyPlaces& places) {
+  line_.end();
+  answer_.waits.total = stop_.elapsed_s() * 1000;
+  if (outputs_.json) {
+    std::cout << to_json(answer_) << '\n';
+  } else {
+    print_table(std::cout, answer_);
+  }
+  if (places.json) places.json->write(to_json(answer_) + '\n');
+}
+
+/// The meshes that were found, in the order of their names.
+std::vector<Simplified> SimplifyCommand::search() {
+  std::vector<Simplified> found;
+  if (asked_.levels > 0) {
+    found =
+        simplify_levels(*session_.solver, a_,
+                        {.simplify = options(), .levels = asked_.levels, .ratio = asked_.ratio});
+    answer_.complete = !found.empty() ? found.back().complete : !stop_.is_asked();
+    answer_.tried = found.size();
+    return found;
+  }
+  Simplified one = simplify(*session_.solver, a_, options());
+  answer_.complete = one.complete;
+  answer_.tried = one.tried;
+  if (one.found) found.push_back(std::move(one));
+  return found;
+}
+
+ExitCode SimplifyCommand::run() {
+  answer_.words = question_.words;
+  const SimplifyPlaces to = places();
+  read();
+  take_limit();
+  answer_.is_chain = asked_.levels > 0;
+  const std::vector<Simplified> found = search();
+  for (size_t i = 0; i < found.size(); ++i) {
+    const Written written = write(found[i].mesh, *to.meshes[i], to.paths[i]);
+    answer_.files.push_back(written.file);
+    if (to.certificate) prove_it(written, *to.certificate);
+  }
+  tell(to);
+  return found.empty() ? kExitNotClosed : kExitClosed;
+}
+
+}  // namespace
+
+ExitCode run_simplify_command(const CommandLine& line, const Stop& stop) {
+  return SimplifyCommand(line, stop).run();
+}
+
+}  // namespace vkh

@@ -1,0 +1,14 @@
+// The command `simplify`, from its options to an exit code.
+#pragma once
+
+#include "host/answer/exit_code.h"
+#include "host/answer/stop.h"
+#include "host/app/arguments.h"
+
+namespace vkh {
+
+/// Prints the answer. Returns kExitClosed if a mesh was written, kExitNotClosed if none was found.
+/// Throws what reading, Device, Solver and OutputFile throw.
+ExitCode run_simplify_command(const CommandLine& line, const Stop& stop);
+
+}  // namespace vkh

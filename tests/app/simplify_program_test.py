@@ -1,0 +1,158 @@
+"""vkhausdorff simplify: what is written passes gate in a process of its own, and vkh_check takes its
+certificate; nothing is written where nothing was found; --json fits docs/schema/simplify.schema.json.
+
+usage: simplify_program_test.py PROGRAM SOURCE [VKH_CHECK]
+"""
+
+import json
+import math
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+PROGRAM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+CHECK = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
+STEPS = 32
+
+
+def bump(x, y):
+    return 0.1 * math.sin(5 * x) * math.cos(4 * y)
+
+
+def wavy(offset=0.0):
+    """A wavy sheet of 2,048 faces as OBJ, whose coordinates are no float32."""
+    rows = [f"v {offset + i / STEPS!r} {j / STEPS!r} {bump(i / STEPS, j / STEPS)!r}" for i in range(STEPS + 1) for j in range(STEPS + 1)]
+    for i in range(STEPS):
+        for j in range(STEPS):
+            a = i * (STEPS + 1) + j + 1
+            c = a + STEPS + 1
+            rows += [f"f {a} {c} {a + 1}", f"f {a + 1} {c} {c + 1}"]
+    return "\n".join(rows) + "\n"
+
+
+class Simplify(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "a.obj").write_text(wavy())
+
+    def run_program(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def check_gate(self, a, b, limit, *more):
+        self.assertTrue(self.run_program("gate", a, b, "--max", limit, *more).stdout.startswith("PASS"))
+
+    def test_each_format_passes_gate_as_written(self):
+        for name in ("b.ply", "b.obj", "b.stl", "b.glb"):
+            with self.subTest(name):
+                first, *rest = self.run_program("simplify", "a.obj", "--max", "0.01abs", "--out", name).stdout.splitlines()
+                found = re.fullmatch(r"([\d,]+) of 2,048 faces, proven within 0\.01 of A, both ways "
+                                     r"\(largest deviation (0\.00\d+)\)", first)
+                self.assertTrue(found, first)
+                self.assertLess(int(found[1].replace(",", "")), 1024)
+                self.assertTrue(any("UVs, normals and colours" in row for row in rest))
+                self.check_gate("a.obj", name, "0.01abs", "--symmetric")
+        self.assertEqual(self.files(), ["a.obj", "b.glb", "b.obj", "b.ply", "b.stl"])
+
+    def test_one_way_and_borders(self):
+        text = self.run_program("simplify", "a.obj", "--max", "1%", "--out", "b.ply", "--one-way", "--lock-borders").stdout
+        self.assertIn("proven within 1 % of A's diagonal, A to it alone", text)
+        self.check_gate("a.obj", "b.ply", "1%")
+
+    def test_doubles_stay_doubles_and_floats_are_judged_as_floats(self):
+        (self.folder / "far.obj").write_text(wavy(1e6))  # a float32 there is a multiple of 1/16
+        self.run_program("simplify", "far.obj", "--max", "0.004abs", "--out", "far.ply")
+        self.check_gate("far.obj", "far.ply", "0.004abs", "--symmetric")
+        done = self.run_program("simplify", "far.obj", "--max", "0.004abs", "--out", "far.stl", code=3)
+        self.assertIn("nothing written: no mesh within 0.004 of A was found", done.stdout)
+        self.assertEqual(self.files(), ["a.obj", "far.obj", "far.ply"])
+
+    def test_a_certificate_is_of_the_file_as_written(self):
+        self.run_program("simplify", "a.obj", "--max", "0.01abs", "--out", "b.stl", "--certificate", "b.vhc")
+        if CHECK is None:
+            self.skipTest("no vkh_check")
+        done = subprocess.run([CHECK, "b.vhc", "a.obj", "b.stl"], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_levels_are_a_chain(self):
+        words = ["simplify", "a.obj", "--max", "0.05abs", "--out", "l.ply", "--levels", "3", "--ratio", "0.4", "--json"]
+        answer = json.loads(self.run_program(*words).stdout)
+        self.assertEqual([file["path"] for file in answer["files"]], ["l-1.ply", "l-2.ply", "l-3.ply"])
+        faces = [2048, *[file["faces"] for file in answer["files"]]]
+        for finer, coarser in zip(faces, faces[1:]):
+            self.assertLessEqual(coarser, 0.4 * finer + 1)
+        for file in answer["files"]:
+            self.check_gate("a.obj", file["path"], f"{file['upper'] * (1 + 1e-4) + 1e-6!r}abs", "--symmetric")
+
+    def test_without_time_nothing_is_written(self):
+        for more in ([], ["--levels", "2"]):
+            done = self.run_program("simplify", "a.obj", "--max", "1%", "--out", "b.ply", "--time", "1e-9s", *more, code=3)
+            self.assertEqual(self.files(), ["a.obj"], done.stdout)
+
+    def test_misuse(self):
+        for words, named in [(["--max", "0", "--out", "b.ply"], "--max"),
+                             (["--max", "+1abs,-1abs", "--out", "b.ply"], "expected one length"),
+                             (["--max", "1mm", "--out", "b.ply"], "--max"),
+                             (["--max", "1%", "--out", "b.off"], ".ply, .obj, .stl or .glb"),
+                             (["--max", "1%", "--out", "a.obj"], "would overwrite"),
+                             (["--max", "1mm", "--unit", "mm", "--out", "b.glb"], "glTF is in metres"),
+                             (["--max", "1%", "--out", "b.ply", "--ratio", "0.5"], "--levels"),
+                             (["--max", "1%", "--out", "b.ply", "--levels", "2", "--certificate", "b.vhc"], "--levels"),
+                             (["--max", "1%", "--out", "b.ply", "--json=b.ply"], "two outputs"),
+                             (["--max", "1%", "--out", "b.ply", "--certificate", "b.txt"], ".vhc")]:
+            with self.subTest(words):
+                self.assertIn(named, self.run_program("simplify", "a.obj", *words, code=2).stderr)
+        self.assertEqual(self.files(), ["a.obj"])
+
+    def test_odd_meshes(self):
+        odd = {"one.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+               "degenerate.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 1 4\nf 1 2 2\n",
+               "crossing.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.2 0.2 1\nv 0.9 0.3 1\nf 1 2 3\nf 4 5 6\n",
+               "fin.obj": "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"}
+        for name, text in odd.items():
+            with self.subTest(name):
+                (self.folder / name).write_text(text)
+                self.run_program("simplify", name, "--max", "0.001abs", "--out", "odd.ply")
+                self.check_gate(name, "odd.ply", "0.001abs", "--symmetric")
+
+    @unittest.skipIf(jsonschema is None, "no jsonschema")
+    def test_json_fits_its_schema(self):
+        schema = json.loads((SOURCE / "docs/schema/simplify.schema.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        cases = [(["--out", "b.ply"], 0), (["--out", "b.stl", "--one-way"], 0), (["--out", "b.obj", "--levels", "2"], 0),
+                 (["--out", "b.ply", "--certificate", "b.vhc"], 0)]
+        for words, code in cases:
+            with self.subTest(words):
+                text = self.run_program("simplify", "a.obj", "--max", "1%", "--json", *words, code=code).stdout
+                answer = json.loads(text)
+                jsonschema.validate(answer, schema)
+                for file in answer["files"]:
+                    self.assertEqual(float.fromhex(file["upper_hex"]), file["upper"])
+                    self.assertLessEqual(file["upper"], answer["max"]["within"])
+                broken = {key: value for key, value in answer.items() if key != "files"}
+                with self.assertRaises(jsonschema.ValidationError):
+                    jsonschema.validate(broken, schema)
+
+    def test_a_binary_stl_has_as_many_faces_as_it_says(self):
+        self.run_program("simplify", "a.obj", "--max", "1%", "--out", "b.stl")
+        data = (self.folder / "b.stl").read_bytes()
+        self.assertEqual(len(data), 84 + 50 * struct.unpack("<I", data[80:84])[0])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
