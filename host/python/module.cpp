@@ -103,6 +103,19 @@ void define_metrics(py::module_& m) {
   m.def("_metrics", metrics, "As vkhausdorff.metrics, of meshes: a Result with stats['metrics'].");
 }
 
+void define_simplify(py::module_& m) {
+  m.def("simplify", simplified,
+        "simplify(a, max, *, one_way=False, lock_borders=False, float32=False, time=None, "
+        "device='')\n--\n\n"
+        "A mesh of fewer faces that is proven to be within max of A, both ways: a Simplified.\n\n"
+        "a: a mesh, as gate() takes it; max: a positive number in the coordinates' unit, or a\n"
+        "string such as '0.1%' of A's diagonal. one_way: limits the points of A alone.\n"
+        "lock_borders: keeps each vertex of an edge that only one face has. float32: the vertices\n"
+        "are float32, and judged so. time: seconds for the search; what passed by then is\n"
+        "returned, and TimeoutError says that nothing did. The distance alone is proven, neither\n"
+        "that the result is watertight nor how its faces are turned.");
+}
+
 void define_closest(py::module_& m) {
   m.def(
       "closest", closest,
@@ -216,6 +229,7 @@ PYBIND11_MODULE(_core, m) {
   define_gate(m);
   define_metrics(m);
   define_closest(m);
+  define_simplify(m);
   define_device(m);
   define_solver(m);
   define_mesh(m);

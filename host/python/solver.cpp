@@ -10,6 +10,8 @@
 #include "host/base/output_file.h"
 #include "host/python/interpreter.h"
 #include "host/python/question.h"
+#include "host/simplify/simplify.h"
+#include "host/solve/frame.h"
 
 namespace vkh::python {
 namespace {
@@ -210,6 +212,43 @@ bool goes_on(size_t) {
   return true;
 }
 
+py::object simplified_of(const Simplified& found) {
+  const auto ends = [](double lower, double upper) { return py::make_tuple(lower, upper); };
+  const Deviation& d = found.deviation;
+  py::object back = py::none();
+  if (d.b_to_a) back = ends(d.b_to_a->lower, d.b_to_a->upper);
+  return py::module_::import("vkhausdorff._simplify")
+      .attr("Simplified")(array_of<double>(found.mesh.vertices),
+                          array_of<uint32_t>(found.mesh.faces),
+                          ends(d.interval.lower, d.interval.upper),
+                          ends(d.a_to_b.lower, d.a_to_b.upper), back, found.complete, found.tried);
+}
+
+/// Reads the keywords of simplify(), but for the device.
+SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
+  const Question question = question_of("simplify", given);
+  constexpr const char* kExpected =
+      "a positive number, in the coordinates' unit, or a string such as '0.1%' or '0.01abs'";
+  if (!question.max) refuse_type("max", kExpected, given.at("max"));
+  if (question.max_sides) refuse_value("max", kExpected, given.at("max"));
+  const FloatEnvironment ours;
+  SimplifyOptions options;
+  options.max = limit_in_files(*question.max, "max", a.unit, diagonal(bounding_box(a)));
+  options.one_way = given.flag("one_way");
+  options.lock_borders = given.flag("lock_borders");
+  options.rounds_to_float = given.flag("float32");
+  options.time_limit_s = question.options.time_limit_s;
+  options.goes_on = [] { return goes_on(0); };
+  return options;
+}
+
+[[noreturn]] void raise_not_found(const Simplified& found) {
+  if (found.complete)
+    throw py::value_error("float32: A itself, rounded to it, is farther than max");
+  PyErr_SetString(PyExc_TimeoutError, "no mesh within max was found in the time");
+  throw py::error_already_set();
+}
+
 }  // namespace
 
 py::object closest(const py::args& positional, const py::kwargs& named) {
@@ -222,6 +261,21 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
   ClosestPoints found;
   session->use([&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
   return closest_of(found);
+}
+
+py::object simplified(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{
+      "simplify", {"a", "max", "one_way", "lock_borders", "float32", "time", "device"}, 2, 2};
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  const std::shared_ptr<Session> session = session_of(given);
+  const MeshPointer a = mesh_of("a", "A", given.at("a"));
+  const SimplifyOptions options = simplify_options(given, *a);
+  Simplified found;
+  session->use([&](Solver& s, const PreparedMesh*) { found = vkh::simplify(s, *a, options); });
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!found.found) raise_not_found(found);
+  return simplified_of(found);
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {

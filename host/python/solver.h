@@ -16,6 +16,9 @@ Result gate(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Returns a Closest of the package's.
 pybind11::object closest(const pybind11::args& positional, const pybind11::kwargs& named);
 
+/// Returns a Simplified of the package's.
+pybind11::object simplified(const pybind11::args& positional, const pybind11::kwargs& named);
+
 /// Frees the devices that distance() keeps, and those of all Solvers.
 void free_devices();
 

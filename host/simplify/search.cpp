@@ -6,8 +6,7 @@
 namespace vkh {
 namespace {
 
-// Errors are estimates: those whose results passed were from a 60th of the limit to twice it, as
-// docs/log/simplify.md has them.
+// Errors are estimates, far from distances as a rule, so that the range is wide.
 constexpr size_t kSteps = 16;
 constexpr double kLargest = 16, kSmallest = 1.0 / 256;
 constexpr int kBisections = 2;

@@ -49,6 +49,7 @@ vkh.Solver(mesh, device="cpu").distance(mesh)
 area: bool = vkh.gate((v, f), (v, f), 0.1, area="99%", survey_time=None).survey_met is True
 vkh.distance(v, f, v, f, certificate=pathlib.Path("out.vhc"))
 distances, points, rows = vkh.closest((v, f), v, device="cpu")
+light: float = vkh.simplify(mesh, "0.1%", one_way=True, time=1.5).interval.upper
 with vkh.Solver(mesh) as solver:
     low: float = float(solver.closest([[0, 0, 1]]).lower[0])
 with vkh.Device("cpu") as device:
@@ -184,7 +185,8 @@ class Types(unittest.TestCase):
         """The signatures are texts: the parser's own list is in what it says to a stranger."""
         with vkh.Solver(*SQUARE) as solver:
             for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance), (vkh.Device, vkh.Device),
-                                   (vkh.closest, vkh.closest), (solver.closest, solver.closest), (vkh.read, vkh.read)):
+                                   (vkh.closest, vkh.closest), (solver.closest, solver.closest), (vkh.read, vkh.read),
+                                   (vkh.simplify, vkh.simplify)):
                 with self.assertRaises(TypeError) as refused:
                     function(stranger=1)
                 taken = re.search(r"it takes (.*)$", str(refused.exception))[1].split(", ")

@@ -2,15 +2,16 @@
 
 from vkhausdorff import _core
 from vkhausdorff._closest import Closest
-from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, closest, devices, distance, read
+from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, closest, devices, distance, read, simplify
 from vkhausdorff._many import distances
 from vkhausdorff._metrics import Metrics, metrics
 from vkhausdorff._result import Witness
+from vkhausdorff._simplify import Simplified
 from vkhausdorff._survey import Field, Interval, SidedPoint, Signed, SignedField, Survey
 
-__all__ = ["Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField",
+__all__ = ["Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified",
            "Solver", "Survey", "Witness",
-           "__version__", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read"]
+           "__version__", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),

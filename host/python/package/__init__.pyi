@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Solver", "Survey", "Witness", "__version__",
-    "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read",
+    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified", "Solver", "Survey", "Witness", "__version__",
+    "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify",
 ]
 __version__: str
 
@@ -130,6 +130,28 @@ class Signed:
     over_witness: SidedPoint | Any
     under_witness: SidedPoint | Any
     def to_dict(self) -> dict[str, Any]: ...
+
+class Simplified:
+    """A mesh of fewer faces that is proven to be within max of A."""
+
+    vertices: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.uint32]
+    interval: Interval
+    a_to_b: Interval
+    b_to_a: Interval | None
+    complete: bool
+    tried: int
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        faces: npt.ArrayLike,
+        interval: tuple[float, float],
+        a_to_b: tuple[float, float],
+        b_to_a: tuple[float, float] | None,
+        complete: bool,
+        tried: int,
+    ) -> None: ...
+    def __iter__(self) -> Iterator[Any]: ...
 
 class Survey:
     """The known bounds of the distances of all of a mesh from the other one."""
@@ -391,6 +413,16 @@ def distance(
     max_distance: _Number | str | None = None,
 ) -> Result: ...
 def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex | Device = "") -> Closest: ...
+def simplify(
+    a: _Mesh,
+    max: _Number | str,
+    *,
+    one_way: bool = False,
+    lock_borders: bool = False,
+    float32: bool = False,
+    time: _Number | None = None,
+    device: str | SupportsIndex | Device = "",
+) -> Simplified: ...
 class _Results(Iterator[Result]):
     def __next__(self) -> Result: ...
     def close(self) -> None: ...

@@ -1,0 +1,46 @@
+"""The result of simplify(), as Python shows it. vkhausdorff._core makes it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from vkhausdorff._survey import Interval
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Simplified:
+    """A mesh of fewer faces that is proven to be within max of A. It may be passed wherever a mesh may.
+
+    vertices: (n, 3), float64, each a vertex of A; faces: (m, 3), uint32. Both are read-only. interval: the larger of both
+    distances, or of A's alone with one_way; interval.upper <= max. a_to_b, b_to_a: each direction's interval; b_to_a is
+    pruned by the other one, and may be wide; None with one_way. complete: False if time ended the search. tried: meshes
+    that were judged. It unpacks as vertices, faces, interval.
+    """
+
+    vertices: Any
+    faces: Any
+    interval: Interval
+    a_to_b: Interval
+    b_to_a: Any
+    complete: bool
+    tried: int
+
+    def __init__(self, vertices, faces, interval, a_to_b, b_to_a, complete, tried):
+        for name, values, kind in (("vertices", vertices, np.float64), ("faces", faces, np.uint32)):
+            own = np.array(values, dtype=kind)
+            own.setflags(write=False)
+            object.__setattr__(self, name, own)
+        for name, ends in (("interval", interval), ("a_to_b", a_to_b), ("b_to_a", b_to_a)):
+            object.__setattr__(self, name, None if ends is None else Interval(*ends))
+        object.__setattr__(self, "complete", bool(complete))
+        object.__setattr__(self, "tried", int(tried))
+
+    def __reduce__(self):  # unpickled arrays could be written to
+        return Simplified, (self.vertices, self.faces, self.interval, self.a_to_b, self.b_to_a, self.complete, self.tried)
+
+    def __iter__(self):
+        return iter((self.vertices, self.faces, self.interval))
+
+    def __repr__(self):
+        return f"<vkhausdorff.Simplified of {len(self.faces)} faces, within {self.interval.upper!r} of A>"
