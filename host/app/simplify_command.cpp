@@ -137,7 +137,7 @@ SimplifyOptions SimplifyCommand::options() {
   options.rounds_to_float = !holds_doubles(*mesh_format_of(asked_.out));
   options.time_limit_s = stop_.left_s();
   options.solve = question_.options;
-  options.goes_on = [this] { return !is_interrupted(); };
+  options.goes_on = [] { return !is_interrupted(); };
   options.progress = [this](const SimplifyProgress& progress) {
     line_.show([&] {
       return std::to_string(progress.tried) + " meshes judged, the smallest of " +
