@@ -51,7 +51,7 @@ endif()
 # <vkhausdorff.h>.
 set(VKH_HOST_HEADERS base/error base/length base/limit base/note base/sha256 gpu/device gpu/device_description gpu/vulkan_api
                      mesh/file_faces mesh/mesh mesh/mesh_transform mesh/polygon read/read_limits read/mesh_io read/place
-                     solve/solve_options solve/report solve/frame solve/closest_points solve/solver solve/stream solve/together
+                     solve/solve_options solve/report solve/frame solve/closest_points solve/solver solve/align solve/stream solve/together
                      solve/face_gate solve/verify survey/side survey/field survey/cell_map survey/survey survey/metrics survey/prover survey/certificate
                      write/colour_map write/field_file simplify/simplify simplify/levels answer/question answer/answer answer/work_meter answer/asking)
 set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)

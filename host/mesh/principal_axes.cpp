@@ -90,6 +90,18 @@ constexpr double kLeastAngle = 0.25;  // degrees
 constexpr double kLeastGap = 0.05;    // of the largest variance
 constexpr double kDegrees = 180 / std::numbers::pi;
 
+/// Fills in the axes of a matrix of covariances, unless a figure is too large for a double.
+void put_axes(Matrix m, PrincipalAxes& of) {
+  if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return;
+  const Matrix axes = diagonalize(m);
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int x, int y) { return m[x][x] < m[y][y]; });
+  for (int i = 0; i < 3; ++i) {
+    of.variances[i] = m[order[i]][order[i]];
+    of.axes[i] = axes[order[i]];
+  }
+}
+
 double least_gap(const DVec3& variances, int axis) {
   double gap = variances[2];
   for (int other = 0; other < 3; ++other) {
@@ -111,15 +123,25 @@ PrincipalAxes principal_axes_of(const Mesh& mesh) {
     for (int j = 0; j <= i; ++j)
       m[i][j] = m[j][i] = sums.second[i][j] / sums.area - centre[i] * centre[j];
   }
-  if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return of_mesh;
-  const Matrix axes = diagonalize(m);
-  int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int x, int y) { return m[x][x] < m[y][y]; });
-  for (int i = 0; i < 3; ++i) {
-    of_mesh.variances[i] = m[order[i]][order[i]];
-    of_mesh.axes[i] = axes[order[i]];
-  }
+  put_axes(m, of_mesh);
   return of_mesh;
+}
+
+PrincipalAxes principal_axes_of(std::span<const DVec3> points) {
+  PrincipalAxes of_points;
+  if (points.empty()) return of_points;
+  const auto count = static_cast<double>(points.size());
+  const glm::dvec3 origin = points[0];
+  glm::dvec3 sum{};
+  for (const DVec3& point : points) sum += glm::dvec3(point) - origin;
+  of_points.centroid = origin + sum / count;
+  Matrix m{0};
+  for (const DVec3& point : points) {
+    const glm::dvec3 from_centre = glm::dvec3(point) - glm::dvec3(of_points.centroid);
+    m += glm::outerProduct(from_centre, from_centre);
+  }
+  put_axes(m / count, of_points);
+  return of_points;
 }
 
 double difference_in_shape(const PrincipalAxes& a, const PrincipalAxes& b) {

@@ -3,6 +3,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <optional>
+#include <span>
 
 #include "host/mesh/mesh.h"
 
@@ -21,6 +22,9 @@ struct PrincipalAxes {
 };
 /// The same figures to the bit whatever the number of threads is.
 PrincipalAxes principal_axes_of(const Mesh& mesh);
+/// The axes of points that weigh alike; their area is 0. Zeros where there is no point, or a figure
+/// is too large for a double.
+PrincipalAxes principal_axes_of(std::span<const DVec3> points);
 
 /// By how much the variances of two surfaces differ at most, as a share of the largest of `b`; 1 or
 /// more where one has no axes.

@@ -165,6 +165,17 @@ MatrixRows read_matrix(const std::filesystem::path& path) {
   return rows;
 }
 
+std::string matrix_text(const MatrixRows& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    for (const double entry : row)
+      text += (text.empty() || text.back() == '\n' ? "" : " ") +
+              number_text(entry, std::chars_format::general, 17);
+    text += '\n';
+  }
+  return text + "0 0 0 1\n";
+}
+
 double stretch_of(const MatrixRows& rows) {
   const Rows3 squares = squares_of(rows);
   Float128 most = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "host/mesh/mesh.h"
 
@@ -10,6 +11,9 @@ namespace vkh {
 /// Reads sixteen numbers, four rows of four, between blanks, commas, semicolons or brackets; a line
 /// is ignored from a # on. Throws InputError if there are others, or the last row is not 0 0 0 1.
 MatrixRows read_matrix(const std::filesystem::path& path);
+
+/// Four rows of four numbers, with 17 digits each: read_matrix() reads the same doubles.
+std::string matrix_text(const MatrixRows& rows);
 
 /// The largest entry of |R^T R - I|, rounded up, for the 3 x 3 part R: 0 for an exact rotation. R
 /// changes a length l by at most 1.5 times this times l, up to its square (Gershgorin).

@@ -1,0 +1,16 @@
+// Points of a surface, spread by its area.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/mesh/mesh.h"
+
+namespace vkh {
+
+/// `count` points, one of each stretch of equal area as the faces follow each other, from a fixed
+/// generator: the same points for the same mesh on every machine, but for roundings. Faces weigh
+/// alike where there is no area, or a figure is too large for a double.
+std::vector<DVec3> area_samples(const Mesh& mesh, size_t count);
+
+}  // namespace vkh
