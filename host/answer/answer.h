@@ -41,9 +41,10 @@ struct Input {
 /// Where a user put A, and by what.
 struct PlacedInput {
   MeshTransform by;
-  std::string from;         ///< the unit that A's file was in; empty: unknown
-  std::string file = {};    ///< the matrix's; empty: it came in no file
-  std::string sha256 = {};  ///< that file's hash, if known
+  std::string from;                  ///< the unit that A's file was in; empty: unknown
+  std::string file = {};             ///< the matrix's; empty: it came in no file
+  std::string sha256 = {};           ///< that file's hash, if known
+  std::optional<FoundFit> fit = {};  ///< the matrix was found, from the file's or from none
 };
 
 /// The limits and the outcome for a mesh whose faces have limits of their own.

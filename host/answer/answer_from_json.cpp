@@ -441,6 +441,14 @@ MatrixRows matrix_of(const Json& json) {
   return rows;
 }
 
+/// The notes of the answer tell the rest.
+FoundFit fit_of(const Json& json) {
+  if (!truth_at(json, "found")) throw InputError("a transform with found false");
+  return {.rms = number_at(json, "rms"),
+          .share = number_at(json, "share"),
+          .samples = count_in(json, "samples")};
+}
+
 PlacedInput placed_of(const Json& json, const std::string& unit) {
   PlacedInput placed{.by = {},
                      .from = text_or_empty_at(json, "from_unit"),
@@ -453,6 +461,7 @@ PlacedInput placed_of(const Json& json, const std::string& unit) {
   placed.by.numerator = factor[0].get<double>();
   placed.by.denominator = factor[1].get<double>();
   if (!member_at(json, "matrix").is_null()) placed.by.matrix = matrix_of(array_at(json, "matrix"));
+  if (json.contains("found")) placed.fit = fit_of(json);
   return placed;
 }
 

@@ -194,13 +194,18 @@ Answered work(const std::shared_ptr<SharedState>& at) {
   const auto start = Clock::now();
   Answered done;
   done.pair = question.file_a.empty() ? default_pair() : read_pair(at);
-  at->read(done.pair, ms_since(start));
+  const double read_ms = ms_since(start);
+  if (!question.align) at->read(done.pair, read_ms);
   hashes.begin_beneath();
   done.session = opening.get();
+  const Observer observer = observer_of(*at);
+  if (question.align) {
+    fit_a(question, *done.session.solver, observer, done.pair.a, done.pair.b);
+    at->read(done.pair, read_ms);
+  }
   at->known.open(done.session.device->description(), done.session.setup_ms);
   done.answer = at->known.answer();
   const AskedMeshes meshes{done.pair.a, done.pair.b};
-  const Observer observer = observer_of(*at);
   solve(question, solvers_of(done.session), meshes, observer, done.answer);
   finish(question, *done.session.solver, meshes, observer, done.answer);
   hashes.fill(done.answer);

@@ -76,9 +76,11 @@ struct Asking::State {
 
 void Asking::State::work() {
   const FloatEnvironment ours;
+  const Observer heard = observer();
   if (is_placed(question, *a, *b)) {
     auto moved = std::make_shared<Mesh>(*a);
     place_a(question, *moved, *b);
+    fit_a(question, *solvers.front(), heard, *moved, *b);
     a = std::move(moved);
   }
   Answer answer = unread_answer(question);
@@ -86,7 +88,6 @@ void Asking::State::work() {
   known.begin(answer, farthest);
   known.open(solvers.front()->device().description(), 0);
   const AskedMeshes meshes{*a, *b};
-  const Observer heard = observer();
   solve(question, solvers, meshes, heard, answer);
   finish(question, *solvers.front(), meshes, heard, answer);
   answer.waits.total = 1000 * std::chrono::duration<double>(Clock::now() - start).count();

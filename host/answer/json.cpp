@@ -57,6 +57,12 @@ Json transform_json(const Answer& answer) {
                {"matrix", nullptr},
                {"path", text_or_null(placed.file)},
                {"sha256", text_or_null(placed.sha256)}};
+  if (placed.fit) {
+    json["found"] = true;
+    json["rms"] = placed.fit->rms;
+    json["share"] = placed.fit->share;
+    json["samples"] = placed.fit->samples;
+  }
   if (!placed.by.matrix) return json;
   json["matrix"] = Json::array();
   for (const auto& row : *placed.by.matrix) json["matrix"].push_back(row);

@@ -37,6 +37,7 @@ struct Question {
   std::string transform_file;  ///< a file with the matrix by which A is placed; empty: none
   std::optional<MatrixRows> transform;      ///< the matrix itself, if it was read before
   bool may_stretch = false;                 ///< the matrix may be any that does not mirror
+  bool align = false;                       ///< A is then laid onto B by a fit: fit_a()
   ReadLimits limits;                        ///< all but the callbacks, and `points`: limits_of()
   bool points_a = false, points_b = false;  ///< ReadLimits::points of each
   bool hashes = false;                      ///< Input::sha256 is wanted

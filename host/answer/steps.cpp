@@ -14,6 +14,8 @@
 #include "host/base/rounding.h"
 #include "host/base/system.h"
 #include "host/read/place.h"
+#include "host/read/transform.h"
+#include "host/solve/align.h"
 #include "host/solve/frame.h"
 #include "host/survey/statistics.h"
 
@@ -147,7 +149,37 @@ void drop_small_ambiguities(double tolerance, Input& input) {
 
 std::optional<PlacedInput> placed_of(const Question& question, const Mesh& a) {
   if (!a.placed) return std::nullopt;
-  return PlacedInput{.by = a.placed->by, .from = a.placed->from, .file = question.transform_file};
+  return PlacedInput{.by = a.placed->by,
+                     .from = a.placed->from,
+                     .file = question.transform_file,
+                     .fit = a.placed->fit};
+}
+
+/// A figure as people read it: rounded up, and its unit.
+std::string rms_text(double rms, const Answer& answer) {
+  return decimal(rms, 3, Rounding::kUp) + (answer.unit.empty() ? "" : " " + answer.unit);
+}
+
+/// A fit is no proof: what it found is told with it.
+void add_notes_on_fit(Answer& answer) {
+  if (!answer.placed || !answer.placed->fit) return;
+  const FoundFit& fit = *answer.placed->fit;
+  const std::string share = number_text(100 * fit.share, std::chars_format::general, 3) + " %";
+  answer.notes.push_back(note_of(NoteCode::kFit,
+                                 "A was moved by a fit that was found, not proven the best: " +
+                                     share + " of its samples count, and lie " +
+                                     rms_text(fit.rms, answer) + " from B (root mean square)",
+                                 {fit.rms, answer.unit}));
+  if (fit.is_poor)
+    answer.notes.push_back(
+        note_of(NoteCode::kPoorFit,
+                "the fit is far from B, or of a part of A: look at it, or give a start by "
+                "--transform"));
+  if (fit.rival)
+    answer.notes.push_back(note_of(NoteCode::kOtherFit,
+                                   "another place of A is about as close to B (" +
+                                       rms_text(*fit.rival, answer) + "): is the part symmetric?",
+                                   {*fit.rival, answer.unit}));
 }
 
 /// From a surface to points the farthest places lie between points.
@@ -195,12 +227,19 @@ void take_sides(const Question& question, double diagonal_a, Answer& answer) {
 }  // namespace
 
 bool is_placed(const Question& question, const Mesh& a, const Mesh& b) {
-  return question.transform || !question.transform_file.empty() ||
+  return question.align || question.transform || !question.transform_file.empty() ||
          units_of(question, a, b).differ();
 }
 
-void place_a(const Question& question, Mesh& a, const Mesh& b) {
-  if (a.placed || !is_placed(question, a, b)) return;
+namespace {
+
+struct AskedPlace {
+  MeshTransform by;
+  std::string unit;  ///< of the outcome
+};
+
+/// The unit and the matrix that the question has for A.
+AskedPlace placement_of(const Question& question, const Mesh& a, const Mesh& b) {
   MeshTransform placement{.matrix = question.transform};
   std::string name = question.option("transform");
   if (!question.transform_file.empty()) {
@@ -214,8 +253,45 @@ void place_a(const Question& question, Mesh& a, const Mesh& b) {
     placement.numerator = ratio.numerator;
     placement.denominator = ratio.denominator;
   }
+  return {placement, units.differ() ? units.b : units.a};
+}
+
+void place_by(const Question& question, const AskedPlace& placement, const Units& units, Mesh& a) {
   a.unit = units.a;
-  place(a, placement, units.differ() ? units.b : units.a, question.certificate);
+  place(a, placement.by, placement.unit, question.certificate);
+}
+
+/// Where the question has put A before a fit: A itself, or a copy.
+const Mesh& start_of(const AskedPlace& placement, const Mesh& a, std::optional<Mesh>& moved) {
+  if (placement.by.is_identity()) return a;
+  moved.emplace(a);
+  place(*moved, placement.by, placement.unit, false);
+  return *moved;
+}
+
+}  // namespace
+
+void place_a(const Question& question, Mesh& a, const Mesh& b) {
+  if (a.placed || question.align || !is_placed(question, a, b)) return;
+  place_by(question, placement_of(question, a, b), units_of(question, a, b), a);
+}
+
+void fit_a(const Question& question, Solver& solver, const Observer& observer, Mesh& a,
+           const Mesh& b, const PreparedMesh* prepared) {
+  if (a.placed || !question.align) return;
+  const Units units = units_of(question, a, b);
+  AskedPlace placement = placement_of(question, a, b);
+  AlignOptions options;
+  options.goes_on = [&observer](size_t) { return observer.is_to_go_on(); };
+  std::optional<Mesh> moved;
+  const Mesh& start = start_of(placement, a, moved);
+  const Alignment found = prepared != nullptr ? align(solver, start, *prepared, options)
+                                              : align(solver, start, b, options);
+  moved.reset();
+  std::optional<MatrixRows>& matrix = placement.by.matrix;
+  matrix = matrix ? scene::compose({.m = found.matrix}, {.m = *matrix}).m : found.matrix;
+  place_by(question, placement, units, a);
+  a.placed->fit = found.fit;
 }
 
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
@@ -253,6 +329,7 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
             .within;
   }
   add_note_on_stretch(box_a, answer);
+  add_notes_on_fit(answer);
   add_note_on_points(question, a, b, answer);
   for (Input& input : answer.inputs) drop_small_ambiguities(answer.a_to_b.tolerance, input);
   // A run with a limit may end by that, whatever its tolerance is.

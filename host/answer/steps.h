@@ -44,11 +44,16 @@ struct ShapedMesh {
 Answer unread_answer(const Question& question);
 
 /// Puts A where the question says: in B's unit, where both units are known and differ, and by the
-/// matrix. Call it before take_meshes(). Throws UsageError for a unit that contradicts a file's
-/// own, and InputError for a matrix that cannot be read or is no rotation.
+/// matrix. Call it before take_meshes(); where the question asks for a fit it does nothing, and
+/// fit_a() all. Throws UsageError for a unit that contradicts a file's own, and InputError for a
+/// matrix that cannot be read or is no rotation.
 void place_a(const Question& question, Mesh& a, const Mesh& b);
-/// Whether place_a() would change A.
+/// Whether place_a() or fit_a() would change A.
 bool is_placed(const Question& question, const Mesh& a, const Mesh& b);
+/// Puts A where place_a() does, and from there where align() finds it: by one matrix for both.
+/// Throws what place_a() and Solver throw, and Interrupted where the observer ends it.
+void fit_a(const Question& question, Solver& solver, const Observer& observer, Mesh& a,
+           const Mesh& b, const PreparedMesh* prepared = nullptr);
 
 /// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound, which
 /// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal

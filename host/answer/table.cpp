@@ -100,6 +100,12 @@ void print_input(std::ostream& out, const char* label, const Input& input) {
 
 std::string entry(double number) { return number_text(number, std::chars_format::general, 6); }
 
+std::string matrix_source(const PlacedInput& placed) {
+  const std::string file = printable(placed.file);
+  if (!placed.fit) return file.empty() ? "" : ", " + file;
+  return " that a fit found" + (file.empty() ? "" : " from " + file);
+}
+
 void print_placed(std::ostream& out, const Answer& answer) {
   if (!answer.placed) return;
   const MeshTransform& by = answer.placed->by;
@@ -109,10 +115,9 @@ void print_placed(std::ostream& out, const Answer& answer) {
            entry(by.numerator / by.denominator);
   if (by.matrix && !text.empty()) text += "; ";
   if (by.matrix)
-    text += "by a matrix" +
-            (answer.placed->file.empty() ? "" : ", " + printable(answer.placed->file)) +
-            ", that moves the origin to (" + entry((*by.matrix)[0][3]) + ", " +
-            entry((*by.matrix)[1][3]) + ", " + entry((*by.matrix)[2][3]) + ")";
+    text += "by a matrix" + matrix_source(*answer.placed) + ", that moves the origin to (" +
+            entry((*by.matrix)[0][3]) + ", " + entry((*by.matrix)[1][3]) + ", " +
+            entry((*by.matrix)[2][3]) + ")";
   print_row(out, "A placed", text);
 }
 

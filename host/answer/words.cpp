@@ -283,6 +283,13 @@ std::string warned(const Answer& answer, std::string text) {
   return text + ". Check the inputs: " + odd;
 }
 
+/// Says of a verdict or a distance that A was moved before it.
+std::string after_fit(const Answer& answer, std::string text) {
+  if (!answer.placed || !answer.placed->fit) return text;
+  const size_t verdict = answer.max ? text.find("  ") : std::string::npos;
+  return text.insert(verdict == std::string::npos ? 0 : verdict + 2, "after a fit (--align): ");
+}
+
 }  // namespace
 
 const char* program_version() { return VKH_VERSION_STRING; }
@@ -406,9 +413,9 @@ std::string printable(const std::string& text) {
 
 std::string in_words(const Answer& answer) {
   if (!answer.first_line.empty()) return answer.first_line;
-  if (answer.metrics) return warned(answer, metrics_in_words(answer));
-  if (!answer.max) return warned(answer, distance_in_words(answer));
-  return warned(answer, gate_in_words(answer)) +
+  if (answer.metrics) return warned(answer, after_fit(answer, metrics_in_words(answer)));
+  if (!answer.max) return warned(answer, after_fit(answer, distance_in_words(answer)));
+  return warned(answer, after_fit(answer, gate_in_words(answer))) +
          (is_one_way_pass(answer) ? std::string(". ") + one_way_text(answer) : "");
 }
 

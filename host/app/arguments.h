@@ -20,7 +20,7 @@ enum class Command { kHelp, kDistance, kGate, kMetrics, kDemo, kDoctor, kBatch, 
 /// The places for answers besides the table.
 struct Outputs {
   bool json = false;  ///< one object on stdout instead of the table
-  std::optional<std::string> json_file, junit_file;
+  std::optional<std::string> json_file, junit_file, transform_file;
   bool github = false;
   bool verbose = false;
   PicturesAsked pictures;

@@ -86,7 +86,7 @@ const std::vector<HelpGroup>& help_groups() {
         "field-tol", "effort",   "against",    "allow-unpaired", "one-way", "lock-borders",
         "levels",    "ratio"}},
       {"What the meshes are in, and where A lies",
-       {"unit", "unit-a", "unit-b", "transform", "scale"}},
+       {"unit", "unit-a", "unit-b", "transform", "scale", "align", "save-transform"}},
       {"What is printed and written",
        {"out", "csv", "json", "junit", "github", "field", "image", "report", "title", "figures-csv",
         "points-out", "image-dir", "report-dir", "certificate", "verbose", "verify",

@@ -68,8 +68,8 @@ void check_distinct(const Outputs& outputs) {
   const PicturesAsked& p = outputs.pictures;
   std::set<std::filesystem::path> places;
   for (const std::optional<std::string>& file :
-       {outputs.json_file, outputs.junit_file, p.field, p.image, p.report, p.certificate, p.figures,
-        p.points}) {
+       {outputs.json_file, outputs.junit_file, outputs.transform_file, p.field, p.image, p.report,
+        p.certificate, p.figures, p.points}) {
     if (file && !places.insert(std::filesystem::absolute(path_of(*file)).lexically_normal()).second)
       throw UsageError("two outputs would be written to '" + *file + "'");
   }
@@ -83,7 +83,8 @@ struct Places {
 Places places_of(const CommandLine& line) {
   check_distinct(line.outputs);
   const std::vector<std::string> inputs = {line.question.file_a, line.question.file_b,
-                                           line.question.face_max_a, line.question.face_max_b};
+                                           line.question.face_max_a, line.question.face_max_b,
+                                           line.question.transform_file};
   return {.destinations = Destinations(line.outputs, inputs),
           .pictures = Pictures(line.outputs.pictures, line.question.symmetric, inputs)};
 }

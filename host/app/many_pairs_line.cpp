@@ -71,7 +71,8 @@ void put_source(const TypedMany& typed, BatchAsked& batch) {
 
 void add_batch(CLI::App& command, TypedMany& typed) {
   command.footer(
-      "LIST has id, a, b and perhaps tol, max, unit, symmetric and signed: JSONL, or CSV with a "
+      "LIST has id, a, b and perhaps tol, max, unit, align, symmetric and signed: JSONL, or CSV "
+      "with a "
       "heading. "
       "Its files' names are of its own folder.");
   command

@@ -9,6 +9,7 @@
 #include "host/answer/exit_code.h"
 #include "host/base/error.h"
 #include "host/base/system.h"
+#include "host/read/place.h"
 
 namespace vkh {
 namespace {
@@ -36,6 +37,13 @@ Outputs outputs_in(const Words& words, Words& others) {
   return outputs;
 }
 
+/// The matrix by which A was placed, as a file has it.
+std::string placed_text(const Answer& answer) {
+  if (!answer.placed || !answer.placed->by.matrix)
+    throw OutputError("--save-transform: the run ended before A was placed");
+  return matrix_text(*answer.placed->by.matrix);
+}
+
 }  // namespace
 
 Destinations::Destinations(const Outputs& outputs, const std::vector<std::string>& inputs)
@@ -46,6 +54,8 @@ Destinations::Destinations(const Outputs& outputs, const std::vector<std::string
   }
   if (outputs.json_file) json_.emplace("--json", *outputs.json_file, taken);
   if (outputs.junit_file) junit_.emplace("--junit", *outputs.junit_file, taken);
+  if (outputs.transform_file)
+    transform_.emplace("--save-transform", *outputs.transform_file, taken);
 }
 
 std::string Destinations::write(const Answer& answer) {
@@ -59,6 +69,7 @@ std::string Destinations::write(const Answer& answer) {
   };
   if (json_) attempt([&] { json_->write(to_json(answer) + '\n'); });
   if (junit_) attempt([&] { junit_->write(to_junit(answer)); });
+  if (transform_) attempt([&] { transform_->write(placed_text(answer)); });
   if (outputs_.github) attempt([&] { append_github_summary(github_summary(answer)); });
   // GitHub's runner reads commands from both streams; stdout has no room beside one JSON object.
   if (outputs_.github) (outputs_.json ? std::cerr : std::cout) << github_annotation(answer);

@@ -27,7 +27,7 @@ class Destinations {
 
  private:
   Outputs outputs_;
-  std::optional<OutputFile> json_, junit_;
+  std::optional<OutputFile> json_, junit_, transform_;
 };
 
 /// Appends text that GitHub shows on the run's page; earlier steps have written to it. Throws

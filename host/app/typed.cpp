@@ -70,6 +70,9 @@ void add_placement_of(const Typed& typed, Question& question) {
   question.unit_b = typed.unit_b;
   question.transform_file = typed.transform;
   question.may_stretch = typed.may_stretch;
+  question.align = typed.align;
+  if (!typed.saved_transform.empty() && !typed.align && typed.transform.empty())
+    throw UsageError("--save-transform: there is no matrix: ask for --align or --transform");
 }
 
 void check_together(const Typed& typed) {
@@ -118,6 +121,10 @@ void check_max_distance(const Typed& typed) {
 void check_part(const Typed& typed) {
   if (typed.known_lower && !typed.part)
     throw UsageError("--known-lower: is what other parts have shown: ask for a --part");
+  if (typed.part && typed.align)
+    throw UsageError(
+        "--part: is of A where it lies: find the place once, by --align and --save-transform, and "
+        "give it to each part by --transform");
   const bool asks_more = typed.symmetric || typed.statistics || typed.is_signed ||
                          !typed.bands.empty() || !typed.field_tolerance.empty() ||
                          typed.pictures.any();
@@ -183,6 +190,7 @@ Outputs outputs_of(const Typed& typed) {
   outputs.json = typed.json == kStandardOutput;
   if (!typed.json.empty() && !outputs.json) outputs.json_file = typed.json;
   if (!typed.junit.empty()) outputs.junit_file = typed.junit;
+  if (!typed.saved_transform.empty()) outputs.transform_file = typed.saved_transform;
   outputs.github = typed.github;
   outputs.verbose = typed.verbose;
   outputs.pictures = asked_of(typed.pictures);
@@ -300,6 +308,7 @@ void add_pair(CLI::App& command, Typed& typed) {
       ->required();
   command.add_option("B", typed.file_b, "Mesh to go to")->required();
   add_unit_and_input(command, typed);
+  add_saved_transform(command, typed);
 }
 
 void add_unit_and_input(CLI::App& command, Typed& typed) {
@@ -349,6 +358,16 @@ void add_placement(CLI::App& command, Typed& typed) {
       ->type_name("FILE");
   command.add_flag("--scale", typed.may_stretch,
                    "Allow a --transform that stretches A by more than 1e-6");
+  command.add_flag("--align", typed.align,
+                   "Then lay A onto B by a fit (rotation and shift), which is found, not proven "
+                   "the best; the answer is for A as it lies there");
+}
+
+void add_saved_transform(CLI::App& command, Typed& typed) {
+  command
+      .add_option("--save-transform", typed.saved_transform,
+                  "Write the matrix by which A was placed, as --transform reads it")
+      ->type_name("FILE");
 }
 
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default) {

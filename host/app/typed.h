@@ -18,6 +18,7 @@ namespace vkh {
 struct Typed {
   std::string file_a, file_b;
   std::string tolerance, max, face_max_a, face_max_b, unit, unit_a, unit_b, transform, device;
+  std::string saved_transform;
   std::optional<std::string> memory, time, waves, effort, max_input, part, known_lower;
   std::vector<std::string> enabled, disabled;
   std::string preset, polygons, bodies, points;
@@ -27,6 +28,7 @@ struct Typed {
   std::string percentile;    ///< of metrics
   bool metrics = false;      ///< both directions' figures by name
   bool may_stretch = false;  ///< --scale
+  bool align = false;
   bool worst = false;
   bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,
        statistics = false, is_signed = false;
@@ -39,7 +41,8 @@ extern const char* const kLengths;
 void add_pair(CLI::App& command, Typed& typed);
 void add_unit_and_input(CLI::App& command, Typed& typed);
 void add_input_options(CLI::App& command, Typed& typed);  ///< how files are read
-void add_placement(CLI::App& command, Typed& typed);      ///< units of each side, and a matrix
+void add_placement(CLI::App& command, Typed& typed);      ///< units of each side, a matrix, a fit
+void add_saved_transform(CLI::App& command, Typed& typed);
 void add_tolerance(CLI::App& command, Typed& typed, const char* by_default);
 void add_symmetric(CLI::App& command, Typed& typed);
 void add_part(CLI::App& command, Typed& typed);

@@ -8,11 +8,13 @@
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 28> kCodeNames = {
-    "polygons", "ambiguity", "bodies",    "short-faces", "elements",    "surfaces",     "calls",
-    "unread",   "scene",     "rotations", "positions",   "morph",       "animations",   "units",
-    "size",     "turn",      "apart",     "one-way",     "coverage",    "unit-assumed", "converted",
-    "stretch",  "tolerance", "memory",    "devices",     "certificate", "survey",       "points"};
+constexpr std::array<std::string_view, 31> kCodeNames = {
+    "polygons",   "ambiguity",    "bodies",    "short-faces", "elements",    "surfaces",
+    "calls",      "unread",       "scene",     "rotations",   "positions",   "morph",
+    "animations", "units",        "size",      "turn",        "apart",       "one-way",
+    "coverage",   "unit-assumed", "converted", "stretch",     "fit",         "poor-fit",
+    "other-fit",  "tolerance",    "memory",    "devices",     "certificate", "survey",
+    "points"};
 static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kPoints) + 1);
 
 }  // namespace
@@ -54,6 +56,9 @@ bool is_for_servers(NoteCode code) {
     case NoteCode::kCoverage:
     case NoteCode::kConverted:
     case NoteCode::kStretch:
+    case NoteCode::kFit:
+    case NoteCode::kPoorFit:
+    case NoteCode::kOtherFit:
     case NoteCode::kUnitAssumed:
       return true;
     default:

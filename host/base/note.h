@@ -36,6 +36,9 @@ enum class NoteCode {
   kUnitAssumed,  ///< one file does not say its unit, and the other does
   kConverted,    ///< A was converted to B's unit
   kStretch,      ///< the matrix that places A is no exact rotation
+  kFit,          ///< A lies where a fit put it, which is not proven the best
+  kPoorFit,      ///< that fit is far from B, or of a part of A
+  kOtherFit,     ///< another place of A is about as good
   kTolerance,    ///< a tolerance of 0, which hardly any interval meets
   kMemory,       ///< memory that the device or --memory lacks
   kDevices,      ///< devices that were lost

@@ -221,8 +221,12 @@ class Batch {
                     .b = running.meshes.b,
                     .shares_b = running.meshes.shares_b,
                     .symmetric = running.entry.question.symmetric,
-                    .options = solve_options(running.entry.question, running.entry.known)};
-    pair.options.progress = [this](const Progress&) { return goes_on(); };
+                    .options = {}};
+    if (running.entry.question.align) {
+      pair.before = [this](Solver& solver, StreamPair& one) { fit(solver, one); };
+    } else {
+      pair.options = options_of(running);
+    }
     if (job_.folders || running.entry.question.asks_for_survey())
       pair.beside = [this](Solver& solver, StreamResult& result) { go_on(solver, result); };
     {
@@ -230,6 +234,20 @@ class Batch {
       running_.emplace(number, std::move(running));
     }
     return stream.push(std::move(pair));
+  }
+
+  SolveOptions options_of(const Running& one) {
+    SolveOptions options = solve_options(one.entry.question, one.entry.known);
+    options.progress = [this](const Progress&) { return goes_on(); };
+    return options;
+  }
+
+  // Runs on a worker's thread, before the pair's run. The time of a pair is for its run.
+  void fit(Solver& solver, StreamPair& pair) {
+    Running& one = running(pair.number);
+    EntryReader::fit(solver, {.goes_on = [this] { return goes_on(); }}, one.meshes, one.entry);
+    pair.a = one.meshes.a;
+    pair.options = options_of(one);
   }
 
   Running& running(size_t number) {
@@ -288,12 +306,23 @@ class Batch {
     return answer;
   }
 
+  static bool is_called_off(const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const Interrupted&) {
+      return true;
+    } catch (...) {
+      return false;
+    }
+  }
+
   static bool is_survey_cancelled(const std::optional<SurveyResult>& survey) {
     return survey && survey->ended == SurveyEnd::kCancelled;
   }
 
   void write_result(const Running& one, StreamResult&& result) {
     const NamedEntry& entry = one.entry;
+    if (result.error && is_called_off(result.error)) return;
     if (result.error) return write_failure(entry, result.error);
     const Answer answer = one.surveyed ? *one.surveyed : answer_of(entry, std::move(result));
     const bool is_to_be_done_again = is_cancelled(answer) || is_survey_cancelled(answer.survey_a) ||

@@ -21,7 +21,8 @@ namespace vkh {
 namespace {
 
 constexpr const char* kExpected =
-    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, points, symmetric, signed";
+    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, align, points, symmetric, "
+    "signed";
 
 std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -47,8 +48,12 @@ bool put(Entry& entry, const std::string& name, const std::string& text) {
   for (size_t i = 0; i < kNames.size(); ++i) {
     if (name == kNames[i]) return *places[i] = text, true;
   }
-  if (name != "symmetric" && name != "signed") return false;
-  if (!text.empty()) (name == "signed" ? entry.is_signed : entry.symmetric) = truth_of(name, text);
+  std::optional<bool>* truth = nullptr;
+  if (name == "symmetric") truth = &entry.symmetric;
+  if (name == "signed") truth = &entry.is_signed;
+  if (name == "align") truth = &entry.align;
+  if (truth == nullptr) return false;
+  if (!text.empty()) *truth = truth_of(name, text);
   return true;
 }
 

@@ -17,7 +17,7 @@ struct Entry {
   std::string tolerance, max, unit, unit_a, unit_b;
   std::string transform;  ///< a matrix's path that opens from here
   std::string points;     ///< a, b or both
-  std::optional<bool> symmetric, is_signed;
+  std::optional<bool> symmetric, is_signed, align;
   /// The error of a file without a partner; empty: there is a pair.
   std::string missing = {};
   const std::string& one_file() const { return file_a.empty() ? file_b : file_a; }
@@ -30,10 +30,10 @@ struct PairList {
 };
 
 /// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform`,
-/// `points`, `symmetric` and `signed`. Relative names, of matrices too, start at the list's folder,
-/// or at the current one if the list is a pipe. A list is CSV if its name ends in .csv; its
-/// separator is a comma or a semicolon, as its heading has. Throws InputError with file, line and
-/// the expected form; also for an id that occurs twice.
+/// `align`, `points`, `symmetric` and `signed`. Relative names, of matrices too, start at the
+/// list's folder, or at the current one if the list is a pipe. A list is CSV if its name ends in
+/// .csv; its separator is a comma or a semicolon, as its heading has. Throws InputError with file,
+/// line and the expected form; also for an id that occurs twice.
 PairList read_list(const std::string& path);
 
 /// Pairs each of `parts` with one B; its id is its name as the user typed it.

@@ -41,6 +41,7 @@ std::string hashes_in_text(const Input& input) {
 void add_placement(const Question& question, std::string& text) {
   if (!question.unit_a.empty()) text += "\nunit a " + question.unit_a;
   if (!question.unit_b.empty()) text += "\nunit b " + question.unit_b;
+  if (question.align) text += "\nalign";
   if (!question.transform) return;
   text += question.may_stretch ? "\nscale" : "\nplace";
   for (const auto& row : *question.transform) {
@@ -155,6 +156,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
     question.tolerance = parse_length("tol", tolerance, PlainNumber::kSmallFraction);
   if (!entry.max.empty()) put_max("max", entry.max, question);
   if (!entry.points.empty()) put_points("points", entry.points, question);
+  question.align = entry.align.value_or(question.align);
   question.symmetric = entry.symmetric.value_or(question.symmetric);
   question.is_signed = entry.is_signed.value_or(question.is_signed);
   question.statistics = question.is_signed;
@@ -241,17 +243,34 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   meshes.b = b.mesh;
   place_a(entry.question, *a, *meshes.b);
   meshes.a = a;
+  meshes.shape_b = b.shape;
   check_sides(entry.question, *meshes.a, *meshes.b);
+  if (!entry.question.align) take(meshes, entry);
+  entry.known.waits.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return meshes;
+}
+
+void EntryReader::fit(Solver& solver, const Observer& observer, EntryMeshes& meshes,
+                      NamedEntry& entry) {
+  const auto start = Clock::now();
+  auto moved = std::make_shared<Mesh>(*meshes.a);
+  fit_a(entry.question, solver, observer, *moved, *meshes.b);
+  meshes.a = std::move(moved);
+  const double read_ms = entry.known.waits.read;
+  take(meshes, entry);
+  entry.known.waits.read =
+      read_ms + std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void EntryReader::take(const EntryMeshes& meshes, NamedEntry& entry) {
   Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
-  take_meshes(entry.question, {*meshes.a, shape_of(*meshes.a)}, {*meshes.b, b.shape}, known);
+  take_meshes(entry.question, {*meshes.a, shape_of(*meshes.a)}, {*meshes.b, meshes.shape_b}, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {
     known.inputs[i].path = entry.known.inputs[i].path;
     known.inputs[i].sha256 = entry.known.inputs[i].sha256;
     known.inputs[i].files = entry.known.inputs[i].files;
   }
   entry.known = std::move(known);
-  entry.known.waits.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  return meshes;
 }
 
 }  // namespace vkh

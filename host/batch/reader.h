@@ -30,6 +30,7 @@ struct NamedEntry {
 
 struct EntryMeshes {
   std::shared_ptr<const Mesh> a, b;
+  MeshShape shape_b;
   bool shares_b = false;
 };
 
@@ -47,8 +48,10 @@ class EntryReader {
 
   /// Throws UsageError for an entry's wrong options, and InputError for one without a partner.
   NamedEntry name(const Entry& entry);
-  /// Throws what read_mesh and take_meshes throw. Fills entry.known.
+  /// Throws what read_mesh and take_meshes throw. Fills entry.known, unless a fit is asked for.
   EntryMeshes read(NamedEntry& entry);
+  /// Lays A onto B, and fills entry.known. Throws what fit_a and take_meshes throw.
+  static void fit(Solver& solver, const Observer& observer, EntryMeshes& meshes, NamedEntry& entry);
 
  private:
   /// A mesh of several pairs, and its shape, which is found once.
@@ -60,6 +63,7 @@ class EntryReader {
     std::shared_future<SharedMesh> mesh;
     uint64_t last_use = 0, bytes = 0;
   };
+  static void take(const EntryMeshes& meshes, NamedEntry& entry);
   InputHashes hashes_of(const std::string& file, bool is_shared);
   std::shared_ptr<Mesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
   SharedMesh b_of(const Question& question, bool is_shared);

@@ -33,6 +33,9 @@ struct StreamPair {
   bool shares_b = false;
   bool symmetric = false;
   SolveOptions options;  ///< `progress` is asked on the threads that run
+  /// Called before the pair's run, once, with the solver that will run it: it may change `a`,
+  /// `options` and `beside`. An exception from it is the pair's error.
+  std::function<void(Solver&, StreamPair&)> before = {};
   /// Called after the pair's own run, with the solver that ran it, before it is delivered: for
   /// surveys and certificates. An exception from it is the pair's error.
   std::function<void(Solver&, StreamResult&)> beside = {};

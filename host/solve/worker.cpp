@@ -51,7 +51,12 @@ void Worker::work() {
   }
 }
 
-void Worker::solve_all(const Group& group) {
+void Worker::solve_all(Group& group) {
+  for (WaitingPair& one : group) {
+    if (!one.pair.before) continue;
+    one.pair.before(solver_, one.pair);
+    one.pair.before = {};  // a pair that is tried again is as it was left
+  }
   std::vector<std::shared_ptr<const PreparedMesh>> prepared;
   std::vector<SolveOptions> options;
   std::vector<PairView> views;

@@ -44,7 +44,7 @@ class Worker {
  private:
   using Group = std::vector<WaitingPair>;
   bool solve(Group group);
-  void solve_all(const Group& group);
+  void solve_all(Group& group);
   bool retry_apart(Group group);
   void give_up(const WaitingPair& one);
   bool find_lost();

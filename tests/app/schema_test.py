@@ -48,6 +48,7 @@ class Outputs(unittest.TestCase):
                             (["distance", "quad.obj", "b.obj", "--unit", "mm", "--tol", "0.001mm"], 0),
                             (["distance", "a.obj", "a.obj"], 0), (["distance", "a.obj", "b.obj", "--waves", "1", "--tol", "1e-9"], None),
                             (["distance", "a.obj", "b.obj", "--time", "1ms"], 3),
+                            (["distance", "a.obj", "b.obj", "--align"], 0),
                             (["distance", "a.obj", "b.obj", "--part", "1/2", "--verify"], 0),
                             (["distance", "a.obj", "b.obj", "--part", "0/2", "--known-lower", "1abs"], 0),
                             (["distance", "a.obj", "b.obj", "--device", "0,0"], 0), (["demo", "--tol", "1e-3", "--preset", "paper"], 0),

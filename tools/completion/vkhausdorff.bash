@@ -6,7 +6,7 @@ _vkhausdorff() {
   search="--device --time $engine"
   local look="--view --field-by --up --size --map --range --steps"
   local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out $look"
-  local files="--unit --unit-a --unit-b --transform --scale --max-input --polygons --bodies --points"
+  local files="--unit --unit-a --unit-b --transform --scale --align --max-input --polygons --bodies --points"
   local options="--help --help-all --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
@@ -29,8 +29,8 @@ _vkhausdorff() {
       --part | --known-lower | --levels | --ratio) return ;;
   esac
   case $command in
-    distance) options="$search $outputs $files --certificate --part --known-lower" ;;
-    gate) options="$search $outputs $files --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
+    distance) options="$search $outputs $files --save-transform --certificate --part --known-lower" ;;
+    gate) options="$search $outputs $files --save-transform --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
     metrics) options="$search $files --percentile --bands --tol --effort --json --verbose --verify" ;;
     batch)
       options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands $files"
