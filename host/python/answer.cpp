@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "host/base/system.h"
@@ -256,6 +257,13 @@ py::dict metrics_of(const Question& question, const Metrics& m) {
   return py::dict("percentile"_a = m.percentile, "lengths"_a = lengths, "within"_a = within);
 }
 
+py::dict transform_of(const PlacedInput& placed) {
+  py::object matrix = py::none();
+  if (placed.by.matrix) matrix = matrix_rows(*placed.by.matrix);
+  return py::dict("factor"_a = py::make_tuple(placed.by.numerator, placed.by.denominator),
+                  "matrix"_a = matrix, "found"_a = placed.fit.has_value());
+}
+
 void add_limit(const Answer& answer, Result& result) {
   if (!answer.max) return;
   result.verdict = verdict_of(answer);
@@ -269,6 +277,13 @@ void add_limit(const Answer& answer, Result& result) {
 }
 
 }  // namespace
+
+py::list matrix_rows(const MatrixRows& matrix) {
+  py::list rows;
+  for (const auto& row : matrix) rows.append(py::list(py::cast(row)));
+  rows.append(py::list(py::cast(std::array{0.0, 0.0, 0.0, 1.0})));
+  return rows;
+}
 
 Result result_of(const Question& question, const Answer& answer, const MeshPointer& a,
                  const MeshPointer& b) {
@@ -289,6 +304,7 @@ Result result_of(const Question& question, const Answer& answer, const MeshPoint
   result.survey = survey_of(question, answer, {answer.a_to_b, answer.survey_a, a, path_b});
   if (answer.b_to_a)
     result.survey_back = survey_of(question, answer, {*answer.b_to_a, answer.survey_b, b, path_a});
+  if (answer.placed) result.stats["transform"] = transform_of(*answer.placed);
   if (question.certificate) result.stats["certificate"] = certificate_of(answer);
   if (answer.metrics) result.stats["metrics"] = metrics_of(question, *answer.metrics);
   return result;

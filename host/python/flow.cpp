@@ -115,11 +115,26 @@ void Flow::solve(FlowPair pair) {
   running->b = against ? against : made_mesh(std::move(pair.b), limits_of(true));
   running->a = placed(question, running->a, *running->b);
   running->answer = unread_answer(question);
-  const MeshShape shape_b = against ? asked_.against.shape : shape_of(*running->b);
-  take_meshes(question, {*running->a, shape_of(*running->a)}, {*running->b, shape_b},
-              running->answer);
+  if (!question.align) take(*running);
   check_sides(question, *running->a, *running->b);
   push(pair.number, running);
+}
+
+void Flow::take(Running& running) const {
+  const KeptMesh& against = asked_.against;
+  const MeshShape shape_b = against.mesh ? against.shape : shape_of(*running.b);
+  take_meshes(asked_.question, {*running.a, shape_of(*running.a)}, {*running.b, shape_b},
+              running.answer);
+}
+
+// Runs on a worker's thread, before the pair's run.
+void Flow::fit(Solver& solver, Running& running, StreamPair& pair) {
+  auto moved = std::make_shared<Mesh>(*running.a);
+  fit_a(asked_.question, solver, {.goes_on = [this] { return !is_over(); }}, *moved, *running.b);
+  running.a = std::move(moved);
+  take(running);
+  pair.a = running.a;
+  pair.options = solve_options(asked_.question, running.answer);
 }
 
 void Flow::push(size_t number, const std::shared_ptr<Running>& running) {
@@ -129,7 +144,14 @@ void Flow::push(size_t number, const std::shared_ptr<Running>& running) {
                    .b = running->b,
                    .shares_b = asked_.against.mesh != nullptr,
                    .symmetric = question.symmetric,
-                   .options = solve_options(question, running->answer)};
+                   .options = {}};
+  if (question.align) {
+    whole.before = [this, running](Solver& solver, StreamPair& pair) {
+      fit(solver, *running, pair);
+    };
+  } else {
+    whole.options = solve_options(question, running->answer);
+  }
   if (question.asks_for_cells()) {
     whole.beside = [this, running](Solver& solver, StreamResult& result) {
       take_reports(asked_.question, std::move(result), running->answer);

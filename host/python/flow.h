@@ -78,6 +78,8 @@ class Flow {
     MeshPointer a, b;
     Answer answer = {};
   };
+  void take(Running& running) const;
+  void fit(Solver& solver, Running& running, StreamPair& pair);
   void push(size_t number, const std::shared_ptr<Running>& running);
   void take_result(StreamResult&& result);
   void deliver(FlowResult&& result);

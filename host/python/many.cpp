@@ -92,15 +92,15 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 }  // namespace
 
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distances",
-                    {"against",    "tol",       "symmetric", "max",      "device",      "time",
-                     "waves",      "memory",    "disable",   "enable",   "preset",      "together",
-                     "lanes",      "ahead",     "max_input", "polygons", "bodies",      "field",
-                     "statistics", "signed",    "bands",     "effort",   "survey_time", "unit_a",
-                     "unit_b",     "transform", "scale",     "points",   "max_distance"},
-                    0,
-                    0};
+  static const auto* signature = new Signature{
+      "distances",
+      {"against",    "tol",       "symmetric", "max",      "device",      "time",
+       "waves",      "memory",    "disable",   "enable",   "preset",      "together",
+       "lanes",      "ahead",     "max_input", "polygons", "bodies",      "field",
+       "statistics", "signed",    "bands",     "effort",   "survey_time", "unit_a",
+       "unit_b",     "transform", "scale",     "align",    "points",      "max_distance"},
+      0,
+      0};
   const Call call;
   const Arguments given(*signature, positional, named);
   mark_used();

@@ -441,7 +441,7 @@ MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
 }
 
 MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b) {
-  if (!is_placed(question, *a, b)) return a;
+  if (a->placed || question.align || !is_placed(question, *a, b)) return a;
   auto moved = std::make_shared<Mesh>(*a);
   place_a(question, *moved, b);
   return moved;

@@ -23,7 +23,8 @@ void define_distance(py::module_& m) {
       "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
       "         statistics=False, signed=False, bands=(), effort=None, survey_time=None,\n"
       "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
-      "         on_progress=None, max_distance=None)\n--\n\n"
+      "         align=False, on_progress=None,\n"
+      "         max_distance=None)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
@@ -61,7 +62,9 @@ void define_distance(py::module_& m) {
       "is converted to B's unit. transform: a matrix that then places A, four rows of four "
       "numbers,\n"
       "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
-      "stretches by more than 1e-6. The rounding of both widens the interval.");
+      "stretches by more than 1e-6. The rounding of both widens the interval. align: then lay A "
+      "onto\n"
+      "B as align() does; stats['transform'] has the matrix.");
 }
 
 py::list devices() {
@@ -95,7 +98,8 @@ void define_gate(py::module_& m) {
         "     field=False, statistics=False, signed=False, bands=(), area=None, effort=None,\n"
         "     survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, "
         "scale=False,\n"
-        "     worst=False, on_progress=None, max_distance=None)\n--\n\n"
+        "     align=False, worst=False, on_progress=None,\n"
+        "     max_distance=None)\n--\n\n"
         "Whether h(A,B) <= max, proven either way: the result's verdict.");
 }
 
@@ -114,6 +118,16 @@ void define_simplify(py::module_& m) {
         "are float32, and judged so. time: seconds for the search; what passed by then is\n"
         "returned, and TimeoutError says that nothing did. The distance alone is proven, neither\n"
         "that the result is watertight nor how its faces are turned.");
+}
+
+void define_align(py::module_& m) {
+  m.def("align", align,
+        "align(a, b, *, device='')\n--\n\n"
+        "The rotation and shift that lay A onto B: a fit that is found, not proven the best.\n\n"
+        "a, b: meshes, as distance() takes them. Returns an Alignment, whose matrix is for\n"
+        "transform=; distance(a, b, align=True) does both. It begins where A lies, and with A's\n"
+        "principal axes on B's; the nearest 80 % of A's samples decide, so that a scan may lack\n"
+        "parts or have others. The same meshes give the same bits on the same device.");
 }
 
 void define_closest(py::module_& m) {
@@ -184,7 +198,7 @@ void define_solver(py::module_& m) {
           "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
           "         signed=False, bands=(), effort=None, survey_time=None, certificate=None, "
           "unit_a=None,\n"
-          "         unit_b=None, transform=None, scale=False, on_progress=None,\n"
+          "         unit_b=None, transform=None, scale=False, align=False, on_progress=None,\n"
           "         max_distance=None)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
@@ -228,6 +242,7 @@ PYBIND11_MODULE(_core, m) {
   define_devices(m);
   define_gate(m);
   define_metrics(m);
+  define_align(m);
   define_closest(m);
   define_simplify(m);
   define_device(m);

@@ -235,6 +235,7 @@ void read_placement(const Arguments& given, Question& question) {
   question.unit_a = unit_from(given, "unit_a");
   question.unit_b = unit_from(given, "unit_b");
   question.may_stretch = given.flag("scale");
+  question.align = given.flag("align");
   const py::object* transform = given.find("transform");
   if (transform == nullptr || transform->is_none()) return;
   if (const std::optional<std::string> file = path_from("transform", *transform)) {

@@ -9,10 +9,10 @@
 namespace vkh::python {
 
 /// Reads tol, max, symmetric, time, waves, memory, preset, enable, disable, field, statistics,
-/// bands, area, effort, survey_time, unit_a, unit_b, transform and scale, as far as they were
-/// given. Numbers are those of the arrays: a tolerance is a fraction of A's diagonal, and other
-/// lengths are in the coordinates' unit. Strings are as on the command line, without units, which
-/// arrays do not have. `command`: the name of the function.
+/// bands, area, effort, survey_time, unit_a, unit_b, transform, scale and align, as far as they
+/// were given. Numbers are those of the arrays: a tolerance is a fraction of A's diagonal, and
+/// other lengths are in the coordinates' unit. Strings are as on the command line, without units,
+/// which arrays do not have. `command`: the name of the function.
 Question question_of(const char* command, const Arguments& given);
 
 /// Reads a number of bytes, or a string such as '2GiB'.

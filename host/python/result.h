@@ -34,6 +34,9 @@ struct Result {
 /// Defines the class Result.
 void define_result(pybind11::module_& m);
 
+/// All four rows of a matrix, as the keyword transform takes them.
+pybind11::list matrix_rows(const MatrixRows& matrix);
+
 /// The values of an answer, with the GIL. `a` and `b`: the meshes as they were measured, which
 /// fields keep for their files; null where no field is asked for.
 Result result_of(const Question& question, const Answer& answer, const MeshPointer& a,

@@ -11,6 +11,7 @@
 #include "host/python/interpreter.h"
 #include "host/python/question.h"
 #include "host/simplify/simplify.h"
+#include "host/solve/align.h"
 #include "host/solve/frame.h"
 
 namespace vkh::python {
@@ -165,8 +166,28 @@ void write_certificate(Given& given, const Answer& answer, Result& result) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, warning, 1) != 0) throw py::error_already_set();
 }
 
+/// Lays A onto B on the device, where that is asked for.
+void fit_on(Session& session, Session::Key key, Given& given) {
+  if (!given.question.align) return;
+  auto moved = std::make_shared<Mesh>(*given.a);
+  FloatEnvironment* environment = nullptr;
+  const Observer observer{.goes_on = [&environment] {
+    environment->outside(hear_signals);
+    return true;
+  }};
+  session.use(
+      [&](Solver& solver, const PreparedMesh* prepared) {
+        FloatEnvironment ours;
+        environment = &ours;
+        fit_a(given.question, solver, observer, *moved, *given.b, prepared);
+      },
+      key);
+  given.a = std::move(moved);
+}
+
 Result answered(Given given, Session& session, Session::Key key = 0) {
   Answer answer = unread_answer(given.question);
+  fit_on(session, key, given);
   {
     const FloatEnvironment ours;
     given.a = placed(given.question, given.a, *given.b);
@@ -250,6 +271,24 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
 }
 
 }  // namespace
+
+py::object align(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{"align", {"a", "b", "device"}, 2, 2};
+  const Call call;
+  const Arguments given(*signature, positional, named);
+  const std::shared_ptr<Session> session = session_of(given);
+  const MeshPointer a = mesh_of("a", "A", given.at("a"));
+  const MeshPointer b = mesh_of("b", "B", given.at("b"));
+  Alignment found;
+  session->use([&](Solver& solver, const PreparedMesh*) {
+    found = vkh::align(solver, *a, *b, {.goes_on = goes_on});
+  });
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  const FoundFit& fit = found.fit;
+  return py::module_::import("vkhausdorff._align")
+      .attr("Alignment")(matrix_rows(found.matrix), fit.rms, fit.share, fit.samples, fit.is_poor,
+                         fit.rival);
+}
 
 py::object closest(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{"closest", {"b", "points", "device"}, 2, 2};
@@ -385,14 +424,14 @@ std::shared_ptr<Session> PythonSolver::open_session() const {
 }
 
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"Solver.distance",
-                    {"va",      "fa",        "tol",    "time",        "waves",       "memory",
-                     "disable", "progress",  "enable", "preset",      "field",       "statistics",
-                     "signed",  "bands",     "effort", "survey_time", "certificate", "unit_a",
-                     "unit_b",  "transform", "scale",  "on_progress", "max_distance"},
-                    2,
-                    3};
+  static const auto* signature = new Signature{
+      "Solver.distance",
+      {"va",      "fa",        "tol",    "time",        "waves",       "memory",
+       "disable", "progress",  "enable", "preset",      "field",       "statistics",
+       "signed",  "bands",     "effort", "survey_time", "certificate", "unit_a",
+       "unit_b",  "transform", "scale",  "align",       "on_progress", "max_distance"},
+      2,
+      3};
   const Call call;
   const std::shared_ptr<Session> session = open_session();
   const py::args all = spread(positional, named, {"va", "fa"});

@@ -13,6 +13,8 @@ Result distance(const pybind11::args& positional, const pybind11::kwargs& named)
 /// Does the same with a limit: the result has a verdict.
 Result metrics(const pybind11::args& positional, const pybind11::kwargs& named);
 Result gate(const pybind11::args& positional, const pybind11::kwargs& named);
+/// Returns an Alignment of the package's.
+pybind11::object align(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Returns a Closest of the package's.
 pybind11::object closest(const pybind11::args& positional, const pybind11::kwargs& named);
 

@@ -1,23 +1,24 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
 from vkhausdorff import _core
+from vkhausdorff._align import Alignment
 from vkhausdorff._closest import Closest
-from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, closest, devices, distance, read, simplify
+from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, align, closest, devices, distance, read, simplify
 from vkhausdorff._many import distances
 from vkhausdorff._metrics import Metrics, metrics
 from vkhausdorff._result import Witness
 from vkhausdorff._simplify import Simplified
 from vkhausdorff._survey import Field, Interval, SidedPoint, Signed, SignedField, Survey
 
-__all__ = ["Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified",
+__all__ = ["Alignment", "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified",
            "Solver", "Survey", "Witness",
-           "__version__", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify"]
+           "__version__", "align", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
          progress=None, enable=(), preset="", field=False, statistics=False, signed=False, bands=(), area=None,
          effort=None, survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,
-         worst=False, on_progress=None, max_distance=None):
+         align=False, worst=False, on_progress=None, max_distance=None):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
@@ -33,7 +34,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
     return _core.gate(a, b, max, tol=tol, symmetric=symmetric, device=device, time=time, waves=waves, memory=memory,
                       disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
                       signed=signed, bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
-                      unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale, worst=worst,
+                      unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale, align=align, worst=worst,
                       on_progress=on_progress, max_distance=max_distance)
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
-    "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified", "Solver", "Survey", "Witness", "__version__",
-    "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify",
+    "Alignment", "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified", "Solver", "Survey", "Witness", "__version__",
+    "align", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify",
 ]
 __version__: str
 
@@ -104,6 +104,17 @@ class SidedPoint(NamedTuple):
     point: tuple[float, float, float]
     face: int
     lower: float
+
+class Alignment:
+    """The place of a mesh on another that a fit found, which is not proven the best."""
+
+    matrix: npt.NDArray[np.float64]
+    rms: float
+    share: float
+    samples: int
+    poor: bool
+    rival: float | None
+    def __init__(self, matrix: npt.ArrayLike, rms: float, share: float, samples: int, poor: bool, rival: float | None) -> None: ...
 
 class Closest:
     """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper]."""
@@ -312,6 +323,7 @@ class Solver:
         unit_b: _Unit | None = None,
         transform: npt.ArrayLike | _Path | None = None,
         scale: bool = False,
+        align: bool = False,
         on_progress: _OnProgress | None = None,
         max_distance: _Number | str | None = None,
     ) -> Result: ...
@@ -340,6 +352,7 @@ class Solver:
         unit_b: _Unit | None = None,
         transform: npt.ArrayLike | _Path | None = None,
         scale: bool = False,
+        align: bool = False,
         on_progress: _OnProgress | None = None,
         max_distance: _Number | str | None = None,
     ) -> Result: ...
@@ -378,6 +391,7 @@ def distance(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    align: bool = False,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
 ) -> Result: ...
@@ -409,9 +423,11 @@ def distance(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    align: bool = False,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
 ) -> Result: ...
+def align(a: _Mesh, b: _Mesh, *, device: str | SupportsIndex | Device = "") -> Alignment: ...
 def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex | Device = "") -> Closest: ...
 def simplify(
     a: _Mesh,
@@ -463,6 +479,7 @@ def distances(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    align: bool = False,
     points: Literal["a", "b", "both"] | None = None,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
@@ -494,6 +511,7 @@ def gate(
     unit_b: _Unit | None = None,
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
+    align: bool = False,
     worst: bool = False,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,

@@ -6,7 +6,7 @@ from vkhausdorff import _core
 def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, device="", time=None, waves=None, memory=None,
               disable=(), enable=(), preset="", together=None, lanes=None, ahead=None, max_input=None,
               polygons="refuse", bodies="solid", field=False, statistics=False, signed=False, bands=(),
-              effort=None, survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False, points=None,
+              effort=None, survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False, align=False, points=None,
               on_progress=None, max_distance=None):
     """The distance of each of many pairs: an iterator of results, in the order in which pairs end.
 
@@ -22,7 +22,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
     pays there. max_input, polygons and bodies are those of read(); field, statistics, signed, bands, effort, survey_time,
-    unit_a, unit_b, transform, scale and max_distance those of distance(), for each pair. points: 'a', 'b' or 'both', whose files are
+    unit_a, unit_b, transform, scale, align and max_distance those of distance(), for each pair. points: 'a', 'b' or 'both', whose files are
     points without faces. on_progress(fraction, lower, upper) is called as
     each pair ends, on the thread of next(): the share of pairs that have ended, which comes to 1, and the interval of the
     largest distance among them. Where pairs has no len(), the share is 0 until the last pair is taken. Return False to end.
@@ -44,7 +44,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
                            max_input=max_input, polygons=polygons, bodies=bodies, field=field, statistics=statistics, signed=signed, bands=bands,
                            effort=effort, survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
-                           points=points, max_distance=max_distance, **named)
+                           align=align, points=points, max_distance=max_distance, **named)
     split = _with_one if against is not None else _with_two
     return _Results(stream, _results(stream, items, split, first, progress))
 

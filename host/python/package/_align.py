@@ -1,0 +1,37 @@
+"""The result of align(), as Python shows it. vkhausdorff._core makes it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Alignment:
+    """The place of A on B that a fit found, which is not proven the best.
+
+    matrix: (4, 4), float64, read-only: a rotation and a shift, which transform= takes. rms: the root mean square distance
+    from B of A's samples that count there, in the coordinates' unit; share: of the samples, those within three deviations,
+    which count; samples: how many there are. poor: the fit is far from B for its size, or few samples count. rival: where
+    another place is about as good, such as for a symmetric part, the rms of the nearest 80 % there; otherwise None.
+    """
+
+    matrix: Any
+    rms: float
+    share: float
+    samples: int
+    poor: bool
+    rival: Any
+
+    def __init__(self, matrix, rms, share, samples, poor, rival):
+        own = np.array(matrix, dtype=np.float64)
+        own.setflags(write=False)
+        for name, value in (("matrix", own), ("rms", rms), ("share", share), ("samples", samples), ("poor", poor),
+                            ("rival", rival)):
+            object.__setattr__(self, name, value)
+
+    def __reduce__(self):  # an unpickled array could be written to
+        return Alignment, (self.matrix, self.rms, self.share, self.samples, self.poor, self.rival)
+
+    def __repr__(self):
+        return f"<vkhausdorff.Alignment: {self.share:.1%} of {self.samples} samples, rms {self.rms:.4g}>"
