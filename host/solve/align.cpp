@@ -30,7 +30,7 @@ constexpr size_t kPlaces = 3;
 
 using Candidates = std::vector<Candidate>;
 
-/// A mesh's samples, and the axes of those.
+/// The principal axes of a mesh's samples.
 struct Shape {
   PrincipalAxes axes;
   double size() const {
@@ -142,7 +142,7 @@ class PlaceSearch {
   std::optional<double> rival_;
 };
 
-/// Where A lies, as it is turned at B's centre, and by the axes.
+/// Begins where A lies, with its centre on B's, and with its axes on B's.
 Candidates PlaceSearch::starts() const {
   Candidates first;
   const glm::dvec3 shift = frame_.centre_a - frame_.centre_b;
@@ -183,7 +183,7 @@ bool PlaceSearch::is_elsewhere(const Pose& x, const Pose& y) const {
   return std::sqrt(sum / static_cast<double>(few_.size())) > kElsewhere * frame_.size;
 }
 
-/// The best places that differ. Those where A was given are preferred to their like.
+/// Finds the best places that differ.
 Candidates PlaceSearch::kept() const {
   Candidates order = all_;
   std::stable_sort(order.begin(), order.end(), ranks_before);
@@ -198,8 +198,8 @@ Candidates PlaceSearch::kept() const {
   return best;
 }
 
-/// The best one after more steps with more samples. Another that is as good, elsewhere, is a rival;
-/// where A was given to be is preferred to it.
+/// Chooses the best one after more steps with more samples. Another place that is as good is a
+/// rival; the place that A was given is preferred to a rival.
 Candidate PlaceSearch::chosen(Candidates candidates) {
   fitter_.refine(candidates, some_, {.steps = 20});
   for (Candidate& one : candidates) fitter_.measure(one, some_, Counting::kNearest);
