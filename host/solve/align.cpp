@@ -148,7 +148,7 @@ Candidates PlaceSearch::starts() const {
   const glm::dvec3 shift = frame_.centre_a - frame_.centre_b;
   if (glm::length(shift) <= kFar * frame_.size) first.push_back({.pose = {.shift = shift}});
   first.push_back({});
-  for (Candidate& one : by_axes(shape_a_, shape_b_)) first.push_back(std::move(one));
+  for (const Candidate& one : by_axes(shape_a_, shape_b_)) first.push_back(one);
   return first;
 }
 
