@@ -252,9 +252,9 @@ CommandLine pair_line(Command command, const Typed& typed, const Words& words, c
   line.question.hashes = line.outputs.json || line.outputs.json_file ||
                          line.outputs.pictures.report || line.question.certificate;
   const PicturesAsked& pictures = line.outputs.pictures;
-  line.question.faces =
-      line.question.faces || pictures.field || pictures.points || pictures.of_statistics();
-  if (pictures.image || pictures.of_statistics()) ask_for(pictures.look, line.question);
+  line.question.faces = line.question.faces || pictures.field;
+  if (pictures.image || pictures.points || pictures.of_statistics())
+    ask_for(pictures.look, line.question);
   line.question.statistics = line.question.statistics || pictures.of_statistics();
   if (line.question.effort && !line.question.asks_for_survey())
     throw UsageError(

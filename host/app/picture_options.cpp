@@ -214,7 +214,7 @@ Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
 
 void Pictures::write_tables(const Measured& measured) const {
   if (figures_) figures_->write(figures_csv(measured));
-  if (points_) points_->write(points_csv(measured));
+  if (points_) points_->write(points_csv(measured, asked_.look));
 }
 
 std::string Pictures::write(const Answered& done) const {

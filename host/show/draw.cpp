@@ -40,10 +40,9 @@ class Drawing {
         sheet_{canvas_, picture, scale_, unit_},
         views_(picture, options, unit_) {
     if (picture.map == nullptr) return;
-    constexpr size_t kMostPlaces = 5;
     map_scale_.emplace(picture, options);
     counts_ = counts_of(*picture.map, *map_scale_);
-    places_ = map_places(picture.mesh, *picture.map, kMostPlaces);
+    places_ = worst_places(picture);
   }
 
   Image draw() { return picture_.map != nullptr ? draw_map() : draw_faces(); }
@@ -127,7 +126,8 @@ std::vector<std::string> Drawing::footer_lines() const {
       : picture_.limit
           ? "Colour of a face: the verdict on its largest distance from " + other + "."
           : "Colour of a face: a proven upper bound of its largest distance from " + other + "."};
-  if (!picture_.unfinished.empty()) lines[0] += " Not finished: " + picture_.unfinished + ".";
+  if (!picture_.unfinished.empty())
+    lines[0] += " The map is not finished: " + picture_.unfinished + ".";
   for (const std::string& text : picture_.caption) {
     for (std::string& line : wrapped(text, 15 * unit_, options_.width - 72 * unit_, 2))
       lines.push_back(std::move(line));
@@ -314,7 +314,7 @@ void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_singl
 void Drawing::draw_label(const Panel& panel, const Layer& layer, size_t place,
                          std::vector<Area>& taken) {
   const double u = unit_, size = 17 * u;
-  const std::string text = place_text(sheet_, {*map_scale_, counts_, places_}, places_[place]);
+  const std::string text = place_text(picture_, places_[place]);
   const glm::dvec2 box_size(text_width(text, size) + 16 * u, 28 * u);
   const glm::dvec2 tip(panel.camera.pixel(places_[place].point));
   if (!panel.camera.area.inner(-20 * u).has(tip)) return;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct Image {
 /// The point of A that proves lower, and its closest point on B.
 struct Witness {
   SurfacePoint on_a, on_b;
+  /// The largest distance; its upper end is infinite where it was not sought.
+  Enclosure distance = {0, std::numeric_limits<double>::infinity()};
 };
 
 /// The input of a picture: a mesh with bounds for each of its faces, and its texts.

@@ -5,6 +5,7 @@
 #include "host/base/error.h"
 #include "host/base/system.h"
 #include "host/show/page.h"
+#include "host/show/page_words.h"
 
 namespace vkh {
 namespace {
@@ -33,9 +34,9 @@ std::string limit_as(const Asked& max) {
 const char* unfinished_text(SurveyEnd end) {
   switch (end) {
     case SurveyEnd::kEffort:
-      return "its effort was used, more --effort shows more";
+      return "its effort was used, and more --effort resolves more";
     case SurveyEnd::kTime:
-      return "its time ended, more --time shows more";
+      return "its time ended, and more --time resolves more";
     case SurveyEnd::kCancelled:
       return "it was interrupted";
     case SurveyEnd::kMemory:
@@ -81,8 +82,7 @@ void ask_for(const PictureStyle& look, Question& question) {
   if (look.range) question.map_bar = (*look.range)[1];
 }
 
-std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
-                       const Device& device) {
+Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& look) {
   Picture picture{.mesh = side.mesh,
                   .field = side.survey.field,
                   .interval = interval_of(side),
@@ -96,8 +96,14 @@ std::string picture_of(const Side& side, const Answer& answer, const PictureStyl
   if (answer.max) picture.limit_as = limit_as(*answer.max);
   if (answer.max) picture.verdict = verdict_of(answer, side.back);
   if (side.report.has_witness)
-    picture.witness = Witness{side.report.witness_a, side.report.witness_b};
-  return encode_png(draw(device, picture, options_of(look, answer)));
+    picture.witness =
+        Witness{side.report.witness_a, side.report.witness_b, deviation_of(answer, side.report)};
+  return picture;
+}
+
+std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
+                       const Device& device) {
+  return encode_png(draw(device, drawn_of(side, answer, look), options_of(look, answer)));
 }
 
 std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
@@ -119,17 +125,15 @@ std::string report_of(const Measured& measured, std::span<const std::string> pic
   std::vector<PageDirection> directions;
   for (size_t i = 0; i < sides.size(); ++i) {
     const std::optional<Statistics>& statistics = sides[i].survey.statistics;
-    directions.push_back({.mesh = &sides[i].mesh,
-                          .field = &sides[i].survey.field,
+    directions.push_back({.drawn = drawn_of(sides[i], measured.answer, look),
                           .statistics = statistics ? &*statistics : nullptr,
                           .picture = pictures[i]});
   }
   PageContents contents{.answer = &measured.answer,
                         .a_to_b = directions[0],
                         .title = title,
-                        .map = look.options.map,
-                        .is_y_up = look.options.up == Up::kY};
-  if (directions.size() > 1) contents.b_to_a = directions[1];
+                        .look = options_of(look, measured.answer)};
+  if (directions.size() > 1) contents.b_to_a.emplace(directions[1]);
   return to_page(contents);
 }
 

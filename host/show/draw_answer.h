@@ -44,6 +44,10 @@ std::string label_of(const Answer& answer, bool back);
 
 Enclosure interval_of(const Side& side);
 
+/// All that a picture of a side shows, and a page and a table of its places, too. It refers to the
+/// side and the answer.
+Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& look);
+
 /// Returns a PNG's bytes. Throws what draw() throws, and UsageError for a range that the files'
 /// units do not resolve.
 std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/decimal.h"
+#include "host/show/page_words.h"
 
 namespace vkh::drawing {
 namespace {
@@ -14,48 +15,16 @@ double fitted_size(const std::string& text, double size, double width) {
   return std::min(size, size * width / std::max(text_width(text, size), 1e-9));
 }
 
-// About four digits; a minus sign as a bar has it.
-std::string short_number(double x) {
-  const std::string text = number_text(std::abs(x), std::chars_format::general, 4);
-  return x < 0 ? "\u2212" + text : text;
-}
-
-// A row under the bar: a swatch of a colour, and what it stands for.
-struct Row {
-  Rgb colour;
-  bool is_hatched;
-  std::string text;
-};
-
 // A survey that was not cut short leaves parts that are smaller than a pixel.
 std::string unresolved_text(const Picture& picture, double share) {
   return (picture.unfinished.empty() ? "not resolved, smaller than a pixel: " : "not resolved: ") +
          percent_text(share);
 }
 
-std::vector<Row> rows_of(const Sheet& sheet, const MapLegend& legend) {
-  const MapCounts& counts = legend.counts;
-  const auto number = [&](double x) { return with_unit(sheet.picture, short_number(x)); };
-  std::vector<Row> rows;
-  if (counts.above > 0)
-    rows.push_back({kOver, false,
-                    "over " + number(legend.scale.high()) + ": " + percent_text(counts.above) +
-                        " of the area"});
-  if (counts.below > 0)
-    rows.push_back({kBelow, false,
-                    "below " + number(legend.scale.low()) + ": " + percent_text(counts.below) +
-                        " of the area"});
-  if (counts.no_side > 0)
-    rows.push_back({kNoSide, false, "no side known: " + percent_text(counts.no_side)});
-  if (counts.unresolved > 0)
-    rows.push_back({kUnbounded, true, unresolved_text(sheet.picture, counts.unresolved)});
-  return rows;
-}
-
-double draw_rows(const Sheet& sheet, const std::vector<Row>& rows, const Area& area) {
+double draw_rows(const Sheet& sheet, const std::vector<LegendRow>& rows, const Area& area) {
   const double u = sheet.unit, size = kSmall * u, line = 25 * u;
   double y = area.bottom() - line * static_cast<double>(rows.size());
-  for (const Row& row : rows) {
+  for (const LegendRow& row : rows) {
     y += line;
     const Area swatch{area.x, y - size, 1.6 * size, size};
     sheet.canvas.fill(swatch, row.colour);
@@ -121,16 +90,39 @@ std::string percent_text(double share) {
   return number_text(percent, std::chars_format::general, percent < 1 ? 2 : 3) + " %";
 }
 
-std::string place_text(const Sheet& sheet, const MapLegend& legend, const MapPlace& place) {
-  double distance = place.distance;
-  if (legend.scale.is_signed() && place.side == SurfaceSide::kUnder) distance = -distance;
-  const bool has_plus = legend.scale.is_signed() && place.side == SurfaceSide::kOver;
-  return with_unit(sheet.picture, (has_plus ? "+" : "") + short_number(distance));
+std::string short_number(double x) {
+  const std::string text = number_text(std::abs(x), std::chars_format::general, 4);
+  return x < 0 ? "\u2212" + text : text;
+}
+
+std::vector<LegendRow> legend_rows(const Picture& picture, const MapScale& scale,
+                                   const MapCounts& counts) {
+  const auto number = [&](double x) { return with_unit(picture, short_number(x)); };
+  std::vector<LegendRow> rows;
+  if (counts.above > 0)
+    rows.push_back(
+        {kOver, false,
+         "over " + number(scale.high()) + ": " + percent_text(counts.above) + " of the area"});
+  if (counts.below > 0)
+    rows.push_back(
+        {kBelow, false,
+         "below " + number(scale.low()) + ": " + percent_text(counts.below) + " of the area"});
+  if (counts.no_side > 0)
+    rows.push_back({kNoSide, false, "no side known: " + percent_text(counts.no_side)});
+  if (counts.unresolved > 0)
+    rows.push_back({kUnbounded, true, unresolved_text(picture, counts.unresolved)});
+  return rows;
+}
+
+std::string bar_title(const Picture& picture, const MapScale& scale) {
+  return (scale.is_signed() ? "signed distance from " : "distance from ") +
+         std::string(picture.back ? "A" : "B") + ", estimated";
 }
 
 void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area) {
   const double u = sheet.unit, size = kText * u;
-  const double notes = draw_rows(sheet, rows_of(sheet, legend), area);
+  const double notes =
+      draw_rows(sheet, legend_rows(sheet.picture, legend.scale, legend.counts), area);
   const MapScale& scale = legend.scale;
   const double top = area.y + 54 * u;
   const MapBar bar{{std::round(area.x + 120 * u), std::round(top), std::round(34 * u),
@@ -138,10 +130,8 @@ void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area)
                    scale};
   const size_t most = std::clamp<size_t>(static_cast<size_t>(bar.area.height / (40 * u)), 2, 8);
   const Ticks ticks = ticks_of({scale.low(), scale.high()}, most);
-  const std::string other = sheet.picture.back ? "A" : "B";
-  const std::string title =
-      (scale.is_signed() ? "signed distance from " : "distance from ") + other + ", estimated";
-  write(sheet.canvas, {area.x, area.y + size}, title, {size, kGrey, Align::kLeft});
+  write(sheet.canvas, {area.x, area.y + size}, bar_title(sheet.picture, scale),
+        {size, kGrey, Align::kLeft});
   const std::string unit = sheet.picture.unit.empty() ? "files' units" : sheet.picture.unit;
   write(sheet.canvas, {bar.area.x, area.y + 2.5 * size},
         ticks.power.empty() ? unit : ticks.power + " " + unit, {size, kInk, Align::kLeft});
@@ -170,13 +160,11 @@ double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area
     y += line;
     const MapPlace& place = legend.places[i];
     draw_number(sheet, {area.x + 12 * u, y}, i + 1, false);
-    const std::string text = place_text(sheet, legend, place);
+    const std::string text = place_text(sheet.picture, place);
     const double x = area.x + 32 * u, column = 118 * u;
     write(sheet.canvas, {x, y + 0.36 * size}, text,
           {fitted_size(text, size, column - 8 * u), kInk, Align::kLeft});
-    const glm::dvec3& p = place.point;
-    const std::string at =
-        "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
+    const std::string at = point_text(place.point, diagonal_of(sheet.picture.mesh));
     write(sheet.canvas, {x + column, y + 0.36 * size}, at,
           {fitted_size(at, size, area.right() - x - column), kGrey, Align::kLeft});
   }

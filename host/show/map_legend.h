@@ -16,6 +16,19 @@ struct MapLegend {
   const std::vector<MapPlace>& places;
 };
 
+/// A row of what the bar's colours do not tell: a swatch, and its text with a share of the area.
+struct LegendRow {
+  Rgb colour;
+  bool is_hatched;
+  std::string text;
+};
+std::vector<LegendRow> legend_rows(const Picture& picture, const MapScale& scale,
+                                   const MapCounts& counts);
+/// "distance from B, estimated".
+std::string bar_title(const Picture& picture, const MapScale& scale);
+/// About four digits; a minus sign as a bar has it.
+std::string short_number(double x);
+
 /// Draws the bar with its limits, and below it what the bar's colours do not tell.
 void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area);
 /// Lists the places by their numbers: distance and coordinates. Returns the height that it takes.
@@ -23,8 +36,6 @@ double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area
 /// Draws the distribution of area over the bar, and figures.
 void draw_histogram(const Sheet& sheet, const MapLegend& legend, const Area& area);
 
-/// A distance of a place: "0.348 mm", "−0.348 mm" under the other mesh where sides are known.
-std::string place_text(const Sheet& sheet, const MapLegend& legend, const MapPlace& place);
 /// A share of area for people: "12 %", "0.03 %", "under 0.01 %".
 std::string percent_text(double share);
 

@@ -7,6 +7,9 @@
 #include <optional>
 #include <unordered_map>
 
+#include "host/show/page_words.h"
+#include "host/show/shown_cells.h"
+
 namespace vkh {
 namespace {
 
@@ -17,13 +20,48 @@ float largest_of(const MapCell& cell) {
   return std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
 }
 
+glm::dvec3 point_at(const Mesh& mesh, size_t face, const glm::dvec3& w) {
+  const glm::uvec3 f = mesh.faces[face];
+  const glm::dvec3 a = mesh.vertices[f.x], b = mesh.vertices[f.y], c = mesh.vertices[f.z];
+  return w.x * a + w.y * b + w.z * c;
+}
+
 // The place at a corner of a cell.
 MapPlace place_at(const Mesh& mesh, const CellMap& map, const MapCell& cell, size_t corner) {
-  const glm::dvec3 w = weights_of(cell)[corner];
-  const glm::uvec3 f = mesh.faces[cell.face];
-  const glm::dvec3 a = mesh.vertices[f.x], b = mesh.vertices[f.y], c = mesh.vertices[f.z];
-  return {w.x * a + w.y * b + w.z * c, map.unit * static_cast<double>(cell.estimate[corner]),
-          cell.side, cell.face};
+  const auto estimate = static_cast<double>(cell.estimate[corner]);
+  return {.point = point_at(mesh, cell.face, weights_of(cell)[corner]),
+          .distance = map.unit * estimate,
+          .side = cell.side,
+          .face = cell.face,
+          .known = map.around(estimate, static_cast<double>(cell.width))};
+}
+
+// Whether a cell has a point of its face, but for rounding.
+bool has_point(const MapCell& cell, const glm::dvec3& barycentric) {
+  const std::array<glm::dvec3, 3> t = weights_of(cell);
+  const auto side = [&](const glm::dvec3& p, const glm::dvec3& q) {
+    return (q.y - p.y) * (barycentric.z - p.z) - (q.z - p.z) * (barycentric.y - p.y);
+  };
+  constexpr double kRounding = 1e-9;
+  return side(t[0], t[1]) >= -kRounding && side(t[1], t[2]) >= -kRounding &&
+         side(t[2], t[0]) >= -kRounding;
+}
+
+// The place of the witness. It comes before those that are not proven to be farther.
+MapPlace place_of_witness(const CellMap& map, const Witness& witness) {
+  constexpr double kClosed = 1e-3;  // its ends are the same to the eye
+  const Enclosure& known = witness.distance;
+  const bool is_closed = known.upper <= known.lower * (1 + kClosed);
+  MapPlace place{.point = witness.on_a.point,
+                 .distance = is_closed ? known.upper : known.lower,
+                 .face = witness.on_a.face,
+                 .known = known,
+                 .is_farthest = true};
+  for (const MapCell& cell : map.cells) {
+    if (cell.face == place.face && has_point(cell, witness.on_a.barycentric))
+      place.side = cell.side;
+  }
+  return place;
 }
 
 // The boxes of a grid over the mesh, each with the farthest place in it. A cell that is larger than
@@ -47,11 +85,13 @@ class MapGrid {
     std::optional<size_t> last;
     for (size_t corner = 0; corner < cell.estimate.size(); ++corner) {
       if (cell.estimate[corner] < least) continue;
-      const size_t box = add(place_at(mesh, map, cell, corner));
+      const size_t box = box_with(place_at(mesh, map, cell, corner));
       if (last && *last != box) link(*last, box);
       last = box;
     }
   }
+
+  void add(const MapPlace& place) { (void)box_with(place); }
 
   const std::vector<MapPlace>& places() const { return places_; }
 
@@ -68,7 +108,7 @@ class MapGrid {
   }
 
  private:
-  size_t add(const MapPlace& place) {
+  size_t box_with(const MapPlace& place) {
     const auto [found, is_new] = number_.try_emplace(key_of(place.point), places_.size());
     if (is_new) {
       places_.push_back(place);
@@ -151,19 +191,48 @@ class FarClusters {
 
 }  // namespace
 
-std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most) {
+std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most,
+                                 const std::optional<Witness>& witness) {
   float largest = 0;
   for (const MapCell& cell : map.cells) largest = std::max(largest, largest_of(cell));
   if (static_cast<double>(largest) <= map.least) return {};
   MapGrid grid(mesh);
   const auto least = static_cast<float>(kLeastOfLargest * static_cast<double>(largest));
   for (const MapCell& cell : map.cells) grid.add(mesh, map, cell, least);
+  if (witness && witness->distance.lower > static_cast<double>(least) * map.unit)
+    grid.add(place_of_witness(map, *witness));
   std::vector<MapPlace> places;
   const FarClusters clusters(grid);
   for (const size_t peak : clusters.peaks()) {
-    if (places.size() < most) places.push_back(grid.places()[peak]);
+    if (places.size() == most) break;
+    MapPlace& place = places.emplace_back(grid.places()[peak]);
+    if (place.is_farthest) place.distance = place.known.lower;
+    if (witness) place.known.upper = std::min(place.known.upper, witness->distance.upper);
   }
   return places;
+}
+
+std::vector<MapPlace> worst_places(const Picture& picture) {
+  constexpr size_t kMostPlaces = 5;
+  if (picture.map != nullptr)
+    return map_places(picture.mesh, *picture.map, kMostPlaces, picture.witness);
+  const CellMap map = map_of_lower_bounds(picture.mesh, picture.field);
+  std::vector<MapPlace> places = map_places(picture.mesh, map, kMostPlaces, picture.witness);
+  for (MapPlace& place : places) {
+    if (place.is_farthest) continue;
+    place.point = point_at(picture.mesh, place.face, glm::dvec3(1.0 / 3));
+    place.known = picture.field.of(place.face);
+  }
+  return places;
+}
+
+std::string place_text(const Picture& picture, const MapPlace& place) {
+  const bool is_signed = picture.map != nullptr && picture.map->has_sides;
+  const std::string number =
+      estimate_text(place.distance, picture.limit && !is_signed ? *picture.limit : Limit{});
+  const bool is_under = is_signed && place.side == SurfaceSide::kUnder;
+  const char* sign = is_under ? "\u2212" : is_signed && place.side == SurfaceSide::kOver ? "+" : "";
+  return sign + number + (picture.unit.empty() ? "" : " " + picture.unit);
 }
 
 }  // namespace vkh

@@ -21,6 +21,7 @@ class MapScale {
 
   double low() const { return low_; }
   double high() const { return high_; }
+  double length() const { return high_ - low_; }
   bool is_signed() const { return is_signed_; }
   /// The limits, where there are some: the lower one is of a signed bar alone.
   std::optional<double> limit() const { return limit_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "host/show/escape.h"
 #include "host/show/page_assets.h"
@@ -21,8 +22,49 @@ using Json = nlohmann::ordered_json;
 constexpr size_t kLeastFaces = 100;       // fewer show nothing: such a page has no view
 constexpr size_t kMostFaces = 5'000'000;  // corners are numbered in three bytes
 constexpr size_t kCurvePoints = 1000;     // more than the columns of a screen
-constexpr double kBarOfLimit = 1.5;       // the colour bar's end, in limits
-constexpr size_t kPaletteColours = 256;
+
+using drawing::MapScale;
+
+/// The distance that 99 % of the area is within, or the largest if that is not known.
+double bar_of(const PageDirection& side, double top) {
+  const bool has_any = side.statistics && !side.statistics->percentiles.empty();
+  const double end = has_any ? side.statistics->percentiles.back().distance.upper : top;
+  return end > 0 && end < top ? end : top;
+}
+
+/// The largest distance that is known of a direction.
+double top_of(const Picture& drawn) {
+  if (std::isfinite(drawn.interval.upper)) return drawn.interval.upper;
+  double top = 0;
+  for (size_t f = 0; f < drawn.field.face_count(); ++f) {
+    const double upper = drawn.field.upper[f];
+    top = std::max(top, std::isfinite(upper) ? upper : drawn.field.lower[f]);
+  }
+  return top;
+}
+
+/// One direction, with a map of its bounds where it has none by cells.
+struct PageSide {
+  PageSide(const PageDirection& side, const PictureOptions& look)
+      : given(side), drawn(side.drawn), places(worst_places(side.drawn)) {
+    if (drawn.map == nullptr)
+      drawn.map =
+          &bounds.emplace(map_of_bounds(drawn.mesh, drawn.field, bar_of(side, top_of(drawn))));
+    scale.emplace(drawn, look);
+    counts = counts_of(*drawn.map, *scale);
+  }
+  PageSide(const PageSide&) = delete;
+  PageSide& operator=(const PageSide&) = delete;
+
+  bool is_by_faces() const { return bounds.has_value(); }
+
+  const PageDirection& given;
+  Picture drawn;
+  std::vector<MapPlace> places;
+  std::optional<CellMap> bounds;
+  std::optional<MapScale> scale;
+  drawing::MapCounts counts;
+};
 
 /// Everything of a page but the shown meshes and the pictures.
 class PageWriter {
@@ -33,13 +75,16 @@ class PageWriter {
         limits_(limits),
         answer_json_(to_json(answer_)),
         text_{answer_, Json::parse(answer_json_)} {
-    sides_.push_back(&contents.a_to_b);
-    if (contents.b_to_a) sides_.push_back(&*contents.b_to_a);
-    find_top();
+    sides_.push_back(std::make_unique<PageSide>(contents.a_to_b, contents.look));
+    if (contents.b_to_a)
+      sides_.push_back(std::make_unique<PageSide>(*contents.b_to_a, contents.look));
+    for (const auto& side : sides_) {
+      top_ = std::max(top_, top_of(side->drawn));
+      bar_ = std::max({bar_, side->scale->high(), -side->scale->low()});
+    }
     const std::optional<Limit> asked =
         answer_.max ? std::optional<Limit>(answer_.max->limit) : std::nullopt;
-    steps_ = tolerance_steps(top_, std::min(bar_end(), top_), asked);
-    find_places();
+    steps_ = tolerance_steps(top_, std::min(bar_, top_), asked);
   }
 
   // Takes fewer faces until the file is small enough; a page without a view is better than none.
@@ -66,47 +111,18 @@ class PageWriter {
     std::vector<bool> is_decimated;
   };
 
-  // Finds the largest known distance: infinite uppers are shown apart.
-  void find_top() {
-    for (const PageDirection* side : sides_) {
-      for (size_t f = 0; f < side->field->face_count(); ++f) {
-        const double upper = side->field->upper[f];
-        top_ = std::max(top_, std::isfinite(upper) ? upper : side->field->lower[f]);
-      }
-    }
-  }
-
-  // The length at the end of the colour bar: one stray triangle must not darken all the rest.
-  double bar_end() const {
-    if (answer_.max) return kBarOfLimit * answer_.max->limit.beyond;
-    double end = 0;
-    for (const PageDirection* side : sides_) {
-      const bool has_any = side->statistics && !side->statistics->percentiles.empty();
-      end = std::max(end, has_any ? side->statistics->percentiles.back().distance.upper : top_);
-    }
-    return end > 0 && end < top_ ? end : top_;
-  }
-
-  void find_places() {
-    for (size_t i = 0; i < sides_.size(); ++i) {
-      const Report& r = i == 0 ? answer_.a_to_b : *answer_.b_to_a;
-      places_.push_back(
-          worst_places(*sides_[i]->mesh, *sides_[i]->field, place_options(answer_, r)));
-    }
-  }
-
   // Pictures may together take two fifths of the page: more is a mistake of their size.
   void keep_pictures() {
     size_t bytes = 0;
-    for (const PageDirection* side : sides_) bytes += side->picture.size() * 4 / 3;
+    for (const auto& side : sides_) bytes += side->given.picture.size() * 4 / 3;
     keeps_pictures_ = bytes <= limits_.bytes / 5 * 2;
   }
 
   Meshes meshes_of(size_t faces) const {
     Meshes out;
-    for (const PageDirection* side : sides_) {
-      const Shown shown = shown_of(*side->mesh, faces);
-      out.packed.push_back(packed(shown, field_of(shown, *side->field), steps_));
+    for (const auto& side : sides_) {
+      const ShownMesh shown = shown_mesh(side->drawn.mesh, *side->drawn.map, *side->scale, faces);
+      out.packed.push_back(packed(shown));
       out.places.push_back(shown.place);
       out.is_decimated.push_back(shown.is_decimated);
     }
@@ -116,9 +132,10 @@ class PageWriter {
   std::string assembled(const Meshes& meshes) const {
     Json view = head_view(text_, contents_.title);
     view["sides"] = Json::array();
-    for (size_t i = 0; i < sides_.size(); ++i) {
-      view["sides"].push_back(side_view(text_, i > 0, places_[i], sides_[i]->statistics));
-      add_picture(*sides_[i], view["sides"].back());
+    for (const auto& side : sides_) {
+      view["sides"].push_back(side_view(
+          text_, {side->drawn, *side->scale, side->counts, side->places, side->given.statistics}));
+      add_picture(side->given, view["sides"].back());
     }
     view["record"] = record_view(text_);
     view["has_view"] = !meshes.packed.empty();
@@ -144,30 +161,19 @@ class PageWriter {
 
   Json data_json(const Meshes& meshes) const {
     const Enclosure whole = deviation_of(answer_);
-    Json data = {{"unit", answer_.unit}, {"top", top_},
-                 {"bar", bar_end()},     {"steps", steps_json()},
-                 {"palette", palette()}, {"up", contents_.is_y_up ? "y" : "z"},
-                 {"lower", whole.lower}, {"upper", whole.upper}};
+    Json data = {{"unit", answer_.unit},
+                 {"top", top_},
+                 {"bar", bar_},
+                 {"steps", steps_json()},
+                 {"lower", whole.lower},
+                 {"upper", whole.upper},
+                 {"up", contents_.look.up == Up::kY ? "y" : "z"}};
     const int asked = asked_step();
     data["asked"] = asked;
     data["start"] = asked >= 0 ? asked : static_cast<int>(steps_.size()) - 1;
     data["sides"] = Json::array();
     for (size_t i = 0; i < sides_.size(); ++i) data["sides"].push_back(side_json(i, meshes));
     return data;
-  }
-
-  std::string palette() const {
-    constexpr const char* kHex = "0123456789abcdef";
-    std::string text;
-    for (size_t i = 0; i < kPaletteColours; ++i) {
-      const Rgb colour = map_colour(
-          contents_.map, static_cast<double>(i) / static_cast<double>(kPaletteColours - 1));
-      for (const uint8_t part : {colour.red, colour.green, colour.blue}) {
-        text += kHex[part >> 4];
-        text += kHex[part & 15];
-      }
-    }
-    return text;
   }
 
   Json steps_json() const {
@@ -191,8 +197,11 @@ class PageWriter {
   }
 
   Json side_json(size_t i, const Meshes& meshes) const {
-    Json side = {{"from", i == 0 ? "A" : "B"}, {"curve", Json::array()}};
-    if (const Statistics* statistics = sides_[i]->statistics) {
+    Json side = {{"from", i == 0 ? "A" : "B"},
+                 {"to", i == 0 ? "B" : "A"},
+                 {"curve", Json::array()},
+                 {"scale", scale_json(*sides_[i]->scale)}};
+    if (const Statistics* statistics = sides_[i]->given.statistics) {
       side["curve"] = curve_json(statistics->curve);
       for (const AreaWithin& band : statistics->bands) {
         if (is_limit(answer_, band)) side["atLimit"] = {band.share.lower, band.share.upper};
@@ -205,17 +214,26 @@ class PageWriter {
                     {"deflated", can_deflate()},
                     {"faces", mesh.faces},
                     {"vertices", mesh.vertices},
+                    {"unit", mesh.unit},
                     {"lo", {place.lo.x, place.lo.y, place.lo.z}},
                     {"size", place.size}};
-    side["caption"] = caption(meshes.is_decimated[i], mesh.faces);
+    side["decimated"] = meshes.is_decimated[i];
+    side["caption"] = caption(*sides_[i], meshes.is_decimated[i], mesh.faces);
     return side;
   }
 
-  static std::string caption(bool is_decimated, size_t faces) {
-    if (!is_decimated) return "Every face is shown.";
-    return "Simplified for viewing to " + grouped(faces) +
-           " faces: each is coloured by the worst of what it stands for. The figures are of the "
-           "whole mesh.";
+  static std::string caption(const PageSide& side, bool is_decimated, size_t faces) {
+    std::string text =
+        side.is_by_faces()
+            ? "Each face has the colour of the middle of its bounds; those of hatched ones are "
+              "farther apart than a tenth of the bar."
+            : "Colours are estimated distances; hatched parts are known less closely than 5 % of "
+              "the bar.";
+    if (is_decimated)
+      text += " Simplified for viewing to " + grouped(faces) +
+              " faces: each is coloured by the farthest of what it stands for. The figures are of "
+              "the whole mesh.";
+    return text;
   }
 
   // Each point is a true statement alone, so that any of them may be left out.
@@ -237,11 +255,10 @@ class PageWriter {
   PageLimits limits_;
   std::string answer_json_;
   PageText text_;
-  std::vector<const PageDirection*> sides_;
-  double top_ = 0;
+  std::vector<std::unique_ptr<PageSide>> sides_;
+  double top_ = 0, bar_ = 0;
   bool keeps_pictures_ = true;
   std::vector<Step> steps_;
-  std::vector<std::vector<WorstPlace>> places_;
 };
 
 }  // namespace

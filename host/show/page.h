@@ -8,16 +8,13 @@
 #include <string_view>
 
 #include "host/answer/answer.h"
-#include "host/mesh/mesh.h"
-#include "host/survey/field.h"
-#include "host/write/colour_map.h"
+#include "host/show/draw.h"
 
 namespace vkh {
 
 /// The measured mesh of one direction. All that is pointed at stays the caller's.
 struct PageDirection {
-  const Mesh* mesh = nullptr;
-  const Field* field = nullptr;
+  Picture drawn;                           ///< what the view shows, as a picture would
   const Statistics* statistics = nullptr;  ///< nullptr: none were asked for
   std::string_view picture = {};           ///< a PNG's bytes; empty: none
 };
@@ -26,9 +23,8 @@ struct PageContents {
   const Answer* answer = nullptr;
   PageDirection a_to_b;
   std::optional<PageDirection> b_to_a = {};
-  std::string title = {};  ///< the page's heading; empty: the names of both files
-  ColourMap map = ColourMap::kViridis;
-  bool is_y_up = false;  ///< the y axis points up in the view; otherwise z does
+  std::string title = {};    ///< the page's heading; empty: the names of both files
+  PictureOptions look = {};  ///< colours, their range, and the axis that points up
 };
 
 struct PageLimits {
@@ -37,8 +33,9 @@ struct PageLimits {
 };
 
 /// Returns the whole file, which carries the answer's JSON. Its figures are the answer's and its
-/// survey's, and shares of area are the survey's at every tolerance. Only the view may be
-/// decimated, and shows so.
+/// survey's, and shares of area are the survey's at every tolerance. The view has the colours and
+/// places of a picture, in fewer cells of the same map; of a mesh of more faces than a page holds,
+/// in fewer faces, and says so.
 std::string to_page(const PageContents& contents, const PageLimits& limits = {});
 
 }  // namespace vkh

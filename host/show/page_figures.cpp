@@ -106,13 +106,4 @@ std::vector<Step> tolerance_steps(double top, double fine, const std::optional<L
   return steps;
 }
 
-FaceSteps steps_of(const Enclosure& face, const std::vector<Step>& steps) {
-  const auto within = std::partition_point(
-      steps.begin(), steps.end(), [&](const Step& step) { return step.limit.within < face.upper; });
-  const auto beyond = std::partition_point(
-      steps.begin(), steps.end(), [&](const Step& step) { return step.limit.beyond < face.lower; });
-  return {static_cast<uint32_t>(within - steps.begin()),
-          static_cast<uint32_t>(beyond - steps.begin())};
-}
-
 }  // namespace vkh

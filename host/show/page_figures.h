@@ -1,13 +1,11 @@
-// The tolerances that a page can be set to, and where the bounds of a face stand among them.
+// The tolerances that a page can be set to.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/base/limit.h"
-#include "host/survey/field.h"
 
 namespace vkh {
 
@@ -23,14 +21,5 @@ struct Step {
 /// Returns steps that ascend from 0 to at least `top`, the largest distance to be shown: evenly up
 /// to `fine` (at most `top`), then by even ratios.
 std::vector<Step> tolerance_steps(double top, double fine, const std::optional<Limit>& asked);
-
-/// The steps between which a face stands: from step `within` on it is proven within it, before step
-/// `beyond` it is proven beyond it. So a byte or two give the proven verdict of a face at every
-/// step.
-struct FaceSteps {
-  uint32_t within = 0;  ///< as many as there are steps: within none of them
-  uint32_t beyond = 0;
-};
-FaceSteps steps_of(const Enclosure& face, const std::vector<Step>& steps);
 
 }  // namespace vkh

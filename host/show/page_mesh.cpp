@@ -209,16 +209,119 @@ Shown shown_of(const Mesh& mesh, size_t most_faces) {
   return std::move(*best);
 }
 
-Field field_of(const Shown& shown, const Field& field) {
-  Field out;
-  out.upper.assign(shown.faces.size(), 0);
-  out.lower.assign(shown.faces.size(), std::numeric_limits<double>::infinity());
-  for (size_t f = 0; f < shown.face_of.size(); ++f) {
-    const uint32_t by = shown.face_of[f];
-    out.upper[by] = std::max(out.upper[by], field.upper[f]);
-    out.lower[by] = std::min(out.lower[by], field.lower[f]);
+namespace {
+
+// Vertices that a page cannot tell apart are one.
+class Corners {
+ public:
+  explicit Corners(const Place& place) : place_(place) {}
+
+  void add(const glm::dvec3& in_place) {
+    uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      key = key << 16 |
+            static_cast<uint64_t>(std::lround(std::clamp(in_place[axis], 0.0, 1.0) * 65535));
+    keys_.push_back(key);
   }
-  return out;
+  const Place& place() const { return place_; }
+
+  // Makes the vertices, and faces of three corners each.
+  void put_into(ShownMesh& shown) const {
+    std::vector<uint64_t> known = keys_;
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    for (const uint64_t key : known)
+      shown.vertices.push_back({static_cast<uint16_t>(key >> 32), static_cast<uint16_t>(key >> 16),
+                                static_cast<uint16_t>(key)});
+    const auto number = [&](uint64_t key) {
+      return static_cast<uint32_t>(std::lower_bound(known.begin(), known.end(), key) -
+                                   known.begin());
+    };
+    for (size_t i = 0; i < keys_.size(); i += 3)
+      shown.faces.emplace_back(number(keys_[i]), number(keys_[i + 1]), number(keys_[i + 2]));
+  }
+
+ private:
+  Place place_;
+  std::vector<uint64_t> keys_;
+};
+
+ShownMesh mesh_of_cells(const Mesh& mesh, const std::vector<ShownCell>& cells) {
+  ShownMesh shown{.place = place_of(mesh)};
+  Corners corners(shown.place);
+  for (const ShownCell& cell : cells) {
+    const glm::uvec3 f = mesh.faces[cell.face];
+    const glm::dvec3 a = shown.place.unit(mesh.vertices[f.x]);
+    const glm::dvec3 b = shown.place.unit(mesh.vertices[f.y]);
+    const glm::dvec3 c = shown.place.unit(mesh.vertices[f.z]);
+    for (const glm::dvec3& w : weights_of({.corners = cell.corners}))
+      corners.add(w.x * a + w.y * b + w.z * c);
+    shown.values.push_back(cell.value);
+  }
+  corners.put_into(shown);
+  return shown;
+}
+
+// What one shown face tells of all that it stands for.
+class Worst {
+ public:
+  void add(const ShownValue& value) {
+    for (const double at : value.at) {
+      if (std::abs(at) > std::abs(farthest_)) farthest_ = at;
+      lower_ = std::min(lower_, at - value.width);
+      upper_ = std::max(upper_, at + value.width);
+    }
+    hatched_ += value.is_hatched ? 1 : 0;
+    sideless_ += value.is_sideless ? 1 : 0;
+    ++count_;
+  }
+  ShownValue value() const {
+    ShownValue all{.at = {farthest_, farthest_, farthest_}};
+    all.width = std::max(upper_ - farthest_, farthest_ - lower_);
+    all.width += (all.width + std::abs(farthest_)) * 0x1p-40;
+    all.is_hatched = 2 * hatched_ > count_;
+    all.is_sideless = count_ > 0 && sideless_ == count_;
+    return all;
+  }
+
+ private:
+  double farthest_ = 0;
+  double lower_ = std::numeric_limits<double>::infinity(), upper_ = -lower_;
+  size_t hatched_ = 0, sideless_ = 0, count_ = 0;
+};
+
+// A part without a side that stands with others is on either side of B.
+void add_to(Worst& worst, ShownValue value, bool is_signed) {
+  worst.add(value);
+  if (!is_signed || !value.is_sideless) return;
+  for (double& at : value.at) at = -at;
+  value.is_sideless = false;
+  worst.add(value);
+}
+
+ShownMesh decimated_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
+                         size_t most_faces) {
+  const Shown few = shown_of(mesh, most_faces);
+  ShownMesh shown{.place = few.place, .is_decimated = true};
+  Corners corners(few.place);
+  for (const glm::uvec3& f : few.faces) {
+    for (const uint32_t v : {f.x, f.y, f.z}) corners.add(few.vertices[v]);
+  }
+  corners.put_into(shown);
+  std::vector<Worst> worst(few.faces.size());
+  for (const MapCell& cell : map.cells)
+    add_to(worst[few.face_of[cell.face]], shown_value(map, scale, cell), map.has_sides);
+  for (const Worst& face : worst) shown.values.push_back(face.value());
+  return shown;
+}
+
+}  // namespace
+
+ShownMesh shown_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
+                     size_t most_faces) {
+  return mesh.faces.size() <= most_faces
+             ? mesh_of_cells(mesh, shown_cells(mesh, map, scale, most_faces))
+             : decimated_mesh(mesh, map, scale, most_faces);
 }
 
 }  // namespace vkh

@@ -2,14 +2,14 @@
 // takes few bytes, which the viewer reads (tools/page/src/mesh.js).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
 #include "host/mesh/mesh.h"
-#include "host/show/page_figures.h"
-#include "host/survey/field.h"
+#include "host/show/shown_cells.h"
 
 namespace vkh {
 
@@ -34,22 +34,35 @@ struct Shown {
 /// vanishes gets a shown face of its cell, or one of them that is shown as it is.
 Shown shown_of(const Mesh& mesh, size_t most_faces);
 
-/// The bounds of each shown face: the largest upper and the least lower of the faces that it stands
-/// for. Never an average, so that nothing that is proven of a shown face is false for a face behind
-/// it.
-Field field_of(const Shown& shown, const Field& field);
+/// What a page shows: triangles, each with the distances that are shown of it.
+struct ShownMesh {
+  Place place;
+  std::vector<std::array<uint16_t, 3>> vertices = {};  ///< 65535 to a unit of `place`
+  std::vector<glm::uvec3> faces = {};
+  std::vector<ShownValue> values = {};  ///< one per face
+  bool is_decimated = false;
+};
+
+/// The cells of a map, or if even the faces are more than `most_faces`, fewer faces that stand for
+/// all: each is shown by the farthest of what it stands for, and its width covers all of that.
+ShownMesh shown_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
+                     size_t most_faces);
 
 /// Returns whether packed meshes are deflated here; otherwise they are stored.
 bool can_deflate();
 
 /// Streams of bytes, one after the other, each the same byte of all its numbers:
 /// three of corners, by faces: the number of known vertices less the corner's number;
-/// two of positions, by vertices, each coordinate less the one before, 65535 to a unit;
-/// two of the face's step `within`, less the one before; two of `within` less `beyond`.
+/// two of positions, by vertices, each coordinate less the one before;
+/// three of distances, by corners, as shares of `unit`: of a float its sign, and above that the
+/// upper 23 bits of what follows it; less the one before at the same vertex, or else before;
+/// two of the faces' widths, the upper 16 bits of such a float, rounded up, less the one before;
+/// one of flags, by faces: 1 for hatched, 2 for sideless.
 struct PackedMesh {
   size_t vertices = 0, faces = 0;
+  double unit = 1;    ///< in the files' units
   std::string bytes;  ///< in zlib's format if can_deflate(), otherwise as they are
 };
-PackedMesh packed(const Shown& shown, const Field& field, const std::vector<Step>& steps);
+PackedMesh packed(const ShownMesh& shown);
 
 }  // namespace vkh

@@ -1,7 +1,10 @@
 // Packs a shown mesh as streams that deflate well: small differences, and equal bytes side by side.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <new>
 #ifdef VKH_HAS_ZLIB
 #include <zlib.h>
@@ -21,19 +24,20 @@ void append_streams(std::string& out, const std::vector<uint32_t>& numbers, int 
   }
 }
 
-/// A difference of two 16-bit numbers, modulo 2^16; small ones of either sign are small numbers.
-uint32_t difference(uint32_t to, uint32_t from) {
-  const auto signed_difference = static_cast<int16_t>(static_cast<uint16_t>(to - from));
-  const int wide = signed_difference;
-  return static_cast<uint32_t>(wide < 0 ? -2 * wide - 1 : 2 * wide);
+/// A difference of two numbers of so many bits, modulo 2^bits; small ones of either sign are small
+/// numbers.
+uint32_t difference(uint32_t to, uint32_t from, int bits) {
+  const uint32_t mask = (uint32_t{1} << bits) - 1, up = (to - from) & mask;
+  if (up >> (bits - 1) == 0) return 2 * up;
+  return 2 * ((from - to) & mask) - 1;
 }
 
 /// Numbers vertices in the order in which faces need them: a new one is 0, a near one small.
-struct Corners {
+struct CornerCodes {
   std::vector<uint32_t> codes, order;  // order: the shown mesh's vertex numbers
 };
-Corners corners_of(const Shown& shown) {
-  Corners out;
+CornerCodes corners_of(const ShownMesh& shown) {
+  CornerCodes out;
   std::vector<uint32_t> known(shown.vertices.size(), kUnknown);
   for (const glm::uvec3& face : shown.faces) {
     for (const uint32_t v : {face.x, face.y, face.z}) {
@@ -48,18 +52,77 @@ Corners corners_of(const Shown& shown) {
   return out;
 }
 
-std::vector<uint32_t> positions_of(const Shown& shown, const std::vector<uint32_t>& order) {
+std::vector<uint32_t> positions_of(const ShownMesh& shown, const std::vector<uint32_t>& order) {
   std::vector<uint32_t> codes;
   uint32_t last[3] = {};
   for (const uint32_t v : order) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = std::clamp(shown.vertices[v][axis], 0.0, 1.0);
-      const auto now = static_cast<uint32_t>(std::lround(at * 65535));
-      codes.push_back(difference(now, last[axis]));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const uint32_t now = shown.vertices[v][axis];
+      codes.push_back(difference(now, last[axis], 16));
       last[axis] = now;
     }
   }
   return codes;
+}
+
+// A float's upper bits keep 15 of its digits: it is rounded by a share of 2^-16 at most.
+uint32_t distance_bits(double share) {
+  const auto bits = std::bit_cast<uint32_t>(std::abs(static_cast<float>(share)));
+  return ((bits + 0x80) >> 8) << 1 | (share < 0 ? 1 : 0);
+}
+constexpr double kDistanceRounding = 0x1p-15, kLeastDistance = 0x1p-120;
+
+// No smaller than the share, with 8 of its digits.
+uint32_t width_bits(double share) {
+  auto rounded = static_cast<float>(share);
+  if (static_cast<double>(rounded) < share)
+    rounded = std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  return (std::bit_cast<uint32_t>(rounded) + 0x7fff) >> 15;
+}
+
+std::vector<uint32_t> distances_of(const ShownMesh& shown, double unit) {
+  std::vector<uint32_t> codes, at_vertex(shown.vertices.size(), kUnknown);
+  uint32_t last = 0;
+  for (size_t f = 0; f < shown.faces.size(); ++f) {
+    const glm::uvec3& face = shown.faces[f];
+    const std::array<uint32_t, 3> corners{face.x, face.y, face.z};
+    for (size_t i = 0; i < corners.size(); ++i) {
+      uint32_t& before = at_vertex[corners[i]];
+      const uint32_t now = distance_bits(shown.values[f].at[i] / unit);
+      codes.push_back(difference(now, before == kUnknown ? last : before, 24));
+      before = last = now;
+    }
+  }
+  return codes;
+}
+
+std::vector<uint32_t> widths_of(const ShownMesh& shown, double unit) {
+  std::vector<uint32_t> codes;
+  uint32_t last = 0;
+  for (const ShownValue& value : shown.values) {
+    const double most =
+        std::max({std::abs(value.at[0]), std::abs(value.at[1]), std::abs(value.at[2])}) / unit;
+    const uint32_t now = width_bits(value.width / unit + most * kDistanceRounding + kLeastDistance);
+    codes.push_back(difference(now, last, 16));
+    last = now;
+  }
+  return codes;
+}
+
+std::vector<uint32_t> flags_of(const ShownMesh& shown) {
+  std::vector<uint32_t> flags;
+  for (const ShownValue& value : shown.values)
+    flags.push_back((value.is_hatched ? 1u : 0u) | (value.is_sideless ? 2u : 0u));
+  return flags;
+}
+
+// The largest distance; 1 if all are 0.
+double farthest_of(const ShownMesh& shown) {
+  double most = 0;
+  for (const ShownValue& value : shown.values) {
+    for (const double at : value.at) most = std::max(most, std::abs(at));
+  }
+  return most > 0 ? most : 1;
 }
 
 std::string deflated(std::string bytes) {
@@ -87,22 +150,16 @@ bool can_deflate() {
 #endif
 }
 
-PackedMesh packed(const Shown& shown, const Field& field, const std::vector<Step>& steps) {
-  const Corners corners = corners_of(shown);
-  std::vector<uint32_t> within, gaps;
-  uint32_t last = 0;
-  for (size_t f = 0; f < shown.faces.size(); ++f) {
-    const FaceSteps at = steps_of(field.of(f), steps);
-    within.push_back(difference(at.within, last));
-    gaps.push_back(at.within - std::min(at.beyond, at.within));
-    last = at.within;
-  }
+PackedMesh packed(const ShownMesh& shown) {
+  const CornerCodes corners = corners_of(shown);
+  const double unit = farthest_of(shown);
   std::string bytes;
   append_streams(bytes, corners.codes, 3);
   append_streams(bytes, positions_of(shown, corners.order), 2);
-  append_streams(bytes, within, 2);
-  append_streams(bytes, gaps, 2);
-  return {corners.order.size(), shown.faces.size(), deflated(std::move(bytes))};
+  append_streams(bytes, distances_of(shown, unit), 3);
+  append_streams(bytes, widths_of(shown, unit), 2);
+  append_streams(bytes, flags_of(shown), 1);
+  return {corners.order.size(), shown.faces.size(), unit, deflated(std::move(bytes))};
 }
 
 }  // namespace vkh

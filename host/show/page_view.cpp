@@ -2,14 +2,17 @@
 #include "host/show/page_view.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "host/base/decimal.h"
+#include "host/show/camera.h"
 #include "host/show/page_words.h"
 
 namespace vkh {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using drawing::MapScale;
 
 // Signs are drawn, for fonts differ in their characters.
 constexpr const char* kTick = "M5 13l5 5 9-11";
@@ -27,14 +30,31 @@ Json named(const std::string& name, const std::string& text) {
   return {{"name", name}, {"text", text}};
 }
 
+// A figure is told by its estimate, and by its range where one number does not tell both ends.
+Json length_row(const Answer& answer, const std::string& name, const Enclosure& length) {
+  Json row = named(name, length_text(answer, length));
+  const bool is_range = std::string(row["text"]).find(" to ") != std::string::npos;
+  row["estimate"] = "";
+  if (length.estimate && is_range)
+    row["estimate"] = estimate_text(*length.estimate, answer.max ? answer.max->limit : Limit{}) +
+                      (answer.unit.empty() ? "" : " " + answer.unit);
+  return row;
+}
+
 double asked_share(const Answer& answer, const AreaWithin& band) {
   return is_limit(answer, band) && answer.max->area ? *answer.max->area : -1;
+}
+
+std::string percent_of(double share) {
+  return number_text(100 * share, std::chars_format::fixed, 2) + " %";
 }
 
 Json band_row(const Answer& answer, const AreaWithin& band) {
   Json row = named("area within " + band_text(answer, band),
                    share_text(band.share, asked_share(answer, band)));
   row["is_limit"] = is_limit(answer, band);
+  const bool is_range = band.share.upper - band.share.lower >= 2e-4;
+  row["estimate"] = is_range && band.share.estimate ? percent_of(*band.share.estimate) : "";
   return row;
 }
 
@@ -58,26 +78,94 @@ Json figure_rows(const Answer& answer, bool back, const Statistics* statistics) 
   rows.push_back(named("largest deviation", length_text(answer, deviation_of(answer, r))));
   if (const SignedFigures* sides = sides_of(answer, back)) add_side_rows(answer, *sides, rows);
   if (!statistics) return rows;
-  rows.push_back(named("mean deviation", length_text(answer, statistics->mean)));
-  rows.push_back(named("root mean square", length_text(answer, statistics->rms)));
+  rows.push_back(length_row(answer, "mean deviation", statistics->mean));
+  rows.push_back(length_row(answer, "root mean square", statistics->rms));
   for (const Percentile& p : statistics->percentiles)
-    rows.push_back(named(percentile_name(p), length_text(answer, p.distance)));
+    rows.push_back(length_row(answer, percentile_name(p), p.distance));
   for (const AreaWithin& band : statistics->bands) rows.push_back(band_row(answer, band));
   return rows;
 }
 
 std::string array_text(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}).dump(); }
 
-Json place_view(const Answer& answer, const WorstPlace& place, size_t number) {
+glm::dvec3 normal_of(const Mesh& mesh, size_t face) {
+  const glm::uvec3& f = mesh.faces[face];
+  const glm::dvec3 a = mesh.vertices[f.x];
+  const glm::dvec3 across = cross(mesh.vertices[f.y] - a, mesh.vertices[f.z] - a);
+  const double area = length(across);
+  return area > 0 ? across / area : glm::dvec3(0);
+}
+
+// The distance is estimated, and is told as the picture tells it; what is proven stands below.
+Json place_view(const Answer& answer, const Picture& drawn, const MapPlace& place, size_t number) {
   const std::string key = std::to_string(number);
-  const std::string length = length_text(answer, place.distance);
+  const std::string length = place_text(drawn, place), known = length_text(answer, place.known);
+  const std::string face = "face " + std::to_string(drawn.mesh.file_faces.of(place.face));
   return {{"key", key},
-          {"where", point_text(place.point, answer.a_to_b.diagonal_a)},
+          {"where", point_text(place.point, drawing::diagonal_of(drawn.mesh))},
           {"length", length},
-          {"face", "face " + std::to_string(place.file_face)},
+          {"face", known == length ? face : face + ", " + known},
           {"label", key + ": " + length},
           {"point", array_text(place.point)},
-          {"normal", array_text(place.normal)}};
+          {"normal", array_text(normal_of(drawn.mesh, place.face))}};
+}
+
+std::string hex_of(Rgb colour) {
+  constexpr const char* kHex = "0123456789abcdef";
+  std::string text;
+  for (const uint8_t part : {colour.red, colour.green, colour.blue}) {
+    text += kHex[part >> 4];
+    text += kHex[part & 15];
+  }
+  return text;
+}
+
+// The colour bar: coordinates of an SVG of 340 units, whose bar is 312 wide.
+class BarView {
+ public:
+  explicit BarView(const MapScale& scale) : scale_(scale) {}
+
+  Json json() const {
+    Json bar = {{"colours", Json::array()}, {"ticks", Json::array()}, {"limits", Json::array()}};
+    for (int i = 0; i < kRects; ++i)
+      bar["colours"].push_back({{"x", number(kLeft + kWidth * i / kRects)},
+                                {"fill", hex_of(scale_.palette().colour((i + 0.5) / kRects))}});
+    const drawing::Ticks ticks = drawing::ticks_of({scale_.low(), scale_.high()}, 6);
+    for (size_t i = 0; i < ticks.at.size(); ++i)
+      bar["ticks"].push_back({{"x", x_of(ticks.at[i])}, {"text", ticks.text[i]}});
+    bar["power"] = ticks.power;
+    for (const std::optional<double>& limit : {scale_.limit_under(), scale_.limit()}) {
+      if (limit && scale_.share_of(*limit) >= 0 && scale_.share_of(*limit) <= 1)
+        bar["limits"].push_back(
+            {{"x", x_of(*limit)}, {"text", "limit " + drawing::short_number(*limit)}});
+    }
+    return bar;
+  }
+
+ private:
+  static constexpr int kRects = 156;
+  static constexpr double kLeft = 14, kWidth = 312;
+
+  static std::string number(double x) { return number_text(x, std::chars_format::fixed, 1); }
+  std::string x_of(double distance) const {
+    return number(kLeft + kWidth * std::clamp(scale_.share_of(distance), 0.0, 1.0));
+  }
+
+  const MapScale& scale_;
+};
+
+Json legend_view(const SideText& side) {
+  Json legend = BarView(side.scale).json();
+  legend["title"] = drawing::bar_title(side.drawn, side.scale);
+  const std::string unit = side.drawn.unit.empty() ? "the files' unit" : side.drawn.unit;
+  const std::string power = legend["power"];
+  legend["unit"] = power.empty() ? unit : power + " " + unit;
+  legend["is_signed"] = side.scale.is_signed();
+  legend["rows"] = Json::array();
+  for (const drawing::LegendRow& row : legend_rows(side.drawn, side.scale, side.counts))
+    legend["rows"].push_back(
+        {{"fill", hex_of(row.colour)}, {"is_hatched", row.is_hatched}, {"text", row.text}});
+  return legend;
 }
 
 Json facts_of(const Answer& answer) {
@@ -91,6 +179,12 @@ Json facts_of(const Answer& answer) {
   if (answer.max) facts.push_back(named("Limit", limit_text(answer)));
   facts.push_back(named("Unit", unit_text(answer)));
   return facts;
+}
+
+// The effort was used, as on most CPUs, before all figures were as narrow as they were to be.
+bool has_used_effort(const Answer& answer, bool back) {
+  const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
+  return survey && survey->ended == SurveyEnd::kEffort;
 }
 
 }  // namespace
@@ -121,18 +215,38 @@ Json head_view(const PageText& page, const std::string& title) {
   return view;
 }
 
-Json side_view(const PageText& page, bool back, const std::vector<WorstPlace>& places,
-               const Statistics* statistics) {
+Json side_view(const PageText& page, const SideText& side) {
+  const bool back = side.drawn.back;
   Json view = {{"index", back ? 1 : 0},
                {"is_second", back},
                {"from", back ? "B" : "A"},
                {"to", back ? "A" : "B"},
                {"places", Json::array()},
-               {"has_no_places", places.empty()},
-               {"figures", figure_rows(page.answer, back, statistics)}};
-  for (size_t i = 0; i < places.size(); ++i)
-    view["places"].push_back(place_view(page.answer, places[i], i + 1));
+               {"has_no_places", side.places.empty()},
+               {"figures", figure_rows(page.answer, back, side.statistics)},
+               {"legend", legend_view(side)},
+               {"is_finer_with_effort", has_used_effort(page.answer, back)}};
+  size_t number = 0;
+  for (const MapPlace& place : side.places)
+    view["places"].push_back(place_view(page.answer, side.drawn, place, ++number));
   return view;
+}
+
+Json scale_json(const MapScale& scale) {
+  const drawing::Palette& palette = scale.palette();
+  const auto text = [](const auto& colours) {
+    std::string all;
+    for (const Rgb colour : colours) all += hex_of(colour);
+    return all;
+  };
+  return {{"low", scale.low()},
+          {"high", scale.high()},
+          {"signed", scale.is_signed()},
+          {"from", palette.from},
+          {"to", palette.to},
+          {"bands", palette.bands},
+          {"colours", text(palette.below) + text(palette.within) + text(palette.above)},
+          {"outside", hex_of(drawing::kBelow) + hex_of(drawing::kOver) + hex_of(drawing::kNoSide)}};
 }
 
 }  // namespace vkh

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host/show/map_legend.h"
 #include "host/show/page.h"
-#include "host/show/page_places.h"
 
 namespace vkh {
 
@@ -24,10 +24,20 @@ std::string file_name_in(const PageText& page, bool is_b);
 /// Title, files, verdict, warnings and the facts beside them: what stands above all else.
 nlohmann::ordered_json head_view(const PageText& page, const std::string& title);
 
-/// One direction: its worst places and its figures.
-nlohmann::ordered_json side_view(const PageText& page, bool back,
-                                 const std::vector<WorstPlace>& places,
-                                 const Statistics* statistics);
+/// What a page says of one direction.
+struct SideText {
+  const Picture& drawn;
+  const drawing::MapScale& scale;
+  const drawing::MapCounts& counts;
+  const std::vector<MapPlace>& places;
+  const Statistics* statistics;
+};
+
+/// One direction: its colours, its worst places and its figures.
+nlohmann::ordered_json side_view(const PageText& page, const SideText& side);
+
+/// The colours of a bar, for the viewer.
+nlohmann::ordered_json scale_json(const drawing::MapScale& scale);
 
 /// Describes the inputs, the device and the run: rows of two tables, and notes.
 nlohmann::ordered_json record_view(const PageText& page);

@@ -155,21 +155,18 @@ std::string distance_sentence(const Answer& answer) {
          length_text(answer, deviation) + ".";
 }
 
-const char* ended_by(SurveyEnd end) {
+// A survey whose effort is used did what was set: page_view.cpp says so beside the figures.
+const char* cut_short_by(SurveyEnd end) {
   switch (end) {
-    case SurveyEnd::kEffort:
-      return "the effort that was set for them is used up";
     case SurveyEnd::kTime:
       return "the time that was set is over";
     case SurveyEnd::kCancelled:
       return "the measurement was stopped";
     case SurveyEnd::kMemory:
       return "there was no memory for more";
-    case SurveyEnd::kMet:
-    case SurveyEnd::kBits:
-      break;
+    default:
+      return nullptr;
   }
-  return nullptr;
 }
 
 const char* ended_by(Status status) {
@@ -187,23 +184,27 @@ const char* ended_by(Status status) {
   }
 }
 
-void add_search_end(const Report& r, bool back, std::vector<std::string>& warnings) {
-  if (const char* reason = ended_by(r.status))
-    warnings.push_back("Unfinished: the largest deviation of " + from_of(back) + " from " +
-                       other_of(back) + " is not known more closely, since " + reason + ".");
+void add_search_end(const Answer& answer, const Report& r, bool back,
+                    std::vector<std::string>& warnings) {
+  const char* reason = ended_by(r.status);
+  if (reason == nullptr) return;
+  const bool is_decided = answer.max && verdict_of(answer) != Verdict::kUndecided;
+  const std::string what = "the largest deviation of " + from_of(back) + " from " + other_of(back) +
+                           " is not known more closely, since " + reason + ".";
+  warnings.push_back(is_decided ? "The verdict is proven; " + what : "Unfinished: " + what);
 }
 
 // One sentence for both directions where both ended for one reason.
 void add_survey_ends(const Answer& answer, std::vector<std::string>& warnings) {
   const auto reason_of = [](const std::optional<SurveyResult>& survey) {
-    return survey ? ended_by(survey->ended) : nullptr;
+    return survey ? cut_short_by(survey->ended) : nullptr;
   };
   const char* const a = reason_of(answer.survey_a);
   const char* const b = reason_of(answer.survey_b);
   const auto add = [&](const std::string& which, const char* reason) {
     if (reason)
-      warnings.push_back("Unfinished: figures and colours of " + which +
-                         " are not known more closely, since " + reason + ". All of them hold.");
+      warnings.push_back("Cut short: figures and colours of " + which + " could be finer, since " +
+                         reason + ". They hold as they are.");
   };
   if (a && b && std::string(a) == b) return add("A and of B", a);
   add("A", a);
@@ -238,6 +239,15 @@ std::string figure_text(const Enclosure& length, const Limit& limit) {
   if (!(length.lower > 0)) return "at most " + high;
   const std::string low = end(length.lower, Rounding::kDown);
   return low + " to " + high;
+}
+
+std::string estimate_text(double length, const Limit& limit) {
+  std::string text = nearest(length, kMostFigureDigits);
+  for (int digits = kMostFigureDigits + 1; digits <= kAllDigits; ++digits) {
+    if (is_on_its_side(number_of(text), length, limit)) break;
+    text = nearest(length, digits);
+  }
+  return text;
 }
 
 std::string length_text(const Answer& answer, const Enclosure& length) {
@@ -308,8 +318,8 @@ std::vector<std::string> warnings_of(const Answer& answer) {
   for (const Note& note : answer.notes) {
     if (is_odd_pair(note.code)) warnings.push_back("Check the two files: " + clause_of(note) + ".");
   }
-  add_search_end(answer.a_to_b, false, warnings);
-  if (answer.b_to_a) add_search_end(*answer.b_to_a, true, warnings);
+  add_search_end(answer, answer.a_to_b, false, warnings);
+  if (answer.b_to_a) add_search_end(answer, *answer.b_to_a, true, warnings);
   add_survey_ends(answer, warnings);
   if (!answer.b_to_a)
     warnings.emplace_back("Only A was measured: a part of B that A lacks is not found this way.");

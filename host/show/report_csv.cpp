@@ -4,7 +4,7 @@
 #include <initializer_list>
 
 #include "host/base/decimal.h"
-#include "host/show/page_places.h"
+#include "host/show/map_places.h"
 #include "host/show/page_words.h"
 
 namespace vkh {
@@ -28,8 +28,8 @@ class FiguresTable {
       : answer_(answer), from_(back ? "B" : "A"), out_(out) {}
 
   void add(const std::string& figure, const Enclosure& e, const std::string& unit) {
-    out_ += row_text(
-        {from_, figure, csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp), unit});
+    out_ += row_text({from_, figure, e.estimate ? shortest_decimal(*e.estimate) : "",
+                      csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp), unit});
   }
   void add_length(const std::string& figure, const Enclosure& e) { add(figure, e, answer_.unit); }
 
@@ -57,7 +57,7 @@ class FiguresTable {
 }  // namespace
 
 std::string figures_csv(const Measured& measured) {
-  std::string out = row_text({"from", "figure", "lower", "upper", "unit"});
+  std::string out = row_text({"from", "figure", "estimate", "lower", "upper", "unit"});
   for (const Side& side : sides_of(measured)) {
     FiguresTable table(measured.answer, side.back, out);
     table.add_length("largest", deviation_of(measured.answer, side.report));
@@ -67,19 +67,20 @@ std::string figures_csv(const Measured& measured) {
   return out;
 }
 
-std::string points_csv(const Measured& measured) {
-  std::string out = row_text({"from", "place", "x", "y", "z", "lower", "upper", "face", "unit"});
+std::string points_csv(const Measured& measured, const PictureStyle& look) {
+  const Answer& answer = measured.answer;
+  std::string out =
+      row_text({"from", "place", "x", "y", "z", "deviation", "lower", "upper", "face", "unit"});
   for (const Side& side : sides_of(measured)) {
-    const std::vector<WorstPlace> places =
-        worst_places(side.mesh, side.survey.field, place_options(measured.answer, side.report));
-    for (size_t i = 0; i < places.size(); ++i) {
-      const WorstPlace& place = places[i];
-      out +=
-          row_text({side.back ? "B" : "A", std::to_string(i + 1), shortest_decimal(place.point.x),
-                    shortest_decimal(place.point.y), shortest_decimal(place.point.z),
-                    csv_end(place.distance.lower, Rounding::kDown),
-                    csv_end(place.distance.upper, Rounding::kUp), std::to_string(place.file_face),
-                    measured.answer.unit});
+    size_t number = 0;
+    for (const MapPlace& place : worst_places(drawn_of(side, answer, look))) {
+      const double sign = place.side == SurfaceSide::kUnder ? -1 : 1;
+      out += row_text({side.back ? "B" : "A", std::to_string(++number),
+                       shortest_decimal(place.point.x), shortest_decimal(place.point.y),
+                       shortest_decimal(place.point.z), shortest_decimal(sign * place.distance),
+                       csv_end(place.known.lower, Rounding::kDown),
+                       csv_end(place.known.upper, Rounding::kUp),
+                       std::to_string(side.mesh.file_faces.of(place.face)), answer.unit});
     }
   }
   return out;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/survey/field.h"
 #include "host/survey/side.h"
 
 namespace vkh {
@@ -42,8 +43,13 @@ struct CellMap {
   /// area is probably within.
   double bar = 0;
   double least = 0;  ///< widths up to that, in `unit`, are what floats leave
+  double slack = 0;  ///< how far storing coordinates moves a distance, in the files' units
   bool has_sides = false;
   std::vector<MapCell> cells;
+
+  /// Encloses the distance of a point of a cell of that width, where `estimate` is drawn; both are
+  /// in `unit`, and the enclosure in the files' units.
+  Enclosure around(double estimate, double width) const;
 
   /// Whether the colours of a cell say less than they seem to, with a bar of that end.
   bool is_unresolved(const MapCell& cell, double end) const {

@@ -30,21 +30,6 @@ gpu::CellBounds unknown_bounds(float farthest) {
           .triangle = gpu::kNone};
 }
 
-// The number of the cell's corner opposite its longest edge. It only steers.
-uint32_t opposite_longest(const Mesh& a, const gpu::Cell& cell) {
-  const glm::uvec3& f = a.faces[cell.face];
-  const glm::dvec3 ab = a.vertices[f.y] - a.vertices[f.x];
-  const glm::dvec3 ac = a.vertices[f.z] - a.vertices[f.x];
-  const lib::Bary3 t = corners_of(cell);
-  const auto length = [&](const glm::uvec2& p, const glm::uvec2& q) {
-    const glm::dvec2 d = glm::dvec2(q) - glm::dvec2(p);
-    return glm::length(d.x * ab + d.y * ac);
-  };
-  const double la = length(t.b, t.c), lb = length(t.c, t.a), lc = length(t.a, t.b);
-  if (la >= lb && la >= lc) return 0;
-  return lb >= lc ? 1 : 2;
-}
-
 void raise(float& most, float value) {
   const std::atomic_ref<float> shared(most);
   float seen = shared.load(std::memory_order_relaxed);
@@ -60,6 +45,20 @@ void each_of(size_t count, const F& work) {
 }
 
 }  // namespace
+
+uint32_t opposite_longest(const Mesh& a, const gpu::Cell& cell) {
+  const glm::uvec3& f = a.faces[cell.face];
+  const glm::dvec3 ab = a.vertices[f.y] - a.vertices[f.x];
+  const glm::dvec3 ac = a.vertices[f.z] - a.vertices[f.x];
+  const lib::Bary3 t = corners_of(cell);
+  const auto length = [&](const glm::uvec2& p, const glm::uvec2& q) {
+    const glm::dvec2 d = glm::dvec2(q) - glm::dvec2(p);
+    return glm::length(d.x * ab + d.y * ac);
+  };
+  const double la = length(t.b, t.c), lb = length(t.c, t.a), lc = length(t.a, t.b);
+  if (la >= lb && la >= lc) return 0;
+  return lb >= lc ? 1 : 2;
+}
 
 float lowest(const gpu::CellBounds& b) {
   return std::max(std::min({b.lower_a, b.lower_b, b.lower_c}), 0.0f);

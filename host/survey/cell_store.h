@@ -12,6 +12,10 @@ namespace vkh {
 /// The least distance from below: no point of the cell is nearer.
 float lowest(const gpu::CellBounds& bounds);
 
+/// The number of the corner opposite the longest edge of a cell of A, at which it is halved. It
+/// only steers.
+uint32_t opposite_longest(const Mesh& a, const gpu::Cell& cell);
+
 /// Cells of the faces of A: at first one a face, which is the face. A split halves a cell at the
 /// middle of its longest edge, so that its area is 2^-depth of its face's, exactly.
 class CellStore {

@@ -110,6 +110,7 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapO
   CellMap map;
   map.unit = pair.frame.length_down(1);
   map.least = least_width(pair);
+  map.slack = pair.frame.length_up(pair.displacement);
   map.bar = options.bar ? *options.bar : map.unit * percentile_99(store, areas, [&](size_t i) {
                                            return static_cast<double>(estimates.of(i).mean);
                                          });
@@ -131,6 +132,14 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapO
 void add_sides(std::span<const CellSide> sides, CellMap& map) {
   map.has_sides = true;
   for (size_t i = 0; i < map.cells.size(); ++i) map.cells[i].side = sides[i].side;
+}
+
+// A width is rounded to a float, by a share of 2^-24 at most. The sums, the products and `unit`
+// together are rounded by less than ten shares of 2^-53 of the larger end.
+Enclosure CellMap::around(double estimate, double width) const {
+  const double gap = width * (1 + 0x1p-23);
+  const double rounding = (estimate + gap) * unit * 0x1p-49 + slack;
+  return {std::max((estimate - gap) * unit - rounding, 0.0), (estimate + gap) * unit + rounding};
 }
 
 std::array<glm::dvec3, 3> weights_of(const MapCell& cell) {

@@ -158,7 +158,7 @@ class See(unittest.TestCase):
         held = json.loads(held)
         for key in ("verdict", "words", "interval", "max"):
             self.assertEqual(held[key], answer[key])
-        self.assertEqual(held["directions"][0]["field"], {"faces": 2, "width": answer["directions"][0]["field"]["width"], "within": 1, "beyond": 1, "undecided": 0})
+        self.assertNotIn("field", held["directions"][0])  # cells are drawn, and no bounds of faces are asked for
         self.assertEqual(len(held["inputs"][0]["sha256"]), 64)
         self.assertNotIn("http://", page.split("<script", 1)[0].replace("http://www.w3.org", ""))
 
@@ -176,7 +176,7 @@ class See(unittest.TestCase):
             self.assertEqual(float(rows["largest"]["lower"]), direction["interval"]["lower"])
             statistics = direction["statistics"]
             for figure, known in (("mean", statistics["mean"]), ("rms", statistics["rms"]), ("within 0.3 mm", statistics["bands"][0]["share"])):
-                self.assertEqual((float(rows[figure]["lower"]), float(rows[figure]["upper"])), (known["lower"], known["upper"]))
+                self.assertEqual([float(rows[figure][key]) for key in ("lower", "estimate", "upper")], [known[key] for key in ("lower", "estimate", "upper")])
             self.assertEqual(rows["mean"]["unit"], "mm")
             self.assertEqual(rows["within 0.3 mm"]["unit"], "1")
             self.check_page_figures(page.split("<h2>Figures of " + name, 1)[1].split("</table>", 1)[0], rows)
@@ -187,16 +187,38 @@ class See(unittest.TestCase):
         self.assertEqual([float(points[0][axis]) for axis in "xyz"], witness["point"])
         self.assertEqual(float(points[0]["lower"]), answer["directions"][0]["interval"]["lower"])
         self.assertEqual({row["from"] for row in points}, {"A", "B"})
+        for name in "AB":
+            self.check_page_places(page.split("<h2>Worst places of " + name, 1)[1].split("</ol>", 1)[0], [row for row in points if row["from"] == name])
+        self.assertEqual(page.count(">limit 0.3</text>"), 2)
+
+    # The places of a page are the table's: an estimate to four digits, coordinates, the face, and what encloses it.
+    def check_page_places(self, listed, rows):
+        places = re.findall(r'<span class="length">([^<]+) mm</span><span class="where">\(([^<]+)\)<small>face (\d+)(?:, ([^<]+) mm)?</small>', listed)
+        self.assertEqual(len(places), len(rows))
+        for (length, where, face, known), row in zip(places, rows):
+            self.assertAlmostEqual(float(length), float(row["deviation"]), delta=6e-4 * float(row["deviation"]))
+            for text, axis in zip(where.split(", "), "xyz"):
+                self.assertAlmostEqual(float(text), float(row[axis]), delta=1e-4)
+            self.assertEqual(face, row["face"])
+            self.assertLessEqual(float(row["lower"]), float(row["deviation"]))
+            self.assertGreaterEqual(float(row["upper"]), float(row["deviation"]))
+            ends = [float(word) for word in re.findall(r"[0-9.]+(?:e[-+]?\d+)?", known or length)]
+            slack = 6e-3 * ends[-1] if len(ends) == 1 else 1e-12
+            self.assertLessEqual(ends[0], float(row["lower"]) + slack)
+            self.assertGreaterEqual(ends[-1], float(row["upper"]) - slack)
 
     def check_page_figures(self, table, rows):
         names = {"mean deviation": "mean", "root mean square": "rms", "50 % of the area is within": "p50", "area within 0.3 mm": "within 0.3 mm"}
         seen = 0
-        for name, text in re.findall(r"<th scope=\"row\">([^<]+)</th><td>([^<]+)</td>", table):
+        for name, estimate, text in re.findall(r"<th scope=\"row\">([^<]+)</th><td(?: class=\"estimate\">([^<]+)<small)?>([^<]+)<", table):
             row = rows.get(names.get(name))
             if row is None:
                 continue
             seen += 1
             factor = 0.01 if text.endswith("%") else 1
+            if estimate:
+                likely = float(row["estimate"])
+                self.assertAlmostEqual(factor * float(estimate.split()[0]), likely, delta=6e-5 if factor < 1 else 6e-4 * likely)
             numbers = [factor * float(word) for word in re.findall(r"[0-9.]+(?:e[-+]?\d+)?", text)]
             lower, upper = float(row["lower"]), float(row["upper"])
             slack = 6e-3 * upper if len(numbers) == 1 else 1e-12

@@ -127,7 +127,9 @@ async function lookAtPage(page) {
   seen.data = JSON.parse(await text(page, '#data'));
   seen.shown = await page.$$eval('.no-webgl, .way figure img, .way figure p', (all) =>
     all.filter((e) => e.offsetParent !== null).map((e) => e.textContent || `${e.naturalWidth}x${e.naturalHeight}`));
-  seen.over = await page.$eval('#over', (key) => (key.hidden ? null : key.textContent));
+  seen.rows = await page.$$eval('.legend:not([hidden]) li', (all) => all.map((e) => e.textContent));
+  seen.ticks = await page.$$eval('.legend:not([hidden]) .tick', (all) => all.map((e) => e.textContent));
+  seen.title_of_bar = await text(page, '.legend:not([hidden]) .what');
   seen.wide = await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth);
   if (mode === 'still') seen.start = await state(page);
   else await lookAtSlider(page);

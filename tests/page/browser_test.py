@@ -136,29 +136,54 @@ class Browser(unittest.TestCase):
         self.assertAlmostEqual(mark["y"], stage["y"] + stage["height"] / 2, delta=3)
         self.assertEqual(len(set(seen["views"] + [seen["place"]])), 4, "a view's button does nothing")
         self.check_overlay(seen)
-        self.check_over(seen)
 
-    # A colour that is beyond the bar's end is named, where there is any.
-    def check_over(self, seen):
-        data = seen["data"]
-        end = next((value for value in data["steps"]["value"] if value >= data["bar"]), data["top"])
-        if data["top"] <= end:
-            self.assertIsNone(seen["over"])
-            return
-        said = float(re.fullmatch(r"more than ([0-9.e-]+) mm", seen["over"])[1])
-        self.assertEqual(said, end)
-        self.assertLess(said, 1.01 * data["bar"])
+    # A colour that is beyond the bar's end is named, where there is any, and so is what is not resolved.
+    def check_rows(self, seen, name):
+        high = seen["data"]["sides"][0]["scale"]["high"]
+        over = [re.fullmatch(r"over ([0-9.e-]+) mm: (under )?[0-9.]+ % of the area", row) for row in seen["rows"]]
+        over = [match for match in over if match]
+        self.assertEqual(len(over), 1 if name in ("fail", "plain", "decimated") else 0, seen["rows"])
+        for match in over:
+            self.assertAlmostEqual(float(match[1]), high, delta=1e-3 * high)
+        self.assertEqual(seen["rows"][-1], "beyond the tolerance")
+        ticks = [float(text) for text in seen["ticks"]]
+        self.assertEqual(ticks, sorted(ticks))
+        self.assertLessEqual(ticks[-1], high * 1.001)
 
     # A reading has a value and a point; a click keeps it; axes are drawn, and a ruler to scale.
     def check_overlay(self, seen):
-        reading = re.fullmatch(r"largest deviation of this face: (?:at most |more than )?([0-9.e-]+)(?: to ([0-9.e-]+))? mm, at \(([-0-9.e, ]+)\)", seen["read"])
-        self.assertTrue(reading, seen["read"])
-        self.assertEqual(len(reading[3].split(", ")), 3)
+        value, low, high = self.reading(seen["read"])
+        self.assertLessEqual(low, value)
+        self.assertGreaterEqual(high, value)
+        place = float(seen["places"][-1].split()[0])  # it lies under the cursor
+        self.assertLessEqual(low, 1.001 * place, seen["read"])
+        self.assertGreaterEqual(high, 0.999 * place, seen["read"])
         self.assertEqual(seen["kept"], seen["read"], "off the mesh, what was clicked is read")
         self.assertEqual(len(seen["axes"]), 3)
         self.assertGreater(max(seen["axes"]), 15)
         self.assertRegex(seen["ruler"]["text"], r"\A[125](0+|)(\.|e|) ?.*mm\Z|\A0\.0*[125] mm\Z")
         self.assertTrue(20 < seen["ruler"]["width"] <= 111, seen["ruler"])
+
+    def reading(self, text):
+        found = re.fullmatch(r"(?:farthest about here: )?([-+\u2212]?[0-9.e-]+) mm(?: (?:over|under) B)?(?:, side not known)?(?:, not resolved)?, "
+                             r"between ([\u2212]?[0-9.e-]+) and ([\u2212]?[0-9.e-]+) mm, at \(([-0-9.e, ]+)\)", text)
+        self.assertTrue(found, text)
+        self.assertEqual(len(found[4].split(", ")), 3)
+        return [float(number.replace("\u2212", "-")) for number in found.groups()[:3]]
+
+    # A page with sides: the bar, places and readings have signs.
+    def test_signs(self):
+        seen = look("signed", "view")
+        self.assertEqual((seen["console"], seen["errors"], seen["ready"]), ([], [], "view"))
+        scale = seen["data"]["sides"][0]["scale"]
+        self.assertTrue(scale["signed"])
+        self.assertEqual(scale["low"], -scale["high"])
+        self.assertIn("signed distance from B, estimated, mm: under B below 0, over it above", seen["title_of_bar"])
+        self.assertLess(float(seen["ticks"][0].replace("\u2212", "-")), 0)
+        self.assertTrue(any(text[0] in "+\u2212" for text in seen["places"]), seen["places"])
+        self.assertTrue(any(row.startswith("no side known: ") for row in seen["rows"]), seen["rows"])
+        value, low, high = self.reading(seen["read"])
+        self.assertTrue(low <= value <= high)
 
     def test_views(self):
         for name, word in (("pass", "PASS"), ("fail", "FAIL"), ("undecided", "UNDECIDED"), ("plain", "DISTANCE"), ("decimated", "DISTANCE")):
@@ -167,6 +192,7 @@ class Browser(unittest.TestCase):
                 self.assertEqual(seen["word"], word)
                 self.check_common(seen, name, "view")
                 self.check_view(seen)
+                self.check_rows(seen, name)
                 if name == "fail":
                     self.assertEqual(seen["back"]["mesh"], "B")
                     self.assertNotEqual(seen["back"]["canvas"], seen["log"])

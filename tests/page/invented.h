@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "host/show/page.h"
+#include "host/show/page_words.h"
+#include "host/survey/cell_corners.h"
 
 namespace vkh::test {
 
@@ -29,6 +31,30 @@ inline Field invented_field(const Mesh& mesh, double largest) {
     field.lower.push_back(largest * wave * (0.9 + 0.06 * std::sin(40 * t.z)));
   }
   return field;
+}
+
+/// A map of whole faces that follows a wave over the vertices, known to a tenth of its height.
+inline CellMap invented_map(const Mesh& mesh, double largest) {
+  glm::dvec3 lo = mesh.vertices[0], hi = lo;
+  for (const glm::dvec3& v : mesh.vertices) lo = min(lo, v), hi = max(hi, v);
+  const glm::dvec3 size = max(hi - lo, glm::dvec3(1e-300));
+  CellMap map;
+  map.bar = 0.8 * largest;
+  gpu::Cell whole{};
+  set_corners(whole, lib::whole_root());
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    MapCell cell{.face = f, .share = 1.0f / static_cast<float>(mesh.faces.size())};
+    cell.corners = {whole.corners.x, whole.corners.y, whole.corners.z, whole.corners.w};
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 t = (glm::dvec3(mesh.vertices[mesh.faces[f][i]]) - lo) / size;
+      const double wave =
+          std::pow(0.5 + 0.25 * std::sin(9 * t.x + 4 * t.z) + 0.25 * std::sin(7 * t.y), 3);
+      cell.estimate[static_cast<size_t>(i)] = static_cast<float>(largest * wave);
+    }
+    cell.width = static_cast<float>(largest * (f % 5 == 0 ? 0.1 : 0.02));
+    map.cells.push_back(cell);
+  }
+  return map;
 }
 
 inline double box_diagonal(const Mesh& mesh) {
@@ -88,6 +114,8 @@ struct Invented {
     const double size = box_diagonal(a);
     field_a = invented_field(a, 0.004 * size);
     field_b = invented_field(b, 0.003 * size);
+    map_a = invented_map(a, 0.0039 * size);
+    map_b = invented_map(b, 0.0029 * size);
     statistics_a = invented_statistics(a, field_a);
     answer.command = "distance";
     answer.words = {"distance",
@@ -176,12 +204,32 @@ struct Invented {
     answer.a_to_b.upper = upper;
     answer.a_to_b.lower = 0;
     answer.a_to_b.has_witness = false;
-    has_statistics = false;
+    has_statistics = has_maps = false;
+  }
+
+  /// Sides for A: over B, under it, and none, in turn.
+  void set_sides() {
+    map_a.has_sides = true;
+    for (MapCell& cell : map_a.cells)
+      cell.side = std::array{SurfaceSide::kOver, SurfaceSide::kUnder, SurfaceSide::kUnsigned,
+                             SurfaceSide::kOver}[cell.face % 4];
   }
 
   PageContents contents() const {
-    PageContents out{&answer, {&a, &field_a, has_statistics ? &statistics_a : nullptr, picture}};
-    if (answer.b_to_a) out.b_to_a = PageDirection{&b, &field_b, nullptr, picture};
+    PageContents out{&answer, {drawn(false), has_statistics ? &statistics_a : nullptr, picture}};
+    if (answer.b_to_a) out.b_to_a.emplace(PageDirection{drawn(true), nullptr, picture});
+    return out;
+  }
+
+  Picture drawn(bool back) const {
+    const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+    Picture out{
+        .mesh = back ? b : a, .field = back ? field_b : field_a, .interval = {r.lower, r.upper}};
+    out.unit = answer.unit;
+    out.back = back;
+    if (answer.max) out.limit = answer.max->limit;
+    if (has_maps) out.map = back ? &map_b : &map_a;
+    if (r.has_witness) out.witness = Witness{r.witness_a, r.witness_b, deviation_of(answer, r)};
     return out;
   }
 
@@ -189,8 +237,9 @@ struct Invented {
   Field field_a, field_b;
   Statistics statistics_a;
   Answer answer;
+  CellMap map_a, map_b;
   std::string picture;
-  bool has_statistics = true;
+  bool has_statistics = true, has_maps = true;
 };
 
 }  // namespace vkh::test

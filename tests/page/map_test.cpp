@@ -200,6 +200,61 @@ TEST_CASE("a ridge is one place") {
   CHECK(map_places(mesh, map, 5).size() == 1);
 }
 
+TEST_CASE("the farthest point that was found is the place of its cluster") {
+  const Mesh mesh = sheet(40);
+  CellMap map = map_of_faces(
+      mesh, [](const glm::dvec3& p) { return bump(p, 10, 10, 1) + bump(p, 30, 12, 0.6); });
+  map.cells[0].width = 0.01f;
+  Witness witness;
+  witness.on_a = {.face = 820, .barycentric = {0.5, 0.25, 0.25}, .point = {10.25, 10.5, 0}};
+  witness.distance = {1.02, 1.0201};
+  const std::vector<MapPlace> places = map_places(mesh, map, 5, witness);
+  REQUIRE(places.size() == 2);
+  CHECK(places[0].is_farthest);
+  CHECK(places[0].point == glm::dvec3(10.25, 10.5, 0));
+  CHECK(places[0].distance == 1.02);
+  CHECK(places[0].known.lower == 1.02);
+  CHECK(places[0].known.upper == 1.0201);
+  CHECK(!places[1].is_farthest);
+  CHECK(places[1].known.lower <= places[1].distance);
+  CHECK(places[1].known.upper >= places[1].distance);
+  witness.distance.lower = 0.3;  // a search that ended early: the map knows of a farther place
+  CHECK(!map_places(mesh, map, 5, witness)[0].is_farthest);
+}
+
+TEST_CASE("without a map, places are of faces, and what is not proven is none") {
+  Drawn drawn([](const glm::dvec3&) { return 0.0; });
+  drawn.picture.map = nullptr;
+  drawn.field.upper.assign(drawn.mesh.faces.size(), 1e9);
+  CHECK(worst_places(drawn.picture).empty());
+  drawn.field.lower[37] = 0.4;
+  const std::vector<MapPlace> places = worst_places(drawn.picture);
+  REQUIRE(places.size() == 1);
+  CHECK(places[0].face == 37);
+  CHECK(places[0].known.lower == 0.4);
+  CHECK(places[0].known.upper == 1e9);
+  const glm::uvec3 f = drawn.mesh.faces[37];
+  const glm::dvec3 sum = glm::dvec3(drawn.mesh.vertices[f.x]) +
+                         glm::dvec3(drawn.mesh.vertices[f.y]) +
+                         glm::dvec3(drawn.mesh.vertices[f.z]);
+  CHECK(glm::distance(places[0].point, sum / 3.0) < 1e-12);
+}
+
+TEST_CASE("a place is told with its sign, and on its side of the limit") {
+  Drawn drawn([](const glm::dvec3&) { return 0.3; });
+  drawn.picture.unit = "mm";
+  MapPlace place{.distance = 0.1000021, .side = SurfaceSide::kUnder};
+  CHECK(place_text(drawn.picture, place) == "0.1 mm");
+  drawn.picture.limit = Limit{0.1, 0.1};
+  CHECK(place_text(drawn.picture, place) == "0.100002 mm");
+  drawn.map.has_sides = true;
+  CHECK(place_text(drawn.picture, place) == "\u22120.1 mm");
+  place.side = SurfaceSide::kOver;
+  CHECK(place_text(drawn.picture, place) == "+0.1 mm");
+  place.side = SurfaceSide::kUnsigned;
+  CHECK(place_text(drawn.picture, place) == "0.1 mm");
+}
+
 TEST_CASE("the view from a corner does not depend on the answer") {
   const Drawn drawn([](const glm::dvec3& p) { return p.x / 8; });
   PictureOptions options;

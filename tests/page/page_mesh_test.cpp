@@ -1,4 +1,4 @@
-// Decimation loses no bound, and steps lie on neither side.
+// Fewer cells and fewer faces lose no bound, and steps lie on neither side.
 #include "host/show/page_mesh.h"
 
 #include <doctest/doctest.h>
@@ -10,6 +10,7 @@
 #include <set>
 
 #include "host/show/page_figures.h"
+#include "host/survey/cell_store.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 
@@ -37,38 +38,161 @@ Mesh one_point(size_t count) {
   return vkh::make_mesh("point", vertices, std::vector<glm::uvec3>(count, glm::uvec3(0, 1, 2)));
 }
 
-void check_encloses(const Mesh& mesh, size_t most) {
-  const vkh::Field field = vkh::test::invented_field(mesh, 1);
-  const vkh::Shown shown = vkh::shown_of(mesh, most);
-  const vkh::Field of_shown = field_of(shown, field);
-  CHECK(shown.faces.size() <= most);
-  CHECK(shown.is_decimated == (mesh.faces.size() > most));
-  REQUIRE(shown.face_of.size() == mesh.faces.size());
-  std::vector<double> upper(shown.faces.size(), -1), lower(shown.faces.size(), 2);
-  for (size_t f = 0; f < mesh.faces.size(); ++f) {
-    const size_t by = shown.face_of[f];
-    REQUIRE(by < shown.faces.size());
-    CHECK(of_shown.upper[by] >= field.upper[f]);
-    CHECK(of_shown.lower[by] <= field.lower[f]);
-    upper[by] = std::max(upper[by], field.upper[f]);
-    lower[by] = std::min(lower[by], field.lower[f]);
+constexpr double kBar = 1;
+
+struct Mapped {
+  Mesh mesh;
+  vkh::Field field;
+  vkh::CellMap map;
+
+  vkh::drawing::MapScale scale() const {
+    return {vkh::Picture{.mesh = mesh, .field = field, .interval = {0, 9}, .map = &map}, {}};
   }
-  CHECK(of_shown.upper == upper);  // no wider than that, and every shown face stands for one
-  CHECK(of_shown.lower == lower);
-  for (const glm::uvec3& face : shown.faces) {
-    CHECK(std::max({face.x, face.y, face.z}) < shown.vertices.size());
+};
+
+double wave(const glm::dvec3& p) { return 0.4 + 0.3 * std::sin(3 * p.x) * std::cos(2 * p.y); }
+
+// Cells that were split at random: each has the wave at its corners, and a width of its own.
+Mapped mapped(const Mesh& mesh, size_t splits) {
+  vkh::CellStore store(mesh, 1);
+  vkh::test::Random random(11);
+  for (size_t i = 0; i < splits; ++i) {
+    const auto at = static_cast<size_t>(random.unit() * static_cast<double>(store.count()));
+    if (store.can_split(at)) store.split(std::vector{at});
   }
-  for (const glm::dvec3& v : shown.vertices) {
-    for (int i = 0; i < 3; ++i) CHECK((v[i] >= 0 && v[i] <= 1));
+  Mapped out{.mesh = mesh, .field = {}, .map = {}};
+  out.map.bar = kBar;
+  for (size_t i = 0; i < store.count(); ++i) {
+    const auto& c = store.cell(i).corners;
+    vkh::MapCell cell{.corners = {c.x, c.y, c.z, c.w}, .face = store.face(i)};
+    const glm::uvec3 f = mesh.faces[cell.face];
+    const auto weights = vkh::weights_of(cell);
+    for (size_t k = 0; k < 3; ++k) {
+      const glm::dvec3& w = weights[k];
+      cell.estimate[k] = static_cast<float>(
+          wave(w.x * mesh.vertices[f.x] + w.y * mesh.vertices[f.y] + w.z * mesh.vertices[f.z]));
+    }
+    cell.width = static_cast<float>(0.1 * random.unit());
+    cell.share = static_cast<float>(store.share(i) / static_cast<double>(mesh.faces.size()));
+    out.map.cells.push_back(cell);
+  }
+  return out;
+}
+
+// Barycentrics of a random point of a cell.
+glm::dvec3 point_in(const std::array<glm::dvec3, 3>& cell, vkh::test::Random& random) {
+  const double s = random.unit(), t = random.unit() * (1 - s);
+  return (1 - s - t) * cell[0] + s * cell[1] + t * cell[2];
+}
+
+// The weights of a point in a triangle of barycentrics.
+glm::dvec3 weights_in(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
+  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+  };
+  const double all = area(t[0], t[1], t[2]);
+  return {area(p, t[1], t[2]) / all, area(t[0], p, t[2]) / all, area(t[0], t[1], p) / all};
+}
+
+template <class Value>
+double affine(const Value& values, const glm::dvec3& w) {
+  return w.x * static_cast<double>(values[0]) + w.y * static_cast<double>(values[1]) +
+         w.z * static_cast<double>(values[2]);
+}
+
+size_t cell_with(const std::vector<vkh::ShownCell>& cells, uint32_t face, const glm::dvec3& at) {
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].face != face) continue;
+    const glm::dvec3 w = weights_in(vkh::weights_of({.corners = cells[i].corners}), at);
+    if (std::min({w.x, w.y, w.z}) >= -1e-9) return i;
+  }
+  return cells.size();
+}
+
+// Each point has the values of its map's cell within what is shown there.
+void check_covers(const Mapped& of, size_t most, double sign) {
+  const std::vector<vkh::ShownCell> shown = vkh::shown_cells(of.mesh, of.map, of.scale(), most);
+  CHECK(shown.size() <= std::max(most, of.mesh.faces.size()));
+  vkh::test::Random random(5);
+  for (const vkh::MapCell& cell : of.map.cells) {
+    const auto corners = vkh::weights_of(cell);
+    const glm::dvec3 at = point_in(corners, random);
+    const size_t found = cell_with(shown, cell.face, at);
+    REQUIRE(found < shown.size());
+    const auto& value = shown[found].value;
+    const double there =
+        affine(value.at, weights_in(vkh::weights_of({.corners = shown[found].corners}), at));
+    const double known = sign * affine(cell.estimate, weights_in(corners, at));
+    CHECK(std::abs(there - known) + static_cast<double>(cell.width) <= value.width + 1e-9);
   }
 }
 
-TEST_CASE("every face is enclosed by the one shown face that stands for it") {
+TEST_CASE("fewer cells are no less true") {
+  Mapped of = mapped(vkh::test::torus(2, 1, 12, 8), 3000);
+  const size_t count = of.map.cells.size();
+  for (const size_t most : {size_t{1}, size_t{192}, size_t{400}, count / 2, count})
+    check_covers(of, most, 1);
+  of.map.has_sides = true;
+  for (vkh::MapCell& cell : of.map.cells) cell.side = vkh::SurfaceSide::kUnder;
+  check_covers(of, 700, -1);
+}
+
+TEST_CASE("cells become one first where nobody sees it") {
+  Mapped of = mapped(vkh::test::square_patch(4, 0), 2000);
+  for (vkh::MapCell& cell : of.map.cells) cell.estimate = {0.3f, 0.3f, 0.3f};
+  CHECK(vkh::shown_cells(of.mesh, of.map, of.scale(), 100000).size() == of.mesh.faces.size());
+  of.map.cells[0].estimate[0] = 0.8f;  // a peak stays as long as there is room
+  const auto shown = vkh::shown_cells(of.mesh, of.map, of.scale(), of.mesh.faces.size() + 40);
+  double most = 0;
+  for (const vkh::ShownCell& cell : shown)
+    for (const double at : cell.value.at) most = std::max(most, at);
+  CHECK(most > 0.79);
+}
+
+TEST_CASE("a part without a side is on either side of B where it is shown with others") {
+  Mapped of = mapped(vkh::test::square_patch(2, 0), 300);
+  of.map.has_sides = true;
+  std::vector<bool> has_sideless(of.mesh.faces.size());
+  for (size_t i = 0; i < of.map.cells.size(); ++i) {
+    of.map.cells[i].side = i % 2 == 0 ? vkh::SurfaceSide::kUnsigned : vkh::SurfaceSide::kOver;
+    if (i % 2 == 0) has_sideless[of.map.cells[i].face] = true;
+  }
+  size_t mixed = 0;
+  for (const auto& cell : vkh::shown_cells(of.mesh, of.map, of.scale(), 1)) {
+    if (cell.value.is_sideless || !has_sideless[cell.face]) continue;
+    ++mixed;
+    for (const double at : cell.value.at) CHECK(at - cell.value.width < -0.1);
+  }
+  CHECK(mixed > 0);
+}
+
+void check_stands_for(const Mesh& mesh, size_t most) {
+  const Mapped of = mapped(mesh, mesh.faces.size() / 4);
+  const vkh::Shown few = vkh::shown_of(mesh, most);
+  const vkh::ShownMesh shown = vkh::shown_mesh(mesh, of.map, of.scale(), most);
+  CHECK(shown.faces.size() == shown.values.size());
+  CHECK(shown.is_decimated == (mesh.faces.size() > most));
+  for (const glm::uvec3& face : shown.faces)
+    CHECK(std::max({face.x, face.y, face.z}) < shown.vertices.size());
+  if (!shown.is_decimated) return;
+  CHECK(shown.faces.size() <= most);
+  REQUIRE(few.face_of.size() == mesh.faces.size());
+  for (const vkh::MapCell& cell : of.map.cells) {
+    const vkh::ShownValue& value = shown.values[few.face_of[cell.face]];
+    for (const float estimate : cell.estimate) {
+      CHECK(static_cast<double>(estimate) <= value.at[0]);
+      CHECK(static_cast<double>(estimate) - static_cast<double>(cell.width) >=
+            value.at[0] - value.width - 1e-12);
+    }
+  }
+}
+
+TEST_CASE("every face is covered by the one shown face that stands for it") {
   const Mesh torus = vkh::test::torus(20, 6, 120, 60);
-  for (const size_t most : {1u, 2u, 10u, 500u, 5000u, 14400u}) check_encloses(torus, most);
-  for (const size_t most : {1u, 100u, 3000u}) check_encloses(scattered(4000), most);
-  check_encloses(one_point(50), 7);
-  check_encloses(vkh::test::square_patch(80, 1), 900);
+  for (const size_t most : {1u, 2u, 10u, 500u, 5000u, 14400u}) check_stands_for(torus, most);
+  for (const size_t most : {1u, 100u, 3000u}) check_stands_for(scattered(4000), most);
+  check_stands_for(one_point(50), 7);
+  check_stands_for(vkh::test::square_patch(80, 1), 900);
 }
 
 TEST_CASE("a decimated mesh uses most of the faces that it may have") {
@@ -133,19 +257,6 @@ TEST_CASE("a limit in the place of the last step leaves none out") {
   for (size_t k = 1; k < steps.size(); ++k) {
     CHECK(steps[k].limit.within > steps[k - 1].limit.within);
     CHECK(steps[k].limit.beyond > steps[k - 1].limit.beyond);
-  }
-}
-
-TEST_CASE("a face's steps are the verdicts of all steps") {
-  const std::vector<vkh::Step> steps = vkh::tolerance_steps(1, 1, vkh::Limit{0.5, 0.6});
-  vkh::test::Random random(3);
-  for (int i = 0; i < 500; ++i) {
-    const double lower = i % 7 == 0 ? 0 : random.unit(), upper = std::max(lower, random.unit());
-    const vkh::FaceSteps at = steps_of({lower, upper}, steps);
-    for (size_t k = 0; k < steps.size(); ++k) {
-      CHECK((k >= at.within) == (upper <= steps[k].limit.within));
-      CHECK((k < at.beyond) == (lower > steps[k].limit.beyond));
-    }
   }
 }
 

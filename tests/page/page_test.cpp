@@ -123,23 +123,31 @@ TEST_CASE("a figure reads the same wherever it stands on a page") {
 TEST_CASE("a page says that a measurement was cut short, and why") {
   Invented pair = small_pair();
   CHECK(count_of(vkh::to_page(pair.contents()), "Unfinished") == 0);
+  CHECK(count_of(vkh::to_page(pair.contents()), "Cut short") == 0);
   pair.answer.survey_a = vkh::SurveyResult{};
+  const std::string finer = "More effort makes ranges narrower";
+  pair.answer.survey_a->ended = vkh::SurveyEnd::kEffort;
+  CHECK(count_of(vkh::to_page(pair.contents()), finer) == 1);
   for (const auto& [end, why] : {std::pair{vkh::SurveyEnd::kTime, "the time that was set is over"},
-                                 {vkh::SurveyEnd::kEffort, "the effort that was set"},
                                  {vkh::SurveyEnd::kMemory, "no memory for more"},
                                  {vkh::SurveyEnd::kCancelled, "the measurement was stopped"}}) {
     pair.answer.survey_a->ended = end;
     const std::string page = vkh::to_page(pair.contents());
-    CHECK(count_of(page, "Unfinished: figures and colours of A are") == 1);
+    CHECK(count_of(page, "Cut short: figures and colours of A could be finer") == 1);
     CHECK(count_of(page, why) == 1);
+    CHECK(count_of(page, finer) == 0);
   }
   pair.answer.survey_b = pair.answer.survey_a;
-  CHECK(count_of(vkh::to_page(pair.contents()), "Unfinished: figures and colours of A and of B") ==
+  CHECK(count_of(vkh::to_page(pair.contents()), "Cut short: figures and colours of A and of B") ==
         1);
   pair.answer.survey_a->ended = pair.answer.survey_b->ended = vkh::SurveyEnd::kMet;
   pair.answer.a_to_b.status = vkh::Status::kTime;
   CHECK(count_of(vkh::to_page(pair.contents()), "Unfinished: the largest deviation of A from B") ==
         1);
+  pair.ask(1.2);  // a verdict that is proven is not unfinished
+  const std::string proven = vkh::to_page(pair.contents());
+  CHECK(count_of(proven, "Unfinished") == 0);
+  CHECK(count_of(proven, "The verdict is proven; the largest deviation of A from B") == 1);
 }
 
 TEST_CASE("lengths are rounded to nearest where both ends agree, and outward otherwise") {
@@ -236,7 +244,7 @@ TEST_CASE("a page is no larger than it may be") {
     CHECK(page.size() <= bytes);
     CHECK(page.size() > bare + (bytes - bare) / 3);
     const json data = script(page, "data");
-    CHECK(data["sides"][0]["caption"].get<std::string>().starts_with("Simplified for viewing to "));
+    CHECK(count_of(data["sides"][0]["caption"], "Simplified for viewing to ") == 1);
     CHECK(data["sides"][0]["mesh"]["faces"] < pair.a.faces.size());
   }
   CHECK(script(vkh::to_page(pair.contents(), {.bytes = 1}), "data")["sides"][0].contains("mesh") ==
@@ -258,7 +266,9 @@ TEST_CASE("a page of a field that is nowhere bounded, of one that is 0") {
 TEST_CASE("one stray triangle does not set the colours of all others") {
   Invented pair = small_pair();
   pair.answer.b_to_a.reset();
+  pair.has_maps = false;
   pair.field_a.upper[0] *= 1000;
+  pair.answer.a_to_b.upper = pair.field_a.upper[0];
   const json data = script(vkh::to_page(pair.contents()), "data");
   CHECK(data["bar"] == pair.statistics_a.percentiles.back().distance.upper);
   CHECK(data["top"] == pair.field_a.upper[0]);
@@ -273,11 +283,12 @@ TEST_CASE("one stray triangle does not set the colours of all others") {
 TEST_CASE("a page has the colours of the map that was asked for") {
   const Invented pair = small_pair();
   vkh::PageContents contents = pair.contents();
-  contents.map = vkh::ColourMap::kBatlow;
-  const std::string palette = script(vkh::to_page(contents), "data")["palette"];
-  CHECK(palette.size() == 256 * 6);
-  CHECK(palette.starts_with("011959"));
-  CHECK(palette.ends_with("faccfa"));
+  contents.look.map = vkh::ColourMap::kBatlow;
+  const std::string colours =
+      script(vkh::to_page(contents), "data")["sides"][0]["scale"]["colours"];
+  CHECK(colours.size() == (6 + 16 + 6) * 6);
+  CHECK(colours.substr(6 * 6, 6) == "011959");
+  CHECK(colours.substr(21 * 6, 6) == "faccfa");
 }
 
 TEST_CASE("templates repeat, leave out and escape") {

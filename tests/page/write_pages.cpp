@@ -89,6 +89,9 @@ int main(int count, char** words) {
   pair.answer.b_to_a.reset();
   write_page(folder + "plain.html", pair);
   write_page(folder + "decimated.html", pair, {.faces = a.faces.size() / 4});
+  pair.set_sides();
+  write_page(folder + "signed.html", pair);
+  pair.map_a.has_sides = false;
   pair.name_oddly();
   pair.picture = bytes_of(folder + "picture.png");
   write_page(folder + "odd.html", pair);

@@ -274,8 +274,10 @@ TEST_CASE("what is drawn of a cell is off by its width at most") {
       const double drawn = (1 - s - t) * static_cast<double>(cell.estimate[0]) +
                            s * static_cast<double>(cell.estimate[1]) +
                            t * static_cast<double>(cell.estimate[2]);
-      const double off = std::abs(map.unit * drawn - distance_to(tree, p));
-      CHECK(off <= map.unit * static_cast<double>(cell.width) + 1e-6);
+      const Enclosure known = map.around(drawn, static_cast<double>(cell.width));
+      CHECK(known.lower <= distance_to(tree, p) + 1e-12);
+      CHECK(known.upper >= distance_to(tree, p) - 1e-12);
+      CHECK(known.upper - known.lower <= 2.01 * map.unit * static_cast<double>(cell.width) + 1e-6);
     }
   };
   check(height_field(12, 1), height_field(12, 3));

@@ -1,5 +1,5 @@
 // Distribution of the area, colour bar and axis, over one scale of deviations.
-import { colourAt } from './palette.js';
+import { colourOf } from './palette.js';
 import { short } from './scale.js';
 import { shareWithin } from './share.js';
 
@@ -61,9 +61,7 @@ function drawBand(svg, curve, x) {
 }
 
 export class Chart {
-  constructor(data, palette) {
-    this.data = data;
-    this.palette = palette;
+  constructor() {
     this.histogram = document.getElementById('histogram');
     this.axis = document.getElementById('axis');
     this.gradient = document.getElementById('gradient');
@@ -85,7 +83,7 @@ export class Chart {
     }
     this.line = element(this.histogram, 'line', { class: 'tolerance', y1: TOP, y2: HEIGHT });
     this.drawAxis(scale, x);
-    this.drawGradient(scale);
+    this.drawGradient(side, scale);
   }
 
   drawAxis(scale, x) {
@@ -100,13 +98,16 @@ export class Chart {
     }
   }
 
-  drawGradient(scale) {
+  // Of signed colours those over the other mesh are above, those under it below.
+  drawGradient(side, scale) {
     const context = this.gradient.getContext('2d');
     this.gradient.width = 512;
     for (let i = 0; i < 512; ++i) {
       const value = scale.value(i / 511);
-      context.fillStyle = value > this.data.bar * 1.0001 ? OVER : `rgb(${colourAt(this.palette, value / this.data.bar).join()})`;
-      context.fillRect(i, 0, 1, 1);
+      [value, side.scale.signed ? -value : value].forEach((distance, row) => {
+        context.fillStyle = `rgb(${colourOf(side.colours, distance).join()})`;
+        context.fillRect(i, row, 1, 1);
+      });
     }
   }
 
@@ -117,20 +118,4 @@ export class Chart {
     this.line.setAttribute('x2', at);
     document.getElementById('knob').style.left = `${(100 * at) / this.x.width}%`;
   }
-}
-
-export const OVER = '#d6208c';  // as the picture has it
-
-/// The step from which on a face is farther than the colours reach.
-export function barEnd(data) {
-  const end = data.steps.value.findIndex((value) => value >= data.bar);
-  return end < 0 ? data.steps.value.length - 1 : end;
-}
-
-/// The colour of each step: of faces that are at most the step's distance away, and farther than the one before it.
-export function stepColours(data, palette) {
-  const over = [1, 3, 5].map((i) => parseInt(OVER.slice(i, i + 2), 16));
-  const end = barEnd(data);
-  const colours = data.steps.value.map((value, i) => (i > end ? over : colourAt(palette, value / (data.bar || 1))));
-  return [...colours, [128, 128, 128]];
 }

@@ -1,8 +1,8 @@
 // The page's movable parts. All that it says stands in the page already; this shows and measures.
-import { barEnd, Chart, stepColours } from './chart.js';
+import { Chart } from './chart.js';
 import { readMesh } from './mesh.js';
 import { drawAxes, drawRuler, readingText } from './overlay.js';
-import { readPalette } from './palette.js';
+import { readScale, shareOf } from './palette.js';
 import { makeScale } from './scale.js';
 import { hasWebGL, View } from './scene.js';
 import { rest, shareText, shareWithin } from './share.js';
@@ -11,42 +11,26 @@ import { Slider } from './slider.js';
 const find = (id) => document.getElementById(id);
 const findAll = (selector) => document.querySelectorAll(selector);
 const data = JSON.parse(find('data').textContent);
-const palette = readPalette(data.palette);
+for (const side of data.sides) side.colours = readScale(side.scale);
 
-const COARSE = 0.05;  // a share of the colour bar, as in pictures
 const PRINTED_VIEW = [1600, 1000];  // a picture's shape
 const POINT = find('readout').textContent;
-
-// A face is known coarsely if its bounds are farther apart than one colour is from another.
-function isCoarse(within, beyond) {
-  const { value } = data.steps;
-  const upper = within < value.length ? value[within - 1] ?? 0 : Infinity;
-  return upper - (beyond > 0 ? value[beyond] : 0) > COARSE * data.bar;
-}
 
 class Page {
   constructor() {
     this.side = 0;
     this.meshes = [];
-    this.chart = new Chart(data, palette);
+    this.chart = new Chart();
     this.slider = new Slider(data, (step) => this.showStep(step));
     find('chart').hidden = !(data.top > 0) && data.asked < 0;  // there is nothing to scale it by
     if (data.sides.every((side) => side.mesh) && hasWebGL() && 'DecompressionStream' in window) this.openView();
     else this.sayNoView();
     this.listen();
     find('scale').hidden = !(data.top > 0);
-    this.nameOver();
     this.setScale(false);
     this.showSide(0);
     this.slider.setStep(data.start);
     document.body.dataset.ready = this.view ? 'view' : 'picture';
-  }
-
-  // Names the colours' end where something is farther.
-  nameOver() {
-    const end = barEnd(data);
-    find('over').hidden = !(data.top > data.steps.value[end]);
-    find('over').textContent = `more than ${this.slider.text(end)}`;
   }
 
   openView() {
@@ -104,7 +88,7 @@ class Page {
   }
 
   reading(hit) {
-    return hit && this.shown ? readingText(data, data.sides[0].mesh, this.shown, hit) : null;
+    return hit && this.shown ? readingText(data, data.sides[this.side], this.shown, hit) : null;
   }
 
   keep(pixel) {
@@ -118,14 +102,14 @@ class Page {
     this.scale = makeScale(data, isLog);
     find('scale').setAttribute('aria-pressed', isLog);
     this.slider.setScale(this.scale);
-    this.view?.setColours(stepColours(data, palette));
     this.drawChart();
   }
 
   setColoursAlone() {
     const isOn = find('colours').getAttribute('aria-pressed') !== 'true';
     find('colours').setAttribute('aria-pressed', isOn);
-    this.view?.set('distanceOnly', isOn);
+    this.isColoursAlone = isOn;
+    this.showTolerance();
   }
 
   drawChart(width) {
@@ -138,6 +122,7 @@ class Page {
     const side = data.sides[index];
     findAll('[data-direction]').forEach((button) => button.setAttribute('aria-pressed', Number(button.dataset.direction) === index));
     findAll('.way').forEach((way) => way.classList.toggle('other', this.view !== undefined && Number(way.dataset.side) !== index));
+    findAll('.legend').forEach((legend) => (legend.hidden = Number(legend.dataset.side) !== index));
     findAll('.tally-mesh').forEach((name) => (name.textContent = side.from));
     find('caption').textContent = this.view ? side.caption : '';
     find('chart-legend').replaceChildren(...this.legend(side));
@@ -148,7 +133,7 @@ class Page {
   }
 
   async meshOf(index) {
-    this.meshes[index] ??= readMesh(data.sides[index].mesh, data.sides[0].mesh, isCoarse);
+    this.meshes[index] ??= readMesh(data.sides[index].mesh, data.sides[0].mesh);
     return (this.meshes[index] = await this.meshes[index]);
   }
 
@@ -157,8 +142,8 @@ class Page {
     const mesh = await this.meshOf(index);
     if (this.side !== index) return;
     this.shown = mesh;
-    this.view.setMesh(mesh);
-    find('coarse').hidden = !mesh.steps.some((flag, i) => i % 3 === 2 && flag > 0);
+    this.view.setMesh(mesh, data.sides[index].colours);
+    this.showTolerance();
     if (isFirst) this.view.look('corner', true);
     document.body.dataset.shown = index;
     for (let i = 0; i < data.sides.length; ++i) await this.meshOf(i);  // a print needs them all at once
@@ -183,7 +168,16 @@ class Page {
     find('tolerance').textContent = this.slider.text(step);
     find('asked').hidden = data.asked < 0 || step === data.asked;
     this.chart.setTolerance(data.steps.value[step]);
-    this.view?.set('tolerance', step);
+    this.showTolerance();
+  }
+
+  // The limits are those of the picture, which may differ by side; any other tolerance is the same on both.
+  showTolerance() {
+    const scale = data.sides[this.side].colours, { step } = this.slider;
+    if (!this.view || step === undefined) return;
+    const value = step === data.steps.value.length - 1 ? Infinity : data.steps.value[step];
+    const within = step === data.asked ? [scale.from, scale.to] : [scale.signed ? shareOf(scale, -value) : 0, shareOf(scale, value)];
+    this.view.setTolerance(...(this.isColoursAlone ? [0, 1] : within.map((share) => Math.min(Math.max(share, 0), 1))));
   }
 
   look(name) {
@@ -226,13 +220,13 @@ class Page {
       const figure = way.querySelector('figure');
       const mesh = this.meshes[i];
       if (figure.querySelector('img') || !mesh?.positions) return;
-      this.view.setMesh(mesh);
+      this.view.setMesh(mesh, data.sides[i].colours);
       const copy = this.view.copy(...PRINTED_VIEW);
       copy.className = 'snapshot';
       figure.append(copy);
     });
     if (!this.shown) return;
-    this.view.setMesh(this.shown);
+    this.view.setMesh(this.shown, data.sides[this.side].colours);
     this.view.look('corner', true);
   }
 

@@ -22,10 +22,10 @@ function reader(bytes) {
 
 const step = (code) => (code & 1 ? -((code + 1) >> 1) : code >> 1);
 
-function undoDifferences(codes, stride) {
+function undoDifferences(codes, stride, mask) {
   const last = new Array(stride).fill(0);
   for (let i = 0; i < codes.length; ++i) {
-    last[i % stride] = (last[i % stride] + step(codes[i])) & 0xffff;
+    last[i % stride] = (last[i % stride] + step(codes[i])) & mask;
     codes[i] = last[i % stride];
   }
   return codes;
@@ -41,26 +41,39 @@ function undoCorners(codes) {
   return codes;
 }
 
-/// {positions, steps}: nine numbers each a face (within, beyond, and whether it is known coarsely, thrice), in units of `frame`, so that both meshes lie as
-/// they are.
-export async function readMesh(packed, frame, isCoarse) {
+const word = new DataView(new ArrayBuffer(4));
+function floatOf(bits) {
+  word.setUint32(0, bits);
+  return word.getFloat32(0);
+}
+
+// Distances at corners: each is told by its difference from the one before at its vertex.
+function readDistances(codes, corners, vertices, unit) {
+  const known = new Int32Array(vertices).fill(-1);
+  const distances = new Float64Array(codes.length);
+  let last = 0;
+  for (let i = 0; i < codes.length; ++i) {
+    const before = known[corners[i]] < 0 ? last : known[corners[i]];
+    last = known[corners[i]] = (before + step(codes[i])) & 0xffffff;
+    distances[i] = floatOf((last >>> 1) << 8) * unit * (last & 1 ? -1 : 1);
+  }
+  return distances;
+}
+
+/// {positions, distances, widths, flags}: three points a face, in units of `frame`, so that both meshes lie as they are; three distances a face, in the
+/// files' unit, and how far they may be off; 1 for a face that is not resolved, 2 for one without a side.
+export async function readMesh(packed, frame) {
   const read = reader(await bytesOf(packed));
   const corners = undoCorners(read(3 * packed.faces, 3));
-  const points = undoDifferences(read(3 * packed.vertices, 2), 3);
-  const within = undoDifferences(read(packed.faces, 2), 1);
-  const gaps = read(packed.faces, 2);
+  const points = undoDifferences(read(3 * packed.vertices, 2), 3, 0xffff);
+  const distances = readDistances(read(3 * packed.faces, 3), corners, packed.vertices, packed.unit);
+  const widths = Float64Array.from(undoDifferences(read(packed.faces, 2), 1, 0xffff), (bits) => floatOf(bits << 15) * packed.unit);
+  const flags = read(packed.faces, 1);
   const scale = frame.size > 0 ? packed.size / frame.size / 65535 : 0;
   const shift = packed.lo.map((lo, i) => (frame.size > 0 ? (lo - frame.lo[i]) / frame.size : 0));
   const positions = new Float32Array(9 * packed.faces);
-  const steps = new Float32Array(9 * packed.faces);
   for (let corner = 0; corner < 3 * packed.faces; ++corner) {
-    for (let axis = 0; axis < 3; ++axis) {
-      positions[3 * corner + axis] = points[3 * corners[corner] + axis] * scale + shift[axis];
-    }
-    const face = Math.floor(corner / 3);
-    steps[3 * corner] = within[face];
-    steps[3 * corner + 1] = within[face] - gaps[face];
-    steps[3 * corner + 2] = isCoarse(within[face], within[face] - gaps[face]) ? 1 : 0;
+    for (let axis = 0; axis < 3; ++axis) positions[3 * corner + axis] = points[3 * corners[corner] + axis] * scale + shift[axis];
   }
-  return { positions, steps };
+  return { positions, distances, widths, flags };
 }

@@ -37,14 +37,47 @@ function coordinate(x, size) {
   return Number(x.toFixed(decimals)).toString();
 }
 
-/// "0.0412 to 0.0424 mm at (29.86, 12.005, 9.648)".
-export function readingText(data, frame, mesh, hit) {
-  const { value, label } = data.steps;
-  const within = mesh.steps[9 * hit.face], beyond = mesh.steps[9 * hit.face + 1];
+// Four digits, rounded to nearest, down (-1) or up (1).
+function digits(x, way) {
+  if (x === 0 || !isFinite(x)) return String(x);
+  const unit = 10 ** (Math.floor(Math.log10(Math.abs(x))) - 3);
+  const rounded = way < 0 ? Math.floor(x / unit) * unit : way > 0 ? Math.ceil(x / unit) * unit : x;
+  return String(Number(rounded.toPrecision(4))).replace('-', '\u2212');
+}
+
+// The barycentrics of a point of a face, as it is shown.
+function weightsOf(positions, face, point) {
+  const [a, b, c] = [0, 1, 2].map((i) => positions.subarray(9 * face + 3 * i, 9 * face + 3 * i + 3));
+  const from = (p, q) => [0, 1, 2].map((i) => q[i] - p[i]);
+  const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  const [u, v, w] = [from(a, b), from(a, c), from(a, point)];
+  const [uu, uv, vv, wu, wv] = [dot(u, u), dot(u, v), dot(v, v), dot(w, u), dot(w, v)];
+  const area = uu * vv - uv * uv;
+  if (!(area > 0)) return [1, 0, 0];
+  const t = [(vv * wu - uv * wv) / area, (uu * wv - uv * wu) / area].map((x) => Math.min(Math.max(x, 0), 1));
+  const sum = Math.max(t[0] + t[1], 1);
+  return [1 - (t[0] + t[1]) / sum, t[0] / sum, t[1] / sum];
+}
+
+/// What is shown at a point, and the ends of what is proven of it.
+function distanceAt(mesh, hit) {
+  const weights = weightsOf(mesh.positions, hit.face, hit.point);
+  const value = weights.reduce((sum, w, i) => sum + w * mesh.distances[3 * hit.face + i], 0);
+  return { value, width: mesh.widths[hit.face], flags: mesh.flags[hit.face] };
+}
+
+/// "0.0418 mm, between 0.0412 and 0.0424 mm, at (29.86, 12.005, 9.648)".
+export function readingText(data, side, mesh, hit) {
+  const { value, width, flags } = distanceAt(mesh, hit);
+  const isSigned = side.scale.signed && !(flags & 2);
   const unit = data.unit ? ` ${data.unit}` : '';
+  const low = isSigned ? value - width : Math.max(value - width, 0), high = value + width;
+  const frame = data.sides[0].mesh;
   const point = hit.point.map((x, i) => coordinate(frame.lo[i] + frame.size * x, frame.size)).join(', ');
-  const low = beyond > 0 ? label[beyond - 1] : null;
-  let text = within >= value.length ? (low ? `more than ${low}${unit}` : 'not known') : low ? `${low} to ${label[within]}${unit}` : `at most ${label[within]}${unit}`;
-  if (within === 0) text = `0${unit}`;
-  return `largest deviation of this face: ${text}, at (${point})`;
+  const plus = isSigned && low > 0 ? '+' : '';
+  const where = isSigned && low > 0 ? ` over ${side.to}` : isSigned && high < 0 ? ` under ${side.to}` : '';
+  const ends = isFinite(width) ? `between ${digits(low, -1)} and ${digits(high, 1)}${unit}` : `at least ${digits(value, -1)}${unit}`;
+  const what = side.decimated ? 'farthest about here: ' : '';
+  const more = (flags & 2 && side.scale.signed ? ', side not known' : '') + (flags & 1 ? ', not resolved' : '');
+  return `${what}${plus}${digits(value, 0)}${unit}${where}${more}, ${ends}, at (${point})`;
 }

@@ -1,40 +1,51 @@
-// The view: one mesh, flat colours by face, drawn to scale when something changed.
-import { BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Mesh, OrthographicCamera, Raycaster, Scene, ShaderMaterial, Sphere,
+// The view: one mesh in the colours of its distances, drawn to scale when something changed.
+import { BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Mesh, OrthographicCamera, Raycaster, Scene, ShaderMaterial, Sphere,
   Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { shareOf } from './palette.js';
 
 const VERTEX = `
-attribute vec3 steps;
-flat varying vec3 faceSteps;
+attribute vec2 look;
+flat varying float flags;
+varying float share;
 varying vec3 place;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
   place = seen.xyz;
-  faceSteps = steps;
+  share = look.x;
+  flags = look.y;
   gl_Position = projectionMatrix * seen;
 }`;
-// A face is proven within the tolerance from its first step on, and beyond it before its second. One
-// that is known coarsely is striped: it is no farther than its colour, and may be much nearer.
+// The colours, the light and the stripes of pictures (host/show/mesh.frag, light.h). The tolerance is a part of the bar, from low to high.
 const FRAGMENT = `
 uniform sampler2D colours;
-uniform float tolerance;
-uniform float stripe;
-uniform bool distanceOnly;
-uniform vec3 beyondColour;
-flat varying vec3 faceSteps;
+uniform float from, to, low, high, bands, stripe;
+flat varying float flags;
+varying float share;
 varying vec3 place;
+vec3 at(int i) { return texelFetch(colours, ivec2(i, 0), 0).rgb; }
+vec3 between(int first, int count, float share) {
+  float t = clamp(share, 0.0, 1.0) * float(count - 1);
+  int i = min(int(t), count - 2);
+  return mix(at(first + i), at(first + i + 1), t - float(i));
+}
+vec3 barColour(float share) {
+  if (share < 0.0) return at(28);
+  if (share > 1.0) return at(29);
+  float x = bands > 0.0 ? (min(floor(share * bands), bands - 1.0) + 0.5) / bands : share;
+  if (x < low) return between(0, 6, x / low);
+  if (x > high) return between(22, 6, (x - high) / max(1.0 - high, 1e-6));
+  return between(6, 16, to > from ? (x - from) / (to - from) : 0.0);
+}
 void main() {
   vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-  float light = 0.55 + 0.45 * abs(dot(normal, normalize(vec3(0.2, 0.35, 1.0))));
-  vec3 colour = texelFetch(colours, ivec2(int(faceSteps.x + 0.5), 0), 0).rgb;
-  bool isStripe = fract((gl_FragCoord.x + gl_FragCoord.y) / (2.0 * stripe)) < 0.5;
-  if (faceSteps.z > 0.5 && isStripe) colour = mix(colour, vec3(1.0), 0.6);
-  if (!distanceOnly && tolerance < faceSteps.y) {
-    colour = beyondColour;
-  } else if (!distanceOnly && tolerance < faceSteps.x) {
-    colour = isStripe ? vec3(1.0) : vec3(0.23, 0.26, 0.32);
-  }
-  gl_FragColor = vec4(colour * light, 1.0);
+  vec3 towards = normalize(vec3(-0.32, 0.42, 0.85));
+  float lit = min((1.0 + dot(normal, towards) * sign(normal.z)) / (1.0 + towards.z), 1.0);
+  vec3 colour = flags > 1.5 ? at(30) : barColour(share);
+  colour *= 0.6 + 0.4 * lit * lit;
+  bool isStripe = fract((gl_FragCoord.x - gl_FragCoord.y) / (2.0 * stripe)) < 0.42;
+  if (mod(flags, 2.0) > 0.5 && isStripe) colour = vec3(0.29, 0.25, 0.20);
+  gl_FragColor = vec4(colour, 1.0);
 }`;
 
 const CORNER = [0.72, -1, 0.85];  // with z up, as the picture has it (host/show/camera.cpp)
@@ -70,8 +81,8 @@ export class View {
     this.controls.addEventListener('start', () => (this.flight = null));
     this.material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
-      uniforms: { colours: { value: null }, tolerance: { value: 0 }, stripe: { value: 5 * this.renderer.getPixelRatio() },
-        distanceOnly: { value: false }, beyondColour: { value: new Color().setRGB(0.769, 0.086, 0.122) } },
+      uniforms: { colours: { value: null }, from: { value: 0 }, to: { value: 1 }, low: { value: 0 }, high: { value: 1 }, bands: { value: 0 },
+        stripe: { value: 4 * this.renderer.getPixelRatio() } },
     });
     this.mesh = new Mesh(new BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
@@ -81,10 +92,18 @@ export class View {
     this.resize();
   }
 
-  setMesh({ positions, steps }) {
+  /// `scale`: the colours of the mesh's distances.
+  setMesh({ positions, distances, flags }, scale) {
+    const looks = new Float32Array(2 * distances.length);
+    distances.forEach((distance, i) => {
+      const flag = flags[Math.floor(i / 3)];
+      looks[2 * i] = Math.min(Math.max(shareOf(scale, distance), -8), 8);
+      looks[2 * i + 1] = flag;
+    });
+    this.setColours(scale);
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    geometry.setAttribute('steps', new BufferAttribute(steps, 3));
+    geometry.setAttribute('look', new BufferAttribute(looks, 2));
     geometry.computeBoundingBox();
     const ball = geometry.boundingBox.getBoundingSphere(new Sphere());
     this.ball = { centre: ball.center, radius: ball.radius || 0.5 };
@@ -98,18 +117,21 @@ export class View {
     this.resize();
   }
 
-  /// One [red, green, blue] for each step, and one for faces within none.
-  setColours(colours) {
+  setColours(scale) {
+    const colours = [...scale.colours, ...scale.outside];
     const bytes = new Uint8Array(4 * colours.length);
     colours.forEach((c, i) => bytes.set([...c, 255], 4 * i));
-    this.material.uniforms.colours.value?.dispose();
-    this.material.uniforms.colours.value = new DataTexture(bytes, colours.length, 1);
-    this.material.uniforms.colours.value.needsUpdate = true;
-    this.draw();
+    const { uniforms } = this.material;
+    uniforms.colours.value?.dispose();
+    uniforms.colours.value = new DataTexture(bytes, colours.length, 1);
+    uniforms.colours.value.needsUpdate = true;
+    for (const name of ['from', 'to', 'bands']) uniforms[name].value = scale[name];
   }
 
-  set(uniform, value) {
-    this.material.uniforms[uniform].value = value;
+  /// Colours what is below or above these shares of the bar as beyond the tolerance.
+  setTolerance(low, high) {
+    this.material.uniforms.low.value = low;
+    this.material.uniforms.high.value = high;
     this.draw();
   }
 

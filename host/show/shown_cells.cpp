@@ -1,0 +1,262 @@
+#include "host/show/shown_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include "host/base/parallel.h"
+#include "host/survey/cell_corners.h"
+#include "host/survey/cell_store.h"
+
+namespace vkh {
+namespace {
+
+using drawing::MapScale;
+
+constexpr double kColours = 400;       // steps of the bar that nobody tells apart
+constexpr double kRounding = 0x1p-40;  // more than the sums of a width lose
+
+lib::Bary3 corners_at(const std::array<uint32_t, 4>& words) {
+  return lib::unpack_corners({words[0], words[1], words[2], words[3]});
+}
+std::array<uint32_t, 4> words_of(const lib::Bary3& corners) {
+  const glm::uvec4 w = lib::pack_corners(corners);
+  return {w.x, w.y, w.z, w.w};
+}
+
+// Whether b is on the same side as c of the line through a and m; exact, for they are integers.
+bool is_beside(const glm::uvec2& a, const glm::uvec2& m, const glm::uvec2& b,
+               const glm::dvec2& point) {
+  const glm::dvec2 way = glm::dvec2(m) - glm::dvec2(a);
+  const auto side = [&](const glm::dvec2& p) {
+    return way.x * (p.y - static_cast<double>(a.y)) - way.y * (p.x - static_cast<double>(a.x));
+  };
+  return side(glm::dvec2(b)) * side(point) > 0;
+}
+
+/// A cell, or two halves as one.
+struct Node {
+  ShownCell cell;
+  double area = 0, unresolved = 0;  // shares of the mesh's
+  double cost = 0;                  // of showing it as one, or of halves of it if that is more
+};
+
+/// The halvings of faces: what each would cost to undo, and the cells that are left.
+class Halvings {
+ public:
+  Halvings(const Mesh& mesh, const CellMap& map, const MapScale& scale)
+      : mesh_(mesh), map_(map), scale_(scale), unseen_(scale.length() / kColours) {}
+
+  /// Adds the cells of one face that are left where all halvings of up to `most_cost` are undone.
+  /// Reorders `cells`.
+  void add_face(std::span<uint32_t> cells, double most_cost) {
+    most_cost_ = most_cost;
+    const Node whole = node_of(lib::whole_root(), cells);
+    if (whole.cost <= most_cost) left.push_back(whole.cell);
+  }
+
+  std::vector<double> costs;    // of each halving
+  std::vector<ShownCell> left;  // the cells
+
+ private:
+  Node leaf_of(const MapCell& cell) const {
+    Node node{.cell = {cell.corners, cell.face, shown_value(map_, scale_, cell)},
+              .area = static_cast<double>(cell.share)};
+    node.unresolved = node.cell.value.is_hatched ? node.area : 0;
+    return node;
+  }
+
+  Node node_of(const lib::Bary3& t, std::span<uint32_t> cells) {
+    if (cells.size() == 1) return leaf_of(map_.cells[cells[0]]);
+    gpu::Cell words{};
+    set_corners(words, t);
+    words.face = map_.cells[cells[0]].face;
+    const uint32_t opposite = opposite_longest(mesh_, words);
+    const glm::uvec2 middle = lib::middle_opposite(t, opposite);
+    const lib::Halves halves = lib::halves_of(t, opposite, middle);
+    const auto cut = std::partition(cells.begin(), cells.end(), [&](uint32_t i) {
+      const lib::Bary3 c = corners_at(map_.cells[i].corners);
+      const glm::dvec2 inside = (glm::dvec2(c.a) + glm::dvec2(c.b) + glm::dvec2(c.c)) / 3.0;
+      return is_beside(corner_of(t, opposite), middle, halves.first.b, inside);
+    });
+    const auto count = static_cast<size_t>(cut - cells.begin());
+    if (count == 0 || count == cells.size()) throw std::logic_error("cells do not tile their face");
+    const Node first = node_of(halves.first, cells.first(count));
+    const Node second = node_of(halves.second, cells.subspan(count));
+    const Node both = joined(t, opposite, first, second);
+    costs.push_back(both.cost);
+    if (both.cost <= most_cost_) return both;
+    for (const Node* half : {&first, &second}) {
+      if (half->cost <= most_cost_) left.push_back(half->cell);
+    }
+    return both;
+  }
+
+  // A half without a side beside one with a side is shown as if it were on B, as widely as it is.
+  static ShownValue with_side(ShownValue value) {
+    if (!value.is_sideless) return value;
+    value.width += *std::max_element(value.at.begin(), value.at.end());
+    value.at = {};
+    value.is_sideless = false;
+    return value;
+  }
+
+  Node joined(const lib::Bary3& t, uint32_t opposite, const Node& first, const Node& second) const {
+    const bool is_alike = first.cell.value.is_sideless == second.cell.value.is_sideless;
+    const ShownValue x = is_alike ? first.cell.value : with_side(first.cell.value);
+    const ShownValue y = is_alike ? second.cell.value : with_side(second.cell.value);
+    Node both{.cell = {words_of(t), first.cell.face, {}},
+              .area = first.area + second.area,
+              .unresolved = first.unresolved + second.unresolved};
+    ShownValue& value = both.cell.value;
+    const uint32_t next = (opposite + 1) % 3, last = (opposite + 2) % 3;
+    value.at[opposite] = std::abs(x.at[0]) >= std::abs(y.at[0]) ? x.at[0] : y.at[0];
+    value.at[next] = x.at[1];
+    value.at[last] = y.at[2];
+    const double middle = (x.at[1] + y.at[2]) / 2;
+    const double off_x =
+        std::max(std::abs(x.at[0] - value.at[opposite]), std::abs(x.at[2] - middle));
+    const double off_y =
+        std::max(std::abs(y.at[0] - value.at[opposite]), std::abs(y.at[1] - middle));
+    const double off = std::max(off_x, off_y);
+    value.width = std::max(x.width + off_x, y.width + off_y);
+    value.width += (value.width + std::abs(middle)) * kRounding;
+    value.is_sideless = x.is_sideless;
+    value.is_hatched = both.unresolved > both.area / 2;
+    const double seen = is_alike ? off : std::max(off, scale_.length());
+    const double cost = seen > unseen_ ? seen * both.area : 0;
+    both.cost = std::max({cost, first.cost, second.cost});
+    return both;
+  }
+
+  const Mesh& mesh_;
+  const CellMap& map_;
+  const MapScale& scale_;
+  const double unseen_;
+  double most_cost_ = 0;
+};
+
+/// The numbers of a map's cells, by faces.
+class CellsByFace {
+ public:
+  CellsByFace(const Mesh& mesh, const CellMap& map)
+      : first_(mesh.faces.size() + 1), cells_(map.cells.size()) {
+    for (const MapCell& cell : map.cells) ++first_[cell.face + 1];
+    for (size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
+    std::vector<size_t> next(first_.begin(), first_.end() - 1);
+    for (size_t i = 0; i < cells_.size(); ++i)
+      cells_[next[map.cells[i].face]++] = static_cast<uint32_t>(i);
+  }
+  size_t face_count() const { return first_.size() - 1; }
+  std::span<uint32_t> of(size_t face) {
+    return std::span(cells_).subspan(first_[face], first_[face + 1] - first_[face]);
+  }
+
+ private:
+  std::vector<size_t> first_;
+  std::vector<uint32_t> cells_;
+};
+
+/// Undoes all halvings that cost no more; pieces of the work are in the order of the faces.
+std::vector<Halvings> undone(const Halvings& none, CellsByFace& cells, double most_cost) {
+  constexpr size_t kPiece = 1024;
+  std::vector<Halvings> pieces((cells.face_count() + kPiece - 1) / kPiece, none);
+  for_each_range_of(kPiece, cells.face_count(), [&](size_t number, size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      if (!cells.of(f).empty()) pieces[number].add_face(cells.of(f), most_cost);
+    }
+  });
+  return pieces;
+}
+
+/// The cost of the last halving that has to be undone for so many cells to be left.
+double cost_for(std::vector<double> costs, size_t undo) {
+  if (undo == 0 || costs.empty()) return 0;
+  const size_t at = std::min(undo, costs.size()) - 1;
+  std::nth_element(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(at), costs.end());
+  return costs[at];
+}
+
+}  // namespace
+
+ShownValue shown_value(const CellMap& map, const MapScale& scale, const MapCell& cell) {
+  const float most = std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
+  const double farthest = static_cast<double>(most) * map.unit;
+  const double upper = map.around(static_cast<double>(most), static_cast<double>(cell.width)).upper;
+  ShownValue value{.width = upper - farthest + upper * kRounding,
+                   .is_hatched = scale.is_unresolved(cell),
+                   .is_sideless = scale.is_without_side(cell)};
+  for (size_t i = 0; i < 3; ++i)
+    value.at[i] = value.is_sideless ? static_cast<double>(cell.estimate[i]) * map.unit
+                                    : scale.distance_at(cell, i);
+  if (map.has_sides && cell.side == SurfaceSide::kUnsigned && !value.is_sideless)
+    value.width = upper * (1 + kRounding);
+  return value;
+}
+
+std::vector<ShownCell> shown_cells(const Mesh& mesh, const CellMap& map, const MapScale& scale,
+                                   size_t most) {
+  const Halvings none(mesh, map, scale);
+  CellsByFace cells(mesh, map);
+  std::vector<double> costs;
+  for (const Halvings& piece : undone(none, cells, std::numeric_limits<double>::infinity()))
+    costs.insert(costs.end(), piece.costs.begin(), piece.costs.end());
+  const size_t count = map.cells.size();
+  const double most_cost = cost_for(std::move(costs), count > most ? count - most : 0);
+  std::vector<ShownCell> shown;
+  for (const Halvings& piece : undone(none, cells, most_cost))
+    shown.insert(shown.end(), piece.left.begin(), piece.left.end());
+  return shown;
+}
+
+namespace {
+
+// A map of whole faces; value(face) is {what is shown, its width}.
+template <class Value>
+CellMap map_of_faces(const Mesh& mesh, const Value& value) {
+  CellMap map;
+  double whole = 0;
+  std::vector<double> areas;
+  for (const glm::uvec3& f : mesh.faces) {
+    const glm::dvec3 a = mesh.vertices[f.x];
+    areas.push_back(length(cross(mesh.vertices[f.y] - a, mesh.vertices[f.z] - a)));
+    whole += areas.back();
+  }
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto [shown, width] = value(f);
+    if (std::isfinite(shown)) map.unit = std::max(f == 0 ? 0 : map.unit, shown);
+  }
+  if (!(map.unit > 0)) map.unit = 1;
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto [shown, width] = value(f);
+    const auto at = static_cast<float>(shown / map.unit);
+    const double off = width / map.unit + static_cast<double>(at) * 0x1p-23;
+    map.cells.push_back({.corners = words_of(lib::whole_root()),
+                         .face = f,
+                         .estimate = {at, at, at},
+                         .width = static_cast<float>(off),
+                         .share = static_cast<float>(whole > 0 ? areas[f] / whole : 0)});
+  }
+  return map;
+}
+
+}  // namespace
+
+CellMap map_of_bounds(const Mesh& mesh, const Field& field, double bar) {
+  CellMap map = map_of_faces(mesh, [&](uint32_t f) {
+    const double lower = field.lower[f], upper = field.upper[f];
+    if (!std::isfinite(upper)) return std::pair(lower, upper);
+    return std::pair((lower + upper) / 2, (upper - lower) / 2);
+  });
+  map.bar = bar;
+  return map;
+}
+
+CellMap map_of_lower_bounds(const Mesh& mesh, const Field& field) {
+  return map_of_faces(mesh, [&](uint32_t f) { return std::pair(field.lower[f], 0.0); });
+}
+
+}  // namespace vkh
