@@ -200,7 +200,7 @@ Answered work(const std::shared_ptr<SharedState>& at) {
   done.session = opening.get();
   const Observer observer = observer_of(*at);
   if (question.align) {
-    fit_a(question, *done.session.solver, observer, done.pair.a, done.pair.b);
+    fit_a(question, *done.session.solver, observer, {done.pair.a, done.pair.b});
     at->read(done.pair, read_ms);
   }
   at->known.open(done.session.device->description(), done.session.setup_ms);

@@ -80,7 +80,7 @@ void Asking::State::work() {
   if (is_placed(question, *a, *b)) {
     auto moved = std::make_shared<Mesh>(*a);
     place_a(question, *moved, *b);
-    fit_a(question, *solvers.front(), heard, *moved, *b);
+    fit_a(question, *solvers.front(), heard, {*moved, *b});
     a = std::move(moved);
   }
   Answer answer = unread_answer(question);

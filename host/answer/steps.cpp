@@ -276,8 +276,9 @@ void place_a(const Question& question, Mesh& a, const Mesh& b) {
   place_by(question, placement_of(question, a, b), units_of(question, a, b), a);
 }
 
-void fit_a(const Question& question, Solver& solver, const Observer& observer, Mesh& a,
-           const Mesh& b, const PreparedMesh* prepared) {
+void fit_a(const Question& question, Solver& solver, const Observer& observer,
+           const FitMeshes& meshes) {
+  auto& [a, b, prepared] = meshes;
   if (a.placed || !question.align) return;
   const Units units = units_of(question, a, b);
   AskedPlace placement = placement_of(question, a, b);

@@ -34,6 +34,13 @@ struct AskedMeshes {
   const PreparedMesh* prepared = nullptr;
 };
 
+/// A mesh to move, and the one to lay it on. `prepared`: B on the device of the solver, or null.
+struct FitMeshes {
+  Mesh& a;
+  const Mesh& b;
+  const PreparedMesh* prepared = nullptr;
+};
+
 /// A mesh and its shape, which a caller keeps for a mesh of many pairs.
 struct ShapedMesh {
   const Mesh& mesh;
@@ -52,8 +59,8 @@ void place_a(const Question& question, Mesh& a, const Mesh& b);
 bool is_placed(const Question& question, const Mesh& a, const Mesh& b);
 /// Puts A where place_a() does, and from there where align() finds it: by one matrix for both.
 /// Throws what place_a() and Solver throw, and Interrupted where the observer ends it.
-void fit_a(const Question& question, Solver& solver, const Observer& observer, Mesh& a,
-           const Mesh& b, const PreparedMesh* prepared = nullptr);
+void fit_a(const Question& question, Solver& solver, const Observer& observer,
+           const FitMeshes& meshes);
 
 /// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound, which
 /// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal

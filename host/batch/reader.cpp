@@ -254,7 +254,7 @@ void EntryReader::fit(Solver& solver, const Observer& observer, EntryMeshes& mes
                       NamedEntry& entry) {
   const auto start = Clock::now();
   auto moved = std::make_shared<Mesh>(*meshes.a);
-  fit_a(entry.question, solver, observer, *moved, *meshes.b);
+  fit_a(entry.question, solver, observer, {*moved, *meshes.b});
   meshes.a = std::move(moved);
   const double read_ms = entry.known.waits.read;
   take(meshes, entry);

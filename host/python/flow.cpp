@@ -130,7 +130,7 @@ void Flow::take(Running& running) const {
 // Runs on a worker's thread, before the pair's run.
 void Flow::fit(Solver& solver, Running& running, StreamPair& pair) {
   auto moved = std::make_shared<Mesh>(*running.a);
-  fit_a(asked_.question, solver, {.goes_on = [this] { return !is_over(); }}, *moved, *running.b);
+  fit_a(asked_.question, solver, {.goes_on = [this] { return !is_over(); }}, {*moved, *running.b});
   running.a = std::move(moved);
   take(running);
   pair.a = running.a;

@@ -179,7 +179,7 @@ void fit_on(Session& session, Session::Key key, Given& given) {
       [&](Solver& solver, const PreparedMesh* prepared) {
         FloatEnvironment ours;
         environment = &ours;
-        fit_a(given.question, solver, observer, *moved, *given.b, prepared);
+        fit_a(given.question, solver, observer, {*moved, *given.b, prepared});
       },
       key);
   given.a = std::move(moved);
