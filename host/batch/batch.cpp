@@ -255,14 +255,17 @@ class Batch {
     return running_.at(number);
   }
 
-  // Surveys what was asked. The time of a pair is for its survey, too.
+  // Surveys what was asked, and what its pictures show, at once. The time of a pair is for its
+  // survey, too.
   void survey(Solver& solver, const Running& one, Answer& answer) {
     const Clock::time_point start = Clock::now();
     const double limit_s = one.entry.question.options.time_limit_s;
     const double spent_s = (answer.waits.total - answer.waits.read) / 1000;
     const Observer observer{.goes_on = [this] { return goes_on(); },
                             .left_s = [=] { return limit_s - spent_s - seconds_since(start); }};
-    finish(one.entry.question, solver, {*one.meshes.a, *one.meshes.b}, observer, answer);
+    Question question = one.entry.question;
+    if (job_.folders) job_.folders->ask(question);
+    finish(question, solver, {*one.meshes.a, *one.meshes.b}, observer, answer);
     answer.waits.total += 1000 * seconds_since(start);
   }
 
@@ -271,16 +274,15 @@ class Batch {
     Running& one = running(result.number);
     Answer answer = answer_of(one.entry, result);
     if (is_cancelled(answer)) return;
-    if (one.entry.question.asks_for_survey()) {
-      survey(solver, one, answer);
-      one.surveyed = answer;
+    const bool is_surveyed = one.entry.question.asks_for_survey();
+    if (is_surveyed) survey(solver, one, answer);
+    if (job_.folders)
+      job_.folders->draw({one.entry, one.meshes, solver, [this] { return goes_on(); }}, answer);
+    if (!is_surveyed) return;
+    for (std::optional<SurveyResult>* one_way : {&answer.survey_a, &answer.survey_b}) {
+      if (*one_way) (*one_way)->map.reset();  // it is large, and a line has none
     }
-    if (job_.folders) draw(solver, one, std::move(answer));
-  }
-
-  void draw(Solver& solver, const Running& one, Answer answer) {
-    job_.folders->draw({one.entry, one.meshes, solver, [this] { return goes_on(); }},
-                       std::move(answer));
+    one.surveyed = std::move(answer);
   }
 
   Running taken(size_t number) {

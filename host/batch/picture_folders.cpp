@@ -82,20 +82,26 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
   if (error) failures_.push_back(pair.entry.name.id + ": " + reason_of(error));
 }
 
+void BatchFolders::ask(Question& question) const {
+  ask_for(asked_.look, question);
+  question.statistics = question.statistics || reports_.has_value();
+  if (asked_.effort) question.effort = asked_.effort;
+}
+
 // Writes no picture of a survey that was cut short: it would later be taken for a whole one.
 void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const NamedEntry& entry = pair.entry;
-  Question question = entry.question;
-  question.faces = reports_.has_value();
-  ask_for(asked_.look, question);
-  for (const Mesh* mesh : {&*pair.meshes.a, question.symmetric ? &*pair.meshes.b : nullptr}) {
+  const bool symmetric = entry.question.symmetric;
+  for (const Mesh* mesh : {&*pair.meshes.a, symmetric ? &*pair.meshes.b : nullptr}) {
     if (mesh != nullptr) refuse_points(*mesh, "pictures and pages", "surface to draw");
   }
-  question.statistics = reports_.has_value();
-  question.effort = asked_.effort;
-  const Observer observer{.goes_on = pair.goes_on,
-                          .left_s = [&] { return question.options.time_limit_s; }};
-  finish(question, pair.solver, {*pair.meshes.a, *pair.meshes.b}, observer, answer);
+  if (!answer.survey_a) {
+    Question question = entry.question;
+    ask(question);
+    const Observer observer{.goes_on = pair.goes_on,
+                            .left_s = [&] { return question.options.time_limit_s; }};
+    finish(question, pair.solver, {*pair.meshes.a, *pair.meshes.b}, observer, answer);
+  }
   if (!pair.goes_on()) return;
   const Measured measured{answer, *pair.meshes.a, *pair.meshes.b};
   const std::string& id = entry.name.id;

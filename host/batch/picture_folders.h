@@ -40,8 +40,11 @@ class BatchFolders {
   /// Whether files of this answer, drawn as requested, exist from before.
   bool has(const RecordName& name, bool symmetric) const;
 
-  /// Surveys the pair and writes its files, one pair at a time on a thread. Never throws: an answer
-  /// is not lost over its picture.
+  /// Asks for what the files show of a pair.
+  void ask(Question& question) const;
+
+  /// Surveys the pair, unless its answer has a survey, which has what ask() asked for. Writes its
+  /// files, one pair at a time on a thread. Never throws: an answer is not lost over its picture.
   void draw(const EndedPair& pair, Answer answer) noexcept;
 
   /// Writes an index per folder, one for both if they are one, of all pairs in the results `file`.
