@@ -49,7 +49,7 @@ endif()
 # Headers of host/ that a user of vkh::Solver includes. They include each other as
 # "host/mesh/mesh.h", in a package that is <vkhausdorff/mesh.h>; the engine's header is
 # <vkhausdorff.h>.
-set(VKH_HOST_HEADERS base/error base/length base/limit base/note base/sha256 gpu/device gpu/device_description gpu/vulkan_api
+set(VKH_HOST_HEADERS base/error base/length base/limit base/note base/sha256 gpu/device gpu/device_description
                      mesh/file_faces mesh/mesh mesh/mesh_transform mesh/polygon read/read_limits read/mesh_io read/place
                      solve/solve_options solve/report solve/frame solve/closest_points solve/solver solve/align solve/stream solve/together
                      solve/face_gate solve/verify survey/side survey/field survey/cell_map survey/survey survey/metrics survey/prover survey/certificate

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "host/gpu/memory.h"
+#include "host/gpu/vulkan_api.h"
 #include "kernels/self_test.h"
 
 namespace vkh {

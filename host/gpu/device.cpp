@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/gpu/queue_family.h"
+#include "host/gpu/vulkan_api.h"
 #include "host/gpu/vulkan_loader.h"
 
 namespace vkh {
@@ -240,25 +241,28 @@ Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   maps_memory_ = request.maps_memory;
 }
 
-Device::Device(const AdoptedDevice& adopted) : owned_(false) { adopt(adopted); }
+Device::Device(const AdoptedDevice& adopted)
+    : vk_(std::make_unique<VulkanApi>()), owned_(false) {
+  adopt(adopted);
+}
 
-Device::Device(Empty) : vk_(load_vulkan()) {}
+Device::Device(Empty) : vk_(std::make_unique<VulkanApi>(load_vulkan())) {}
 
 Device::~Device() {
   if (!owned_) return;
   if (device_ != VK_NULL_HANDLE) {
-    vk_.DeviceWaitIdle(device_);
-    vk_.DestroyDevice(device_, nullptr);
+    vk_->DeviceWaitIdle(device_);
+    vk_->DestroyDevice(device_, nullptr);
   }
   if (messenger_ != VK_NULL_HANDLE) {
-    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vk_.GetInstanceProcAddr(
+    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vk_->GetInstanceProcAddr(
         instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
   }
-  if (instance_ != VK_NULL_HANDLE) vk_.DestroyInstance(instance_, nullptr);
+  if (instance_ != VK_NULL_HANDLE) vk_->DestroyInstance(instance_, nullptr);
 }
 
 void Device::create_instance(bool validation) {
-  if (validation && !has_layer(vk_, kValidationLayer)) {
+  if (validation && !has_layer(*vk_, kValidationLayer)) {
     throw DeviceError(
         "the Khronos validation layer is not installed (package vulkan-validationlayers)");
   }
@@ -270,18 +274,18 @@ void Device::create_instance(bool validation) {
   features.pEnabledValidationFeatures = &synchronization;
   VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages_.get());
   messenger.pNext = &features;
-  instance_ = make_instance(vk_, validation ? &messenger : nullptr, validation);
-  load_instance(vk_, instance_);
+  instance_ = make_instance(*vk_, validation ? &messenger : nullptr, validation);
+  load_instance(*vk_, instance_);
   if (!validation) return;
   messenger.pNext = nullptr;
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-      vk_.GetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+      vk_->GetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
   check_made(create(instance_, &messenger, nullptr, &messenger_), messenger_,
              "creating the validation messenger");
 }
 
 void Device::choose(const std::string& selector) {
-  const std::vector<Choice> choices = enumerate(vk_, instance_);
+  const std::vector<Choice> choices = enumerate(*vk_, instance_);
   for (const Choice& c : choices) {
     if (!c.description.usable || !matches(c.description, selector)) continue;
     physical_ = c.physical;
@@ -292,7 +296,7 @@ void Device::choose(const std::string& selector) {
 }
 
 void Device::create_device(bool robust) {
-  const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, physical_);
+  const std::vector<VkQueueFamilyProperties> families = queue_families(*vk_, physical_);
   queue_family_ = compute_family(families);
   has_timestamps_ = families[queue_family_].timestampValidBits > 0;
   has_graphics_ = draws(families[queue_family_]);
@@ -302,7 +306,7 @@ void Device::create_device(bool robust) {
   queue.queueFamilyIndex = queue_family_;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
-  const Wishes has(vk_, physical_);
+  const Wishes has(*vk_, physical_);
   VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
   addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
   addresses.bufferDeviceAddress = has.addresses.bufferDeviceAddress;
@@ -323,12 +327,12 @@ void Device::create_device(bool robust) {
   info.pEnabledFeatures = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  const std::vector<const char*> extensions = device_extensions(vk_, engine_info());
+  const std::vector<const char*> extensions = device_extensions(*vk_, engine_info());
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  check_made(vk_.CreateDevice(physical_, &info, nullptr, &device_), device_, "creating the device");
-  load_device(vk_, device_);
-  vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
+  check_made(vk_->CreateDevice(physical_, &info, nullptr, &device_), device_, "creating the device");
+  load_device(*vk_, device_);
+  vk_->GetDeviceQueue(device_, queue_family_, 0, &queue_);
   read_limits();
 }
 
@@ -340,12 +344,12 @@ void Device::adopt(const AdoptedDevice& adopted) {
       adopted.physical == VK_NULL_HANDLE || adopted.device == VK_NULL_HANDLE ||
       adopted.queue == VK_NULL_HANDLE)
     refuse("a handle is null");
-  vk_.GetInstanceProcAddr = adopted.get_instance_proc_addr;
-  load_instance(vk_, adopted.instance);
-  if (vk_.GetPhysicalDeviceProperties2 == nullptr) refuse("Vulkan 1.2 is missing");
-  description_ = describe(vk_, adopted.instance, adopted.physical);
+  vk_->GetInstanceProcAddr = adopted.get_instance_proc_addr;
+  load_instance(*vk_, adopted.instance);
+  if (vk_->GetPhysicalDeviceProperties2 == nullptr) refuse("Vulkan 1.2 is missing");
+  description_ = describe(*vk_, adopted.instance, adopted.physical);
   if (!description_.usable) refuse(description_.reason);
-  const std::vector<VkQueueFamilyProperties> families = queue_families(vk_, adopted.physical);
+  const std::vector<VkQueueFamilyProperties> families = queue_families(*vk_, adopted.physical);
   if (adopted.queue_family >= families.size() ||
       (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
     refuse("its queue family " + std::to_string(adopted.queue_family) + " has no compute");
@@ -358,24 +362,24 @@ void Device::adopt(const AdoptedDevice& adopted) {
   queue_family_ = adopted.queue_family;
   has_addresses_ = adopted.has_addresses;
   if (adopted.queue_mutex != nullptr) queue_mutex_ = adopted.queue_mutex;
-  load_device(vk_, device_);
+  load_device(*vk_, device_);
   read_limits();
 }
 
 void Device::read_limits() {
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  vk_.GetPhysicalDeviceProperties2(physical_, &properties);
+  vk_->GetPhysicalDeviceProperties2(physical_, &properties);
   timestamp_period_ns_ = static_cast<double>(properties.properties.limits.timestampPeriod);
 }
 
 bool Device::is_lost() const {
   const std::lock_guard lock(queue_mutex());  // waiting for the device touches its queue
-  return vk_.DeviceWaitIdle(device_) == VK_ERROR_DEVICE_LOST;
+  return vk_->DeviceWaitIdle(device_) == VK_ERROR_DEVICE_LOST;
 }
 
 VkhDeviceInfo Device::engine_info() const {
-  return {vk_.GetInstanceProcAddr, instance_, physical_, device_};
+  return {vk_->GetInstanceProcAddr, instance_, physical_, device_};
 }
 
 std::vector<DeviceDescription> list_devices() {
@@ -383,7 +387,7 @@ std::vector<DeviceDescription> list_devices() {
   Device none{Device::Empty{}};  // destroys its instance, whatever happens
   none.create_instance(false);
   std::vector<DeviceDescription> descriptions;
-  for (const Choice& c : enumerate(none.vk_, none.instance_)) descriptions.push_back(c.description);
+  for (const Choice& c : enumerate(*none.vk_, none.instance_)) descriptions.push_back(c.description);
   return descriptions;
 }
 

@@ -1,6 +1,8 @@
 // A Vulkan instance, device and queue: our own, or another owner's that we may use.
 #pragma once
 
+#include <vulkan/vulkan.h>
+
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -9,9 +11,10 @@
 
 #include "engine/vkhausdorff.h"
 #include "host/gpu/device_description.h"
-#include "host/gpu/vulkan_api.h"
 
 namespace vkh {
+
+struct VulkanApi;  ///< the table of functions, of this library alone (host/gpu/vulkan_api.h)
 
 struct DeviceRequest {
   std::string selector;  ///< "": best device; "gpu"; "cpu"; an index; or part of a name, any case
@@ -58,7 +61,7 @@ class Device {
   /// stderr.
   uint32_t validation_messages() const { return *messages_; }
 
-  const VulkanApi& vk() const { return vk_; }
+  const VulkanApi& vk() const { return *vk_; }
   VkDevice handle() const { return device_; }
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
@@ -90,7 +93,7 @@ class Device {
   void adopt(const AdoptedDevice& adopted);
   void read_limits();
 
-  VulkanApi vk_;
+  std::unique_ptr<VulkanApi> vk_;
   DeviceDescription description_;
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "host/base/error.h"
+#include "host/gpu/vulkan_api.h"
 
 namespace vkh {
 namespace {

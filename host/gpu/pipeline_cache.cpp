@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/system.h"
+#include "host/gpu/vulkan_api.h"
 #include "kernels/all_kernels.h"
 
 namespace vkh {

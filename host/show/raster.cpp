@@ -7,6 +7,7 @@
 #include "draw/mesh_vert.h"
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/gpu/vulkan_api.h"
 
 namespace vkh::drawing {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/gpu/vulkan_api.h"
 #include "host/solve/mesh_sizes.h"
 
 namespace vkh {

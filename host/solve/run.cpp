@@ -9,6 +9,7 @@
 #include "engine/vkhausdorff_experimental.h"
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/gpu/vulkan_api.h"
 #include "host/solve/switches.h"
 
 namespace vkh {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/shapes/shapes.h"
+#include "host/gpu/vulkan_api.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "host/base/error.h"
+#include "host/gpu/vulkan_api.h"
 #include "host/solve/frame.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "host/gpu/vulkan_api.h"
 #include "host/mesh/round_to_float.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "host/gpu/vulkan_api.h"
 #include "host/mesh/round_to_float.h"
 
 namespace vkh::test {

@@ -1,6 +1,6 @@
 // Our headers first, then Vulkan's: its prototypes are there, as if ours had not been.
 #include <vkhausdorff.h>
-#include <vkhausdorff/vulkan_api.h>
+#include <vkhausdorff/device.h>
 #include <vulkan/vulkan.h>
 
 static_assert(sizeof(::vkCreateInstance(nullptr, nullptr, nullptr)) == sizeof(VkResult));

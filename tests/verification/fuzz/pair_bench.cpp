@@ -1,4 +1,5 @@
 #include "tests/verification/fuzz/pair_bench.h"
+#include "host/gpu/vulkan_api.h"
 
 #include <algorithm>
 #include <array>
