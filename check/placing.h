@@ -5,7 +5,7 @@
 
 #include "check/certificate.h"
 #include "check/exact.h"
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::check {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "check/proof.h"
-#include "host/mesh/polygon.h"
+#include "vkhausdorff/polygon.h"
 
 namespace vkh::check {
 

@@ -8,7 +8,7 @@
 #include "check/exact.h"
 #include "check/placing.h"
 #include "host/base/parallel.h"
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::check {
 

@@ -15,11 +15,11 @@
 #include "check/polygons.h"
 #include "host/base/decimal.h"
 #include "host/base/input_file.h"
-#include "host/base/sha256.h"
 #include "host/base/system.h"
 #include "host/read/corners_hash.h"
 #include "host/read/file_mesh_builder.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/sha256.h"
 
 namespace vkh::check {
 namespace {

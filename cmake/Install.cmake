@@ -46,29 +46,6 @@ if(NOT VKH_HOST)
   return()
 endif()
 
-# Headers of host/ that a user of vkh::Solver includes. They include each other as
-# "host/mesh/mesh.h", in a package that is <vkhausdorff/mesh.h>; the engine's header is
-# <vkhausdorff.h>.
-set(VKH_HOST_HEADERS base/error base/length base/limit base/note base/sha256 gpu/device gpu/device_description
-                     mesh/file_faces mesh/mesh mesh/mesh_transform mesh/polygon read/read_limits read/mesh_io read/place
-                     solve/solve_options solve/report solve/frame solve/closest_points solve/solver solve/align solve/stream solve/together
-                     solve/face_gate solve/verify survey/side survey/field survey/cell_map survey/survey survey/metrics survey/prover survey/certificate
-                     write/colour_map write/field_file simplify/simplify simplify/levels answer/question answer/answer answer/work_meter answer/asking)
-set(VKH_INSTALLED_HEADERS ${PROJECT_BINARY_DIR}/generated/include/vkhausdorff)
-set(VKH_ALL_HEADERS)
-foreach(header IN LISTS VKH_HOST_HEADERS)
-  get_filename_component(name ${header} NAME)
-  set(from ${PROJECT_SOURCE_DIR}/host/${header}.h)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${from})
-  file(READ ${from} text)
-  string(REGEX REPLACE "#include \"host/[a-z]+/" "#include \"vkhausdorff/" text "${text}")
-  string(REPLACE "#include \"engine/vkhausdorff.h\"" "#include \"vkhausdorff.h\"" text "${text}")
-  file(CONFIGURE OUTPUT ${VKH_INSTALLED_HEADERS}/${name}.h CONTENT "${text}" @ONLY)
-  string(APPEND VKH_ALL_HEADERS "#include <vkhausdorff/${name}.h>\n")
-endforeach()
-file(CONFIGURE OUTPUT ${VKH_INSTALLED_HEADERS}/vkhausdorff.hpp
-     CONTENT "// All of the C++ interface.\n#pragma once\n\n${VKH_ALL_HEADERS}" @ONLY)
-
 set_target_properties(vkhausdorff PROPERTIES INSTALL_RPATH $<$<BOOL:${BUILD_SHARED_LIBS}>:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}>)
 install(TARGETS vkhausdorff RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 if(TARGET vkh_check)  # tools/quickstart builds the program alone: missing parts are named
@@ -93,7 +70,7 @@ if(NOT WIN32)
 endif()
 install(FILES cmake/VkHausdorffGate.cmake DESTINATION ${VKH_PACKAGE_DIR} COMPONENT program)
 install(TARGETS vkh_host EXPORT VkHausdorffHost ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT host)
-install(DIRECTORY ${VKH_INSTALLED_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT host)
+install(DIRECTORY host/include/vkhausdorff DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT host)
 install(EXPORT VkHausdorffHost NAMESPACE VkHausdorff:: DESTINATION ${VKH_PACKAGE_DIR} COMPONENT host)
 set(VKH_FORMAT_LIBS)
 foreach(name IN LISTS VKH_FORMAT_LIBRARIES)

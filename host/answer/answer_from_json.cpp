@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "host/answer/json_object.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -11,12 +11,12 @@
 #include "host/answer/progress_line.h"
 #include "host/answer/steps.h"
 #include "host/base/begin_now.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/sha256.h"
 #include "host/base/system.h"
 #include "host/mesh/default_pair.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/sha256.h"
 
 namespace vkh {
 namespace {

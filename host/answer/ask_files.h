@@ -3,11 +3,11 @@
 // driver does meanwhile.
 #pragma once
 
-#include "host/answer/answer.h"
-#include "host/answer/question.h"
 #include "host/answer/session.h"
 #include "host/answer/stop.h"
 #include "host/mesh/mesh_pair.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/question.h"
 
 namespace vkh {
 

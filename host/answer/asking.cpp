@@ -1,4 +1,4 @@
-#include "host/answer/asking.h"
+#include "vkhausdorff/asking.h"
 
 #include <future>
 #include <thread>
@@ -6,8 +6,8 @@
 
 #include "host/answer/known_answer.h"
 #include "host/answer/steps.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -1,8 +1,8 @@
-// The exit codes of answers. host/base/error.h has those of errors.
+// The exit codes of answers. host/include/vkhausdorff/error.h has those of errors.
 #pragma once
 
-#include "host/answer/answer.h"
-#include "host/base/error.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

@@ -5,11 +5,11 @@
 #include <fstream>
 
 #include "host/base/byte_order_mark.h"
-#include "host/base/error.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 namespace {

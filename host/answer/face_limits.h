@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/base/length.h"
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/length.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

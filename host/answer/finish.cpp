@@ -6,12 +6,12 @@
 
 #include "host/answer/steps.h"
 #include "host/base/decimal.h"
-#include "host/base/error.h"
-#include "host/base/note.h"
 #include "host/solve/cells.h"
-#include "host/solve/verify.h"
-#include "host/survey/certificate.h"
 #include "host/survey/distribution.h"
+#include "vkhausdorff/certificate.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/note.h"
+#include "vkhausdorff/verify.h"
 
 namespace vkh {
 namespace {

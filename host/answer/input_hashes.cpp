@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "host/base/error.h"
 #include "host/base/system.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/base/sha256.h"
-#include "host/read/read_limits.h"
+#include "vkhausdorff/read_limits.h"
+#include "vkhausdorff/sha256.h"
 
 namespace vkh {
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "host/answer/answer.h"
 #include "host/answer/json_object.h"
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 namespace {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "host/answer/answer.h"
 #include "host/base/decimal.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "host/answer/answer.h"
 #include "host/base/decimal.h"
-#include "host/base/note.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

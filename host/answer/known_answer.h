@@ -5,9 +5,9 @@
 #include <mutex>
 #include <optional>
 
-#include "host/answer/answer.h"
-#include "host/answer/question.h"
-#include "host/answer/work_meter.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/work_meter.h"
 
 namespace vkh {
 

@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
 #include "host/solve/join_reports.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

@@ -1,6 +1,6 @@
 // Metrics as JSON, both ways.
 #include "host/answer/json_object.h"
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

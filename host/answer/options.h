@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "host/answer/answer.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "host/base/note.h"
 #include "host/mesh/principal_axes.h"
-#include "host/solve/frame.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 

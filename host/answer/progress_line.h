@@ -11,10 +11,10 @@
 #include <mutex>
 #include <string>
 
-#include "host/answer/work_meter.h"
 #include "host/base/decimal.h"
 #include "host/base/system.h"
-#include "host/solve/solve_options.h"
+#include "vkhausdorff/solve_options.h"
+#include "vkhausdorff/work_meter.h"
 
 namespace vkh {
 

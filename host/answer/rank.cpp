@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "host/base/decimal.h"
-#include "host/base/length.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/answer/json_object.h"
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

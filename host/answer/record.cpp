@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "host/answer/json_object.h"
-#include "host/base/error.h"
 #include "host/base/rounding.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

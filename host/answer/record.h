@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/answer/answer.h"
 #include "host/answer/exit_code.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 

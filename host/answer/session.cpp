@@ -4,8 +4,8 @@
 #include <chrono>
 #include <iterator>
 
-#include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/device.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

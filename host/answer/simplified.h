@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/answer.h"
-#include "host/simplify/simplify.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/simplify.h"
 
 namespace vkh {
 

@@ -5,13 +5,13 @@
 
 #include "host/answer/face_limits.h"
 #include "host/answer/steps.h"
-#include "host/base/error.h"
-#include "host/base/note.h"
-#include "host/solve/face_gate.h"
 #include "host/solve/pair.h"
 #include "host/solve/part.h"
-#include "host/solve/together.h"
 #include "host/survey/shells.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/face_gate.h"
+#include "vkhausdorff/note.h"
+#include "vkhausdorff/together.h"
 
 namespace vkh {
 namespace {

@@ -8,16 +8,16 @@
 
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
-#include "host/base/error.h"
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/base/rounding.h"
 #include "host/base/system.h"
-#include "host/read/place.h"
 #include "host/read/transform.h"
-#include "host/solve/align.h"
-#include "host/solve/frame.h"
 #include "host/survey/statistics.h"
+#include "vkhausdorff/align.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/note.h"
+#include "vkhausdorff/place.h"
 
 namespace vkh {
 

@@ -5,12 +5,12 @@
 #include <functional>
 #include <span>
 
-#include "host/answer/answer.h"
 #include "host/answer/pair_notes.h"
-#include "host/answer/question.h"
-#include "host/answer/work_meter.h"
-#include "host/solve/solver.h"
-#include "host/solve/stream.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/stream.h"
+#include "vkhausdorff/work_meter.h"
 
 namespace vkh {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/base/system.h"
-#include "host/solve/report.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/answer/answer.h"
 #include "host/base/decimal.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 namespace {

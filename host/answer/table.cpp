@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <ostream>
 
-#include "host/answer/answer.h"
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
 #include "host/base/system.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 namespace {

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "engine/vkhausdorff.h"
-#include "host/answer/answer.h"
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/answer/work_meter.h"
+#include "vkhausdorff/work_meter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include "host/app/many_pairs_line.h"
 #include "host/app/simplify_line.h"
 #include "host/app/typed.h"
-#include "host/base/error.h"
 #include "host/base/meant.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

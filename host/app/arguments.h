@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/question.h"
 #include "host/app/picture_options.h"
 #include "host/batch/list.h"
 #include "host/batch/picture_folders.h"
-#include "host/solve/stream.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh {
 

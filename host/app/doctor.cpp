@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <ostream>
 
-#include "host/answer/answer.h"
 #include "host/app/self_test.h"
 #include "host/base/decimal.h"
-#include "host/gpu/device.h"
 #include "host/gpu/vulkan_api.h"
 #include "host/mesh/mesh_pair.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 namespace {

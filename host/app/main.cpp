@@ -20,9 +20,9 @@
 #include "host/app/outputs.h"
 #include "host/app/picture_options.h"
 #include "host/app/simplify_command.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

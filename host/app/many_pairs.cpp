@@ -12,11 +12,11 @@
 #include "host/answer/session.h"
 #include "host/answer/tables.h"
 #include "host/app/outputs.h"
-#include "host/base/error.h"
 #include "host/base/output_file.h"
 #include "host/base/system.h"
 #include "host/batch/batch.h"
 #include "host/batch/github.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

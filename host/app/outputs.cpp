@@ -7,9 +7,9 @@
 #include <iostream>
 
 #include "host/answer/exit_code.h"
-#include "host/base/error.h"
 #include "host/base/system.h"
-#include "host/read/place.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/place.h"
 
 namespace vkh {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host/app/arguments.h"
-#include "host/base/error.h"
 #include "host/base/output_file.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include "host/answer/steps.h"
-#include "host/base/error.h"
 #include "host/batch/list.h"
 #include "host/show/report_csv.h"
-#include "host/write/field_file.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/field_file.h"
 
 namespace vkh {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/device.h"
 #include "shaders/gpu_types.h"
+#include "vkhausdorff/device.h"
 
 namespace vkh {
 

@@ -13,9 +13,9 @@
 #include "host/base/output_file.h"
 #include "host/base/system.h"
 #include "host/read/readers.h"
-#include "host/simplify/levels.h"
-#include "host/survey/certificate.h"
 #include "host/write/mesh_file.h"
+#include "vkhausdorff/certificate.h"
+#include "vkhausdorff/levels.h"
 
 namespace vkh {
 namespace {

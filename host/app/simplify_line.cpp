@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "host/answer/options.h"
-#include "host/base/error.h"
 #include "host/write/mesh_file.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

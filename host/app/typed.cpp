@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "host/answer/options.h"
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

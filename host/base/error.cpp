@@ -1,4 +1,4 @@
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 #include <algorithm>
 #include <new>

@@ -1,4 +1,4 @@
-#include "host/base/length.h"
+#include "vkhausdorff/length.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <numeric>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/float128.h"
 #include "host/base/meant.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

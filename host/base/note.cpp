@@ -1,4 +1,4 @@
-#include "host/base/note.h"
+#include "vkhausdorff/note.h"
 
 #include <algorithm>
 #include <array>

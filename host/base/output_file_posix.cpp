@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "host/base/error.h"
 #include "host/base/output_file.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "host/base/error.h"
 #include "host/base/output_file.h"
 #include "host/base/system.h"
 #include "host/base/windows_handle.h"
 #include "host/base/windows_text.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -1,6 +1,6 @@
 #include "host/base/reject.h"
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

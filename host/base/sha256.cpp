@@ -1,4 +1,4 @@
-#include "host/base/sha256.h"
+#include "vkhausdorff/sha256.h"
 
 #include <array>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

@@ -8,11 +8,11 @@
 
 #include "host/answer/progress_line.h"
 #include "host/base/begin_now.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/base/parallel.h"
 #include "host/solve/budget.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -9,7 +9,7 @@
 #include "host/batch/picture_folders.h"
 #include "host/batch/reader.h"
 #include "host/batch/totals.h"
-#include "host/solve/stream.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh {
 

@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "host/base/error.h"
 #include "host/base/system.h"
 #include "host/batch/list.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 namespace {

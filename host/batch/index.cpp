@@ -7,11 +7,11 @@
 
 #include "host/answer/rank.h"
 #include "host/base/decimal.h"
-#include "host/base/length.h"
 #include "host/batch/totals.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_words.h"
 #include "host/show/template.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh {
 namespace {

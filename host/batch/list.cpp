@@ -10,12 +10,12 @@
 
 #include "host/answer/csv.h"
 #include "host/base/byte_order_mark.h"
-#include "host/base/error.h"
 #include "host/base/id_hash.h"
 #include "host/base/meant.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

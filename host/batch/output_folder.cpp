@@ -4,10 +4,10 @@
 #include <array>
 #include <fstream>
 
-#include "host/base/error.h"
 #include "host/base/id_hash.h"
 #include "host/base/output_file.h"
 #include "host/base/system.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

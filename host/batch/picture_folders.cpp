@@ -6,9 +6,9 @@
 #include "host/answer/merge.h"
 #include "host/answer/steps.h"
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/system.h"
 #include "host/batch/index.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -10,7 +10,7 @@
 #include "host/batch/output_folder.h"
 #include "host/batch/reader.h"
 #include "host/show/draw_answer.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

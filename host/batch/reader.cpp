@@ -7,11 +7,11 @@
 
 #include "host/answer/options.h"
 #include "host/base/decimal.h"
-#include "host/base/error.h"
-#include "host/base/sha256.h"
 #include "host/base/system.h"
-#include "host/read/mesh_io.h"
-#include "host/read/place.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/place.h"
+#include "vkhausdorff/sha256.h"
 
 namespace vkh {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "host/answer/rank.h"
 #include "host/answer/record.h"
-#include "host/solve/stream.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh {
 

@@ -1,4 +1,5 @@
 #include "host/gpu/attachment.h"
+
 #include "host/gpu/vulkan_api.h"
 
 namespace vkh {

@@ -1,4 +1,4 @@
-#include "host/gpu/device.h"
+#include "vkhausdorff/device.h"
 
 #include <algorithm>
 #include <array>
@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <cstring>
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/gpu/queue_family.h"
 #include "host/gpu/vulkan_api.h"
 #include "host/gpu/vulkan_loader.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {
@@ -241,8 +241,7 @@ Device::Device(const DeviceRequest& request) : Device(Empty{}) {
   maps_memory_ = request.maps_memory;
 }
 
-Device::Device(const AdoptedDevice& adopted)
-    : vk_(std::make_unique<VulkanApi>()), owned_(false) {
+Device::Device(const AdoptedDevice& adopted) : vk_(std::make_unique<VulkanApi>()), owned_(false) {
   adopt(adopted);
 }
 
@@ -330,7 +329,8 @@ void Device::create_device(bool robust) {
   const std::vector<const char*> extensions = device_extensions(*vk_, engine_info());
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  check_made(vk_->CreateDevice(physical_, &info, nullptr, &device_), device_, "creating the device");
+  check_made(vk_->CreateDevice(physical_, &info, nullptr, &device_), device_,
+             "creating the device");
   load_device(*vk_, device_);
   vk_->GetDeviceQueue(device_, queue_family_, 0, &queue_);
   read_limits();
@@ -387,7 +387,8 @@ std::vector<DeviceDescription> list_devices() {
   Device none{Device::Empty{}};  // destroys its instance, whatever happens
   none.create_instance(false);
   std::vector<DeviceDescription> descriptions;
-  for (const Choice& c : enumerate(*none.vk_, none.instance_)) descriptions.push_back(c.description);
+  for (const Choice& c : enumerate(*none.vk_, none.instance_))
+    descriptions.push_back(c.description);
   return descriptions;
 }
 

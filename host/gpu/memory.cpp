@@ -5,8 +5,8 @@
 #include <string>
 #include <thread>
 
-#include "host/base/error.h"
 #include "host/gpu/vulkan_api.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

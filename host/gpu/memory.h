@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "host/gpu/device.h"
+#include "vkhausdorff/device.h"
 
 namespace vkh {
 

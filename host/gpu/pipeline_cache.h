@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "host/gpu/device.h"
+#include "vkhausdorff/device.h"
 
 namespace vkh {
 

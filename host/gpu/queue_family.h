@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/gpu/vulkan_api.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "host/base/error.h"
 #include "host/gpu/vulkan_loader.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

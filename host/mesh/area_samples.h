@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host/base/thread_pool.h"
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

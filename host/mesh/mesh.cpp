@@ -1,4 +1,4 @@
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/reject.h"
 #include "host/mesh/make_mesh.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

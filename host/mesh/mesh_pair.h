@@ -1,7 +1,7 @@
 // Two meshes, one of which is measured against the other.
 #pragma once
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

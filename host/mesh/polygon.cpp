@@ -5,7 +5,7 @@
 // cover each point of the projection as often as the outline winds round it. So ears that are
 // clipped tile the polygon if and only if no two of them overlap, which is tested: that finds every
 // outline that crosses itself, whatever the clipping did.
-#include "host/mesh/polygon.h"
+#include "vkhausdorff/polygon.h"
 
 #include <algorithm>
 #include <array>

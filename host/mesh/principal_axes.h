@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -1,7 +1,7 @@
 // Tests whether a mesh is part of another, face by face, as given.
 #pragma once
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

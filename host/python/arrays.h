@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::python {
 

@@ -1,7 +1,7 @@
 #include "host/python/errors.h"
 
-#include "host/base/error.h"
 #include "host/python/mesh.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::python {
 namespace {

@@ -10,7 +10,7 @@
 #include "host/python/arguments.h"
 #include "host/python/interpreter.h"
 #include "host/python/mesh.h"
-#include "host/write/field_file.h"
+#include "vkhausdorff/field_file.h"
 
 namespace vkh::python {
 namespace {

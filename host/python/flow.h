@@ -10,10 +10,10 @@
 #include <thread>
 #include <vector>
 
-#include "host/answer/answer.h"
-#include "host/answer/question.h"
 #include "host/python/mesh.h"
-#include "host/solve/stream.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh::python {
 

@@ -2,12 +2,12 @@
 
 #include "host/answer/options.h"
 #include "host/answer/session.h"
-#include "host/base/error.h"
 #include "host/python/arguments.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/question.h"
 #include "host/python/session.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::python {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <memory>
 
-#include "host/answer/question.h"
 #include "host/python/result.h"
+#include "vkhausdorff/question.h"
 
 namespace vkh::python {
 

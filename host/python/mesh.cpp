@@ -10,14 +10,14 @@
 #include <future>
 
 #include "host/answer/steps.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
 #include "host/python/interpreter.h"
 #include "host/python/question.h"
 #include "host/python/result.h"
 #include "host/python/session.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh::python {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "host/answer/pair_notes.h"
-#include "host/answer/question.h"
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
-#include "host/read/read_limits.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/read_limits.h"
 
 namespace vkh::python {
 

@@ -3,13 +3,13 @@
 #include <pybind11/pybind11.h>
 
 #include "engine/vkhausdorff.h"
-#include "host/gpu/device.h"
 #include "host/python/errors.h"
 #include "host/python/field.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/many.h"
 #include "host/python/solver.h"
+#include "vkhausdorff/device.h"
 
 namespace vkh::python {
 namespace {

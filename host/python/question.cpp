@@ -8,12 +8,12 @@
 
 #include "host/answer/options.h"
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
-#include "host/base/length.h"
 #include "host/base/system.h"
 #include "host/python/mesh.h"
-#include "host/read/place.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/length.h"
+#include "vkhausdorff/place.h"
 
 namespace vkh::python {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "host/answer/question.h"
 #include "host/python/arguments.h"
+#include "vkhausdorff/question.h"
 
 namespace vkh::python {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "host/answer/answer.h"
 #include "host/python/mesh.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh::python {
 

@@ -3,9 +3,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "host/base/error.h"
-#include "host/gpu/device.h"
 #include "host/python/interpreter.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::python {
 namespace {

@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include "host/answer/work_meter.h"
-#include "host/gpu/device_description.h"
 #include "host/python/mesh.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/device_description.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/work_meter.h"
 
 namespace vkh::python {
 

@@ -5,14 +5,14 @@
 #include <map>
 
 #include "host/answer/steps.h"
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/python/interpreter.h"
 #include "host/python/question.h"
-#include "host/simplify/simplify.h"
-#include "host/solve/align.h"
-#include "host/solve/frame.h"
+#include "vkhausdorff/align.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/simplify.h"
 
 namespace vkh::python {
 namespace {

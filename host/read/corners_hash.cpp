@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "host/base/sha256.h"
+#include "vkhausdorff/sha256.h"
 
 namespace vkh {
 namespace {

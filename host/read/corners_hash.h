@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include "host/base/decimal.h"
-#include "host/base/note.h"
 #include "host/base/reject.h"
-#include "host/mesh/polygon.h"
+#include "vkhausdorff/note.h"
+#include "vkhausdorff/polygon.h"
 
 namespace vkh {
 namespace {

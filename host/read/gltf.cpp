@@ -4,10 +4,10 @@
 #include <optional>
 #include <set>
 
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/read/gltf_data.h"
 #include "host/read/gltf_scene.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace gltf {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/note.h"
 #include "host/base/reject.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh::gltf {
 namespace {

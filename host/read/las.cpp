@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/base/rounding.h"
 #include "host/read/readers.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace las {

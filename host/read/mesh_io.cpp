@@ -1,4 +1,4 @@
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/mesh_io.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 
 #include "host/base/byte_order_mark.h"
 #include "host/base/float_environment.h"
-#include "host/base/note.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
 #include "host/read/readers.h"
 #include "host/read/strangers.h"
 #include "host/read/text_scanner.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

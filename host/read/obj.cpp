@@ -7,11 +7,11 @@
 #include <array>
 #include <cctype>
 
-#include "host/base/note.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

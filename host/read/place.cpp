@@ -1,4 +1,4 @@
-#include "host/read/place.h"
+#include "vkhausdorff/place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 #include <iterator>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/rounding.h"
 #include "host/base/system.h"
-#include "host/mesh/polygon.h"
 #include "host/read/corners_hash.h"
 #include "host/read/transform.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/polygon.h"
 
 namespace vkh {
 namespace {

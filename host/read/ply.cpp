@@ -10,11 +10,11 @@
 #include <limits>
 #include <optional>
 
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/read/ply_header.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "host/base/note.h"
 #include "host/base/reject.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh::ply {
 namespace {

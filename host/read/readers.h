@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "host/read/file_mesh_builder.h"
-#include "host/read/mesh_io.h"
 #include "host/read/source.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "host/base/error.h"
 #include "host/base/reject.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/input_file.h"
 #include "host/base/thread_pool.h"
-#include "host/read/read_limits.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/read_limits.h"
 
 namespace vkh {
 

@@ -7,11 +7,11 @@
 #include <glm/common.hpp>
 
 #include "host/base/hash_index.h"
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/read/merge_blocks.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

@@ -1,8 +1,8 @@
 // 3MF: the objects that its build puts on the plate. libzip unpacks, expat parses; lib3mf 1.8,
 // which Debian 12 and Ubuntu 24.04 have, rounds every coordinate to float.
-#include "host/base/note.h"
 #include "host/base/reject.h"
 #include "host/read/readers.h"
+#include "vkhausdorff/note.h"
 
 #ifdef VKH_HAS_3MF
 #include <algorithm>

@@ -6,11 +6,11 @@
 #include <cctype>
 #include <optional>
 
-#include "host/base/note.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/read/readers.h"
 #include "host/read/text_blocks.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::drawing {
 

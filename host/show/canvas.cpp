@@ -5,7 +5,7 @@
 #include <cstring>
 #include <new>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 #ifdef VKH_HAS_STB
 #define STB_TRUETYPE_IMPLEMENTATION

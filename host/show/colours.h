@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "host/show/raster.h"
-#include "host/write/colour_map.h"
+#include "vkhausdorff/colour_map.h"
 
 namespace vkh::drawing {
 

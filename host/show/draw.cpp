@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "host/base/error.h"
 #include "host/show/map_legend.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace drawing {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/device.h"
-#include "host/survey/cell_map.h"
-#include "host/survey/field.h"
-#include "host/write/colour_map.h"
+#include "vkhausdorff/cell_map.h"
+#include "vkhausdorff/colour_map.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/field.h"
 
 namespace vkh {
 

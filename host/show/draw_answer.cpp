@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "host/base/error.h"
 #include "host/base/system.h"
 #include "host/show/page.h"
 #include "host/show/page_words.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

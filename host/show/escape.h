@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/answer/answer.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 namespace escape {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "host/base/decimal.h"
-#include "host/base/length.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh::drawing {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "host/show/raster.h"
-#include "host/write/colour_map.h"
+#include "vkhausdorff/colour_map.h"
 
 namespace vkh::drawing {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "host/answer/answer.h"
 #include "host/show/draw.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "host/base/decimal.h"
-#include "host/base/length.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/limit.h"
+#include "vkhausdorff/limit.h"
 
 namespace vkh {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/mesh/mesh.h"
 #include "host/show/shown_cells.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

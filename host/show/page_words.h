@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/answer.h"
+#include "vkhausdorff/answer.h"
 
 namespace vkh {
 

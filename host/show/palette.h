@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/write/colour_map.h"
+#include "vkhausdorff/colour_map.h"
 
 namespace vkh::drawing {
 

@@ -5,9 +5,9 @@
 
 #include "draw/mesh_frag.h"
 #include "draw/mesh_vert.h"
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/gpu/vulkan_api.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::drawing {
 namespace {

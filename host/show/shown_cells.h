@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/mesh/mesh.h"
 #include "host/show/map_scale.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

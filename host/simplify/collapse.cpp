@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/mesh/make_mesh.h"
 #include "host/mesh/position_index.h"
 #include "host/mesh/round_to_float.h"
+#include "vkhausdorff/error.h"
 #ifdef VKH_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

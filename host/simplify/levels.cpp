@@ -1,9 +1,9 @@
-#include "host/simplify/levels.h"
+#include "vkhausdorff/levels.h"
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/simplify/collapse.h"
 #include "host/simplify/judge.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -1,8 +1,8 @@
-#include "host/simplify/simplify.h"
+#include "vkhausdorff/simplify.h"
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/simplify/search.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

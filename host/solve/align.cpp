@@ -1,4 +1,4 @@
-#include "host/solve/align.h"
+#include "vkhausdorff/align.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "host/mesh/area_samples.h"
 #include "host/mesh/principal_axes.h"
 #include "host/read/transform.h"
-#include "host/solve/frame.h"
 #include "host/solve/pose_fitter.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "host/solve/frame.h"
-#include "host/solve/solve_options.h"
 #include "shaders/gpu_types.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/base/reject.h"
 #include "host/base/rounding.h"
 #include "host/mesh/face_point.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

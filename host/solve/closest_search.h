@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "host/solve/closest_points.h"
-#include "host/solve/frame.h"
 #include "host/solve/run.h"
+#include "vkhausdorff/closest_points.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 

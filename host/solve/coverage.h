@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "host/solve/report.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-#include "host/solve/stream.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh {
 

@@ -1,4 +1,4 @@
-#include "host/solve/face_gate.h"
+#include "vkhausdorff/face_gate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
-#include "host/solve/frame.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/solve/frame.h"
+#include "vkhausdorff/frame.h"
 
 #include <algorithm>
 #include <cmath>

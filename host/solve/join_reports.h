@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "host/solve/report.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh {
 

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "host/solve/frame.h"
 #include "host/solve/pair_buffers.h"
-#include "host/solve/report.h"
-#include "host/solve/solve_options.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/report.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <string>
 
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/gpu/vulkan_api.h"
 #include "host/solve/mesh_sizes.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/vkhausdorff.h"
 #include "host/gpu/memory.h"
 #include "host/solve/cells.h"
-#include "host/solve/frame.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 

@@ -6,8 +6,8 @@
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
-#include "host/solve/frame.h"
 #include "host/solve/switches.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 namespace {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "host/mesh/mesh.h"
-#include "host/solve/report.h"
-#include "host/solve/solve_options.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/report.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

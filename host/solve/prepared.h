@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

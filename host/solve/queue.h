@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "host/solve/stream.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh {
 

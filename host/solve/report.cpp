@@ -1,5 +1,5 @@
 // The words for a report's results, and the interval of one or two directions.
-#include "host/solve/report.h"
+#include "vkhausdorff/report.h"
 
 #include <algorithm>
 

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "engine/vkhausdorff_experimental.h"
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/gpu/vulkan_api.h"
 #include "host/solve/switches.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -1,9 +1,9 @@
 // Writes what a run did and where it found its witness into a report.
 #pragma once
 
-#include "host/solve/frame.h"
-#include "host/solve/report.h"
 #include "host/solve/run.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh {
 

@@ -1,4 +1,4 @@
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,19 +6,19 @@
 #include <map>
 #include <set>
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
 #include "host/solve/closest_search.h"
 #include "host/solve/coverage.h"
-#include "host/solve/frame.h"
 #include "host/solve/pair.h"
 #include "host/solve/run.h"
 #include "host/solve/run_report.h"
 #include "host/solve/switches.h"
 #include "host/solve/way_back.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 namespace {

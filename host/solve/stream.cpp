@@ -1,4 +1,4 @@
-#include "host/solve/stream.h"
+#include "vkhausdorff/stream.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,10 +6,10 @@
 #include <set>
 #include <thread>
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/solve/delivery.h"
 #include "host/solve/worker.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

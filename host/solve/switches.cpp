@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/vkhausdorff_experimental.h"
-#include "host/base/error.h"
 #include "shaders/gpu_types.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/vkhausdorff.h"
-#include "host/gpu/device.h"
-#include "host/solve/solve_options.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 

@@ -1,4 +1,4 @@
-#include "host/solve/together.h"
+#include "vkhausdorff/together.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
-#include "host/solve/frame.h"
 #include "host/solve/join_reports.h"
 #include "host/solve/part.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/solve/verify.h"
+#include "vkhausdorff/verify.h"
 
 #include <algorithm>
 #include <array>

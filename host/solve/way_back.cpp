@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "host/base/rounding.h"
-#include "host/solve/frame.h"
 #include "host/solve/switches.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 

@@ -1,8 +1,8 @@
 // The reverse direction, h(B, A), of a run of both directions.
 #pragma once
 
-#include "host/mesh/mesh.h"
-#include "host/solve/report.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh {
 

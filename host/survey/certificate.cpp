@@ -1,12 +1,12 @@
-#include "host/survey/certificate.h"
+#include "vkhausdorff/certificate.h"
 
 #include <bit>
 #include <cmath>
 #include <cstring>
 
-#include "host/base/error.h"
 #include "host/read/corners_hash.h"
 #include "host/survey/certificate_bytes.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

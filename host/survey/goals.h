@@ -9,7 +9,7 @@
 #include "host/base/parallel.h"
 #include "host/survey/estimate.h"
 #include "host/survey/statistics.h"
-#include "host/survey/survey.h"
+#include "vkhausdorff/survey.h"
 
 namespace vkh {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/length.h"
 #include "host/survey/goals.h"
 #include "host/survey/statistics.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/survey/metrics.h"
+#include "vkhausdorff/metrics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/survey/metrics.h"
+#include "vkhausdorff/metrics.h"
 
 namespace vkh {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/survey/prover.h"
+#include "vkhausdorff/prover.h"
 
 #include <algorithm>
 #include <atomic>

@@ -16,9 +16,9 @@
 #include <string>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/mesh/make_mesh.h"
 #include "host/survey/sets.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "host/mesh/mesh.h"
 #include "host/mesh/orientation.h"
 #include "host/mesh/triangle_tree.h"
-#include "host/survey/side.h"
 #include "host/survey/stoppable.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/side.h"
 
 namespace vkh {
 

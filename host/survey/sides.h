@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "host/survey/cell_store.h"
-#include "host/survey/field.h"
 #include "host/survey/shells.h"
 #include "host/survey/stoppable.h"
+#include "vkhausdorff/field.h"
 
 namespace vkh {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/survey/cell_store.h"
-#include "host/survey/field.h"
 #include "host/survey/sides.h"
+#include "vkhausdorff/field.h"
 
 namespace vkh {
 

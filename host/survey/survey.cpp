@@ -1,4 +1,4 @@
-#include "host/survey/survey.h"
+#include "vkhausdorff/survey.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,10 +1,10 @@
-#include "host/write/colour_map.h"
+#include "vkhausdorff/colour_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/write/bytes.h"
 #include "host/write/rounded.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "host/base/decimal.h"
-#include "host/base/error.h"
 #include "host/mesh/round_to_float.h"
 #include "host/write/bytes.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

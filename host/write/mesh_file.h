@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

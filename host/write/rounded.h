@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "host/mesh/round_to_float.h"
-#include "host/write/field_file.h"
+#include "vkhausdorff/field_file.h"
 
 namespace vkh {
 

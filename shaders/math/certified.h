@@ -20,8 +20,8 @@ VKH_LIB_BEGIN
 VKH_CONST float kUlp = 1.1920929e-7f;  // 2^-23
 
 // Covers every flush to zero. A square under 2^-126 comes from a length under 2^-63; the few that
-// are added in one formula stay under this. Coordinates are of order 1 (host/solve/frame.h), so
-// this is 2^-40 of an ulp.
+// are added in one formula stay under this. Coordinates are of order 1
+// (host/include/vkhausdorff/frame.h), so this is 2^-40 of an ulp.
 VKH_CONST float kTiny = 8.6736174e-19f;  // 2^-60
 
 // Denominators under this are squares of lengths under 2^-48, far below an ulp of the coordinates:

@@ -15,9 +15,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "host/base/error.h"
 #include "host/base/output_file.h"
 #include "tests/support/program.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -13,9 +13,9 @@
 #include <sstream>
 #include <thread>
 
-#include "host/answer/answer.h"
-#include "host/solve/solver.h"
 #include "tests/support/program.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

@@ -14,8 +14,8 @@
 #include "host/answer/record.h"
 #include "host/answer/tables.h"
 #include "host/base/byte_order_mark.h"
-#include "host/base/error.h"
 #include "tests/support/files.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "host/answer/json_object.h"
 #include "host/answer/merge.h"
 #include "host/answer/rank.h"
-#include "host/base/error.h"
 #include "tests/support/files.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/answer/answer.h"
 #include "tests/support/program.h"
+#include "vkhausdorff/answer.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // PairStream: every pair that is pushed is delivered once, with the answer that it has alone.
-#include "host/solve/stream.h"
+#include "vkhausdorff/stream.h"
 
 #include <doctest/doctest.h>
 
@@ -8,11 +8,11 @@
 #include <mutex>
 
 #include "host/answer/session.h"
-#include "host/base/error.h"
 #include "host/solve/budget.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

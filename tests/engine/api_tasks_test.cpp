@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "tests/shapes/shapes.h"
 #include "host/gpu/vulkan_api.h"
+#include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
 

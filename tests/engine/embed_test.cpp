@@ -9,12 +9,12 @@
 #include <string>
 #include <thread>
 
-#include "host/base/error.h"
 #include "host/gpu/vulkan_api.h"
-#include "host/solve/frame.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
 
 namespace {
 

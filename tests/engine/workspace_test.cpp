@@ -6,11 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "host/base/error.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

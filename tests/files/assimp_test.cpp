@@ -15,11 +15,11 @@
 #include <map>
 #include <optional>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "tests/files/gltf_document.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/files.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "tests/support/error_line.h"
 #include "tests/support/program.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace {
 

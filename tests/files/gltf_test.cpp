@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "tests/files/gltf_document.h"
 #include "tests/support/program.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 using namespace vkh;
 using namespace vkh::test;

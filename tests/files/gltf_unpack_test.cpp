@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-#include "host/base/error.h"
 #include "tests/files/gltf_document.h"
 #include "tests/shapes/shapes.h"
+#include "vkhausdorff/error.h"
 
 #ifdef VKH_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>

@@ -1,5 +1,5 @@
 // The mesh readers: the coordinates as given in every format, and errors that name their place.
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/mesh_io.h"
 
 #include <doctest/doctest.h>
 
@@ -10,10 +10,10 @@
 #include <fstream>
 #include <random>
 
-#include "host/base/error.h"
-#include "host/base/note.h"
 #include "host/read/readers.h"
 #include "tests/support/error_line.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/note.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // place(): exact images in rationals beside the rounded ones, and the matrices that are read.
-#include "host/read/place.h"
+#include "vkhausdorff/place.h"
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <random>
 
-#include "host/base/error.h"
-#include "host/base/length.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/length.h"
 
 namespace {
 

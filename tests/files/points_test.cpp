@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/read/readers.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

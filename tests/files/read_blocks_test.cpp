@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "host/read/readers.h"
 #include "tests/shapes/mesh_files.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace {
 

@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/hash_index.h"
 #include "host/read/readers.h"
 #include "tests/files/worst_scenes.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

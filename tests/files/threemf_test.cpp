@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/base/error.h"
 #include "host/read/readers.h"
 #include "tests/files/stored_zip.h"
 #include "tests/support/error_line.h"
 #include "tests/support/program.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/error.h"
 
 using namespace vkh;
 using namespace vkh::test;

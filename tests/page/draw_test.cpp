@@ -13,9 +13,9 @@
 #include <map>
 #include <set>
 
-#include "host/base/error.h"
 #include "host/show/canvas.h"
 #include "tests/support/kernel_bench.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

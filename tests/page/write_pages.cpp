@@ -8,10 +8,10 @@
 #include <string>
 
 #include "host/batch/index.h"
-#include "host/read/mesh_io.h"
 #include "host/show/page.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

@@ -1,14 +1,14 @@
 // Fits: a mesh that was moved comes back, whatever its shape; what has several places says so.
-#include "host/solve/align.h"
+#include "vkhausdorff/align.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/base/error.h"
 #include "host/mesh/default_pair.h"
-#include "host/read/place.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/place.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -6,9 +6,9 @@
 
 #include <cstddef>
 
-#include "host/read/mesh_io.h"
-#include "host/solve/solver.h"
-#include "host/survey/prover.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/prover.h"
+#include "vkhausdorff/solver.h"
 
 static_assert(sizeof(glm::dvec3) == 32, "GLM aligns here");
 static_assert(sizeof(vkh::DVec3) == 24 && sizeof(vkh::UVec3) == 12);

@@ -1,13 +1,13 @@
 // An Asking: the answer of the steps, known at any time, ended by its caller, a token or its end.
-#include "host/answer/asking.h"
+#include "vkhausdorff/asking.h"
 
 #include <doctest/doctest.h>
 
 #include <chrono>
 
 #include "host/answer/steps.h"
-#include "host/base/error.h"
 #include "tests/shapes/shapes.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

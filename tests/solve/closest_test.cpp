@@ -6,11 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "tests/shapes/adversarial.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/error.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/survey/survey.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/survey.h"
 
 namespace {
 

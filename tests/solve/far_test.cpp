@@ -2,9 +2,9 @@
 // names any. A proof must not halve A if halving cannot help.
 #include <cmath>
 
-#include "host/survey/prover.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/prover.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -3,12 +3,12 @@
 // (shaders/wave/subroot.glsl).
 #include <cmath>
 
-#include "host/solve/verify.h"
-#include "host/survey/prover.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/model/arithmetic.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/prover.h"
+#include "vkhausdorff/verify.h"
 
 using namespace vkh;
 using namespace vkh::test;

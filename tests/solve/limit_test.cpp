@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/error.h"
-#include "host/solve/face_gate.h"
-#include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/face_gate.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

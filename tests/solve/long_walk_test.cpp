@@ -3,11 +3,11 @@
 // (docs/certificate.md, "Loops that a driver ends"): bounds stay true there, if wider.
 #include <doctest/doctest.h>
 
-#include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/cell_check.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

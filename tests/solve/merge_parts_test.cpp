@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

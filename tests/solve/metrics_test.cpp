@@ -1,6 +1,6 @@
 // Metrics by name: formulas against exact arithmetic, closed forms, and generated pairs whose
 // distributions are known exactly. VKH_METRICS_PAIRS: how many pairs (nightly: 5000).
-#include "host/survey/metrics.h"
+#include "vkhausdorff/metrics.h"
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
@@ -14,11 +14,11 @@
 #include <optional>
 #include <vector>
 
-#include "host/answer/asking.h"
 #include "host/answer/exit_code.h"
 #include "host/survey/distribution.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/asking.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 
-#include "host/base/error.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/error.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <set>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "tests/support/program.h"
 #include "tools/pairs/noisy_torus.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/solve/together.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/together.h"
 
 namespace {
 

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "host/read/mesh_io.h"
 #include "tests/shapes/shapes.h"
 #include "tests/verification/oracle/cgal_oracle.h"
 #include "tests/verification/oracle/exact.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/mesh_io.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -1,9 +1,9 @@
 // False bounds, as a driver that rounds wrongly might report them. The writer of certificates
 // proves by arithmetic of its own, so a false upper bound is raised to a true one, and soon. Lower
 // bounds it takes as they are: vkh_check refuses those (tests/verification/check).
-#include "host/survey/prover.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/prover.h"
 
 using namespace vkh;
 using namespace vkh::test;

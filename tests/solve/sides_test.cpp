@@ -11,12 +11,12 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "host/base/error.h"
 #include "host/survey/cell_corners.h"
 #include "tests/shapes/adversarial.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/tally.h"
 #include "tests/verification/oracle/exact_side.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

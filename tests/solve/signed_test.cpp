@@ -8,12 +8,12 @@
 #include <numeric>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/survey/sides.h"
 #include "host/survey/statistics.h"
-#include "host/survey/survey.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/survey.h"
 
 namespace {
 

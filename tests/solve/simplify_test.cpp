@@ -1,6 +1,6 @@
 // Simplified meshes against the tests' own solver: what is said to be within the limit is, both
 // ways; vertices are A's; and what cannot be found is said.
-#include "host/simplify/simplify.h"
+#include "vkhausdorff/simplify.h"
 
 #include <doctest/doctest.h>
 
@@ -10,11 +10,11 @@
 #include <set>
 #include <tuple>
 
-#include "host/base/error.h"
 #include "host/simplify/collapse.h"
-#include "host/simplify/levels.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/levels.h"
 
 using namespace vkh;
 using namespace vkh::test;

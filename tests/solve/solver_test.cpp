@@ -1,6 +1,6 @@
 // Whole runs against closed forms and against themselves: changes that must not change the answer,
 // and changes that must change it by a known amount.
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 #include <doctest/doctest.h>
 
@@ -9,11 +9,11 @@
 #include <limits>
 #include <string>
 
-#include "host/base/error.h"
 #include "host/base/rounding.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

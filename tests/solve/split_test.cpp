@@ -7,13 +7,13 @@
 #include <set>
 #include <tuple>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/program.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/exact.h"
 #include "tools/pairs/subdivision.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 using namespace vkh;
 using namespace vkh::test;

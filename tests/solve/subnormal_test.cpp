@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "host/solve/solver.h"
-#include "host/solve/verify.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/verify.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -1,6 +1,6 @@
 // Surveys: closed forms lie in the certified intervals, faces meet the tests' own solver, random
 // points agree, a survey that ends early is true, and one that does not is the same each time.
-#include "host/survey/survey.h"
+#include "vkhausdorff/survey.h"
 
 #include <doctest/doctest.h>
 

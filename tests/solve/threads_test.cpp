@@ -7,9 +7,9 @@
 #include <thread>
 #include <vector>
 
-#include "host/base/error.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

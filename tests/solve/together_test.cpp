@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

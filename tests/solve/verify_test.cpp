@@ -1,17 +1,17 @@
 // The host's check of the witness against exact arithmetic: it encloses d(p, B), accepts true
 // bounds and refuses a lower bound that is too large by 1e-12 of the distance.
-#include "host/solve/verify.h"
+#include "vkhausdorff/verify.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "host/solve/coverage.h"
-#include "host/solve/solver.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/verification/model/arithmetic.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/solver.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -8,8 +8,8 @@
 
 #include "engine/vkhausdorff_experimental.h"
 #include "host/gpu/memory.h"
-#include "host/mesh/mesh.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

@@ -11,7 +11,7 @@
 #include "engine/record.h"
 #include "engine/vkhausdorff_experimental.h"
 #include "host/gpu/memory.h"
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

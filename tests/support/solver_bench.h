@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "host/solve/solver.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh::test {
 

@@ -9,7 +9,7 @@
 
 #include "host/answer/json_object.h"
 #include "host/answer/merge_parts.h"
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -1,12 +1,12 @@
 // An error has its parts, one line and a kind, and the kind alone decides the exit code.
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 #include <doctest/doctest.h>
 
 #include <new>
 
-#include "host/answer/answer.h"
 #include "host/base/reject.h"
+#include "vkhausdorff/answer.h"
 
 namespace {
 

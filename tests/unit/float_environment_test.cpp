@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "host/read/mesh_io.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/files.h"
 #include "tests/support/solver_bench.h"
 #include "tests/support/tally.h"
+#include "vkhausdorff/mesh_io.h"
 
 using namespace vkh;
 using namespace vkh::test;

@@ -1,6 +1,6 @@
 // host/solve/frame.cpp against exact rationals: no vertex is displaced by more than the frame
 // states, and lengths come back rounded outward, subnormal and huge coordinates included.
-#include "host/solve/frame.h"
+#include "vkhausdorff/frame.h"
 
 #include <algorithm>
 #include <cmath>

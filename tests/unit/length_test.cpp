@@ -1,5 +1,5 @@
 // Lengths as typed, and their enclosing intervals in the files' unit.
-#include "host/base/length.h"
+#include "vkhausdorff/length.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <string>
 
 #include "host/base/decimal.h"
-#include "host/base/length.h"
 #include "host/read/readers.h"
 #include "host/write/rounded.h"
 #include "tests/support/files.h"
+#include "vkhausdorff/length.h"
 
 namespace {
 

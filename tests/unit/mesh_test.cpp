@@ -1,5 +1,5 @@
 // make_mesh: the faces that it drops and refuses, and its counts against exact arithmetic.
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Polygons as triangles: exact area, no overlap, the fan if it is right, and old files.
-#include "host/mesh/polygon.h"
+#include "vkhausdorff/polygon.h"
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/read/readers.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {

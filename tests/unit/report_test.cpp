@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/answer/answer.h"
 #include "host/answer/options.h"
-#include "host/base/error.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "host/base/error.h"
 #include "host/base/output_file.h"
-#include "host/read/mesh_io.h"
 #include "tests/support/files.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace fs = std::filesystem;
 using namespace vkh;

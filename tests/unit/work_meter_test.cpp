@@ -1,5 +1,5 @@
 // A WorkMeter's fraction never falls, its interval never widens, and 1 comes with the answer.
-#include "host/answer/work_meter.h"
+#include "vkhausdorff/work_meter.h"
 
 #include <doctest/doctest.h>
 

@@ -11,11 +11,11 @@
 #include <cstdio>
 
 #include "host/base/parallel.h"
-#include "host/solve/solver.h"
-#include "host/survey/survey.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/cell_check.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/survey.h"
 
 namespace {
 

@@ -19,12 +19,12 @@
 
 #include "host/answer/options.h"
 #include "host/base/parallel.h"
-#include "host/read/mesh_io.h"
-#include "host/solve/solver.h"
-#include "host/survey/survey.h"
 #include "tests/shapes/shapes.h"
 #include "tests/verification/oracle/reference_solver.h"
 #include "tools/bench/manifest.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/survey.h"
 
 namespace vkh::bench {
 namespace {

@@ -18,12 +18,12 @@
 #include <map>
 
 #include "host/answer/options.h"
-#include "host/read/mesh_io.h"
-#include "host/solve/solver.h"
 #include "tools/bench/manifest.h"
 #include "tools/bench/table.h"
 #include "tools/bench/together.h"
 #include "tools/bench/variant.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh::bench {
 namespace {

@@ -18,10 +18,10 @@
 #include <map>
 #include <random>
 
-#include "host/base/sha256.h"
-#include "host/solve/solver.h"
-#include "host/survey/certificate.h"
 #include "tests/shapes/hard_pairs.h"
+#include "vkhausdorff/certificate.h"
+#include "vkhausdorff/sha256.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

@@ -21,9 +21,9 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/hash_index.h"
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh::bench {
 namespace {

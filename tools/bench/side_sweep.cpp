@@ -17,13 +17,13 @@
 #include <numeric>
 
 #include "host/base/parallel.h"
-#include "host/read/mesh_io.h"
-#include "host/solve/solver.h"
 #include "host/survey/cell_corners.h"
 #include "host/survey/signed_figures.h"
-#include "host/survey/survey.h"
 #include "tests/shapes/shapes.h"
 #include "tests/verification/oracle/exact_side.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/survey.h"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/read/mesh_io.h"
 #include "host/simplify/collapse.h"
 #include "host/simplify/judge.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 namespace {

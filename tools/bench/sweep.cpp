@@ -20,10 +20,10 @@
 #include <thread>
 
 #include "host/base/decimal.h"
-#include "host/solve/solver.h"
-#include "host/solve/verify.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/verify.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/solve/report.h"
 #include "tools/bench/manifest.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh::bench {
 

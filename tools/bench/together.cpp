@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <map>
 
-#include "host/read/mesh_io.h"
 #include "tools/bench/table.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh::bench {
 namespace {

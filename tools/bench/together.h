@@ -2,8 +2,8 @@
 // (Solver::distances), alternately; one CSV row per group.
 #pragma once
 
-#include "host/solve/solver.h"
 #include "tools/bench/manifest.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh::bench {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh::bench {
 

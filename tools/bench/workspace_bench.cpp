@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "engine/vkhausdorff.h"
-#include "host/base/error.h"
-#include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh::bench {
 namespace {

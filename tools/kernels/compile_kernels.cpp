@@ -18,9 +18,9 @@
 #include "engine/kernels.h"
 #include "engine/vkhausdorff_experimental.h"
 #include "host/app/self_test.h"
-#include "host/base/error.h"
-#include "host/gpu/device.h"
 #include "host/show/raster.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 

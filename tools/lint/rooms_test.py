@@ -24,6 +24,20 @@ ROOMS = {
 FLOORS = list(ROOMS)
 OUTSIDE = {"gpu_types.h", "stages.h"}  # seen by both languages: before every room
 BESIDE = {"host/python", "tests/package", "tests/verification/layer"}  # with builds of their own: after all of the floor's rooms
+# The public headers of host/ lie in one folder, as they are installed; each belongs to a room.
+PUBLIC = {
+    "base": "error length limit note sha256",
+    "gpu": "device device_description",
+    "mesh": "file_faces mesh mesh_transform polygon",
+    "read": "mesh_io place read_limits",
+    "solve": "align closest_points face_gate frame report solve_options solver stream together verify",
+    "survey": "cell_map certificate field metrics prover side survey",
+    "write": "colour_map field_file",
+    "simplify": "levels simplify",
+    "answer": "answer asking question work_meter",
+}
+PUBLIC_FOLDER = "host/include/vkhausdorff"
+ROOM_OF_PUBLIC = {f"{PUBLIC_FOLDER}/{name}.h": room for room, names in PUBLIC.items() for name in names.split()}
 INCLUDING = {".h", ".c", ".cpp", ".glsl", ".comp"}
 SOURCES = {*INCLUDING, ".py", ".sh"}
 
@@ -35,8 +49,9 @@ def files_of(root):
         for path in sorted((root / floor).rglob("*")):
             if path.suffix in SOURCES:
                 text = path.read_text() if path.suffix in INCLUDING else ""
-                out[path.relative_to(root).as_posix()] = re.findall(
-                    r'^\s*#\s*include "((?:host|shaders|tests)/[^"]+)"', text, re.M)
+                found = re.findall(r'^\s*#\s*include "((?:host|shaders|tests|vkhausdorff)/[^"]+)"', text, re.M)
+                out[path.relative_to(root).as_posix()] = [
+                    f"host/include/{name}" if name.startswith("vkhausdorff/") else name for name in found]
     return out
 
 
@@ -44,6 +59,7 @@ def level_of(path):
     """The place of a file's room on its floor; None for a file that is in none."""
     floor, _, inner = path.partition("/")
     room, _, name = inner.rpartition("/")
+    room = ROOM_OF_PUBLIC.get(path, room)
     if not room:
         return -1 if name in OUTSIDE else None
     if any(path.startswith(f"{beside}/") for beside in BESIDE):

@@ -15,12 +15,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/base/system.h"
 #include "host/batch/list.h"
-#include "host/read/mesh_io.h"
-#include "host/solve/frame.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::pairs {
 

@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "host/base/error.h"
 #include "tools/pairs/noisy_torus.h"
+#include "vkhausdorff/error.h"
 
 int main(int argc, char** argv) {
   uint64_t faces = 0, seed = 0;

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "host/base/error.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::pairs {
 namespace {

@@ -16,10 +16,10 @@
 #include <cstdio>
 #include <optional>
 
-#include "host/base/error.h"
 #include "host/base/system.h"
-#include "host/read/mesh_io.h"
 #include "tools/pairs/subdivision.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <optional>
 
-#include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::pairs {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "host/mesh/mesh.h"
 #include "tools/pairs/dyadic.h"
 #include "tools/pairs/ply_stream.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::pairs {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/solve/together.h"
 #include "tests/shapes/shapes.h"
 #include "tests/verification/faults/trial.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/together.h"
 
 namespace {
 

@@ -9,15 +9,15 @@
 #include <sstream>
 #include <string>
 
-#include "host/answer/answer.h"
-#include "host/gpu/device.h"
-#include "host/read/mesh_io.h"
-#include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/program.h"
 #include "tests/support/tally.h"
 #include "tests/verification/faults/failing_new.h"
 #include "tests/verification/faults/trial.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

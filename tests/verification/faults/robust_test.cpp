@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/shapes/shapes.h"
 #include "host/gpu/vulkan_api.h"
+#include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/kernel_bench.h"
 #include "tests/verification/faults/trial.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
 #include "tests/verification/faults/test_layer.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh::test {
 

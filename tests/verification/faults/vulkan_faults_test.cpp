@@ -9,12 +9,12 @@
 #include <string>
 
 #include "host/app/self_test.h"
-#include "host/gpu/device.h"
 #include "host/show/draw.h"
-#include "host/solve/solver.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/tally.h"
 #include "tests/verification/faults/trial.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

@@ -1,11 +1,12 @@
 #include "tests/verification/fuzz/pair_bench.h"
-#include "host/gpu/vulkan_api.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
+
+#include "host/gpu/vulkan_api.h"
 
 namespace vkh::test {
 namespace {

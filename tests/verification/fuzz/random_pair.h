@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

@@ -11,13 +11,13 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/base/note.h"
 #include "host/read/readers.h"
 #include "tests/files/stored_zip.h"
 #include "tests/verification/fuzz/allocations.h"
 #include "tests/verification/fuzz/fuzz_target.h"
 #include "tests/verification/fuzz/mesh_mutator.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/note.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "host/mesh/mesh.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

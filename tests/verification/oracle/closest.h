@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

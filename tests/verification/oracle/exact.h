@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

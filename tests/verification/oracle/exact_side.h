@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "host/mesh/mesh.h"
 #include "tests/verification/oracle/closest.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

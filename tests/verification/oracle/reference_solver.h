@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "host/mesh/mesh.h"
 #include "tests/verification/oracle/closest.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
 

@@ -12,7 +12,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "host/read/mesh_io.h"
+#include "vkhausdorff/mesh_io.h"
 #ifdef VKH_FAST_ENVELOPE
 #include <fastenvelope/FastEnvelope.h>
 #else

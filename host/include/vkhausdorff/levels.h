@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "host/simplify/simplify.h"
+#include "vkhausdorff/simplify.h"
 
 namespace vkh {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/limit.h"
+#include "vkhausdorff/limit.h"
 
 namespace vkh {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "host/mesh/polygon.h"
+#include "vkhausdorff/polygon.h"
 
 namespace vkh {
 

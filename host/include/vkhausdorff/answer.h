@@ -10,16 +10,16 @@
 #include <string_view>
 #include <vector>
 
-#include "host/answer/question.h"
-#include "host/base/error.h"
-#include "host/base/length.h"
-#include "host/base/note.h"
-#include "host/base/sha256.h"
-#include "host/solve/frame.h"
-#include "host/solve/report.h"
-#include "host/survey/metrics.h"
-#include "host/survey/prover.h"
-#include "host/survey/survey.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/length.h"
+#include "vkhausdorff/metrics.h"
+#include "vkhausdorff/note.h"
+#include "vkhausdorff/prover.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/report.h"
+#include "vkhausdorff/sha256.h"
+#include "vkhausdorff/survey.h"
 
 namespace vkh {
 

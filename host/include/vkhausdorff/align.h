@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "host/mesh/mesh_transform.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/mesh_transform.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "host/base/note.h"
-#include "host/mesh/file_faces.h"
-#include "host/mesh/mesh_transform.h"
+#include "vkhausdorff/file_faces.h"
+#include "vkhausdorff/mesh_transform.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <stop_token>
 
-#include "host/answer/answer.h"
-#include "host/answer/question.h"
-#include "host/answer/work_meter.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/work_meter.h"
 
 namespace vkh {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "host/base/limit.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/limit.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "host/mesh/mesh.h"
-#include "host/solve/solver.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "host/solve/solve_options.h"
-#include "host/solve/solver.h"
-#include "host/survey/cell_map.h"
-#include "host/survey/field.h"
+#include "vkhausdorff/cell_map.h"
+#include "vkhausdorff/field.h"
+#include "vkhausdorff/solve_options.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

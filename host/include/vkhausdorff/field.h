@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "host/solve/report.h"
-#include "host/survey/side.h"
+#include "vkhausdorff/report.h"
+#include "vkhausdorff/side.h"
 
 namespace vkh {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/device_description.h"
-#include "host/mesh/mesh.h"
-#include "host/solve/solve_options.h"
+#include "vkhausdorff/device_description.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 
@@ -76,7 +76,7 @@ struct Times {
   double wall_ms = 0;       ///< host clock around Solver::distance
 };
 
-/// The host's own check of a run, asked for with --verify (host/solve/verify.h).
+/// The host's own check of a run, asked for with --verify (host/include/vkhausdorff/verify.h).
 struct WitnessCheck {
   double distance_lower = 0, distance_upper = 0;  ///< enclose d(witness, B), in the files' units
   bool holds = false;  ///< every face of B is at least `lower` away from the witness

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "host/answer/answer.h"
-#include "host/answer/question.h"
+#include "vkhausdorff/answer.h"
+#include "vkhausdorff/question.h"
 
 namespace vkh {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "host/survey/prover.h"
+#include "vkhausdorff/prover.h"
 
 namespace vkh {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "host/gpu/device.h"
-#include "host/mesh/mesh.h"
-#include "host/solve/closest_points.h"
-#include "host/solve/report.h"
-#include "host/solve/solve_options.h"
+#include "vkhausdorff/closest_points.h"
+#include "vkhausdorff/device.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/report.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 

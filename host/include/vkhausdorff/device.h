@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/vkhausdorff.h"
-#include "host/gpu/device_description.h"
+#include "vkhausdorff.h"
+#include "vkhausdorff/device_description.h"
 
 namespace vkh {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/mesh/mesh.h"
-#include "host/read/read_limits.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/read_limits.h"
 
 namespace vkh {
 

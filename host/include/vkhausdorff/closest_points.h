@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "host/survey/field.h"
-#include "host/survey/side.h"
+#include "vkhausdorff/field.h"
+#include "vkhausdorff/side.h"
 
 namespace vkh {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/solve/report.h"
-#include "host/survey/field.h"
-#include "host/survey/survey.h"
+#include "vkhausdorff/field.h"
+#include "vkhausdorff/report.h"
+#include "vkhausdorff/survey.h"
 
 namespace vkh {
 

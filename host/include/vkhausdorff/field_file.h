@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/survey/field.h"
-#include "host/write/colour_map.h"
+#include "vkhausdorff/colour_map.h"
+#include "vkhausdorff/field.h"
 
 namespace vkh {
 

@@ -2,8 +2,8 @@
 // and from other formulas than the device's.
 #pragma once
 
-#include "host/mesh/mesh.h"
-#include "host/solve/report.h"
+#include "vkhausdorff/mesh.h"
+#include "vkhausdorff/report.h"
 
 namespace vkh {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-#include "host/mesh/mesh.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/limit.h"
+#include "vkhausdorff/limit.h"
 
 namespace vkh {
 
@@ -63,8 +63,8 @@ struct SolveOptions {
   /// within the tolerance of it are closed, and a run that this decides ends as Status::kPruned.
   double known_lower = 0;
   /// Asked between submissions, on the thread that runs: a known_lower that has risen since, such
-  /// as what other devices found (host/solve/together.h). How much is pruned then depends on when
-  /// it rises. Empty: none.
+  /// as what other devices found (host/include/vkhausdorff/together.h). How much is pruned then
+  /// depends on when it rises. Empty: none.
   std::function<double()> known_since;
   /// Asks only whether the distance is within it: candidates within it are closed, and the run ends
   /// as soon as either answer is proven, as Status::kLimit (verdict_of). Neither is proven if the

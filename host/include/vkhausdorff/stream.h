@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "host/solve/solver.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 

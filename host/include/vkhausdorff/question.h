@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "host/base/length.h"
-#include "host/base/limit.h"
-#include "host/mesh/mesh_transform.h"
-#include "host/read/read_limits.h"
-#include "host/solve/solve_options.h"
-#include "host/survey/metrics.h"
+#include "vkhausdorff/length.h"
+#include "vkhausdorff/limit.h"
+#include "vkhausdorff/mesh_transform.h"
+#include "vkhausdorff/metrics.h"
+#include "vkhausdorff/read_limits.h"
+#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 
