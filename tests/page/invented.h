@@ -140,7 +140,7 @@ struct Invented {
   }
 
   static Input input(const std::string& path, const Mesh& mesh, char digit) {
-    Input out{path, true, mesh.counts, {}};
+    Input out{.path = path, .is_read = true, .counts = mesh.counts};
     out.sha256 = std::string(60, digit) + "0a1f";
     return out;
   }
