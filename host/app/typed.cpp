@@ -318,6 +318,11 @@ void add_unit_and_input(CLI::App& command, Typed& typed) {
       ->type_name("UNIT");
   add_placement(command, typed);
   add_input_options(command, typed);
+  command
+      .add_option("--points", typed.points,
+                  "Which files are points without faces: PLY, OBJ, OFF, XYZ, PTS or LAS; their "
+                  "figures weigh points, not areas [none]")
+      ->type_name("a|b|both");
 }
 
 void add_input_options(CLI::App& command, Typed& typed) {
@@ -336,11 +341,6 @@ void add_input_options(CLI::App& command, Typed& typed) {
                   "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
                   "as it lies, such as modifiers, negative volumes and hidden nodes [solid]")
       ->type_name("solid|all");
-  command
-      .add_option("--points", typed.points,
-                  "Which files are points without faces: PLY, OBJ, OFF, XYZ, PTS or LAS; their "
-                  "figures weigh points, not areas [none]")
-      ->type_name("a|b|both");
 }
 
 void add_placement(CLI::App& command, Typed& typed) {

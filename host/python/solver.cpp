@@ -320,10 +320,10 @@ py::object simplified(const py::args& positional, const py::kwargs& named) {
 Result distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "distance",
-      {"va",     "fa",         "vb",        "fb",      "tol",         "symmetric",   "device",
-       "time",   "waves",      "memory",    "disable", "progress",    "enable",      "preset",
-       "field",  "statistics", "signed",    "bands",   "effort",      "survey_time", "certificate",
-       "unit_a", "unit_b",     "transform", "scale",   "on_progress", "max_distance"},
+      {"va",     "fa",         "vb",        "fb",      "tol",      "symmetric",   "device",
+       "time",   "waves",      "memory",    "disable", "progress", "enable",      "preset",
+       "field",  "statistics", "signed",    "bands",   "effort",   "survey_time", "certificate",
+       "unit_a", "unit_b",     "transform", "scale",   "align",    "on_progress", "max_distance"},
       4,
       6};
   const Call call;
@@ -337,10 +337,11 @@ Result distance(const py::args& positional, const py::kwargs& named) {
 Result gate(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "gate",
-      {"a",          "b",      "max",       "tol",      "symmetric", "device",      "time",
-       "waves",      "memory", "disable",   "progress", "enable",    "preset",      "field",
-       "statistics", "signed", "bands",     "area",     "effort",    "survey_time", "certificate",
-       "unit_a",     "unit_b", "transform", "scale",    "worst",     "on_progress", "max_distance"},
+      {"a",      "b",           "max",         "tol",         "symmetric",   "device",
+       "time",   "waves",       "memory",      "disable",     "progress",    "enable",
+       "preset", "field",       "statistics",  "signed",      "bands",       "area",
+       "effort", "survey_time", "certificate", "unit_a",      "unit_b",      "transform",
+       "scale",  "align",       "worst",       "on_progress", "max_distance"},
       3,
       3};
   const Call call;

@@ -89,8 +89,9 @@ void check_refused(const Words& words, int exit_code, const std::string& mention
 TEST_CASE("usage errors: exit code 2 and one line") {
   const Words pair = {"distance", square_a(), square_b()};
   check_refused({}, 2, "subcommand");
-  check_refused({"distanse", "a", "b"}, 2,
-                "'distanse': expected distance, gate, metrics, batch, merge, demo or doctor");
+  check_refused(
+      {"distanse", "a", "b"}, 2,
+      "'distanse': expected distance, gate, metrics, batch, merge, simplify, demo or doctor");
   check_refused({"distance"}, 2, "A is required");
   check_refused({"distance", square_a()}, 2, "B is required");
   check_refused(pair + Words{"third.obj"}, 2, "third.obj");

@@ -31,7 +31,7 @@ _vkhausdorff() {
   case $command in
     distance) options="$search $outputs $files --save-transform --certificate --part --known-lower" ;;
     gate) options="$search $outputs $files --save-transform --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
-    metrics) options="$search $files --percentile --bands --tol --effort --json --verbose --verify" ;;
+    metrics) options="$search $files --save-transform --percentile --bands --tol --effort --json --verbose --verify" ;;
     batch)
       options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands $files"
       options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
