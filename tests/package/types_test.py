@@ -150,7 +150,7 @@ class Types(unittest.TestCase):
         core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
         said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
         self.assertEqual(said, public)
-        in_python = {"Closest", "Field", "Interval", "Metrics", "SidedPoint", "Signed", "SignedField", "Simplified", "Survey", "Witness", "assert_within", "distances", "metrics"}
+        in_python = {"Alignment", "Closest", "Field", "Interval", "Metrics", "SidedPoint", "Signed", "SignedField", "Simplified", "Survey", "Witness", "assert_within", "distances", "metrics"}
         self.assertEqual(core | in_python, public, "the package does not pass on what the module has")
         self.assertEqual(set(vkh.__all__), public | {"__version__"})
 
