@@ -262,7 +262,7 @@ ShownMesh mesh_of_cells(const Mesh& mesh, const std::vector<ShownCell>& cells) {
   return shown;
 }
 
-// What one shown face tells of all that it stands for.
+// Values that one shown face has for all faces that it stands for.
 class Worst {
  public:
   void add(const ShownValue& value) {

@@ -34,7 +34,7 @@ struct Shown {
 /// vanishes gets a shown face of its cell, or one of them that is shown as it is.
 Shown shown_of(const Mesh& mesh, size_t most_faces);
 
-/// What a page shows: triangles, each with the distances that are shown of it.
+/// The triangles that a page shows, each with the distances that are shown of it.
 struct ShownMesh {
   Place place;
   std::vector<std::array<uint16_t, 3>> vertices = {};  ///< 65535 to a unit of `place`

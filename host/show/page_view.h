@@ -24,7 +24,7 @@ std::string file_name_in(const PageText& page, bool is_b);
 /// Title, files, verdict, warnings and the facts beside them: what stands above all else.
 nlohmann::ordered_json head_view(const PageText& page, const std::string& title);
 
-/// What a page says of one direction.
+/// The part of a page about one direction.
 struct SideText {
   const Picture& drawn;
   const drawing::MapScale& scale;

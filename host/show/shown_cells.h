@@ -21,7 +21,7 @@ struct ShownValue {
   bool is_sideless = false;  ///< a map has sides, and none for it: `at` is without a sign
 };
 
-/// What a cell of a map shows.
+/// The shown values of a cell of a map.
 ShownValue shown_value(const CellMap& map, const drawing::MapScale& scale, const MapCell& cell);
 
 struct ShownCell {

@@ -216,7 +216,7 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
                            const Areas& areas, std::vector<Enclosure>& known) {
   std::vector<Goal> goals;
   Asked asked{options, pair.displacement, pair.frame, least_width(pair)};
-  // What is kept is to be known as well as any share.
+  // The share that is kept is sought as narrowly as any share.
   if (options.max_distance) asked.options.bands.push_back(options.max_distance->within);
   if (options.faces && options.limit.within > 0)
     goals.emplace_back([asked](const CellStore& store) { return score_verdicts(store, asked); });

@@ -157,7 +157,8 @@ Enclosure weighted_rms(const Enclosure& weight, const Enclosure& x, const Enclos
 
 namespace {
 
-// What is enough for lengths and shares: the surveys' goals, and what roundings add to them.
+// Widths that are enough for lengths and shares: the surveys' goals, and what roundings add to
+// them.
 class Goals {
  public:
   Goals(const MeasuredDirection& a, const MeasuredDirection& b)

@@ -78,7 +78,7 @@ double mean_lower(const gpu::CellBounds& bounds);
 struct Moments {
   Enclosure mean, rms;  ///< in the frame
 };
-/// Those of all of A, where a distance beyond `most` counts as 0.
+/// Moments of all of A, where a distance beyond `most` counts as 0.
 Moments moments_of(const CellStore& cells, const Areas& areas,
                    const Threshold& most = {std::numeric_limits<double>::infinity(),
                                             std::numeric_limits<double>::infinity()});
