@@ -16,7 +16,7 @@ std::string with_commas(uint64_t number) {
   return text;
 }
 
-std::string length_words(std::string number, const std::string& unit) {
+std::string length_words(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
 
