@@ -164,6 +164,8 @@ Written SimplifyCommand::write(const Mesh& mesh, const OutputFile& place, const 
     written.mesh = read_back(file, path);
     written.mesh.unit = a_.unit;  // coordinates are written as they are
     written.file.deviation = measure_deviation(*session_.solver, a_, written.mesh, options());
+    if (is_interrupted())
+      throw Interrupted(path + ": called off while it was measured, and not written");
     if (written.file.deviation.verdict != Verdict::kWithin)
       throw OutputError({.option = "--out",
                          .file = path,

@@ -13,8 +13,8 @@ namespace vkh {
 
 /// Ends an error about points alone: what was expected.
 inline constexpr const char* kAMesh =
-    "a mesh: export the surface as triangles (STL, OBJ, PLY); or --points (a, b or both), which "
-    "measures points";
+    "a mesh: export the surface as triangles (STL, OBJ, PLY); or --points (a, b or both) of "
+    "distance, gate and batch, which measures points";
 /// Ends an error about faces in a file of points.
 inline constexpr const char* kPointsAlone =
     "points alone; a mesh is measured without --points, which never drops its faces";
