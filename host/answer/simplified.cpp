@@ -9,13 +9,6 @@
 namespace vkh {
 namespace {
 
-/// "30,268".
-std::string with_commas(uint64_t number) {
-  std::string text = std::to_string(number);
-  for (size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
-
 std::string length_words(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
@@ -53,8 +46,8 @@ std::string nothing_words(const SimplifyAnswer& answer) {
 
 void print_file(std::ostream& out, const SimplifyAnswer& answer, const SimplifiedFile& file) {
   print_row(out, "written",
-            printable(file.path) + ": " + with_commas(file.counts.faces) + " faces, " +
-                with_commas(file.counts.vertices) + " vertices, within " +
+            printable(file.path) + ": " + grouped(file.counts.faces) + " faces, " +
+                grouped(file.counts.vertices) + " vertices, within " +
                 largest_words(file.deviation, answer.unit) + "; read back and measured");
 }
 
@@ -105,14 +98,14 @@ Json limit_json(const SimplifyAnswer& answer) {
 
 std::string in_words(const SimplifyAnswer& answer) {
   if (answer.files.empty()) return nothing_words(answer);
-  const std::string all = with_commas(answer.input.counts.faces) + " faces, proven within " +
+  const std::string all = grouped(answer.input.counts.faces) + " faces, proven within " +
                           near_words(answer) + ", " + ways_words(answer);
   if (answer.is_chain)
     return std::to_string(answer.files.size()) + " levels, " +
-           with_commas(answer.files[0].counts.faces) + " to " +
-           with_commas(answer.files.back().counts.faces) + " of " + all;
+           grouped(answer.files[0].counts.faces) + " to " +
+           grouped(answer.files.back().counts.faces) + " of " + all;
   const SimplifiedFile& file = answer.files[0];
-  return with_commas(file.counts.faces) + " of " + all + " (largest deviation " +
+  return grouped(file.counts.faces) + " of " + all + " (largest deviation " +
          largest_words(file.deviation, answer.unit) + ")";
 }
 

@@ -78,6 +78,12 @@ std::string decimal(double value, int digits, Rounding rounding) {
   return negative ? std::string("-").append(magnitude) : magnitude;
 }
 
+std::string grouped(uint64_t count) {
+  std::string text = std::to_string(count);
+  for (size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+  return text;
+}
+
 std::string hex_float(double value) {
   if (!std::isfinite(value)) return decimal(value, 1, Rounding::kDown);
   std::array<char, 40> buffer;

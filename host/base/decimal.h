@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <string>
 
 namespace vkh {
@@ -25,6 +26,9 @@ std::string coordinates_text(double x, double y, double z);
 
 /// The shortest decimal, of six digits or more, that is read back as the same double.
 std::string shortest_decimal(double value);
+
+/// A count with its thousands between commas: "34,834".
+std::string grouped(uint64_t count);
 
 /// The double itself, readable by strtod and by Python's float.fromhex: "0x1.8p-3".
 std::string hex_float(double value);

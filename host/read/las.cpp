@@ -138,7 +138,7 @@ double delta_of(const Largest& largest) {
   return 1.01 * length;
 }
 
-/// The points of one block, from the first record on.
+/// Points of records that follow each other.
 struct LasBlock {
   std::vector<glm::dvec3> points;
   FileFaces file_faces;
@@ -180,18 +180,11 @@ std::vector<LasBlock> read_blocks(const MeshSource& source, const LasHeader& hea
   return blocks;
 }
 
-struct LasPoints {
-  std::vector<glm::dvec3> points;
-  FileFaces file_faces;
-  Largest largest;
-  uint64_t withheld = 0;
-};
-
-LasPoints joined(const ThreadPool& pool, std::vector<LasBlock> blocks) {
+LasBlock joined(const ThreadPool& pool, std::vector<LasBlock> blocks) {
   std::vector<size_t> starts;
   starts.reserve(blocks.size());
   for (const LasBlock& block : blocks) starts.push_back(block.points.size());
-  LasPoints all;
+  LasBlock all;
   resize_together(pool, all.points, starts_of(starts));
   pool.for_each(blocks.size(), [&](size_t i) {
     std::copy(blocks[i].points.begin(), blocks[i].points.end(),
@@ -210,7 +203,7 @@ Mesh read_las(const MeshSource& source) {
   const LasHeader header = read_las_header(source);
   FileMeshBuilder(source).check_room(header.count, header.count);
   const ThreadPool pool = pool_of(source);
-  LasPoints read = joined(pool, read_blocks(source, header, pool));
+  LasBlock read = joined(pool, read_blocks(source, header, pool));
   if (read.points.empty())
     refuse(source, 107, read.withheld > 0 ? "no point that is not withheld" : "no point",
            "at least one point");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "host/base/decimal.h"
 #include "host/show/map_legend.h"
 #include "vkhausdorff/error.h"
 

@@ -204,12 +204,6 @@ std::string limit_caption(const Picture& picture) {
   return picture.limit_as + ", " + with_unit(picture, length_in_words(*picture.limit));
 }
 
-std::string grouped(size_t count) {
-  std::string text = std::to_string(count);
-  for (size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
-  return text;
-}
-
 void draw_bar(const Sheet& sheet, const Area& area) {
   const double u = sheet.unit, size = 16 * u;
   const double notes = draw_notes(sheet, area);

@@ -34,9 +34,6 @@ std::string with_unit(const Picture& picture, const std::string& number);
 std::string limit_text(const Picture& picture);
 /// The same, and for a share of a diagonal its length.
 std::string limit_caption(const Picture& picture);
-/// Groups digits: "12,345".
-std::string grouped(size_t count);
-
 /// Draws a bar with ticks, and the interval on it.
 void draw_bar(const Sheet& sheet, const Area& area);
 /// Draws the three verdicts, and how many faces have each.

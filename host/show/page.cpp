@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "host/base/decimal.h"
 #include "host/show/escape.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"

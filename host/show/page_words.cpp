@@ -213,12 +213,6 @@ void add_survey_ends(const Answer& answer, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-std::string grouped(uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
-  return digits;
-}
-
 std::string figure_text(const Enclosure& length, const Limit& limit) {
   if (length.upper == 0) return "0";
   if (!std::isfinite(length.upper)) {

@@ -25,9 +25,6 @@ std::string estimate_text(double length, const Limit& limit = {});
 /// are exact. With more decimals where that would be on the other side of `asked`, in [0, 1].
 std::string share_text(const Enclosure& share, double asked = -1);
 
-/// Returns 1234567 as "1,234,567".
-std::string grouped(uint64_t count);
-
 /// A point in a file's coordinates, to a hundred-thousandth of `size`: "(29.86, 12.005, 9.648)".
 std::string point_text(const glm::dvec3& point, double size);
 

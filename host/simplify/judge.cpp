@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "vkhausdorff/error.h"
+#include "vkhausdorff/frame.h"
 
 namespace vkh {
 namespace {
@@ -13,17 +14,6 @@ namespace {
 double without_margin(double within, double diagonal) {
   constexpr double kOfDiagonal = 4e-7, kOfLimit = 1e-3;
   return within - std::min(kOfDiagonal * diagonal, kOfLimit * within);
-}
-
-double diagonal_of(const Mesh& mesh) {
-  DVec3 lo = mesh.vertices[0], hi = lo;
-  for (const DVec3& v : mesh.vertices) {
-    for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = std::min(lo[axis], v[axis]);
-      hi[axis] = std::max(hi[axis], v[axis]);
-    }
-  }
-  return std::hypot(hi.x - lo.x, hi.y - lo.y, hi.z - lo.z);
 }
 
 void check_limit(const Limit& max) {
@@ -39,7 +29,7 @@ Judge::Judge(Solver& solver, const Mesh& a, const SimplifyOptions& options,
       options_((check_limit(options.max), options)),
       deadline_(deadline),
       prepared_(solver.prepare(a)),
-      within_(without_margin(options.max.within, diagonal_of(a))) {}
+      within_(without_margin(options.max.within, diagonal(bounding_box(a)))) {}
 
 SolveOptions Judge::run_options() const {
   constexpr double kLeastTime = 1e-3;  // a run wants some

@@ -123,7 +123,7 @@ class PlaceSearch {
   Alignment find();
 
  private:
-  Candidates starts() const;
+  Candidates starts_as_turned() const;
   void search_on();
   void add_best(Candidates more);
   bool is_elsewhere(const Pose& x, const Pose& y) const;
@@ -142,13 +142,12 @@ class PlaceSearch {
   std::optional<double> rival_;
 };
 
-/// Begins where A lies, with its centre on B's, and with its axes on B's.
-Candidates PlaceSearch::starts() const {
+/// Begins where A lies and with its centre on B's.
+Candidates PlaceSearch::starts_as_turned() const {
   Candidates first;
   const glm::dvec3 shift = frame_.centre_a - frame_.centre_b;
   if (glm::length(shift) <= kFar * frame_.size) first.push_back({.pose = {.shift = shift}});
   first.push_back({});
-  for (const Candidate& one : by_axes(shape_a_, shape_b_)) first.push_back(one);
   return first;
 }
 
@@ -238,8 +237,9 @@ MatrixRows PlaceSearch::matrix_of(const Pose& pose) const {
 }
 
 Alignment PlaceSearch::find() {
-  all_ = starts();
-  as_given_ = all_.size() - by_axes(shape_a_, shape_b_).size();
+  all_ = starts_as_turned();
+  as_given_ = all_.size();
+  for (const Candidate& one : by_axes(shape_a_, shape_b_)) all_.push_back(one);
   fitter_.refine(all_, few_, {});
   search_on();
   Candidates best{chosen(kept())};

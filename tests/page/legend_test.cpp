@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "host/base/decimal.h"
 #include "vkhausdorff/error.h"
 
 namespace {
