@@ -53,6 +53,6 @@ vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
                   align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test)
-# The programs of these tests and of tests/fuzz: all that tools/test builds of this tree without --full.
+# The programs of these tests and of tests/verification/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz api_fuzz)
