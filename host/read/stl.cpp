@@ -357,12 +357,15 @@ Mesh read_ascii(const MeshSource& source) {
   return std::move(builder).finish(place);
 }
 
+bool begins_with_solid(std::string_view bytes) {
+  const size_t begin = bytes.find_first_not_of(" \t\r\n");
+  return begin != std::string_view::npos && is_word(bytes.substr(begin, 5), "solid");
+}
+
 // Binary headers often begin with "solid" too, but hold zero bytes: in the attributes if nowhere
 // else.
 bool is_ascii(std::string_view bytes) {
-  const size_t begin = bytes.find_first_not_of(" \t\r\n");
-  return begin != std::string_view::npos && bytes.size() - begin >= 5 &&
-         is_word(bytes.substr(begin, 5), "solid") && bytes.find('\0') == std::string_view::npos;
+  return begins_with_solid(bytes) && bytes.find('\0') == std::string_view::npos;
 }
 
 /// Keeps the corners of a block, three for each facet.
@@ -417,9 +420,11 @@ Mesh read_stl_whole(const MeshSource& source) {
 
 Mesh read_stl_by_blocks(const MeshSource& source) {
   const std::string head = head_of(source, 4096);
-  if (!is_exact_binary_stl(head, source.size()) && is_ascii(head))
-    return read_ascii_by_blocks(source);
-  return read_binary_by_blocks(source);
+  if (is_exact_binary_stl(head, source.size()) || !begins_with_solid(head))
+    return read_binary_by_blocks(source);
+  // Zero bytes may be a binary header's, or end marks behind text: the whole file decides.
+  if (!is_ascii(head)) reject(source.name, byte_place(0), "text with zero bytes, perhaps", "text");
+  return read_ascii_by_blocks(source);
 }
 
 }  // namespace
