@@ -70,11 +70,8 @@ void put_source(const TypedMany& typed, BatchAsked& batch) {
 }  // namespace
 
 void add_batch(CLI::App& command, TypedMany& typed) {
-  command.footer(
-      "LIST has id, a, b and perhaps tol, max, unit, align, symmetric and signed: JSONL, or CSV "
-      "with a "
-      "heading. "
-      "Its files' names are of its own folder.");
+  command.footer("LIST has " + list_columns() +
+                 ": JSONL, or CSV with a heading. Its files' names are of its own folder.");
   command
       .add_option("LIST", typed.files,
                   "A list of pairs; or two folders, A's and B's, whose meshes are paired by their "

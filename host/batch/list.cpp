@@ -20,9 +20,38 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kExpected =
-    "id, a, b and perhaps tol, max, unit, unit_a, unit_b, transform, align, points, symmetric, "
-    "signed";
+/// A member of a list's row: its name, and the member of Entry that takes it, as text or as a
+/// truth.
+struct Column {
+  const char* name;
+  std::string Entry::*text = nullptr;
+  std::optional<bool> Entry::*truth = nullptr;
+};
+constexpr std::array kColumns{Column{"id", &Entry::id},
+                              Column{"a", &Entry::a},
+                              Column{"b", &Entry::b},
+                              Column{"tol", &Entry::tolerance},
+                              Column{"max", &Entry::max},
+                              Column{"unit", &Entry::unit},
+                              Column{"unit_a", &Entry::unit_a},
+                              Column{"unit_b", &Entry::unit_b},
+                              Column{"transform", &Entry::transform},
+                              Column{"align", nullptr, &Entry::align},
+                              Column{"points", &Entry::points},
+                              Column{"symmetric", nullptr, &Entry::symmetric},
+                              Column{"signed", nullptr, &Entry::is_signed}};
+constexpr size_t kNeeded = 3;  // the first ones
+
+}  // namespace
+
+std::string list_columns() {
+  std::string text;
+  for (size_t i = 0; i < kColumns.size(); ++i)
+    text += (i == 0 ? "" : i == kNeeded ? " and perhaps " : ", ") + std::string(kColumns[i].name);
+  return text;
+}
+
+namespace {
 
 std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -40,20 +69,14 @@ bool truth_of(const std::string& name, const std::string& text) {
 
 /// Returns false for a member that a batch does not know.
 bool put(Entry& entry, const std::string& name, const std::string& text) {
-  constexpr std::array kNames{"id",   "a",      "b",      "tol",       "max",
-                              "unit", "unit_a", "unit_b", "transform", "points"};
-  const std::array<std::string*, 10> places{
-      &entry.id,   &entry.a,      &entry.b,      &entry.tolerance, &entry.max,
-      &entry.unit, &entry.unit_a, &entry.unit_b, &entry.transform, &entry.points};
-  for (size_t i = 0; i < kNames.size(); ++i) {
-    if (name == kNames[i]) return *places[i] = text, true;
+  const auto* const column = std::find_if(kColumns.begin(), kColumns.end(),
+                                          [&](const Column& c) { return name == c.name; });
+  if (column == kColumns.end()) return false;
+  if (column->text != nullptr) {
+    entry.*column->text = text;
+  } else if (!text.empty()) {
+    entry.*column->truth = truth_of(name, text);
   }
-  std::optional<bool>* truth = nullptr;
-  if (name == "symmetric") truth = &entry.symmetric;
-  if (name == "signed") truth = &entry.is_signed;
-  if (name == "align") truth = &entry.align;
-  if (truth == nullptr) return false;
-  if (!text.empty()) *truth = truth_of(name, text);
   return true;
 }
 
@@ -73,7 +96,7 @@ class Collected {
   void take(Entry entry, uint64_t line) {
     for (const auto& [name, text] :
          {std::pair{"id", &entry.id}, {"a", &entry.a}, {"b", &entry.b}}) {
-      if (text->empty()) refuse(line, std::string("no ") + name + "; expected " + kExpected);
+      if (text->empty()) refuse(line, std::string("no ") + name + "; expected " + list_columns());
     }
     // A result could not hold such an id: two of them might become one there.
     if (!is_utf8(entry.id)) refuse(line, "the id '" + entry.id + "' is no UTF-8");
@@ -87,7 +110,7 @@ class Collected {
   }
   void note_stranger(const std::string& name) {
     if (strangers_.insert(name).second)
-      list.notes.push_back(path_ + ": '" + name + "' is not used; a batch knows " + kExpected);
+      list.notes.push_back(path_ + ": '" + name + "' is not used; a batch knows " + list_columns());
   }
   [[noreturn]] void refuse(uint64_t line, const std::string& what) const {
     throw InputError({.file = path_, .place = "line " + std::to_string(line), .problem = what});
@@ -108,7 +131,7 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, const
     const auto times = std::count(heading.begin(), heading.end(), name);
     if (times == 1) continue;
     to.refuse(line, std::string(times == 0 ? "no" : "more than one") + " column '" + name +
-                        "'; expected a heading with " + kExpected +
+                        "'; expected a heading with " + list_columns() +
                         ", between commas or semicolons");
   }
 }
@@ -171,7 +194,7 @@ void read_jsonl(std::istream& text, Collected& to) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const auto json = nlohmann::json::parse(line, nullptr, false);
     if (!json.is_object())
-      to.refuse(number, std::string("no JSON object; expected one with ") + kExpected);
+      to.refuse(number, std::string("no JSON object; expected one with ") + list_columns());
     Entry entry;
     for (const auto& [name, value] : json.items()) {
       if (value.is_structured()) {
@@ -214,7 +237,7 @@ PairList read_list(const std::string& path) {
     read_jsonl(file, collected);
   }
   if (file.bad()) throw InputError({.file = path, .problem = "cannot be read"});
-  if (collected.list.entries.empty()) reject(path, "line 1", "no pair", kExpected);
+  if (collected.list.entries.empty()) reject(path, "line 1", "no pair", list_columns());
   return std::move(collected.list);
 }
 

@@ -29,8 +29,10 @@ struct PairList {
   std::vector<Entry> unpaired;     ///< of two folders: files without a partner, with `missing`
 };
 
-/// Reads `id`, `a` and `b`, and perhaps `tol`, `max`, `unit`, `unit_a`, `unit_b`, `transform`,
-/// `align`, `points`, `symmetric` and `signed`. Relative names, of matrices too, start at the
+/// Names the columns of a list for people: "id, a, b and perhaps tol, ...".
+std::string list_columns();
+
+/// Reads a list of these columns. Relative names, of matrices too, start at the
 /// list's folder, or at the current one if the list is a pipe. A list is CSV if its name ends in
 /// .csv; its separator is a comma or a semicolon, as its heading has. Throws InputError with file,
 /// line and the expected form; also for an id that occurs twice.

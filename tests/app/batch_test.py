@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import resource
 import signal
 import struct
@@ -68,6 +69,26 @@ class Folder(unittest.TestCase):
         done = self.run_words("merge", *(files or ["out.jsonl"]), "--out", "merged.jsonl", "--reproducible")
         self.assertIn(done.returncode, (0, 1, 3, 4), done.stderr)
         return (self.folder / "merged.jsonl").read_bytes()
+
+
+class Keys(Folder):
+    def test_every_column_changes_the_key(self):
+        """--resume keeps a line with the same key, so whatever a row may ask for is in it."""
+        (self.folder / "list.jsonl").write_text('{"id": "x"}\n')
+        said = self.run_words("batch", "list.jsonl", "--out", "out.jsonl").stderr
+        columns = re.search(r"and perhaps ([a-z_, ]+)", said)[1].split(", ")
+        values = {"tol": "1e-5", "max": "3mm", "unit": "cm", "unit_a": "mm", "unit_b": "mm", "transform": "m.txt", "align": True, "points": "a",
+                  "symmetric": True, "signed": True}
+        self.assertEqual(sorted(columns), sorted(values), "a new column needs a value here")
+        write_mesh(self.folder / "a.obj", 0)
+        write_mesh(self.folder / "b.obj", 1)
+        (self.folder / "m.txt").write_text("1 0 0 1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
+        rows = [{"id": name, "a": "a.obj", "b": "b.obj", "unit": "mm", name: value} for name, value in values.items()]
+        self.write_list([{"id": "none", "a": "a.obj", "b": "b.obj", "unit": "mm"}, *rows])
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
+        keys = {line["id"]: line["key"] for line in self.results()}
+        self.assertEqual(set(keys), {"none", *values}, done.stderr)
+        self.assertEqual(len(set(keys.values())), len(keys), keys)
 
 
 class Answers(Folder):
