@@ -125,10 +125,12 @@ const char* type_name(VkPhysicalDeviceType type) {
   }
 }
 
+// A discrete GPU first, and of CPU devices lavapipe: SwiftShader takes ten times as long.
 int rank_of(const DeviceDescription& d) {
   constexpr std::array order{"discrete", "integrated", "virtual", "other", "cpu"};
   const auto at = std::find(order.begin(), order.end(), d.type);
-  return static_cast<int>(at - order.begin());
+  const bool is_other_cpu = d.type == "cpu" && !d.name.starts_with("llvmpipe");
+  return static_cast<int>(at - order.begin()) + (is_other_cpu ? 1 : 0);
 }
 
 std::string version_text(uint32_t v) {

@@ -5,7 +5,11 @@
 namespace vkh {
 namespace {
 
-uint64_t faces_of(const StreamPair& pair) { return pair.a->faces.size() + pair.b->faces.size(); }
+// A mesh that is missing is the pair's error, once it runs.
+uint64_t faces_of(const std::shared_ptr<const Mesh>& mesh) {
+  return mesh == nullptr ? 0 : mesh->faces.size();
+}
+uint64_t faces_of(const StreamPair& pair) { return faces_of(pair.a) + faces_of(pair.b); }
 
 // An estimate: BVH, meshes and workspace as they are recommended.
 uint64_t device_bytes(const StreamPair& pair) {

@@ -60,6 +60,8 @@ struct PairStream::Impl {
               .queue = queue,
               .deliver = [this](StreamResult&& result) { hand_out(std::move(result)); },
               .count = [this](double busy, double gpu) { count(busy, gpu); }} {
+    if (options.devices.empty())
+      throw UsageError("a stream needs a device: \"\" names the best one");
     left = unopened = options.devices.size();
     for (const std::string& selector : options.devices)
       threads.emplace_back([this, selector] { serve(selector); });
@@ -215,6 +217,8 @@ bool PairStream::push(StreamPair pair) {
   impl_->check_alive();
   return false;
 }
+
+void PairStream::wait_until_open() { impl_->wait_for_devices(); }
 
 // Devices are taken apart later: results that were delivered need not wait for that.
 void PairStream::finish() {

@@ -18,6 +18,12 @@ double gpu_s(const std::vector<StreamResult>& results) {
   return most / 1000;
 }
 
+void check_meshes(const StreamPair& pair) {
+  if (pair.a == nullptr || pair.b == nullptr)
+    throw UsageError("pair " + std::to_string(pair.number) +
+                     " of a stream: two meshes are needed, not null");
+}
+
 // A pair that was on two devices, or twice on one, when they were lost is taken for the reason.
 constexpr unsigned kMostTries = 2;
 
@@ -57,6 +63,7 @@ void Worker::solve_all(Group& group) {
     one.pair.before(solver_, one.pair);
     one.pair.before = {};  // a pair that is tried again is as it was left
   }
+  for (const WaitingPair& one : group) check_meshes(one.pair);
   std::vector<std::shared_ptr<const PreparedMesh>> prepared;
   std::vector<SolveOptions> options;
   std::vector<PairView> views;
@@ -65,8 +72,9 @@ void Worker::solve_all(Group& group) {
     prepared.push_back(one.pair.shares_b ? device_.prepared.get(solver_, one.pair.b) : nullptr);
     options.push_back(one.pair.options);
     options.back().stage_times = false;
-    options.back().progress = [this, &listen = one.pair.options.progress](const Progress& p) {
-      return !share_.is_cancelled && (!listen || listen(p));
+    options.back().progress = [this, &pair = one.pair](Progress p) {
+      p.pair = pair.number;
+      return !share_.is_cancelled && (!pair.options.progress || pair.options.progress(p));
     };
     views.push_back({.a = *one.pair.a,
                      .b = *one.pair.b,

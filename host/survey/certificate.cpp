@@ -104,6 +104,8 @@ void add_direction(Bytes& out, const CertifiedDirection& direction) {
 std::string certificate_of(const CertifiedMesh& a, const CertifiedMesh& b,
                            const CertifiedDirection& a_to_b,
                            const std::optional<CertifiedDirection>& b_to_a) {
+  if (a_to_b.proof.blocks.empty() || (b_to_a && b_to_a->proof.blocks.empty()))
+    throw UsageError("a certificate needs the proof of each direction, as a prover makes it");
   Bytes out;
   out.text = "VHCERT02";
   out.unsigned_number(b_to_a ? 2 : 1, 4);

@@ -10,9 +10,18 @@
 #include "host/survey/map_goal.h"
 #include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {
+
+void check_shares(const std::vector<double>& shares) {
+  for (const double share : shares) {
+    if (!(share >= 0 && share <= 1))
+      throw UsageError("percentile " + std::to_string(share) +
+                       ": a share of the area from 0 to 1 is expected, such as 0.95");
+  }
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -288,6 +297,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
   return [&options, &result](const SurveyedPair& on_device, const BoundCells& bound) {
     if (options.statistics)
       refuse_any_triangulation(on_device.a, on_device.b, "statistics of an area");
+    check_shares(options.percentiles);
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
     Bounding bounding(pair, bound, options);

@@ -137,6 +137,7 @@ Json document(const FieldFile& file, const CornerArrays& corners, const glm::dve
 }  // namespace
 
 std::string to_glb(const FieldFile& file) {
+  check_sizes(file);
   const glm::dvec3 middle = middle_of(file.mesh);
   const double largest = largest_upper(file.field);
   CornerArrays corners;

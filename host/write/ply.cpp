@@ -129,6 +129,7 @@ SidedFace sided_face(const SignedFigures& sides, size_t face) {
 }
 
 std::string to_ply(const FieldFile& file) {
+  check_sizes(file);
   if (file.mesh.are_points) return to_points_ply(file);
   const double largest = largest_upper(file.field);
   const std::vector<double> quality = quality_of_vertices(file);

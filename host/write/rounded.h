@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "host/mesh/round_to_float.h"
+#include "vkhausdorff/error.h"
 #include "vkhausdorff/field_file.h"
 
 namespace vkh {
@@ -18,6 +20,20 @@ inline float float_down(double x) {
 inline float float_up(double x) {
   const float f = nearest_float(x);
   return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
+
+/// Throws UsageError where a field has not one value for each face.
+inline void check_sizes(const FieldFile& file) {
+  const size_t faces = file.mesh.faces.size();
+  const auto check = [&](const Field& field) {
+    if (field.lower.size() == faces && field.upper.size() == faces) return;
+    throw UsageError("a field of " + std::to_string(field.upper.size()) + " values for a mesh of " +
+                     std::to_string(faces) + " faces: one for each is needed");
+  };
+  check(file.field);
+  if (file.sides == nullptr) return;
+  check(file.sides->over_of_faces);
+  check(file.sides->under_of_faces);
 }
 
 /// The largest upper bound that is finite.

@@ -130,6 +130,45 @@ TEST_CASE("an error is the pair's own, and ends nothing") {
   }
 }
 
+TEST_CASE("a pair without a mesh is that pair's error, and a stream without a device is refused") {
+  Sink sink;
+  PairStream stream({}, sink.deliver());
+  std::vector<StreamPair> some = pairs();
+  some.resize(4);
+  some[1].a = nullptr;
+  some[2].b = nullptr;
+  some[2].shares_b = true;
+  for (StreamPair& pair : some) stream.push(std::move(pair));
+  stream.finish();
+  REQUIRE(sink.results.size() == 4);
+  for (const auto& [number, result] : sink.results)
+    CHECK((result.error != nullptr) == (number == 1 || number == 2));
+  CHECK_THROWS_AS(std::rethrow_exception(sink.results.at(1).error), UsageError);
+  CHECK_THROWS_AS(std::rethrow_exception(sink.results.at(2).error), UsageError);
+  StreamOptions nowhere;
+  nowhere.devices = {};
+  CHECK_THROWS_AS(PairStream(nowhere, sink.deliver()), UsageError);
+}
+
+TEST_CASE("progress names the stream's pair, and devices can be waited for") {
+  Sink sink;
+  PairStream stream({}, sink.deliver());
+  stream.wait_until_open();
+  CHECK(stream.devices().size() == 1);
+  std::atomic<size_t> calls = 0, others = 0;
+  for (StreamPair& pair : pairs()) {
+    pair.options.progress = [&calls, &others, number = pair.number](const Progress& p) {
+      ++calls;
+      if (p.pair != number) ++others;
+      return true;
+    };
+    stream.push(std::move(pair));
+  }
+  stream.finish();
+  CHECK(calls > 0);
+  CHECK(others == 0);
+}
+
 TEST_CASE("a stream that is cancelled delivers what ran, truly, and no more") {
   std::atomic<size_t> delivered = 0;
   {

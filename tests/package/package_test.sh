@@ -62,7 +62,7 @@ grep -q 'version: 0.2' "$folder/log" || { cat "$folder/log"; fail "find_package 
 mkdir "$folder/gated"
 cp "$folder/a.off" "$folder/b.off" "$folder/gated"
 cp "$source/tests/package/gate/CMakeLists.txt" "$folder/gated"
-cmake -S "$folder/gated" -B "$folder/gated/out" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" || { cat "$folder/log"; fail "the gated project"; }
+cmake -S "$folder/gated" -B "$folder/gated/out" -DVkHausdorff_DIR="$package/lib/cmake/VkHausdorff" >"$folder/log" || { cat "$folder/log"; fail "the gated project, which names the package alone"; }
 ctest --test-dir "$folder/gated/out" >"$folder/log" && fail "a gate that is beyond its limit passes"
 grep -qE 'within \.+ +Passed' "$folder/log" && grep -qE 'beyond \.+\*\*\*Failed' "$folder/log" || { cat "$folder/log"; fail "the gates"; }
 grep -q 'failures="0" errors="0"' "$folder/gated/out/within.xml" || fail "the gate's JUnit file"

@@ -16,6 +16,9 @@
 #include "host/survey/cell_corners.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/certificate.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/field_file.h"
 
 namespace {
 
@@ -468,3 +471,20 @@ TEST_CASE("a survey says why it ended") {
 }
 
 }  // namespace
+
+TEST_CASE("a percentile is a share of the area, not a number of per cent") {
+  SurveyOptions options = all_of_it();
+  for (const double share : {95.0, -0.1, std::nan("")}) {
+    options.percentiles = {0.5, share};
+    CHECK_THROWS_AS(surveyed(icosphere(1, 1), icosphere(2, 1), options), UsageError);
+  }
+}
+
+TEST_CASE("files of fields and certificates refuse what no survey or prover made") {
+  const Mesh mesh = icosphere(1, 1);
+  const Field field = field_within(mesh.faces.size() - 1, 1);
+  const FieldFile file{.mesh = mesh, .field = field, .interval = {0, 1}, .unit = "", .against = ""};
+  CHECK_THROWS_AS(to_ply(file), UsageError);
+  CHECK_THROWS_AS(to_glb(file), UsageError);
+  CHECK_THROWS_AS(certificate_of({mesh, {}}, {mesh, {}}, {Report{}, Proof{}}, {}), UsageError);
+}

@@ -23,7 +23,7 @@
 
 namespace vkh {
 
-const char* program_version();  ///< defined in words.cpp
+const char* program_version();
 
 /// A mesh of the question. Before it is read, only its path is known.
 struct Input {
@@ -104,8 +104,6 @@ struct Answer {
   /// in_words() as it was read from JSON, which has no limits of single faces; empty otherwise.
   std::string first_line = {};
 };
-
-// words.cpp defines these.
 
 /// The whole answer's interval.
 CertifiedInterval interval_of(const Answer& answer);

@@ -17,7 +17,9 @@ namespace vkh {
 struct VulkanApi;  ///< the table of functions, of this library alone (host/gpu/vulkan_api.h)
 
 struct DeviceRequest {
-  std::string selector;  ///< "": best device; "gpu"; "cpu"; an index; or part of a name, any case
+  /// "": the best device, a GPU where there is one and lavapipe before other CPU devices; "gpu";
+  /// "cpu"; an index; or part of a name, any case.
+  std::string selector;
   bool validation = false;  ///< load the Khronos validation layer, synchronization validation too,
                             ///< and count messages
   bool robust = true;  ///< robustBufferAccess, where there is any: an index out of range, on the

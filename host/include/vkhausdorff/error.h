@@ -30,7 +30,7 @@ enum class ErrorKind {
   kMemory,       ///< no memory on the device or the host: less work at once may fit
   kOutput,       ///< an answer exists, but a file, pipe or disk does not take it
   kInterrupted,  ///< the caller called it off before there was an answer
-  kInternal,     ///< a bug of ours
+  kInternal,     ///< a bug of ours, or an exception of the caller's own, from a callback
 };
 
 /// The exit code of a run that such an error ends.

@@ -8,7 +8,8 @@
 
 namespace vkh {
 
-/// The content of a field file besides its format.
+/// The content of a field file besides its format. Both writers throw UsageError where the field,
+/// or that of `sides`, does not have as many values as the mesh has faces.
 struct FieldFile {
   const Mesh& mesh;
   const Field& field;

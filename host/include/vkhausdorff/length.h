@@ -37,7 +37,8 @@ enum class PlainNumber { kFraction, kSmallFraction, kRefused };
 /// positive and finite.
 Length parse_length(const char* option, const std::string& text, PlainNumber plain);
 
-/// Accepts "um", "mm", "cm", "m", "in" or "ft"; throws UsageError that names `option`.
+/// Accepts "um", "mm", "cm", "m", "in", "ft", "mil" or "thou"; throws UsageError that names
+/// `option`.
 void check_unit(const char* option, const std::string& unit);
 
 /// A quotient of positive whole numbers, in lowest terms.

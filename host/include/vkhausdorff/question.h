@@ -1,5 +1,5 @@
 // The question about a pair of meshes, before any file or device is touched. The command line, a
-// row of a list and Python fill it in; host/answer/steps.h turns it into an answer.
+// row of a list and Python fill it in; the program turns it into an answer by the steps of Asking.
 #pragma once
 
 #include <optional>
@@ -78,7 +78,7 @@ struct Question {
 
   // The devices.
   std::string device;            ///< DeviceRequest::selector
-  bool several_devices = false;  ///< allows several, see open_session()
+  bool several_devices = false;  ///< allows several, such as "0,1" or "all"
   bool caches = true;            ///< keeps compiled pipelines in the user's folder
   bool verbose = false;          ///< the progress line has words of the method, too
 

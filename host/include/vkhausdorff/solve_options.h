@@ -20,7 +20,7 @@ struct Progress {
          upper = 0;   ///< in the files' units; upper is infinite before the first bounds exist
   double gap = 0;     ///< (upper - lower) / diag(A)
   bool back = false;  ///< true for h(B,A) in a symmetric run
-  size_t pair = 0;    ///< index of the pair in Solver::distances
+  size_t pair = 0;    ///< index of the pair in Solver::distances; StreamPair::number in a stream
 };
 
 struct SurveyedPair;  // host/solve/cells.h

@@ -25,14 +25,15 @@ struct StreamResult {
 
 /// A pair, and what is asked about it.
 struct StreamPair {
-  size_t number = 0;  ///< the caller's own
-  std::shared_ptr<const Mesh> a, b;
+  size_t number = 0;                 ///< the caller's own
+  std::shared_ptr<const Mesh> a, b;  ///< null for either: the pair's error
   /// Other pairs have the same `b`, the very object: it is prepared once on each device. Answers
   /// are those of Solver::distance(a, prepared b), so set this by the pairs alone, not by their
   /// order.
   bool shares_b = false;
   bool symmetric = false;
-  SolveOptions options;  ///< `progress` is asked on the threads that run
+  SolveOptions options;  ///< `progress` is asked on the threads that run; Progress::pair is then
+                         ///< `number`
   /// Called before the pair's run, once, with the solver that will run it: it may change `a`,
   /// `options` and `beside`. An exception from it is the pair's error.
   std::function<void(Solver&, StreamPair&)> before = {};
@@ -42,7 +43,8 @@ struct StreamPair {
 };
 
 struct StreamOptions {
-  /// The DeviceRequest::selector of each; see host/answer/session.h.
+  /// The DeviceRequest::selector of each, which names one device; at least one. A device that takes
+  /// long to start gets no pairs until it has: see wait_until_open().
   std::vector<std::string> devices = {""};
   std::filesystem::path cache_folder;  ///< see Solver
   SolveOptions first;                  ///< its pipelines are made while the first pairs are read
@@ -61,8 +63,9 @@ struct StreamTimes {
 class PairStream {
  public:
   /// Opens devices in threads of its own: an error that prevents this is thrown by push() or
-  /// finish(). `deliver` is called on one thread, not the caller's, once for each pair that was
-  /// pushed, unless cancel() came first; it must not throw.
+  /// finish(). Throws UsageError where `options` name no device. `deliver` is called on one thread,
+  /// not the caller's, once for each pair that was pushed, unless cancel() came first; it must not
+  /// throw.
   PairStream(StreamOptions options, std::function<void(StreamResult&&)> deliver);
   /// Cancels what is left and waits for what runs.
   ~PairStream();
@@ -73,8 +76,10 @@ class PairStream {
   /// the pair is dropped. Throws DeviceError when no device is left: then pairs were dropped, and
   /// finish() throws, too.
   bool push(StreamPair pair);
-  /// Waits until all that was pushed is delivered. A device that is lost gives its pairs to the
-  /// others, and is opened anew. Throws DeviceError when none was left.
+  /// Waits until every device was opened, or could not be: before that, pairs go to the first ones.
+  void wait_until_open();
+  /// Waits until all that was pushed is delivered, and every device was tried. A device that is
+  /// lost gives its pairs to the others, and is opened anew. Throws DeviceError when none was left.
   void finish();
   /// Throws DeviceError when no device is left, as finish() does: pairs that were pushed may have
   /// been dropped. Any thread may call it, without waiting.

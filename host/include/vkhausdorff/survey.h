@@ -64,7 +64,7 @@ struct SurveyOptions {
   std::optional<Limit> max_distance = {};
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
-  std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area
+  std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area, 0 to 1
   /// With statistics: result.distribution is wanted, as metrics_of() needs it.
   bool keeps_distribution = false;
   /// If set: the survey goes on with cells of an earlier one, and has this goal alone.
@@ -124,8 +124,8 @@ SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptio
                          const SolveOptions& run = {});
 
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The
-/// survey throws UsageError for statistics or sides of meshes of any triangulation, and for sides
-/// of a B with two faces that use an edge in one direction.
+/// survey throws UsageError for a percentile outside [0, 1], for statistics or sides of meshes of
+/// any triangulation, and for sides of a B with two faces that use an edge in one direction.
 Survey survey_with(const SurveyOptions& options, SurveyResult& result);
 
 }  // namespace vkh
