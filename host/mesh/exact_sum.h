@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host/base/uint128.h"
+
 namespace vkh {
 
 /// Splits |x|, which is result * 2^exponent: exponent in [-1074, 971], result < 2^53.
@@ -42,10 +44,10 @@ class WideInteger {
     uint64_t carry = negative ? 1 : 0;
     for (size_t i = shift / 64, part = 0; i < kLimbs; ++i, ++part) {
       const uint64_t added = part < parts.size() ? parts[part] : 0;
-      const unsigned __int128 sum =
-          static_cast<unsigned __int128>(limbs_[i]) + (negative ? ~added : added) + carry;
-      limbs_[i] = static_cast<uint64_t>(sum);
-      carry = static_cast<uint64_t>(sum >> 64);
+      const UInt128 sum =
+          UInt128{0, limbs_[i]} + UInt128{0, negative ? ~added : added} + UInt128{0, carry};
+      limbs_[i] = sum.low;
+      carry = sum.high;
     }
   }
 
@@ -62,13 +64,19 @@ class ExactSum : public WideInteger<67> {
     int exponent_a = 0, exponent_b = 0;
     const auto mantissa_a = mantissa_of(a, exponent_a);
     const auto mantissa_b = mantissa_of(b, exponent_b);
-    const unsigned __int128 product = static_cast<unsigned __int128>(mantissa_a) * mantissa_b;
-    add(std::array<uint64_t, 2>{static_cast<uint64_t>(product),
-                                static_cast<uint64_t>(product >> 64)},
+    const UInt128 product = multiply(mantissa_a, mantissa_b);
+    add(std::array<uint64_t, 2>{product.low, product.high},
         static_cast<unsigned>(exponent_a + exponent_b + 2148),
         negative != (std::signbit(a) != std::signbit(b)));
   }
 };
+
+/// a b c without rounding, in words of 64 bits, the least first.
+inline std::array<uint64_t, 3> product_of(uint64_t a, uint64_t b, uint64_t c) {
+  const UInt128 ab = multiply(a, b), low = multiply(ab.low, c);
+  const UInt128 high = multiply(ab.high, c) + UInt128{0, low.high};
+  return {low.low, high.low, high.high};
+}
 
 using Point2 = std::array<double, 2>;
 

@@ -57,6 +57,15 @@ bool is_exact(const glm::dvec3& p, const glm::dvec3& d) {
   return sum_error(p.x, -d.x) == 0 && sum_error(p.y, -d.y) == 0 && sum_error(p.z, -d.z) == 0;
 }
 
+// Sums up to six products of three integers of 40 bits: under 2^123.
+class ShortVolume : public WideInteger<2> {
+ public:
+  void add_product(int64_t a, int64_t b, int64_t c, bool negative) {
+    const auto size = [](int64_t x) { return static_cast<uint64_t>(x < 0 ? -x : x); };
+    add(product_of(size(a), size(b), size(c)), 0, negative != ((a < 0) != ((b < 0) != (c < 0))));
+  }
+};
+
 // The sign by integers, where the differences are exact and short: six products of 120 bits.
 std::optional<int> short_orientation(const Corners3& from_d) {
   const auto& [a, b, c] = from_d;
@@ -66,14 +75,13 @@ std::optional<int> short_orientation(const Corners3& from_d) {
     if (!integers) return {};
     axis[static_cast<size_t>(i)] = *integers;
   }
-  __int128 sum = 0;
+  ShortVolume sum;
   for (size_t i = 0; i < 3; ++i) {
     const size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const __int128 minor = static_cast<__int128>(axis[j][1]) * axis[k][2] -
-                           static_cast<__int128>(axis[k][1]) * axis[j][2];
-    sum += axis[i][0] * minor;
+    sum.add_product(axis[i][0], axis[j][1], axis[k][2], false);
+    sum.add_product(axis[i][0], axis[k][1], axis[j][2], true);
   }
-  return sum > 0 ? -1 : sum < 0 ? 1 : 0;
+  return -sum.sign();
 }
 
 // Sums products of three doubles without rounding, as ExactSum does those of two: bit 0 is worth
@@ -83,12 +91,7 @@ class ExactVolume : public WideInteger<100> {
   void add_product(double a, double b, double c, bool negative) {
     int ea = 0, eb = 0, ec = 0;
     const uint64_t ma = mantissa_of(a, ea), mb = mantissa_of(b, eb), mc = mantissa_of(c, ec);
-    const unsigned __int128 ab = static_cast<unsigned __int128>(ma) * mb;
-    const unsigned __int128 low = static_cast<unsigned __int128>(static_cast<uint64_t>(ab)) * mc;
-    const unsigned __int128 high = (ab >> 64) * mc + (low >> 64);
-    const std::array<uint64_t, 3> product = {
-        static_cast<uint64_t>(low), static_cast<uint64_t>(high), static_cast<uint64_t>(high >> 64)};
-    add(product, static_cast<unsigned>(ea + eb + ec + 3222),
+    add(product_of(ma, mb, mc), static_cast<unsigned>(ea + eb + ec + 3222),
         negative != (std::signbit(a) != (std::signbit(b) != std::signbit(c))));
   }
 };

@@ -7,6 +7,7 @@
 
 #include "host/base/hash_index.h"
 #include "host/base/thread_pool.h"
+#include "host/base/uint128.h"
 
 namespace vkh {
 
@@ -29,9 +30,7 @@ class PositionIndex {
       const uint32_t count = std::min(kAhead, end - first);
       for (uint32_t i = 0; i < count; ++i) {
         hashes[i] = hash_position(secret_, position_(first + i));
-#ifdef __GNUC__
-        __builtin_prefetch(&slots_[start_of(hashes[i])], 1);
-#endif
+        prefetch_to_write(&slots_[start_of(hashes[i])]);
       }
       for (uint32_t i = 0; i < count; ++i) {
         found[first + i - begin] = insert(first + i, hashes[i]);
@@ -45,7 +44,7 @@ class PositionIndex {
   static constexpr uint64_t kFree = UINT64_MAX;
 
   size_t start_of(uint64_t hash) const {
-    return static_cast<size_t>(static_cast<unsigned __int128>(hash) * slots_.size() >> 64);
+    return static_cast<size_t>(multiply(hash, slots_.size()).high);
   }
 
   // Inserts one element. A slot holds the hash's lower half, so that hardly any other position is

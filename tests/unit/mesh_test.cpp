@@ -152,8 +152,8 @@ constexpr int kRounds = 200'000;
 #endif
 
 TEST_CASE("collinearity agrees with integer arithmetic") {
-  // 62-bit products of 30-bit steps from a 50-bit base: the differences are exact in int64, the
-  // cross product in __int128, and floating point alone cannot tell.
+  // Products of two steps of 30 bits, from a base of 50 bits: differences and cross products are
+  // exact in int64, and floating point alone cannot tell.
   std::mt19937_64 random(7);
   const auto draw = [&](int64_t bound) {
     return std::uniform_int_distribution<int64_t>(-bound, bound)(random);
@@ -176,7 +176,7 @@ TEST_CASE("collinearity agrees with integer arithmetic") {
       a[i] = static_cast<double>(base[i]);
       b[i] = static_cast<double>(base[i] + u[i]);
       c[i] = static_cast<double>(base[i] + v[i]);
-      zero = zero && static_cast<__int128>(u[i]) * v[j] == static_cast<__int128>(u[j]) * v[i];
+      zero = zero && u[i] * v[j] == u[j] * v[i];
     }
     lines += zero ? 1 : 0;
     const uint64_t found = degenerate(a, b, c);
