@@ -10,11 +10,16 @@ import sys
 from pathlib import Path
 
 PIECE = 96  # characters of a line; compilers take long literals in pieces
+MOST = 60_000  # bytes of a literal: MSVC takes 65,535
 
 HEAD = """// Made by tools/page/embed.py.
+#include <bit>
+#include <cstdint>
+
 #include "host/show/page_assets.h"
 
 namespace vkh {
+static_assert(std::endian::native == std::endian::little);
 """
 
 
@@ -37,7 +42,18 @@ def checked(name, text, forbidden):
     return text
 
 
+def words(name, data):
+    """An array of the bytes, eight a number, the first the lowest."""
+    padded = data + bytes(-len(data) % 8)
+    numbers = [f"{int.from_bytes(padded[at : at + 8], 'little'):#x}" for at in range(0, len(padded), 8)]
+    lines = ",\n".join(", ".join(numbers[at : at + 5]) for at in range(0, len(numbers), 5))
+    return (f"static constexpr uint64_t {name}Words[] = {{\n{lines}}};\n"
+            f"const std::string_view {name}(reinterpret_cast<const char*>({name}Words), {len(data)});\n")
+
+
 def constant(name, text):
+    if len(text.encode()) > MOST:
+        return words(name, text.encode())
     return f"const std::string_view {name} =\n{literal(text)};\n"
 
 
@@ -57,10 +73,10 @@ def source(folder):
             + "}  // namespace vkh\n")
 
 
-def main(words):
-    if len(words) != 2:
+def main(arguments):
+    if len(arguments) != 2:
         sys.exit(__doc__)
-    Path(words[1]).write_text(source(Path(words[0])))
+    Path(arguments[1]).write_text(source(Path(arguments[0])))
 
 
 if __name__ == "__main__":
