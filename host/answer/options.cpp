@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "host/base/from_chars.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -27,7 +28,7 @@ struct Quantity {
 /// decide whether 0.5 is a number.
 bool split(const std::string& text, Quantity& out) {
   const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, out.number);
+  const auto result = number_from_chars(text.data(), end, out.number);
   if (result.ec != std::errc() || !std::isfinite(out.number) || out.number <= 0) return false;
   out.unit.assign(result.ptr, end);
   out.unit.erase(0, out.unit.find_first_not_of(' '));
@@ -152,7 +153,7 @@ double parse_share(const char* option, const std::string& text) {
   const bool is_percent = text.ends_with('%');
   const std::string number = text.substr(0, text.size() - (is_percent ? 1 : 0));
   double share = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), share);
+  const auto [end, error] = number_from_chars(number.data(), number.data() + number.size(), share);
   if (is_percent) share /= 100;
   if (error != std::errc() || end != number.data() + number.size() || !(share > 0 && share <= 1))
     throw UsageError(std::string(option) + " '" + text +

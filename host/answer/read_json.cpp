@@ -1,11 +1,11 @@
 // Numbers of an answer that a user may have changed since it was written.
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
 #include <vector>
 
 #include "host/answer/json_object.h"
+#include "host/base/from_chars.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -23,7 +23,7 @@ double double_of_hex(const std::string& key, const std::string& text, bool is_si
   const std::string digits = text.starts_with("0x") ? text.substr(2) : "";
   const char* end = digits.data() + digits.size();
   double value = 0;
-  const auto result = std::from_chars(digits.data(), end, value, std::chars_format::hex);
+  const auto result = number_from_chars(digits.data(), end, value, std::chars_format::hex);
   if (result.ec != std::errc() || result.ptr != end || !(value >= 0))
     throw InputError(key + " '" + text + "' is no bound");
   return value;

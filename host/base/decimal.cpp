@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+
+#include "host/base/from_chars.h"
 
 namespace vkh {
 namespace {
@@ -115,7 +116,7 @@ std::string shortest_decimal(double value) {
   for (int digits = 6; digits <= 17; ++digits) {
     text = number_text(value, std::chars_format::general, digits);
     double read = 0;
-    std::from_chars(text.data(), text.data() + text.size(), read);
+    number_from_chars(text.data(), text.data() + text.size(), read);
     if (read == value) break;
   }
   return text;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 
 #include "host/base/decimal.h"
 #include "host/base/float128.h"
+#include "host/base/from_chars.h"
 #include "host/base/meant.h"
 #include "vkhausdorff/error.h"
 
@@ -80,7 +80,7 @@ Length parse_length(const char* option, const std::string& text, PlainNumber pla
   Length length{.requested = text};
   const char* end = text.data() + text.size();
   // from_chars, because a locale must not decide whether 0.5 is a number.
-  const auto [rest, error] = std::from_chars(text.data(), end, length.number);
+  const auto [rest, error] = number_from_chars(text.data(), end, length.number);
   std::string unit(rest, end);
   unit.erase(0, unit.find_first_not_of(' '));
   const bool is_number =

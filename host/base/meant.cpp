@@ -10,6 +10,7 @@
 
 #include "host/base/decimal.h"
 #include "host/base/edits.h"
+#include "host/base/from_chars.h"
 
 namespace vkh {
 namespace {
@@ -137,7 +138,7 @@ bool is_itself(const TypedUnit& unit) { return unit.times == unit.over; }
 std::string as_parsed(const std::string& number, const TypedUnit& unit) {
   double value = 0;
   const char* const end = number.data() + number.size();
-  const auto [rest, error] = std::from_chars(number.data(), end, value);
+  const auto [rest, error] = number_from_chars(number.data(), end, value);
   if (error != std::errc() || rest != end || !(value > 0)) return "";
   if (is_itself(unit)) return number + std::string(unit.unit);
   return number_text(value * unit.times / unit.over, std::chars_format::general, 12) +

@@ -1,11 +1,12 @@
 // Decimal numbers of files and options, read in full or refused.
 #pragma once
 
-#include <charconv>
 #include <cstddef>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+
+#include "host/base/from_chars.h"
 
 namespace vkh {
 
@@ -19,9 +20,9 @@ template <class T>
 bool parse_number(std::string_view word, T& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const size_t sign = !word.empty() && word[0] == '-' ? 1 : 0;
-  // Without this, from_chars takes the words nan and inf.
+  // Without this, some from_chars take the words nan and inf.
   if (word.size() == sign || word[sign] > '9') return false;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = number_from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size()) return false;
   if constexpr (std::is_same_v<T, double>) {
     if (error == std::errc::result_out_of_range && is_tiny_decimal(word)) {

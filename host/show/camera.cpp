@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 
+#include "host/base/from_chars.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh::drawing {
@@ -145,7 +146,7 @@ std::vector<Number> numbers_of(const std::string& text, char between) {
   while (true) {
     Number number{};
     // from_chars, because a locale must not decide whether 0.5 is a number.
-    const std::from_chars_result read = std::from_chars(at, end, number);
+    const std::from_chars_result read = number_from_chars(at, end, number);
     if (read.ec != std::errc()) return {};
     numbers.push_back(number);
     if (read.ptr == end) return numbers;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/base/decimal.h"
+#include "host/base/from_chars.h"
 #include "vkhausdorff/length.h"
 
 namespace vkh {
@@ -25,7 +26,7 @@ Step step_of(double digits, int exponent) {
   const std::string text =
       number_text(digits, std::chars_format::fixed, 0) + "e" + std::to_string(exponent);
   Step step;
-  std::from_chars(text.data(), text.data() + text.size(), step.value);
+  number_from_chars(text.data(), text.data() + text.size(), step.value);
   if (step.value > 0) {
     step.limit = {std::nextafter(step.value, 0.0),
                   std::nextafter(step.value, std::numeric_limits<double>::infinity())};
