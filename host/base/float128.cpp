@@ -18,7 +18,7 @@ constexpr int kDropped = 128 - 113;  // the bits of a word of 128 that rounding 
 UInt128 shifted_right(const UInt128& x, int64_t bits) {
   if (bits >= 128) return {0, 1};
   UInt128 shifted = x >> static_cast<int>(bits);
-  if (shifted << static_cast<int>(bits) != x) shifted.low |= 1;
+  if ((shifted << static_cast<int>(bits)) != x) shifted.low |= 1;
   return shifted;
 }
 

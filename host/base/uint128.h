@@ -18,8 +18,8 @@ struct UInt128 {
   friend constexpr auto operator<=>(const UInt128&, const UInt128&) = default;
 
   friend constexpr UInt128 operator+(const UInt128& x, const UInt128& y) {
-    const uint64_t low = x.low + y.low;
-    return {x.high + y.high + (low < x.low ? 1 : 0), low};
+    const uint64_t sum = x.low + y.low;
+    return {x.high + y.high + (sum < x.low ? 1 : 0), sum};
   }
   friend constexpr UInt128 operator-(const UInt128& x, const UInt128& y) {
     return {x.high - y.high - (x.low < y.low ? 1 : 0), x.low - y.low};
