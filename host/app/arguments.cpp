@@ -32,6 +32,7 @@ struct Program {
   Typed distance, gate, metrics, demo, doctor;
   TypedMany batch, merge;
   TypedSimplify simplify;
+  std::string device_report;  // doctor's
 
   Program() {
     app.set_version_flag("-V,--version", std::string("vkhausdorff ") + program_version());
@@ -69,6 +70,11 @@ struct Program {
 
     command = app.add_subcommand("doctor", "Devices, drivers and a self-check");
     add_device_option(*command, doctor);
+    command
+        ->add_option("--device-report", device_report,
+                     "Write all that is known of the device, its checks and the times of three "
+                     "sizes as JSON, to send to us")
+        ->type_name("FILE");
     refuse_empty_values();
     for (CLI::App* one : app.get_subcommands([](CLI::App*) { return true; })) group_options(*one);
     // Last, since a command begins with its parent's.
@@ -308,6 +314,7 @@ CommandLine understand(const Words& given) {
   CommandLine line;
   line.command = Command::kDoctor;
   line.device = program.doctor.device;
+  line.device_report = program.device_report;
   return line;
 }
 

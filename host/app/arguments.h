@@ -70,7 +70,8 @@ struct CommandLine {
   Question question;        ///< what distance, gate, demo and batch ask
   double time_limit_s = 0;  ///< infinite: none
   Outputs outputs;
-  std::string device;  ///< the device of doctor
+  std::string device;              ///< the device of doctor
+  std::string device_report = {};  ///< its file; empty: none
   BatchAsked batch = {};
   MergeAsked merge = {};
   SimplifyAsked simplify = {};  ///< besides what `question` and `outputs` have

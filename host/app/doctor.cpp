@@ -2,14 +2,18 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 
+#include "host/app/device_properties.h"
+#include "host/app/device_report.h"
 #include "host/app/self_test.h"
 #include "host/base/decimal.h"
-#include "host/gpu/vulkan_api.h"
+#include "host/base/output_file.h"
 #include "host/mesh/mesh_pair.h"
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/device.h"
+#include "vkhausdorff/error.h"
 #include "vkhausdorff/solver.h"
 
 namespace vkh {
@@ -30,7 +34,7 @@ MeshPair self_check_pair() {
       make_mesh("walls", std::move(walls), {{0, 1, 2}, {3, 4, 5}})};
 }
 
-bool self_check(std::ostream& out, Device& device) {
+void self_check(std::ostream& out, Device& device, Examination& found) {
   const MeshPair pair = self_check_pair();
   const auto start = std::chrono::steady_clock::now();
   Solver solver(device);
@@ -38,29 +42,31 @@ bool self_check(std::ostream& out, Device& device) {
   const auto elapsed = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::steady_clock::now() - start);
   const bool encloses = r.lower <= kSelfCheckDistance && kSelfCheckDistance <= r.upper;
-  const bool passed = encloses && r.status == Status::kClosed;
+  found.lower = r.lower;
+  found.upper = r.upper;
+  found.distance = kSelfCheckDistance;
+  found.passed = encloses && r.status == Status::kClosed;
   out << "self-check  true distance " << decimal(kSelfCheckDistance, 17, Rounding::kDown)
       << (encloses ? " lies in [" : " is NOT in [") << decimal(r.lower, 9, Rounding::kDown) << ", "
       << decimal(r.upper, 9, Rounding::kUp) << "], " << status_name(r.status) << ", after "
-      << elapsed.count() << " ms: " << (passed ? "passed" : "FAILED") << '\n';
-  return passed;
+      << elapsed.count() << " ms: " << (found.passed ? "passed" : "FAILED") << std::endl;
 }
 
 /// Measures the properties of arithmetic that the certificate relies on.
-bool check_arithmetic(std::ostream& out, const Device& device) {
-  const SelfTestResult r = run_self_test(device);
+void check_arithmetic(std::ostream& out, const Device& device, Examination& found) {
+  found.arithmetic = run_self_test(device);
+  const SelfTestResult& r = found.arithmetic;
   out << "arithmetic  " << r.items << " hard inputs, " << r.composed << " composed expressions: ";
   if (!r.fault.empty()) {
     out << "FAILED: " << r.fault << '\n';
-    return false;
+    return;
   }
   out << "passed; + - * round " << (r.rounds_to_nearest ? "to nearest" : "to a neighbour")
       << ", division within " << decimal(r.worst_quotient_ulp, 3, Rounding::kUp)
       << " ulp (2.5 allowed), roots within " << decimal(r.worst_root_ulp, 3, Rounding::kUp)
       << " (6), results under 2^-126 " << (r.flushes ? "flushed" : "kept") << ", subgroups of "
-      << r.largest_subgroup << "; subgroup operations tried " << r.group_views << " times, "
-      << r.partial_views << " of them on a part of a subgroup\n";
-  return true;
+      << r.largest_subgroup << "; subgroup operations tried " << r.group_views() << " times, "
+      << r.partial_views() << " of them on a part of a subgroup\n";
 }
 
 void print_device(std::ostream& out, const DeviceDescription& d) {
@@ -70,32 +76,49 @@ void print_device(std::ostream& out, const DeviceDescription& d) {
       << " GiB: " << (d.usable ? "usable" : "not usable: " + d.reason) << '\n';
 }
 
-std::string loader_version() {
-  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(
-      load_vulkan().GetInstanceProcAddr(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
-  uint32_t version = VK_API_VERSION_1_0;
-  if (enumerate != nullptr) enumerate(&version);
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-         std::to_string(VK_API_VERSION_PATCH(version));
+void print_chosen(std::ostream& out, const DeviceDescription& chosen) {
+  out << "chosen      " << chosen.index << "  " << chosen.name
+      << (chosen.type == "cpu" ? " (a CPU device, no GPU)" : "") << "\ndriver      "
+      << chosen.driver << ", Vulkan " << chosen.api_version << std::endl;
+}
+
+/// Returns whether the device can be trusted. Throws DeviceError where a check could not be run.
+bool examine(std::ostream& out, Device& device, const std::vector<DeviceDescription>& devices,
+             const OutputFile* report) {
+  Examination found;
+  check_arithmetic(out, device, found);
+  self_check(out, device, found);
+  const bool is_sound = found.arithmetic.fault.empty() && found.passed;
+  if (report == nullptr) return is_sound;
+  std::string sizes, problem;
+  try {
+    sizes = timed_sizes(device);
+  } catch (const DeviceError& error) {
+    problem = error.what();
+  }
+  report->write(device_report(devices, &device, &found, sizes, problem));
+  return is_sound;
 }
 
 }  // namespace
 
-bool examine_devices(std::ostream& out, const std::string& selector) {
+bool examine_devices(std::ostream& out, const std::string& selector, const OutputFile* report) {
   out << "vkhausdorff " << program_version() << "\nloader      Vulkan " << loader_version()
       << "\ndevices, the preferred first\n";
   const std::vector<DeviceDescription> devices = list_devices();
   for (const DeviceDescription& d : devices) print_device(out, d);
   if (devices.empty()) out << "  none\n";
   out.flush();
-  Device device({.selector = selector});
-  const DeviceDescription& chosen = device.description();
-  out << "chosen      " << chosen.index << "  " << chosen.name
-      << (chosen.type == "cpu" ? " (a CPU device, no GPU)" : "") << "\ndriver      "
-      << chosen.driver << ", Vulkan " << chosen.api_version << std::endl;
-  const bool sound = check_arithmetic(out, device);
-  return self_check(out, device) && sound;
+  std::optional<Device> device;
+  try {
+    device.emplace(DeviceRequest{.selector = selector});
+    print_chosen(out, device->description());
+    return examine(out, *device, devices, report);
+  } catch (const DeviceError& error) {
+    if (report != nullptr)
+      report->write(device_report(devices, device ? &*device : nullptr, nullptr, "", error.what()));
+    throw;
+  }
 }
 
 }  // namespace vkh

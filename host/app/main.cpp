@@ -21,6 +21,7 @@
 #include "host/app/picture_options.h"
 #include "host/app/simplify_command.h"
 #include "host/base/float_environment.h"
+#include "host/base/output_file.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
 
@@ -119,8 +120,11 @@ int printed(ExitCode code) {
   return code;
 }
 
-int run_doctor(const std::string& device) {
-  const bool passed = examine_devices(std::cout, device);
+int run_doctor(const CommandLine& line) {
+  std::optional<OutputFile> report;
+  if (!line.device_report.empty())
+    report.emplace("--device-report", line.device_report, std::vector<std::string>());
+  const bool passed = examine_devices(std::cout, line.device, report ? &*report : nullptr);
   check_printed();
   if (!passed) throw DeviceError("the self-check failed: do not trust this device or driver");
   return kExitClosed;
@@ -134,7 +138,7 @@ int run(const Words& words, Clock::time_point start) {
       check_printed();
       return kExitClosed;
     case Command::kDoctor:
-      return run_doctor(line.device);
+      return run_doctor(line);
     case Command::kBatch:
       note_interrupts();
       return printed(run_batch_command(line.question, line.batch));

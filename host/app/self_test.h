@@ -1,6 +1,7 @@
 // Tests whether a device keeps the promises that the certificate rests on (docs/certificate.md).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -11,6 +12,25 @@
 
 namespace vkh {
 
+/// Where an invocation views its subgroup: all of it, in the two branches of a condition, in a loop
+/// that invocations leave one by one.
+enum class Flow { kWhole, kBranch, kLoop };
+inline constexpr std::array kFlowNames{"in a whole subgroup", "in a branch", "in a loop"};
+
+/// The subgroup operations that are tried, in the order in which a fault names them.
+inline constexpr std::array kGroupOperations{
+    "subgroupBallot",       "subgroupBroadcastFirst", "first_lane",
+    "subgroupElect",        "subgroupBallotBitCount", "subgroupBallotExclusiveBitCount",
+    "subgroupInclusiveAdd", "subgroupShuffle",        "subgroupMin",
+    "subgroupMax"};
+
+/// The views of subgroups at one Flow: how many, how many of them of a part of the subgroup, and in
+/// how many each of kGroupOperations was wrong.
+struct GroupTally {
+  uint64_t views = 0, partial = 0;
+  std::array<uint64_t, kGroupOperations.size()> wrong{};
+};
+
 /// The observed behaviour of a device. `fault` is empty if every promise was kept.
 struct SelfTestResult {
   std::string fault;  ///< the first broken promise: which operation, operands and error
@@ -20,8 +40,10 @@ struct SelfTestResult {
   bool flushes = false;           ///< some result under 2^-126 came out as 0; allowed
   double worst_quotient_ulp = 0, worst_root_ulp = 0;  ///< 2.5 and 6 are allowed
   uint32_t largest_subgroup = 0;
-  uint64_t group_views = 0;    ///< times that an invocation tried every subgroup operation,
-  uint64_t partial_views = 0;  ///< the views with a part of its subgroup
+  std::array<GroupTally, kFlowNames.size()> groups;  ///< by Flow
+
+  uint64_t group_views() const;    ///< times that an invocation tried every subgroup operation
+  uint64_t partial_views() const;  ///< those of a part of its subgroup
 };
 
 /// `count` questions, a multiple of gpu::kGroupSize, on which arithmetic goes wrong: mantissas of

@@ -2,6 +2,7 @@
 // operands of the invocations in its ballot.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <utility>
 
@@ -22,9 +23,6 @@ bool holds(const gpu::uvec4& ballot, uint32_t lane) {
 }
 
 uint32_t last_turn(const Trial& q) { return q.bits & 3u; }
-
-enum class Flow { kWhole, kBranch, kLoop };
-constexpr std::array kFlowNames{"in a whole subgroup", "in a branch", "in a loop"};
 
 /// Holds an invocation's operands, which its subgroup combines.
 struct Given {
@@ -50,19 +48,20 @@ class Judge {
     }
   }
 
-  /// Returns the operation that is wrong, or an empty text.
-  std::string fault(uint32_t item, const Group& seen, Flow flow) const {
+  /// Returns the operations that are wrong, a bit for each of kGroupOperations. A ballot that is
+  /// wrong tells nothing about the others.
+  uint32_t faults(uint32_t item, const Group& seen, Flow flow) const {
+    constexpr uint32_t kBallot = 1;
     Expected e;
-    if (!holds(seen.ballot, seen.lane)) return "subgroupBallot";
+    if (!holds(seen.ballot, seen.lane)) return kBallot;
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       if (!holds(seen.ballot, lane)) continue;
       const auto other = items_.find({seen.subgroup, lane});
-      if (other == items_.end() || !may_be_beside(item, other->second, flow))
-        return "subgroupBallot";
+      if (other == items_.end() || !may_be_beside(item, other->second, flow)) return kBallot;
       add(given(other->second, flow, last_turn(asked_[item])), lane, seen.lane, e);
     }
     const bool is_whole = flow == Flow::kWhole;
-    if (is_whole && e.members != sizes_.at(seen.subgroup)) return "subgroupBallot";
+    if (is_whole && e.members != sizes_.at(seen.subgroup)) return kBallot;
     return compare(seen, e);
   }
 
@@ -94,17 +93,21 @@ class Judge {
     e.sum += lane <= own_lane ? g.item + 1 : 0;
   }
 
-  static std::string compare(const Group& seen, const Expected& e) {
-    if (seen.first != e.first) return "subgroupBroadcastFirst";
-    if (seen.first_lane != e.first) return "first_lane";
-    if (seen.elected != (seen.lane == e.first ? 1u : 0u)) return "subgroupElect";
-    if (seen.members != e.members) return "subgroupBallotBitCount";
-    if (seen.rank != e.rank) return "subgroupBallotExclusiveBitCount";
-    if (seen.sum != e.sum) return "subgroupInclusiveAdd";
-    if (seen.shuffled != e.first_item) return "subgroupShuffle";
-    if (seen.least != e.least.x || !same(seen.all_least, e.least)) return "subgroupMin";
-    if (seen.highest != e.highest.x || !same(seen.all_highest, e.highest)) return "subgroupMax";
-    return {};
+  // In the order of kGroupOperations, behind the ballot.
+  static uint32_t compare(const Group& seen, const Expected& e) {
+    const std::array wrong{seen.first != e.first,
+                           seen.first_lane != e.first,
+                           seen.elected != (seen.lane == e.first ? 1u : 0u),
+                           seen.members != e.members,
+                           seen.rank != e.rank,
+                           seen.sum != e.sum,
+                           seen.shuffled != e.first_item,
+                           seen.least != e.least.x || !same(seen.all_least, e.least),
+                           seen.highest != e.highest.x || !same(seen.all_highest, e.highest)};
+    static_assert(wrong.size() + 1 == kGroupOperations.size());
+    uint32_t bits = 0;
+    for (size_t i = 0; i < wrong.size(); ++i) bits |= wrong[i] ? 2u << i : 0u;
+    return bits;
   }
 
   std::span<const Trial> asked_;
@@ -120,13 +123,25 @@ void judge_groups(std::span<const Trial> questions, std::span<const Groups> grou
   for (uint32_t i = 0; i < groups.size(); ++i) {
     const std::array seen{&groups[i].whole, &groups[i].branch, &groups[i].loop};
     for (size_t flow = 0; flow < seen.size(); ++flow) {
-      const std::string fault = judge.fault(i, *seen[flow], static_cast<Flow>(flow));
-      if (!fault.empty() && result.fault.empty())
-        result.fault = fault + " is wrong " + kFlowNames[flow] + ", of item " + std::to_string(i);
-      ++result.group_views;
-      result.partial_views += seen[flow]->members < groups[i].whole.members ? 1 : 0;
+      const uint32_t faults = judge.faults(i, *seen[flow], static_cast<Flow>(flow));
+      GroupTally& tally = result.groups[flow];
+      for (size_t k = 0; k < kGroupOperations.size(); ++k) tally.wrong[k] += faults >> k & 1u;
+      if (faults != 0 && result.fault.empty())
+        result.fault =
+            std::string(kGroupOperations[static_cast<size_t>(std::countr_zero(faults))]) +
+            " is wrong " + kFlowNames[flow] + ", of item " + std::to_string(i);
+      ++tally.views;
+      tally.partial += seen[flow]->members < groups[i].whole.members ? 1 : 0;
     }
   }
+}
+
+uint64_t SelfTestResult::group_views() const {
+  return groups[0].views + groups[1].views + groups[2].views;
+}
+
+uint64_t SelfTestResult::partial_views() const {
+  return groups[0].partial + groups[1].partial + groups[2].partial;
 }
 
 }  // namespace vkh
