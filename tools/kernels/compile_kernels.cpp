@@ -4,6 +4,8 @@
 // to stderr. Nothing runs on the device.
 //   vkh_compile          all families; exits 77 where RADV is not installed
 //   vkh_compile --here   on the device that the environment selects, in this process
+//   vkh_compile --table  all families: the table of docs/platforms.md, with what the driver says of
+//                        each kernel: registers, spills, scratch
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,7 +13,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <set>
 #include <string>
 
@@ -19,6 +23,7 @@
 #include "engine/vkhausdorff_experimental.h"
 #include "host/app/self_test.h"
 #include "host/show/raster.h"
+#include "tools/kernels/pipeline_statistics.h"
 #include "vkhausdorff/device.h"
 #include "vkhausdorff/error.h"
 
@@ -47,33 +52,38 @@ constexpr std::array kSwitchSets{uint32_t{VKH_SWITCH_DEFAULT_WIDE},
                                  uint32_t{VKH_SWITCH_DEFAULT_NARROW} | kRest, kPaper};
 
 using Names = std::set<std::string>;
+using Look = std::function<void(const std::string& kernel, VkPipeline pipeline)>;
 
-// Names of the kernels that were compiled.
-Names compile(const VkhContextCreateInfo& info) {
+// Names of the kernels that were compiled; each is shown to `look`.
+Names compile(const VkhContextCreateInfo& info, const Look& look) {
   VkhContext context = nullptr;
   if (vkhCreateContext(&info, &context) != VKH_SUCCESS)
     throw vkh::DeviceError("the driver refuses the kernels of switches " +
                            std::to_string(info.switches));
   Names names;
   for (size_t i = 0; i < kKernels.size(); ++i) {
-    if (context->kernels[i].pipeline != VK_NULL_HANDLE) names.insert(kKernels[i].name);
+    if (context->kernels[i].pipeline == VK_NULL_HANDLE) continue;
+    names.insert(kKernels[i].name);
+    look(kKernels[i].name, context->kernels[i].pipeline);
   }
   vkhDestroyContext(context);
   return names;
 }
 
-Names compile_all(const vkh::Device& device, VkBool32 by_address) {
+Names compile_all(
+    const VkhDeviceInfo& device, VkBool32 by_address,
+    const Look& look = [](const std::string&, VkPipeline) {}) {
   Names compiled;
   for (const uint32_t switches : kSwitchSets) {
     for (const VkhDeviceKind kind : {VKH_DEVICE_KIND_WIDE, VKH_DEVICE_KIND_NARROW}) {
       VkhContextCreateInfo info{};
       info.size = sizeof(info);
-      info.device = device.engine_info();
+      info.device = device;
       info.flags = (switches & kRest) | VKH_CONTEXT_CHECK_INPUT;
       if (by_address == VK_TRUE) info.flags |= VKH_CONTEXT_BY_ADDRESS;
       info.deviceKind = kind;
       info.switches = switches & ~kRest;
-      compiled.merge(compile(info));
+      compiled.merge(compile(info, look));
     }
   }
   return compiled;
@@ -101,9 +111,9 @@ const char* compile_pictures(const vkh::Device& device) {
 // The device is never destroyed: RADV crashes if it waits for a card that is not there.
 int compile_here() {
   const vkh::Device& device = *new vkh::Device;
-  int failed = missing(compile_all(device, VK_FALSE), VK_FALSE);
+  int failed = missing(compile_all(device.engine_info(), VK_FALSE), VK_FALSE);
   const bool has_addresses = device.has_addresses();
-  if (has_addresses) failed += missing(compile_all(device, VK_TRUE), VK_TRUE);
+  if (has_addresses) failed += missing(compile_all(device.engine_info(), VK_TRUE), VK_TRUE);
   vkh::compile_self_test(device);
   const char* pictures = compile_pictures(device);
   std::cout << device.description().name << ": " << kKernels.size() + 1 << " kernels, "
@@ -111,8 +121,71 @@ int compile_here() {
   return failed == 0 ? 0 : 1;
 }
 
+// The largest figure of any kernel, and the kernel that has it.
+struct Most {
+  uint64_t value = 0;
+  std::string kernel;
+  void take(uint64_t other, const std::string& name) {
+    if (other > value) *this = {other, name};
+  }
+  std::string text() const { return value == 0 ? "0" : std::to_string(value) + " " + kernel; }
+};
+
+// By kernel, over all switches and both forms.
+struct Registers {
+  std::map<std::string, uint64_t> spilled_vgprs, spilled_sgprs;  // of kernels that spill
+  Most vgprs, sgprs, scratch, shared;
+  size_t pipelines = 0;
+
+  void take(const std::string& kernel, const PipelineStatistics& statistics) {
+    const auto figure = [&](const char* name) {
+      const auto found = statistics.find(name);
+      if (found == statistics.end())
+        throw vkh::DeviceError(std::string("the driver says nothing of ") + name);
+      return found->second;
+    };
+    ++pipelines;
+    vgprs.take(figure("VGPRs"), kernel);
+    sgprs.take(figure("SGPRs"), kernel);
+    scratch.take(figure("Scratch size"), kernel);
+    shared.take(figure("LDS size"), kernel);
+    keep(spilled_vgprs, kernel, figure("Spilled VGPRs"));
+    keep(spilled_sgprs, kernel, figure("Spilled SGPRs"));
+  }
+
+ private:
+  static void keep(std::map<std::string, uint64_t>& spills, const std::string& kernel,
+                   uint64_t count) {
+    if (count > 0) spills[kernel] = std::max(spills[kernel], count);
+  }
+};
+
+std::string text_of(const std::map<std::string, uint64_t>& spills) {
+  std::string text;
+  for (const auto& [kernel, count] : spills)
+    text += (text.empty() ? "" : ", ") + kernel + " " + std::to_string(count);
+  return text.empty() ? "none" : text;
+}
+
+int print_row() {
+  const StatisticsDevice& made = *new StatisticsDevice;
+  Registers registers;
+  const Look look = [&](const std::string& kernel, VkPipeline pipeline) {
+    registers.take(kernel, made.of(pipeline));
+  };
+  compile_all(made.engine_info(), VK_FALSE, look);
+  if (made.device().has_addresses()) compile_all(made.engine_info(), VK_TRUE, look);
+  const char* family = std::getenv("RADV_FORCE_FAMILY");
+  std::cout << "| " << (family == nullptr ? made.device().description().name : family) << " | "
+            << registers.pipelines << " | " << registers.vgprs.text() << " | "
+            << registers.sgprs.text() << " | " << text_of(registers.spilled_vgprs) << " | "
+            << text_of(registers.spilled_sgprs) << " | " << registers.scratch.text() << " | "
+            << registers.shared.text() << " |\n";
+  return 0;
+}
+
 // Returns the child's output on stderr, and its `status` as waitpid has it.
-std::string run_for(const char* family, int& status) {
+std::string run_for(const char* family, const char* what, int& status) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");
   const pid_t child = fork();
@@ -122,7 +195,7 @@ std::string run_for(const char* family, int& status) {
     setenv("VK_DRIVER_FILES", kDriver, 1);
     setenv("RADV_FORCE_FAMILY", family, 1);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // cached kernels are not compiled
-    execl("/proc/self/exe", "vkh_compile", "--here", static_cast<char*>(nullptr));
+    execl("/proc/self/exe", "vkh_compile", what, static_cast<char*>(nullptr));
     _exit(127);
   }
   close(ends[1]);
@@ -147,7 +220,8 @@ bool is_complaint(const std::string& text) {
   return false;
 }
 
-int compile_everywhere() {
+// `what`: what each child does; its standard output is ours.
+int compile_everywhere(const char* what) {
   if (!std::filesystem::exists(kDriver)) {
     std::cout << "skipped: " << kDriver << " is not here (Debian's mesa-vulkan-drivers)\n";
     return 77;
@@ -155,7 +229,7 @@ int compile_everywhere() {
   int failed = 0;
   for (const char* family : kFamilies) {
     int status = 0;
-    const std::string text = run_for(family, status);
+    const std::string text = run_for(family, what, status);
     const bool is_right = WIFEXITED(status) && WEXITSTATUS(status) == 0 && !is_complaint(text);
     if (!is_right) std::cout << family << " FAILED:\n" << text;
     failed += is_right ? 0 : 1;
@@ -166,9 +240,16 @@ int compile_everywhere() {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const bool here = argc == 2 && std::strcmp(argv[1], "--here") == 0;
-  if (!here) return compile_everywhere();
-  const int code = compile_here();
+  const std::string asked = argc == 2 ? argv[1] : "";
+  if (asked == "--table") {
+    std::cout << "| family | pipelines | most VGPRs | most SGPRs | kernels that spill VGPRs | "
+                 "that spill SGPRs | most scratch, bytes | most shared memory, bytes |\n"
+                 "|---|---|---|---|---|---|---|---|\n"
+              << std::flush;
+    return compile_everywhere("--row");
+  }
+  if (asked != "--here" && asked != "--row") return compile_everywhere("--here");
+  const int code = asked == "--row" ? print_row() : compile_here();
   std::cout.flush();
   std::_Exit(code);
 } catch (const std::exception& error) {
