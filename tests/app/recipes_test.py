@@ -4,6 +4,7 @@
 usage: recipes_test.py PROGRAM RECIPES. What a server brings itself (its images, its annotations' page) is not run.
 """
 
+import fnmatch
 import os
 import pathlib
 import re
@@ -79,6 +80,15 @@ class Recipes(unittest.TestCase):
                 self.assertIn("near", (here / "summary.md").read_text())
                 for path in recipe.read_text().split("path: |\n")[1].split():
                     self.assertTrue((here / path).exists(), path)
+
+    def test_the_image_takes_the_package_that_a_release_writes(self):
+        lines = (RECIPES / "Dockerfile").read_text().replace("\\\n", "").splitlines()
+        copied = next(line.split()[1] for line in lines if line.startswith("COPY "))
+        release = (RECIPES.parents[1] / "tools/release").read_text()
+        pattern = re.search(r'files/(\$\S+\.deb)"', release)[1]
+        name = pattern.replace("${name%_*}", "vkhausdorff_0.2.0").replace("${system}", "debian12").replace("${name##*_}", "amd64")
+        self.assertTrue(fnmatch.fnmatch(name, copied), f"{name} is not {copied}")
+        self.assertTrue(any(line.startswith("RUN ") and "mesa-vulkan-drivers" in line and "/tmp/vkhausdorff_*.deb" in line for line in lines))
 
 
 if __name__ == "__main__":
