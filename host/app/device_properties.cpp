@@ -72,6 +72,7 @@ std::vector<VkExtensionProperties> extensions_of(const Device& device) {
 
 Json extensions_json(const std::vector<VkExtensionProperties>& list) {
   std::vector<std::pair<std::string, uint32_t>> rows;
+  rows.reserve(list.size());
   for (const VkExtensionProperties& e : list) rows.emplace_back(e.extensionName, e.specVersion);
   std::sort(rows.begin(), rows.end());
   Json json = Json::object();
