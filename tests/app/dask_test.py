@@ -78,6 +78,28 @@ class Dask(unittest.TestCase):
         self.assertEqual(by_index([first, *found]), self.expected)
         self.until(lambda: len(self.pids()) == 2 and process not in self.pids())
 
+    def test_on_progress_reaches_one(self):
+        names = ("first", *self.pairs[0]), ("bad", "nowhere.ply", self.pairs[0][1]), *self.pairs[:3]
+        for pairs, is_counted in ((names, True), (iter(names), False)):
+            heard = []
+            found = list(distances(self.client, pairs, shard=2, on_progress=lambda *now: heard.append(now), **OPTIONS))
+            self.assertEqual(len(found), len(heard))
+            fractions, lowers, uppers = zip(*heard)
+            self.assertEqual(fractions, tuple(sorted(fractions)))
+            self.assertEqual(fractions[-1], 1)
+            if is_counted:
+                self.assertEqual(fractions, tuple((i + 1) / 5 for i in range(5)))
+            good = [r for r in found if r.error is None]
+            self.assertEqual((lowers[-1], uppers[-1]), (max(r.lower for r in good), max(r.upper for r in good)))
+        heard = []
+        self.assertEqual(list(distances(self.client, [], on_progress=lambda *now: heard.append(now))), [])
+        self.assertEqual(heard, [(1, 0, 0)])
+
+    def test_on_progress_may_end_it(self):
+        found = list(distances(self.client, self.pairs, shard=SHARD, on_progress=lambda *now: now[0] < 0.1, **OPTIONS))
+        self.assertEqual(len(found), 2)  # of 20
+        self.until(lambda: not any(self.client.processing().values()))
+
     def pids(self):
         return list(self.client.run(os.getpid).values())
 
@@ -103,12 +125,15 @@ class Dask(unittest.TestCase):
         self.assertEqual(said.returncode, 0, said.stderr)
         lines = [re.fullmatch(r"(.*) \((.*), (.*)\)", line).groups() for line in said.stdout.splitlines()]
         self.assertEqual(sorted(name for name, _, _ in lines), sorted(f"pair {i}" for i in range(24)))
+        self.assertTrue(said.stderr.splitlines()[-1].startswith("100 %"), said.stderr)
         self.assertTrue(all(0.1 < float(lower) <= float(upper) < 0.11 for _, lower, upper in lines), said.stdout)
 
     def test_what_is_wrong_is_said(self):
         for wrong in ({"device": "0"}, {"devices": "0"}):
             with self.assertRaisesRegex(TypeError, "a sequence of devices"):
                 distances(self.client, self.pairs, **wrong)
+        with self.assertRaisesRegex(TypeError, "^on_progress: expected a function"):
+            distances(self.client, self.pairs, on_progress=1)
         with self.assertRaisesRegex(ValueError, "from 1"):
             distances(self.client, self.pairs, shard=0)
         with self.assertRaises(TypeError):

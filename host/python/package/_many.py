@@ -39,7 +39,7 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
         raise TypeError(f"pairs: expected an iterable of (a, b) or (id, a, b), not {type(pairs).__name__}") from None
     named = {} if tol is None else {"tol": tol}
     first = getattr(pairs, "first_index", 0)  # vkhausdorff.dask's shards have it
-    progress = None if on_progress is None else _Progress(on_progress, pairs, first)
+    progress = None if on_progress is None else Progress(on_progress, pairs, first)
     stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
                           disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
                            max_input=max_input, polygons=polygons, bodies=bodies, field=field, statistics=statistics, signed=signed, bands=bands,
@@ -102,10 +102,10 @@ def _put(stream, index, item, split):
     return None
 
 
-class _Progress:
+class Progress:
     """Tells a caller how many pairs have ended, and what they have shown."""
 
-    def __init__(self, on_progress, pairs, first):
+    def __init__(self, on_progress, pairs, first=0):
         if not callable(on_progress):
             raise TypeError("on_progress: expected a function of fraction, lower and upper, or None, "
                             f"not a value of type {type(on_progress).__name__}")

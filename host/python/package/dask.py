@@ -6,8 +6,10 @@ import pathlib
 import tempfile
 import threading
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
+
+from vkhausdorff._many import Progress
 
 try:
     import fcntl
@@ -18,7 +20,8 @@ __all__ = ["distances"]
 
 
 def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: int = 2, retries: int = 3,
-              devices: Sequence[str] = (), **options: Any) -> Iterator[Any]:
+              devices: Sequence[str] = (), on_progress: Callable[[float, float, float], Any] | None = None,
+              **options: Any) -> Iterator[Any]:
     """Yields what vkhausdorff.distances(pairs, **options) gives, in the order in which shards end: see a result's index and id.
 
     client: a distributed.Client, not an asynchronous one. Its workers have this package, and see the files that pairs
@@ -26,7 +29,9 @@ def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: in
     than a pair takes. ahead: shards submitted for each worker. retries: so often a shard is done again after an error,
     besides what Dask does again because a worker was lost; a pair's own error is in its result. devices: of each machine,
     as distances() takes one; each worker's process there takes one that no other has. Without them every worker takes the
-    best. Arrays travel with their task; names of files are quicker.
+    best. Arrays travel with their task; names of files are quicker. on_progress(fraction, lower, upper) is called in this
+    process, on the thread of next(), as distances() has it, for each pair of a shard that has ended. Return False to end:
+    shards that run are cancelled.
     """
     if getattr(client, "asynchronous", False):
         raise TypeError("client: expected one that is not asynchronous")
@@ -36,11 +41,13 @@ def distances(client: Any, pairs: Iterable[Any], *, shard: int = 1000, ahead: in
         raise ValueError("shard, ahead: expected whole numbers from 1")
     if options.get("against") is not None:
         options["against"] = _absolute(options["against"])
-    shards = _dealt(pairs, shard, "against" in options)
-    return _as_they_end(client, shards, ahead, retries, (tuple(devices), options))
+    progress = None if on_progress is None else Progress(on_progress, pairs)
+    shards = _dealt(pairs, shard, "against" in options, progress)
+    return _as_they_end(client, shards, ahead, retries, (tuple(devices), options), progress)
 
 
-def _as_they_end(client: Any, shards: Iterator["_Shard"], ahead: int, retries: int, how: tuple[Any, ...]) -> Iterator[Any]:
+def _as_they_end(client: Any, shards: Iterator["_Shard"], ahead: int, retries: int, how: tuple[Any, ...],
+                 progress: Any) -> Iterator[Any]:
     from distributed import as_completed
 
     ending: Any = as_completed(loop=client.loop)
@@ -59,7 +66,13 @@ def _as_they_end(client: Any, shards: Iterator["_Shard"], ahead: int, retries: i
             results = future.result()
             future.release()
             submit()
-            yield from results
+            for result in results:
+                is_last = progress is not None and not progress.hear(result)
+                yield result
+                if is_last:
+                    return
+        if progress is not None:
+            progress.end()
     finally:
         client.cancel(list(running))
 
@@ -70,12 +83,14 @@ class _Shard(list[Any]):
     first_index = 0
 
 
-def _dealt(pairs: Iterable[Any], size: int, has_one: bool) -> Iterator[_Shard]:
+def _dealt(pairs: Iterable[Any], size: int, has_one: bool, progress: Any) -> Iterator[_Shard]:
     rest, first = iter(pairs), 0
     while some := _Shard(_there(pair, has_one) for pair in itertools.islice(rest, size)):
         some.first_index = first
         first += len(some)
         yield some
+    if progress is not None:
+        progress.know_count(first)
 
 
 def _there(pair: Any, has_one: bool) -> Any:
