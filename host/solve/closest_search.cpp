@@ -50,15 +50,6 @@ Frame frame_of(const FramedB& b, int number) {
   return {b.frame.centre, b.frame.exponent - kFrameDoublings * number};
 }
 
-void check_points(std::span<const DVec3> points) {
-  for (size_t i = 0; i < points.size(); ++i) {
-    const DVec3& p = points[i];
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-    reject("points", "row " + std::to_string(i),
-           "(" + coordinates_text(p.x, p.y, p.z) + ") is not finite", "finite coordinates");
-  }
-}
-
 // The Morton code of a point, ten bits an axis; what lies outside of the frame is clamped to it.
 uint32_t morton_code(const StoredPoint& point) {
   uint32_t code = 0;
@@ -216,6 +207,15 @@ std::map<int, std::vector<size_t>> by_frame(const FramedB& b, std::span<const DV
 }
 
 }  // namespace
+
+void check_points(std::span<const DVec3> points) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    const DVec3& p = points[i];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    reject("points", "row " + std::to_string(i),
+           "(" + coordinates_text(p.x, p.y, p.z) + ") is not finite", "finite coordinates");
+  }
+}
 
 ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
                                   const ClosestQuestion& question) {

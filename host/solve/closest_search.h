@@ -23,6 +23,9 @@ struct ClosestQuestion {
   ClosestGoesOn goes_on;
 };
 
+/// Throws InputError that names the row of a point that is not finite.
+void check_points(std::span<const DVec3> points);
+
 /// Throws as Solver::closest does.
 ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
                                   const ClosestQuestion& question);

@@ -1,5 +1,5 @@
-// distance_over: one pair on several devices. It uses two drivers if VKH_TEST_SECOND_DEVICE names
-// one; otherwise two logical devices of one.
+// distance_over and closest_over: one question on several devices. They use two drivers if
+// VKH_TEST_SECOND_DEVICE names one; otherwise two logical devices of one.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/shapes/hard_pairs.h"
@@ -52,7 +54,64 @@ std::vector<ReferencePair> pairs() {
   return all;
 }
 
+/// Enough points for several shares of each device, some of them far away.
+std::vector<DVec3> scattered_points() {
+  std::vector<DVec3> points;
+  for (const Mesh& mesh : {soup(5, 12'000), translated(soup(6, 40), {1e9, 0, 0})})
+    points.insert(points.end(), mesh.vertices.begin(), mesh.vertices.end());
+  return points;
+}
+
+bool has_row_of(const ClosestPoints& found, const ClosestPoints& alone, size_t i) {
+  return found.lower[i] == alone.lower[i] && found.upper[i] == alone.upper[i] &&
+         found.points[i] == alone.points[i] && found.faces[i] == alone.faces[i];
+}
+
 }  // namespace
+
+TEST_CASE("closest points over two devices have the bits that one of them finds alone") {
+  const Mesh b = noisy(icosphere(1, 3), 0.02, 1);
+  const std::vector<DVec3> points = scattered_points();
+  const ClosestPoints first = solver().closest(b, points),
+                      second = other().solver.closest(b, points);
+  const PreparedMesh on_first = solver().prepare(b), on_second = other().solver.prepare(b);
+  const std::vector<const PreparedMesh*> prepared{&on_first, &on_second};
+  for (const ClosestPoints& found :
+       {closest_over(both(), b, points), closest_over(both(), prepared, points)}) {
+    REQUIRE(found.lower.size() == points.size());
+    size_t strangers = 0;
+    for (size_t i = 0; i < points.size(); ++i)
+      strangers += has_row_of(found, first, i) || has_row_of(found, second, i) ? 0 : 1;
+    CHECK(strangers == 0);
+  }
+  CHECK(closest_over(both(), b, {}).lower.empty());
+}
+
+TEST_CASE("closest points over devices: who calls them off, and what is wrong") {
+  const Mesh b = icosphere(1, 3);
+  std::vector<DVec3> points = scattered_points();
+  const auto here = std::this_thread::get_id();
+  size_t most = 0;
+  closest_over(both(), b, points, [&](size_t done) {
+    CHECK(std::this_thread::get_id() == here);
+    CHECK(done >= most);
+    most = done;
+    return true;
+  });
+  CHECK(most > 0);
+  CHECK(most <= points.size());
+  CHECK_THROWS_AS(closest_over(both(), b, points, [](size_t) { return false; }), Interrupted);
+  const auto enough = [](size_t) -> bool { throw std::runtime_error("enough"); };
+  CHECK_THROWS_WITH(closest_over(both(), b, points, enough), "enough");
+  CHECK_THROWS_AS(closest_over({}, b, points), UsageError);
+  const PreparedMesh one = solver().prepare(b);
+  const std::vector<const PreparedMesh*> too_few{&one};
+  CHECK_THROWS_AS(closest_over(both(), too_few, points), UsageError);
+  points.back().y = NAN;
+  CHECK_THROWS_WITH_AS(closest_over(both(), b, points),
+                       doctest::Contains(("row " + std::to_string(points.size() - 1)).c_str()),
+                       InputError);
+}
 
 TEST_CASE("two devices enclose what one does, and close it") {
   for (const ReferencePair& pair : pairs()) {

@@ -1,5 +1,6 @@
-// Solves one pair on several devices at once: A's faces are dealt out, B is on each, and each
-// device's findings go to the others while they run.
+// One question on several devices at once, with B on each: A's faces are dealt out, and each
+// device's findings go to the others while they run; or the points are whose closest ones are
+// sought.
 #pragma once
 
 #include <span>
@@ -21,5 +22,19 @@ namespace vkh {
 /// these Solvers; options.survey is called for each part.
 Report distance_over(std::span<Solver* const> solvers, const Mesh& a, const Mesh& b,
                      const SolveOptions& options = {});
+
+/// Finds what Solver::closest finds for each of `points`: a device takes some of them at a time,
+/// until none is left, on a thread of its own. A point's answer is that of the device that took it,
+/// bit for bit. `goes_on` is called on the caller's thread with the number of points that are done,
+/// and may not use these Solvers.
+///   A device that is lost, or has no memory for it, leaves its points to the others; the last
+/// one's error is thrown. Throws what Solver::closest throws besides, and UsageError for no Solver.
+ClosestPoints closest_over(std::span<Solver* const> solvers, const Mesh& b,
+                           std::span<const DVec3> points, const ClosestGoesOn& goes_on = {});
+/// Does the same with B prepared on each device: `prepared` has one for each Solver, in their
+/// order.
+ClosestPoints closest_over(std::span<Solver* const> solvers,
+                           std::span<const PreparedMesh* const> prepared,
+                           std::span<const DVec3> points, const ClosestGoesOn& goes_on = {});
 
 }  // namespace vkh

@@ -98,6 +98,33 @@ TEST_CASE("where all are lost, that is said") {
   }
 }
 
+TEST_CASE("points of a device that is lost are the other's, with the same bits") {
+  const std::vector<DVec3> points = soup(5, 12'000).vertices;
+  ClosestPoints alone;
+  {
+    Two two(options());
+    alone = two.solvers[0]->closest(b(), points);
+  }
+  for (const char* fault :
+       {"vkQueueSubmit:1", "vkQueueSubmit:2", "vkQueueSubmit:4", "vkWaitForFences:3"}) {
+    CAPTURE(fault);
+    Two two(options());
+    const Watchdog watchdog;
+    layer().arm(std::string(fault) + ":VK_ERROR_DEVICE_LOST");
+    const ClosestPoints found = closest_over(two.solvers, b(), points);
+    CHECK(layer().injected() == 1);
+    layer().arm("");
+    CHECK(found.lower == alone.lower);
+    CHECK(found.upper == alone.upper);
+    CHECK(found.faces == alone.faces);
+    CHECK(found.points == alone.points);
+  }
+  Two two(options());
+  layer().arm("vkQueueSubmit:3+:VK_ERROR_DEVICE_LOST");
+  CHECK_THROWS_AS(closest_over(two.solvers, b(), points), DeviceError);
+  layer().arm("");
+}
+
 TEST_CASE("no memory on either is an error, and both go on to work") {
   Two two(options());
   layer().arm("vkAllocateMemory:1+:VK_ERROR_OUT_OF_DEVICE_MEMORY");
