@@ -34,11 +34,12 @@ bool is_one(const std::string& selector) {
 }  // namespace
 
 std::vector<std::string> selectors_of(const std::string& text) {
+  if (is_one(text)) return {text};
   std::vector<std::string> selectors;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
-    if (word.empty() && !text.empty())
+    if (word.empty())
       throw UsageError("--device '" + text + "': expected names between commas, or all");
     if (word == "all") {
       const std::vector<DeviceDescription> all = list_devices();
@@ -58,7 +59,7 @@ Session open_session(const std::string& selector, bool several, const SolveOptio
                      const std::filesystem::path& cache_folder) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::string> selectors =
-      several && !is_one(selector) ? selectors_of(selector) : std::vector<std::string>{selector};
+      several ? selectors_of(selector) : std::vector<std::string>{selector};
   std::vector<Opened> opened(selectors.size());
   for_each_index(
       selectors.size(),

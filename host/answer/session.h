@@ -23,11 +23,12 @@ struct Session {
 };
 
 /// Splits "all", every GPU, or the CPU device where there is none; else names that DeviceRequest
-/// takes, between commas. Throws UsageError for an empty one.
+/// takes, between commas, unless it is a device's name that has some. Throws UsageError for an
+/// empty one.
 std::vector<std::string> selectors_of(const std::string& text);
 
-/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector; or, if `several` may
-/// be asked for and it names no device, a text for selectors_of(). `cache_folder`: see Solver.
+/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector, or a text for
+/// selectors_of(), if `several` may be asked for. `cache_folder`: see Solver.
 Session open_session(const std::string& selector, bool several, const SolveOptions& options,
                      const std::filesystem::path& cache_folder);
 

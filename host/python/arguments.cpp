@@ -5,6 +5,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/answer/session.h"
+#include "host/python/interpreter.h"
+#include "vkhausdorff/error.h"
+
 namespace vkh::python {
 namespace {
 
@@ -139,6 +143,16 @@ std::string Arguments::device(const char* expected) const {
   const std::optional<uint64_t> index = whole("device", expected);
   if (!index) refuse_type("device", expected, *given);
   return std::to_string(*index);
+}
+
+std::vector<std::string> Arguments::devices(const char* expected) const {
+  const std::string text = device(expected);
+  const WithoutGil outside;
+  try {
+    return selectors_of(text);
+  } catch (const UsageError&) {
+    throw UsageError("device: expected names between commas, or 'all', not '" + text + "'");
+  }
 }
 
 std::vector<std::string> Arguments::texts(const char* name) const {

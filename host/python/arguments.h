@@ -34,6 +34,8 @@ class Arguments {
   std::string text(const char* name, const char* expected) const;
   /// A device: text, or its index.
   std::string device(const char* expected) const;
+  /// One device or several: a text for selectors_of(), or an index. Lists devices without the GIL.
+  std::vector<std::string> devices(const char* expected) const;
   std::vector<std::string> texts(const char* name) const;
   // Returns nothing for None, or if not given. Never a NaN.
   std::optional<double> number(const char* name, const char* expected) const;

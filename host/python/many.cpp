@@ -1,7 +1,6 @@
 #include "host/python/many.h"
 
 #include "host/answer/options.h"
-#include "host/answer/session.h"
 #include "host/python/arguments.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
@@ -49,15 +48,9 @@ StreamOptions devices_of(const Arguments& given) {
       "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
       "'all'";
   StreamOptions devices;
-  const std::string text = given.device(kDevice);
+  devices.devices = given.devices(kDevice);
   devices.together = count_of(given, "together");
   devices.lanes = count_of(given, "lanes");
-  const WithoutGil outside;
-  try {
-    devices.devices = selectors_of(text);
-  } catch (const UsageError&) {
-    throw UsageError("device: expected names between commas, or 'all', not '" + text + "'");
-  }
   return devices;
 }
 

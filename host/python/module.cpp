@@ -138,7 +138,9 @@ void define_closest(py::module_& m) {
       "b: a mesh, as distance() takes it; points: (n, 3) float32, float64 or integers up to 2^53,\n"
       "in B's coordinates. Returns a Closest with arrays lower, upper, points and faces; also\n"
       "distances, points, faces = closest(b, points), the distances being upper. ValueError that\n"
-      "names the row if a point is not finite. For many calls with one B: Solver(b).closest.");
+      "names the row if a point is not finite. For many calls with one B: Solver(b).closest.\n"
+      "device: as distance() takes it, or several between commas such as '0,1', or 'all', every\n"
+      "GPU: each takes some of the points, and a point's answer is that of the one that took it.");
 }
 
 py::dict info_of(const py::object& self) {
@@ -186,7 +188,9 @@ void define_solver(py::module_& m) {
   py::class_<PythonSolver>(m, "Solver",
                            "Mesh B on the device, its hierarchy built once, for many A's:\n"
                            "with Solver(vb, fb) as s: r = s.distance(va, fa)\n"
-                           "Solver(b) and s.distance(a) take meshes, as vkhausdorff.distance.")
+                           "Solver(b) and s.distance(a) take meshes, as vkhausdorff.distance.\n"
+                           "device: one, or several as closest() takes them: B is on each,\n"
+                           "closest() uses all, and distance() the first.")
       .def(py::init<const py::args&, const py::kwargs&>(),
            "__init__(self, vb, fb, device='')\n--\n\n")
       .def(

@@ -1,5 +1,6 @@
 #include "host/python/session.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -42,8 +43,8 @@ Reply ask_python(void* data) {
 
 }  // namespace
 
-struct Session::Parts {
-  explicit Parts(const std::string& selector)
+struct Session::Opened {
+  explicit Opened(const std::string& selector)
       : device(DeviceRequest{.selector = selector}), solver(device) {}
   Device device;
   Solver solver;
@@ -76,8 +77,8 @@ class Session::Turn {
   Session& session_;
 };
 
-Session::Session(const std::string& device, const char* owner)
-    : selector_(device), owner_name_(owner) {
+Session::Session(std::vector<std::string> devices, const char* owner)
+    : selectors_(std::move(devices)), owner_name_(owner) {
   mark_used();
   const WithoutGil outside;
   open();
@@ -86,7 +87,7 @@ Session::Session(const std::string& device, const char* owner)
 
 Session::~Session() {
   if (is_forked()) {
-    static_cast<void>(parts_.release());
+    for (auto& one : opened_) static_cast<void>(one.release());
     return;
   }
   change_now([&] { sessions_alive().erase(this); });
@@ -94,10 +95,12 @@ Session::~Session() {
 
 // If it throws, the session stays lost, and the next call does it again.
 void Session::open() {
-  parts_.reset();
-  parts_ = std::make_unique<Parts>(selector_);
+  opened_.clear();
+  std::vector<std::unique_ptr<Opened>> all;
+  for (const std::string& selector : selectors_) all.push_back(std::make_unique<Opened>(selector));
+  opened_ = std::move(all);
   is_lost_ = false;
-  change_now([&] { description_ = parts_->device.description(); });
+  change_now([&] { description_ = opened_.front()->device.description(); });
 }
 
 pybind11::value_error Session::closed() const {
@@ -112,40 +115,63 @@ void Session::end_turn() {
     change_now([&] {
       dropped.swap(dropped_);
       is_closed = is_closed_;
-      is_over = dropped.empty() && !(is_closed && parts_ != nullptr);
+      is_over = dropped.empty() && !(is_closed && !opened_.empty());
       if (is_over) owner_ = {};
     });
     for (const Key key : dropped) {
       meshes_.erase(key);
-      if (parts_ != nullptr) parts_->prepared.erase(key);
+      for (auto& one : opened_) one->prepared.erase(key);
     }
-    if (is_closed) parts_.reset();
+    if (is_closed) opened_.clear();
   }
 }
 
-std::shared_ptr<const PreparedMesh> Session::prepared(Key key) {
+std::shared_ptr<const PreparedMesh> Session::prepared(Opened& on, Key key) {
   const auto mesh = meshes_.find(key);
   if (mesh == meshes_.end()) throw py::value_error("this Solver is closed");
-  std::shared_ptr<const PreparedMesh>& kept = parts_->prepared[key];
+  std::shared_ptr<const PreparedMesh>& kept = on.prepared[key];
   if (kept == nullptr)
-    kept = std::make_shared<const PreparedMesh>(parts_->solver.prepare(*mesh->second));
+    kept = std::make_shared<const PreparedMesh>(on.solver.prepare(*mesh->second));
   return kept;
 }
 
-// A lost device may show itself by another error first, so that it is checked after each.
-void Session::run(const Work& work, Key key) {
+bool Session::has_lost_one() const {
+  return std::any_of(opened_.begin(), opened_.end(),
+                     [](const auto& one) { return one->device.is_lost(); });
+}
+
+// A lost device may show itself by another error first, so that it is checked after each; or by
+// none, where others did its part.
+void Session::run(const WorkOver& work, Key key) {
   try {
     if (is_lost_) open();
-    const auto b = key == 0 ? nullptr : prepared(key);
-    work(parts_->solver, b.get());
+    std::vector<Solver*> solvers;
+    std::vector<std::shared_ptr<const PreparedMesh>> kept;  // they may be dropped meanwhile
+    std::vector<const PreparedMesh*> b;
+    for (auto& one : opened_) {
+      solvers.push_back(&one->solver);
+      if (key == 0) continue;
+      kept.push_back(prepared(*one, key));
+      b.push_back(kept.back().get());
+    }
+    work(solvers, b);
+    if (opened_.size() > 1) is_lost_ = has_lost_one();
   } catch (const DeviceError& error) {
-    if (parts_ != nullptr) is_lost_ = parts_->device.is_lost();
+    if (!opened_.empty()) is_lost_ = has_lost_one();
     if (!is_lost_) throw;
     throw DeviceLost(std::string(error.what()) + "; the next call opens a device anew");
   }
 }
 
 void Session::use(const Work& work, Key key) {
+  use_all(
+      [&work](std::span<Solver* const> solvers, std::span<const PreparedMesh* const> b) {
+        work(*solvers.front(), b.empty() ? nullptr : b.front());
+      },
+      key);
+}
+
+void Session::use_all(const WorkOver& work, Key key) {
   try {
     const WithoutGil outside;
     const Turn turn(*this);
@@ -162,7 +188,7 @@ Session::Key Session::prepare(MeshPointer b) {
   const Key key = ++last_key_;
   meshes_.emplace(key, std::move(b));
   try {
-    run([](Solver&, const PreparedMesh*) {}, key);
+    run([](auto, auto) {}, key);
     if (is_ending()) throw Ended{};
   } catch (...) {
     drop(key);
@@ -201,7 +227,7 @@ DeviceDescription Session::description() const {
 }
 
 void Session::free_all() {
-  for (Session* session : sessions_alive()) session->parts_.reset();
+  for (Session* session : sessions_alive()) session->opened_.clear();
 }
 
 bool hear(const py::object& progress, const Progress& p) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,15 +22,15 @@ namespace vkh::python {
 /// Made, used and closed within a Call. Freed by its last owner, or at the interpreter's end.
 class Session {
  public:
-  /// Opens the device. `owner`: "Device" or "Solver", for messages.
-  explicit Session(const std::string& device, const char* owner);
+  /// Opens the devices, one or several. `owner`: "Device" or "Solver", for messages.
+  Session(std::vector<std::string> devices, const char* owner);
   /// Does not wait: a thread with a run in flight has a share of the session. In a forked process
   /// nothing is freed: the device is the parent's.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Names a mesh that is kept on the device; 0 names none.
+  /// Names a mesh that is kept on each device; 0 names none.
   using Key = uint64_t;
   /// Prepares `b` and keeps it until it is dropped. Throws as use() does, and keeps nothing then.
   Key prepare(MeshPointer b);
@@ -42,34 +43,39 @@ class Session {
   /// if `key` was dropped; a DeviceError if the device is lost meanwhile. The next call opens it
   /// anew, and each mesh that was prepared is prepared again by its next use.
   ///
-  /// The second argument is the mesh that `key` names, or null.
+  /// The first device's Solver is used; the second argument is the mesh that `key` names, or null.
   using Work = std::function<void(Solver&, const PreparedMesh*)>;
   void use(const Work& work, Key key = 0);
+  /// Does the same with all devices; the second argument has the mesh on each, or is empty.
+  using WorkOver =
+      std::function<void(std::span<Solver* const>, std::span<const PreparedMesh* const>)>;
+  void use_all(const WorkOver& work, Key key = 0);
 
   /// Frees the device, after the run of another thread. In a callback of its own run it waits for
   /// nothing: that run goes on, and is the last.
   void close();
 
-  /// Returns the open device's, or that of the one that was open last.
+  /// Returns the first open device's, or that of the one that was open last.
   DeviceDescription description() const;
 
   /// Frees all at the end of the interpreter: no Session has a device afterwards.
   static void free_all();
 
  private:
-  struct Parts;
+  struct Opened;
   class Turn;
   void open();
-  void run(const Work& work, Key key);
-  std::shared_ptr<const PreparedMesh> prepared(Key key);
+  void run(const WorkOver& work, Key key);
+  std::shared_ptr<const PreparedMesh> prepared(Opened& on, Key key);
+  bool has_lost_one() const;
   void end_turn();
   pybind11::value_error closed() const;
 
-  const std::string selector_;
+  const std::vector<std::string> selectors_;
   const char* const owner_name_;
   // These belong to the thread that has the turn.
-  std::unique_ptr<Parts> parts_;       // null if a lost device could not be opened anew
-  std::map<Key, MeshPointer> meshes_;  // those that were prepared and not dropped
+  std::vector<std::unique_ptr<Opened>> opened_;  // none if a lost device could not be opened anew
+  std::map<Key, MeshPointer> meshes_;            // those that were prepared and not dropped
   bool is_lost_ = false;
   Key last_key_ = 0;
   // These belong to the lock of change_now().

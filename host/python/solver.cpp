@@ -14,6 +14,7 @@
 #include "vkhausdorff/frame.h"
 #include "vkhausdorff/simplify.h"
 
+#include "vkhausdorff/together.h"
 namespace vkh::python {
 namespace {
 
@@ -21,19 +22,23 @@ namespace py = pybind11;
 
 constexpr const char* kSelector = "'', 'gpu', 'cpu', an index such as 0 or part of a name";
 constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as 0, part of a name or a Device";
+constexpr const char* kDevices =
+    "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, 'all' "
+    "or a Device";
 
-// One session a device, kept between calls of distance(): making one takes longer than most runs.
-// It is never destroyed, but freed: see interpreter.cpp.
-std::map<std::string, std::shared_ptr<Session>>& sessions() {
-  static auto* kept = new std::map<std::string, std::shared_ptr<Session>>;
+// One session for each choice of devices, kept between calls of distance(): making one takes longer
+// than most runs. It is never destroyed, but freed: see interpreter.cpp.
+std::map<std::vector<std::string>, std::shared_ptr<Session>>& sessions() {
+  static auto* kept = new std::map<std::vector<std::string>, std::shared_ptr<Session>>;
   return *kept;
 }
 
-std::shared_ptr<Session> session_for(const std::string& device) {
-  const auto known = sessions().find(device);
+std::shared_ptr<Session> session_for(const std::vector<std::string>& devices) {
+  const auto known = sessions().find(devices);
   if (known != sessions().end()) return known->second;
-  auto made = std::make_shared<Session>(device, "Device");  // without the GIL: another may be first
-  return sessions().try_emplace(device, std::move(made)).first->second;
+  auto made =
+      std::make_shared<Session>(devices, "Device");  // without the GIL: another may be first
+  return sessions().try_emplace(devices, std::move(made)).first->second;
 }
 
 /// The session of a Device; null if `device` is none.
@@ -46,7 +51,13 @@ std::shared_ptr<Session> shared_session(const Arguments& given) {
 /// Reads the keyword `device`, and keeps the session between calls.
 std::shared_ptr<Session> session_of(const Arguments& given) {
   std::shared_ptr<Session> shared = shared_session(given);
-  return shared != nullptr ? shared : session_for(given.device(kDevice));
+  return shared != nullptr ? shared : session_for({given.device(kDevice)});
+}
+
+/// Does the same where several devices may be asked for.
+std::shared_ptr<Session> session_over(const Arguments& given) {
+  std::shared_ptr<Session> shared = shared_session(given);
+  return shared != nullptr ? shared : session_for(given.devices(kDevices));
 }
 
 /// Reads a function's keyword: None if it was not given.
@@ -294,11 +305,11 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{"closest", {"b", "points", "device"}, 2, 2};
   const Call call;
   const Arguments given(*signature, positional, named);
-  const std::shared_ptr<Session> session = session_of(given);
+  const std::shared_ptr<Session> session = session_over(given);
   const MeshPointer b = mesh_of("b", "B", given.at("b"));
   const std::vector<DVec3> points = points_from(given.at("points"));
   ClosestPoints found;
-  session->use([&](Solver& s, const PreparedMesh*) { found = s.closest(*b, points, goes_on); });
+  session->use_all([&](auto solvers, auto) { found = closest_over(solvers, *b, points, goes_on); });
   return closest_of(found);
 }
 
@@ -391,7 +402,7 @@ PythonDevice::PythonDevice(const py::args& positional, const py::kwargs& named)
         static const auto* signature = new Signature{"Device", {"device"}, 0, 1};
         const Call call;
         const Arguments given(*signature, positional, named);
-        return std::make_shared<Session>(given.device(kSelector), "Device");
+        return std::make_shared<Session>(std::vector{given.device(kSelector)}, "Device");
       }()) {}
 
 void PythonDevice::close() {
@@ -411,9 +422,10 @@ PythonSolver::PythonSolver(const py::args& positional, const py::kwargs& named) 
   const Arguments given(*signature, all, named);
   std::shared_ptr<Session> session = shared_session(given);
   shares_device_ = session != nullptr;
-  const std::string device = shares_device_ ? std::string() : given.device(kDevice);
+  std::vector<std::string> devices;
+  if (!shares_device_) devices = given.devices(kDevices);
   b_ = kept(mesh_of("B", given.at("vb"), given.at("fb")));
-  if (!shares_device_) session = std::make_shared<Session>(device, "Solver");
+  if (!shares_device_) session = std::make_shared<Session>(std::move(devices), "Solver");
   key_ = session->prepare(b_.mesh);
   session_ = std::move(session);
 }
@@ -448,10 +460,9 @@ py::object PythonSolver::closest(const py::args& positional, const py::kwargs& n
   const Arguments given(*signature, positional, named);
   const std::vector<DVec3> points = points_from(given.at("points"));
   ClosestPoints found;
-  const auto work = [&](Solver& solver, const PreparedMesh* b) {
-    found = solver.closest(*b, points, goes_on);
-  };
-  session->use(work, key_);
+  session->use_all([&](auto solvers,
+                       auto prepared) { found = closest_over(solvers, prepared, points, goes_on); },
+                   key_);
   return closest_of(found);
 }
 

@@ -79,6 +79,27 @@ class ClosestPoints(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "closed"):
             solver.closest(points)
 
+    def test_over_several_devices(self):
+        points = np.random.default_rng(5).uniform(-2, 3, (20000, 3))
+        alone = vkh.closest((CUBE, CUBE_FACES), points, device=0)
+        with vkh.Solver(CUBE, CUBE_FACES, "0,0") as solver:
+            over = [vkh.closest((CUBE, CUBE_FACES), points, device="0,0"), solver.closest(points), solver.closest(points[:3])]
+            self.assertEqual(solver.distance(CUBE, CUBE_FACES).upper, 0)
+        for found in over:
+            for mine, theirs in zip((found.lower, *found), (alone.lower, *alone)):
+                np.testing.assert_array_equal(mine, theirs[:len(mine)])
+        np.testing.assert_array_equal(vkh.closest((CUBE, CUBE_FACES), points[:9], device="all").faces.shape, (9,))
+        with self.assertRaisesRegex(ValueError, "points: row 15000: .* not finite"):
+            vkh.closest((CUBE, CUBE_FACES), np.where(np.arange(20000)[:, None] == 15000, np.nan, points), device="0,0")
+        for call in (lambda wrong: vkh.closest((CUBE, CUBE_FACES), points, device=wrong),
+                     lambda wrong: vkh.Solver(CUBE, CUBE_FACES, device=wrong)):
+            with self.assertRaisesRegex(ValueError, "^device: expected names between commas, or 'all', not '0,,0'"):
+                call("0,,0")
+            with self.assertRaises(vkh.DeviceError):
+                call("0,none such")
+            with self.assertRaisesRegex(TypeError, "^device: expected .* several of these between commas"):
+                call(["0", "0"])
+
     def test_every_kind_of_points(self):
         rows = [[2, 0, 0], [0, -3, 1]]
         expected = vkh.closest((CUBE, CUBE_FACES), rows)
@@ -108,13 +129,14 @@ class ClosestPoints(unittest.TestCase):
 
     def test_ctrl_c_ends_a_search(self):
         points = np.random.default_rng(4).uniform(-2, 3, (2_000_000, 3))
-        started = time.monotonic()
-        killer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
-        killer.start()
-        with self.assertRaises(KeyboardInterrupt):
-            while time.monotonic() - started < 60:
-                vkh.closest((CUBE, CUBE_FACES), points)
-        killer.join()
+        for device in ("", "0,0"):
+            started = time.monotonic()
+            killer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            killer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                while time.monotonic() - started < 60:
+                    vkh.closest((CUBE, CUBE_FACES), points, device=device)
+            killer.join()
         np.testing.assert_array_equal(vkh.closest((CUBE, CUBE_FACES), [[2, 0, 0]]).faces.shape, (1,))
 
 

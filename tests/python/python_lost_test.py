@@ -61,6 +61,25 @@ class Lost(Lives):
             print("done")
         """)
 
+    def test_closest_points_of_several_devices(self):
+        self.lost("""
+            points = np.random.default_rng(1).uniform(-1, 2, (20000, 3))
+            s = vkh.Solver(vb, fb, "0,0")
+            rows = lambda: [x.tolist() for x in s.closest(points)]
+            true = rows()
+            for call in ("vkQueueSubmit:1", "vkQueueSubmit:3", "vkWaitForFences:2"):
+                lose(call)
+                assert rows() == true, call  # the other device does it
+                assert injected() == 1 and layer.vkhLayerCount(b"vkCreateDevice") == 0, call
+                assert rows() == true, call
+                assert layer.vkhLayerCount(b"vkCreateDevice") == 2, call  # both were opened anew
+            lose("vkQueueSubmit:1+")
+            raises(vkh.DeviceError, LOST, rows)
+            lose()
+            assert rows() == true
+            print("done")
+        """)
+
     def test_a_shared_device_prepares_all_of_its_meshes_again(self):
         self.lost("""
             with vkh.Device() as d:
