@@ -118,6 +118,16 @@ void define_simplify(py::module_& m) {
         "are float32, and judged so. time: seconds for the search; what passed by then is\n"
         "returned, and TimeoutError says that nothing did. The distance alone is proven, neither\n"
         "that the result is watertight nor how its faces are turned.");
+  m.def("simplify_levels", simplified_levels,
+        "simplify_levels(a, max, *, levels=5, ratio=0.5, one_way=False, lock_borders=False,\n"
+        "                float32=False, time=None, device='')\n--\n\n"
+        "A chain of ever coarser meshes, each with its proven distance from A itself: a list of\n"
+        "Simplified, the finest first.\n\n"
+        "levels: how many at most; ratio: the share of faces from one to the next, the first\n"
+        "having so many of A's. The chain ends before a level that is not proven to be within max\n"
+        "of A, and is empty where the first is not. The other arguments are those of simplify();\n"
+        "complete is False on the last level where time ended the chain, and TimeoutError says\n"
+        "that there was none by then.");
 }
 
 void define_align(py::module_& m) {

@@ -12,9 +12,10 @@
 #include "vkhausdorff/align.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/frame.h"
+#include "vkhausdorff/levels.h"
 #include "vkhausdorff/simplify.h"
-
 #include "vkhausdorff/together.h"
+
 namespace vkh::python {
 namespace {
 
@@ -274,11 +275,26 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   return options;
 }
 
-[[noreturn]] void raise_not_found(const Simplified& found) {
-  if (found.complete)
-    throw py::value_error("float32: A itself, rounded to it, is farther than max");
+[[noreturn]] void raise_too_late() {
   PyErr_SetString(PyExc_TimeoutError, "no mesh within max was found in the time");
   throw py::error_already_set();
+}
+
+/// Reads the keywords of simplify_levels(), but for those of simplify().
+LevelsOptions levels_options(const Arguments& given) {
+  constexpr const char* kLevels = "a whole number from 1";
+  LevelsOptions options;
+  if (given.find("levels") != nullptr) {
+    const std::optional<uint64_t> levels = given.whole("levels", kLevels);
+    if (!levels || *levels == 0) refuse_value("levels", kLevels, given.at("levels"));
+    options.levels = static_cast<size_t>(*levels);
+  }
+  constexpr const char* kRatio = "a number between 0 and 1";
+  if (given.find("ratio") == nullptr) return options;
+  const std::optional<double> ratio = given.number("ratio", kRatio);
+  if (!ratio || !(*ratio > 0 && *ratio < 1)) refuse_value("ratio", kRatio, given.at("ratio"));
+  options.ratio = *ratio;
+  return options;
 }
 
 }  // namespace
@@ -324,8 +340,33 @@ py::object simplified(const py::args& positional, const py::kwargs& named) {
   Simplified found;
   session->use([&](Solver& s, const PreparedMesh*) { found = vkh::simplify(s, *a, options); });
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!found.found) raise_not_found(found);
+  if (!found.found && found.complete)
+    throw py::value_error("float32: A itself, rounded to it, is farther than max");
+  if (!found.found) raise_too_late();
   return simplified_of(found);
+}
+
+py::object simplified_levels(const py::args& positional, const py::kwargs& named) {
+  static const auto* signature = new Signature{
+      "simplify_levels",
+      {"a", "max", "levels", "ratio", "one_way", "lock_borders", "float32", "time", "device"},
+      2,
+      2};
+  const Call call;
+  const auto start = std::chrono::steady_clock::now();
+  const Arguments given(*signature, positional, named);
+  LevelsOptions options = levels_options(given);
+  const std::shared_ptr<Session> session = session_of(given);
+  const MeshPointer a = mesh_of("a", "A", given.at("a"));
+  options.simplify = simplify_options(given, *a);
+  std::vector<Simplified> found;
+  session->use([&](Solver& s, const PreparedMesh*) { found = simplify_levels(s, *a, options); });
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  if (found.empty() && spent.count() >= options.simplify.time_limit_s) raise_too_late();
+  py::list levels;
+  for (const Simplified& level : found) levels.append(simplified_of(level));
+  return levels;
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {

@@ -20,6 +20,8 @@ pybind11::object closest(const pybind11::args& positional, const pybind11::kwarg
 
 /// Returns a Simplified of the package's.
 pybind11::object simplified(const pybind11::args& positional, const pybind11::kwargs& named);
+/// Returns a list of them, the finest first.
+pybind11::object simplified_levels(const pybind11::args& positional, const pybind11::kwargs& named);
 
 /// Frees the devices that distance() keeps, and those of all Solvers.
 void free_devices();

@@ -64,11 +64,34 @@ class Simplify(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "float32"):
             vkh.simplify((far, FACES), 1e-6, float32=True)
 
-    def test_the_guides_example(self):
-        example = pathlib.Path(__file__).parent.parent / "package" / "simplify_example.py"
-        done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, timeout=120)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("<vkhausdorff.Simplified of ", done.stdout)
+    def test_a_chain_of_levels(self):
+        chain = vkh.simplify_levels((VERTICES, FACES), 0.05, levels=3, ratio=0.4)
+        self.assertEqual([type(level) for level in chain], [vkh.Simplified] * 3)
+        faces = [len(FACES), *(len(level.faces) for level in chain)]
+        for finer, coarser in zip(faces, faces[1:]):
+            self.assertLessEqual(coarser, 0.4 * finer + 1)
+        for level in chain:  # of A itself, not of the level before
+            self.assertLessEqual(level.interval.upper, 0.05)
+            self.assertEqual(vkh.gate((VERTICES, FACES), level, level.interval.upper * (1 + 1e-3), symmetric=True).verdict, "pass")
+        self.assertTrue(chain[-1].complete)
+
+    def test_a_chain_ends_at_the_limit(self):
+        self.assertEqual(vkh.simplify_levels((VERTICES, FACES), 1e-9), [])
+        chain = vkh.simplify_levels((VERTICES, FACES), 0.005, levels=30, ratio=0.7, one_way=True, float32=True)
+        self.assertTrue(0 < len(chain) < 30)
+        self.assertEqual({level.b_to_a for level in chain}, {None})
+        with self.assertRaisesRegex(TimeoutError, "in the time"):
+            vkh.simplify_levels((VERTICES, FACES), 0.05, time=1e-9)
+        for wrong in ({"levels": 0}, {"levels": None}, {"ratio": 0}, {"ratio": 1}, {"ratio": float("nan")}):
+            with self.subTest(wrong), self.assertRaisesRegex(ValueError, f"^{next(iter(wrong))}: expected a"):
+                vkh.simplify_levels((VERTICES, FACES), 0.05, **wrong)
+
+    def test_the_guides_examples(self):
+        for name, said in (("simplify", "<vkhausdorff.Simplified of "), ("levels", "level 0")):
+            example = pathlib.Path(__file__).parent.parent / "package" / f"{name}_example.py"
+            done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, timeout=120)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn(said, done.stdout)
 
     def test_wrong_limits_and_no_time(self):
         for wrong in (0, -1, float("inf"), "1mm", "+1abs,-1abs"):

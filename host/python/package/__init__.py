@@ -3,7 +3,7 @@
 from vkhausdorff import _core
 from vkhausdorff._align import Alignment
 from vkhausdorff._closest import Closest
-from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, align, closest, devices, distance, read, simplify
+from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, align, closest, devices, distance, read, simplify, simplify_levels
 from vkhausdorff._many import distances
 from vkhausdorff._metrics import Metrics, metrics
 from vkhausdorff._result import Witness
@@ -12,7 +12,8 @@ from vkhausdorff._survey import Field, Interval, SidedPoint, Signed, SignedField
 
 __all__ = ["Alignment", "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified",
            "Solver", "Survey", "Witness",
-           "__version__", "align", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify"]
+           "__version__", "align", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify",
+           "simplify_levels"]
 
 
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),

@@ -11,6 +11,7 @@ import numpy.typing as npt
 __all__ = [
     "Alignment", "Closest", "Device", "DeviceError", "Field", "Interval", "Mesh", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified", "Solver", "Survey", "Witness", "__version__",
     "align", "assert_within", "closest", "devices", "distance", "distances", "gate", "metrics", "read", "simplify",
+    "simplify_levels",
 ]
 __version__: str
 
@@ -439,6 +440,18 @@ def simplify(
     time: _Number | None = None,
     device: str | SupportsIndex | Device = "",
 ) -> Simplified: ...
+def simplify_levels(
+    a: _Mesh,
+    max: _Number | str,
+    *,
+    levels: SupportsIndex = 5,
+    ratio: _Number = 0.5,
+    one_way: bool = False,
+    lock_borders: bool = False,
+    float32: bool = False,
+    time: _Number | None = None,
+    device: str | SupportsIndex | Device = "",
+) -> list[Simplified]: ...
 class _Results(Iterator[Result]):
     def __next__(self) -> Result: ...
     def close(self) -> None: ...
