@@ -25,6 +25,7 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64), np.array
 # Right and wrong uses, for a type checker: the wrong lines, and no others, are errors.
 USES = """\
 import pathlib
+from typing import Any
 import numpy as np
 import vkhausdorff as vkh
 v, f = np.zeros((3, 3)), np.array([[0, 1, 2]])
@@ -49,7 +50,12 @@ vkh.Solver(mesh, device="cpu").distance(mesh)
 area: bool = vkh.gate((v, f), (v, f), 0.1, area="99%", survey_time=None).survey_met is True
 vkh.distance(v, f, v, f, certificate=pathlib.Path("out.vhc"))
 distances, points, rows = vkh.closest((v, f), v, device="cpu")
+both: float = float(vkh.closest((v, f), v, device="0,1").upper[0])
+vkh.Solver((v, f), device="all").closest(v)
+moved: np.ndarray[Any, np.dtype[np.float64]] = vkh.align(mesh, (v, f)).matrix
+usable: list[str] = [d["name"] for d in vkh.devices() if d["usable"]]
 light: float = vkh.simplify(mesh, "0.1%", one_way=True, time=1.5).interval.upper
+errors: list[float] = [level.interval.upper for level in vkh.simplify_levels(mesh, "1%", levels=3, ratio=0.4)]
 with vkh.Solver(mesh) as solver:
     low: float = float(solver.closest([[0, 0, 1]]).lower[0])
 with vkh.Device("cpu") as device:
@@ -63,6 +69,9 @@ figures = vkh.metrics((v, f), mesh, percentile=90, bands=[0.5, "1%"], effort=100
 figure: float = figures.hd90.lower + figures.assd.upper + figures.f1["1%"].upper
 masks: bool = vkh.metrics(np.ones((3, 3, 3), dtype=bool), np.ones((3, 3, 3), dtype=bool), spacing=(1, 1, 2.5)).met
 vkh.distances([], device=vkh.Device())  # wrong
+vkh.simplify_levels(mesh, "1%", levels=0.5)  # wrong
+vkh.closest((v, f), v, device=["0"])  # wrong
+vkh.align(mesh)  # wrong
 vkh.distance(v, f, v, f, on_progress=lambda fraction: None)  # wrong
 vkh.Device(1.5)  # wrong
 vkh.distance(v, f, v, f, field=[1])  # wrong
@@ -107,25 +116,39 @@ import vkhausdorff as vkh
 from vkhausdorff import Solver, distance
 va, fa = np.zeros((3, 3)), np.array([[0, 1, 2]])
 a = b = vkh.read("part.stl")
+path = "part.stl"
 points = np.zeros((5, 3))
+mask_a = mask_b = np.ones((3, 3, 3), dtype=bool)
 solver = Solver(b)
 r = distance(a, b)
 d = vkh.Device()
+m = vkh.metrics(a, b)
+light = vkh.simplify(a, max=0.1)
 """
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
 def documented() -> tuple[list[str], list[str]]:
-    """The blocks of Python in README and guide; the calls in their sentences that are whole: of a function or a method, with
-    arguments."""
+    """The blocks of Python on all pages; the expressions in their sentences that are whole: a call or a member of what
+    CALLS names."""
     blocks, calls = [], set()
-    for page in ("README.md", "docs/guide.md"):
-        text = (ROOT / page).read_text()
-        blocks += re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-        python = text if page == "README.md" else text[text.index("\n## Python\n"):text.index("\n## C++\n")]
-        for code in re.findall(r"`([^`\n]+)`", re.sub(r"^```.*?^```", "", python, flags=re.M | re.S)):
-            if re.match(r"(vkh|solver|r|r\.field|d)\.\w+\(|(Solver|distance)\(", code):
+    for page in PAGES:
+        text = page.read_text()
+        blocks += [code for code in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S) if "import" in code]
+        prose = re.sub(r"^```.*?^```|^## C\+\+\n.*?^## ", "", text, flags=re.M | re.S)
+        for code in re.findall(r"`([^`\n]+)`", prose):
+            is_of_python = re.match(r"(vkh|solver|r|d|m|light)\.[a-z]\w*([.(]|$)|(Solver|distance)\([^)]", code)
+            if is_of_python and not code.endswith((".cpp", ".h")):
                 calls.add(code)
     return blocks, sorted(calls)
+
+
+def used_calls() -> set[str]:
+    """The functions and the methods of Solver, Device and Result that documented code or USES calls."""
+    blocks, calls = documented()
+    nodes = [node for code in (*blocks, CALLS + "\n".join(calls), USES) for node in ast.walk(ast.parse(code))]
+    return {node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            for node in nodes if isinstance(node, ast.Call)}
 
 
 def errors_of_mypy(test: unittest.TestCase, files: dict) -> str:
@@ -186,7 +209,7 @@ class Types(unittest.TestCase):
         with vkh.Solver(*SQUARE) as solver:
             for function, said in ((vkh.distance, vkh.distance), (vkh.Solver, vkh.Solver), (solver.distance, solver.distance), (vkh.Device, vkh.Device),
                                    (vkh.closest, vkh.closest), (solver.closest, solver.closest), (vkh.read, vkh.read),
-                                   (vkh.simplify, vkh.simplify)):
+                                   (vkh.simplify, vkh.simplify), (vkh.simplify_levels, vkh.simplify_levels), (vkh.align, vkh.align)):
                 with self.assertRaises(TypeError) as refused:
                     function(stranger=1)
                 taken = re.search(r"it takes (.*)$", str(refused.exception))[1].split(", ")
@@ -224,8 +247,14 @@ class Types(unittest.TestCase):
         self.assertGreater(len(blocks), 6)
         self.assertGreater(len(calls), 4)
         files = {f"block_{i}.py": block for i, block in enumerate(blocks)}
+        files["distributed.pyi"] = "from typing import Any\ndef Client(*, scheduler_file: str) -> Any: ...\n"
         files["calls.py"] = CALLS + "".join(f"{call}\n" for call in calls)
         self.assertEqual(errors_of_mypy(self, files), "")
+
+    def test_every_function_is_called(self):
+        """No function is left out of the pages' code and of the uses above."""
+        functions = {name for name, node in stub_of(STUB.body).items() if isinstance(node, ast.FunctionDef)}
+        self.assertEqual(functions - used_calls(), set())
 
 
 if __name__ == "__main__":
