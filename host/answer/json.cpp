@@ -319,9 +319,11 @@ Failure failure_of(const Error& error) {
           .place = is_of_input ? error.place() : ""};
 }
 
-std::string to_json(const Failure& failure) {
+std::string to_json(const Failure& failure) { return failure_json(failure, kAnswerSchema); }
+
+std::string failure_json(const Failure& failure, const char* schema) {
   JsonObject json;
-  json.add("schema", kAnswerSchema);
+  json.add("schema", schema);
   json.add("version", program_version());
   json.add("error", {{"code", failure.code},
                      {"message", failure.message},

@@ -36,6 +36,9 @@ class JsonObject {
   std::string members_;
 };
 
+/// Writes an error in place of an answer of this schema.
+std::string failure_json(const Failure& failure, const char* schema);
+
 inline Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 /// Adds the files that an input was read from: `sha256`, null if it is not known, and `files`, the

@@ -51,29 +51,38 @@ void print_file(std::ostream& out, const SimplifyAnswer& answer, const Simplifie
                 largest_words(file.deviation, answer.unit) + "; read back and measured");
 }
 
-Json side_json(const Report& report) {
-  return {{"lower", report.lower},
-          {"lower_hex", hex_float(report.lower)},
-          {"upper", report.upper},
-          {"upper_hex", hex_float(report.upper)},
-          {"status", status_name(report.status)}};
+void add_ends(JsonObject& json, double lower, double upper) {
+  json.add_bound("lower", lower, Rounding::kDown);
+  json.add_bound("upper", upper, Rounding::kUp);
 }
 
-Json file_json(const SimplifiedFile& file) {
-  const CertifiedInterval& interval = file.deviation.interval;
-  Json json = {{"path", file.path},
-               {"format", file.format},
-               {"sha256", text_or_null(file.sha256)},
-               {"faces", file.counts.faces},
-               {"vertices", file.counts.vertices},
-               {"lower", interval.lower},
-               {"lower_hex", hex_float(interval.lower)},
-               {"upper", interval.upper},
-               {"upper_hex", hex_float(interval.upper)},
-               {"verdict", verdict_name(file.deviation.verdict)},
-               {"a_to_b", side_json(file.deviation.a_to_b)}};
-  json["b_to_a"] = file.deviation.b_to_a ? side_json(*file.deviation.b_to_a) : Json();
-  return json;
+std::string side_json(const Report& report) {
+  JsonObject json;
+  add_ends(json, report.lower, report.upper);
+  json.add("status", status_name(report.status));
+  return json.text();
+}
+
+std::string file_json(const SimplifiedFile& file) {
+  const Deviation& deviation = file.deviation;
+  JsonObject json;
+  json.add("path", file.path);
+  json.add("format", file.format);
+  json.add("sha256", text_or_null(file.sha256));
+  json.add("faces", file.counts.faces);
+  json.add("vertices", file.counts.vertices);
+  add_ends(json, deviation.interval.lower, deviation.interval.upper);
+  json.add("verdict", verdict_name(deviation.verdict));
+  json.add_text("a_to_b", side_json(deviation.a_to_b));
+  json.add_text("b_to_a", deviation.b_to_a ? side_json(*deviation.b_to_a) : "null");
+  return json.text();
+}
+
+std::string files_json(const SimplifyAnswer& answer) {
+  std::string rows;
+  for (const SimplifiedFile& file : answer.files)
+    rows += (rows.empty() ? "" : ",") + file_json(file);
+  return "[" + rows + "]";
 }
 
 Json source_json(const SimplifyAnswer& answer) {
@@ -86,12 +95,12 @@ Json source_json(const SimplifyAnswer& answer) {
   return json;
 }
 
-Json limit_json(const SimplifyAnswer& answer) {
-  return {{"requested", answer.max.requested},
-          {"within", answer.limit.within},
-          {"within_hex", hex_float(answer.limit.within)},
-          {"beyond", answer.limit.beyond},
-          {"beyond_hex", hex_float(answer.limit.beyond)}};
+std::string limit_json(const SimplifyAnswer& answer) {
+  JsonObject json;
+  json.add("requested", answer.max.requested);
+  json.add_bound("within", answer.limit.within, Rounding::kDown);
+  json.add_bound("beyond", answer.limit.beyond, Rounding::kUp);
+  return json.text();
 }
 
 }  // namespace
@@ -135,15 +144,13 @@ std::string to_json(const SimplifyAnswer& answer) {
   json.add("words", in_words(answer));
   json.add("input", source_json(answer));
   json.add("unit", text_or_null(answer.unit));
-  json.add("max", limit_json(answer));
+  json.add_text("max", limit_json(answer));
   json.add("one_way", answer.one_way);
   json.add("lock_borders", answer.lock_borders);
   json.add("found", !answer.files.empty());
   json.add("complete", answer.complete);
   json.add("tried", answer.tried);
-  Json files = Json::array();
-  for (const SimplifiedFile& file : answer.files) files.push_back(file_json(file));
-  json.add("files", files);
+  json.add_text("files", files_json(answer));
   json.add("certificate", text_or_null(answer.certificate));
   json.add("device", text_or_null(answer.device.name));
   json.add("driver", text_or_null(answer.device.driver));
@@ -151,6 +158,10 @@ std::string to_json(const SimplifyAnswer& answer) {
   json.add("command", "simplify");
   json.add("arguments", answer.words);
   return json.text();
+}
+
+std::string to_simplify_json(const Failure& failure) {
+  return failure_json(failure, kSimplifySchema);
 }
 
 }  // namespace vkh

@@ -43,5 +43,7 @@ std::string in_words(const SimplifyAnswer& answer);
 void print_table(std::ostream& out, const SimplifyAnswer& answer);
 /// One line of docs/schema/simplify.schema.json.
 std::string to_json(const SimplifyAnswer& answer);
+/// The same with the error that there is instead.
+std::string to_simplify_json(const Failure& failure);
 
 }  // namespace vkh

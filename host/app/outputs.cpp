@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "host/answer/exit_code.h"
+#include "host/answer/simplified.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/place.h"
@@ -82,12 +83,12 @@ std::string Destinations::write(const Answer& answer) {
   return not_written;
 }
 
-void Destinations::write(const Failure& failure) {
+void Destinations::write(const Failure& failure, const std::string& json) {
   if (outputs_.github)
     (outputs_.json ? std::cerr : std::cout) << github_annotation(failure) << std::flush;
-  if (outputs_.json) std::cout << to_json(failure) << std::endl;
+  if (outputs_.json) std::cout << json << std::endl;
   try {
-    if (json_) json_->write(to_json(failure) + '\n');
+    if (json_) json_->write(json + '\n');
     if (junit_) junit_->write(to_junit(failure));
   } catch (const OutputError&) {
   }
@@ -107,14 +108,19 @@ void tell_misuse(const Words& words, const UsageError& error) {
   const bool is_batch = !words.empty() && words[0] == "batch";
   if (is_batch && std::find(words.begin(), words.end(), "--github") != words.end())
     std::cout << github_annotation(failure_of(error)) << std::flush;
-  constexpr std::array kOfAPair{"distance", "gate", "metrics", "demo"};
-  const bool is_of_a_pair =
-      !words.empty() && std::find(kOfAPair.begin(), kOfAPair.end(), words[0]) != kOfAPair.end();
-  if (!is_of_a_pair) return;
+  constexpr std::array kWithOneAnswer{"distance", "gate", "metrics", "simplify", "demo"};
+  if (words.empty() ||
+      std::find(kWithOneAnswer.begin(), kWithOneAnswer.end(), words[0]) == kWithOneAnswer.end())
+    return;
   Words others;
   const Outputs outputs = outputs_in(words, others);
+  for (const std::optional<std::string>& file : {outputs.json_file, outputs.junit_file}) {
+    if (file && std::find(others.begin(), others.end(), *file) != others.end()) return;
+  }
+  const Failure failure = failure_of(error);
   try {
-    Destinations(outputs, others).write(failure_of(error));
+    Destinations(outputs, others)
+        .write(failure, words[0] == "simplify" ? to_simplify_json(failure) : to_json(failure));
   } catch (const UsageError&) {  // `error` is reported
   }
 }

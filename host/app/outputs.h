@@ -23,7 +23,9 @@ class Destinations {
   std::string write(const Answer& answer);
   /// Writes the error instead, as JSON if JSON was asked for. An output that cannot be written is
   /// lost: the line on stderr has the error.
-  void write(const Failure& failure);
+  void write(const Failure& failure) { write(failure, to_json(failure)); }
+  /// Does the same with the error's JSON, which another command may have in another schema.
+  void write(const Failure& failure, const std::string& json);
 
  private:
   Outputs outputs_;
@@ -34,9 +36,9 @@ class Destinations {
 /// OutputError.
 void append_github_summary(const std::string& text);
 
-/// Reports a usage error in the formats that the command line asks for: JSON or JUnit (distance,
-/// gate, demo), or an annotation (batch). If an output file is also named by another word, writes
-/// neither JSON nor JUnit.
+/// Reports a usage error in the formats that the command line asks for: JSON or JUnit (commands
+/// with one answer), or an annotation (batch). If an output file is also named by another word,
+/// writes neither JSON nor JUnit.
 void tell_misuse(const Words& words, const UsageError& error);
 
 }  // namespace vkh

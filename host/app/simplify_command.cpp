@@ -9,6 +9,7 @@
 #include "host/answer/progress_line.h"
 #include "host/answer/session.h"
 #include "host/answer/simplified.h"
+#include "host/app/outputs.h"
 #include "host/base/begin_now.h"
 #include "host/base/output_file.h"
 #include "host/base/system.h"
@@ -49,7 +50,11 @@ class SimplifyCommand {
   SimplifyCommand(const CommandLine& line, const Stop& stop)
       : question_(line.question), asked_(line.simplify), outputs_(line.outputs), stop_(stop) {}
 
+  /// Throws UsageError for files that cannot be written.
+  void check_places() { places_ = places(); }
   ExitCode run();
+  /// Writes the error in place of the answer, where JSON was asked for.
+  void tell(const Failure& failure) const;
 
  private:
   SimplifyPlaces places() const;
@@ -59,7 +64,7 @@ class SimplifyCommand {
   std::vector<Simplified> search();
   Written write(const Mesh& mesh, const OutputFile& place, const std::string& path);
   void prove_it(const Written& written, const OutputFile& place);
-  void tell(const SimplifyPlaces& places);
+  void tell();
   bool hashes() const { return outputs_.json || outputs_.json_file || !asked_.certificate.empty(); }
 
   const Question& question_;
@@ -67,6 +72,7 @@ class SimplifyCommand {
   const Outputs& outputs_;
   const Stop& stop_;
   ProgressLine line_;
+  SimplifyPlaces places_;
   Session session_;
   Mesh a_;
   SimplifyAnswer answer_;
@@ -192,7 +198,7 @@ void SimplifyCommand::prove_it(const Written& written, const OutputFile& place) 
   answer_.certificate = asked_.certificate;
 }
 
-void SimplifyCommand::tell(const SimplifyPlaces& places) {
+void SimplifyCommand::tell() {
   line_.end();
   answer_.waits.total = stop_.elapsed_s() * 1000;
   if (outputs_.json) {
@@ -200,7 +206,16 @@ void SimplifyCommand::tell(const SimplifyPlaces& places) {
   } else {
     print_table(std::cout, answer_);
   }
-  if (places.json) places.json->write(to_json(answer_) + '\n');
+  if (places_.json) places_.json->write(to_json(answer_) + '\n');
+}
+
+void SimplifyCommand::tell(const Failure& failure) const {
+  const std::string json = to_simplify_json(failure) + '\n';
+  if (outputs_.json) std::cout << json << std::flush;
+  try {
+    if (places_.json) places_.json->write(json);
+  } catch (const OutputError&) {  // the line on stderr has the error
+  }
 }
 
 /// The meshes that were found, in the order of their names.
@@ -223,24 +238,35 @@ std::vector<Simplified> SimplifyCommand::search() {
 
 ExitCode SimplifyCommand::run() {
   answer_.words = question_.words;
-  const SimplifyPlaces to = places();
   read();
   take_limit();
   answer_.is_chain = asked_.levels > 0;
   const std::vector<Simplified> found = search();
   for (size_t i = 0; i < found.size(); ++i) {
-    const Written written = write(found[i].mesh, *to.meshes[i], to.paths[i]);
+    const Written written = write(found[i].mesh, *places_.meshes[i], places_.paths[i]);
     answer_.files.push_back(written.file);
-    if (to.certificate) prove_it(written, *to.certificate);
+    if (places_.certificate) prove_it(written, *places_.certificate);
   }
-  tell(to);
+  tell();
   return found.empty() ? kExitNotClosed : kExitClosed;
 }
 
 }  // namespace
 
 ExitCode run_simplify_command(const CommandLine& line, const Stop& stop) {
-  return SimplifyCommand(line, stop).run();
+  SimplifyCommand command(line, stop);
+  try {
+    command.check_places();
+  } catch (const UsageError& error) {
+    tell_misuse(line.question.words, error);
+    throw;
+  }
+  try {
+    return command.run();
+  } catch (const Error& error) {
+    command.tell(failure_of(error));
+    throw;
+  }
 }
 
 }  // namespace vkh

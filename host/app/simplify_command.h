@@ -8,7 +8,8 @@
 namespace vkh {
 
 /// Prints the answer. Returns kExitClosed if a mesh was written, kExitNotClosed if none was found.
-/// Throws what reading, Device, Solver and OutputFile throw.
+/// Throws what reading, Device, Solver and OutputFile throw, and writes it as JSON before that, if
+/// JSON was asked for.
 ExitCode run_simplify_command(const CommandLine& line, const Stop& stop);
 
 }  // namespace vkh

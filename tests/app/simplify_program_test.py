@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from fractions import Fraction
 
 try:
     import jsonschema
@@ -135,18 +136,48 @@ class Simplify(unittest.TestCase):
         schema = json.loads((SOURCE / "docs/schema/simplify.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         cases = [(["--out", "b.ply"], 0), (["--out", "b.stl", "--one-way"], 0), (["--out", "b.obj", "--levels", "2"], 0),
-                 (["--out", "b.ply", "--certificate", "b.vhc"], 0)]
+                 (["--out", "b.ply", "--certificate", "b.vhc"], 0), (["--out", "none.stl", "--max", "1e-9abs"], 3)]
         for words, code in cases:
             with self.subTest(words):
-                text = self.run_program("simplify", "a.obj", "--max", "1%", "--json", *words, code=code).stdout
+                limit = [] if "--max" in words else ["--max", "1%"]
+                text = self.run_program("simplify", "a.obj", *limit, "--json", *words, code=code).stdout
                 answer = json.loads(text)
                 jsonschema.validate(answer, schema)
+                self.check_bounds(json.loads(text, parse_float=Fraction))
                 for file in answer["files"]:
                     self.assertEqual(float.fromhex(file["upper_hex"]), file["upper"])
                     self.assertLessEqual(file["upper"], answer["max"]["within"])
+                self.assertEqual(answer["found"], code == 0)
                 broken = {key: value for key, value in answer.items() if key != "files"}
                 with self.assertRaises(jsonschema.ValidationError):
                     jsonschema.validate(broken, schema)
+
+    def check_bounds(self, answer):
+        """Each decimal is on the outer side of its double, in exact arithmetic."""
+        for part in (answer["max"], *answer["files"], *(file[way] or {} for file in answer["files"] for way in ("a_to_b", "b_to_a"))):
+            for low, high in (("lower", "upper"), ("within", "beyond")):
+                if low in part:
+                    self.assertLessEqual(part[low], Fraction(float.fromhex(part[f"{low}_hex"])))
+                    self.assertGreaterEqual(part[high], Fraction(float.fromhex(part[f"{high}_hex"])))
+
+    @unittest.skipIf(jsonschema is None, "no jsonschema")
+    def test_an_error_is_an_object(self):
+        schema = json.loads((SOURCE / "docs/schema/simplify.schema.json").read_text())
+        (self.folder / "bad.obj").write_text("v 0 0 zero\n")
+        limit = ["--max", "1%", "--out", "b.ply"]
+        for words, code, file in ((["missing.obj", *limit], 4, "missing.obj"), (["bad.obj", *limit], 4, "bad.obj"),
+                                  (["a.obj", *limit, "--device", "none such"], 5, None), (["a.obj", "--out", "b.ply"], 2, None),
+                                  (["a.obj", "--max", "1%", "--out", "a.obj"], 2, None), (["a.obj", *limit, "--levls", "2"], 2, None),
+                                  (["a.obj", "--max", "1mm", "--out", "b.ply"], 2, None), (["a.obj", *limit, "--time", "1e-9s"], 3, None)):
+            for place in ("--json", "--json=out.json"):
+                with self.subTest((words, place)):
+                    done = self.run_program("simplify", *words, place, code=code)
+                    text = (self.folder / "out.json").read_text() if place != "--json" else done.stdout
+                    answer = json.loads(text)
+                    jsonschema.validate(answer, schema)
+                    self.assertEqual((answer["error"]["code"], answer["error"]["file"]), (code, file))
+                    self.assertEqual(done.stderr, f"vkhausdorff: {answer['error']['message']}\n")
+        self.assertNotIn("b.ply", self.files())
 
     def test_a_binary_stl_has_as_many_faces_as_it_says(self):
         self.run_program("simplify", "a.obj", "--max", "1%", "--out", "b.stl")
