@@ -52,7 +52,8 @@ class Progress(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             options = dict(plain={}, symmetric=dict(symmetric=True), field=dict(field=True), waves=dict(waves=2),
                            all=dict(symmetric=True, field="0.1%", statistics=True, signed=True, bands=(0.05,)), late=dict(time=0),
-                           certificate=dict(certificate=pathlib.Path(folder) / "a.vhc", symmetric=True, statistics=True))
+                           certificate=dict(certificate=pathlib.Path(folder) / "a.vhc", symmetric=True, statistics=True),
+                           align=dict(align=True, statistics=True), placed=dict(transform=np.eye(4), max_distance=1, statistics=True))
             for name, asked in options.items():
                 with self.subTest(name):
                     heard, r = self.reaches_one(lambda tell: vkh.distance(*A, *B, on_progress=tell, **asked))
@@ -71,6 +72,9 @@ class Progress(unittest.TestCase):
     def test_a_solver(self):
         with vkh.Solver(B) as solver:
             self.reaches_one(lambda tell: solver.distance(A, statistics=True, on_progress=tell))
+
+    def test_metrics(self):
+        self.reaches_one(lambda tell: vkh.metrics(A, B, on_progress=tell).result)
 
     def test_the_survey_is_heard(self):
         heard, _ = self.reaches_one(lambda tell: vkh.distance(*A, *B, field=1e-6, effort=20000, on_progress=tell))
@@ -133,6 +137,14 @@ class Many(unittest.TestCase):
             good = [r for r in found if r.error is None]
             self.assertEqual(len(good), len(pairs) - 1)
             self.assertEqual(heard[-1][1:], (max(r.lower for r in good), max(r.upper for r in good)))
+
+    def test_to_one_mesh_and_in_a_with_statement(self):
+        heard = Heard()
+        parts = ((f"part {n}", wavy(n, 0.01 * n)) for n in range(2, 6))
+        with vkh.distances(parts, against=B, max=0.2, symmetric=True, align=True, on_progress=heard) as results:
+            found = list(results)
+        self.assertEqual((len(found), len(heard), heard[-1][0]), (4, 4, 1))
+        self.assertEqual(heard[-1][1:], (max(r.lower for r in found), max(r.upper for r in found)))
 
     def test_no_pairs(self):
         heard = Heard()
