@@ -120,6 +120,16 @@ Hierarchy view_built(const VkhContext_T& context, VkhHierarchy b) {
   return view_hierarchy(b, context.limits);
 }
 
+// Returns a run's options with what is wrong in them replaced: 0 for a negative number or a NaN,
+// and no pause where a workspace cannot grow, for such a run would wait forever.
+VkhRunOptions checked(VkhRunOptions options, bool can_grow) {
+  for (float* x : {&options.cullTolerance, &options.knownLower, &options.limit, &options.limitUp})
+    *x = not_negative(*x);
+  if (!can_grow) options.pauseWhenFull = VK_FALSE;
+  if (options.sortFrom == 0) options.sortFrom = gpu::kSortFrom;
+  return options;
+}
+
 // Replaces counts that no mesh has by those of a mesh of one face, or of a B that was not built:
 // such a run records only a report of VKH_STATUS_INPUT.
 Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
@@ -128,20 +138,12 @@ Problem view_problem(const VkhContext_T& context, const VkhProblem& p) {
   const bool has_a = has_options && counts_fit(p.a.vertexCount, p.a.faceCount);
   const uint32_t vertex_count = has_a ? p.a.vertexCount : 1, face_count = has_a ? p.a.faceCount : 1;
   const Workspace ws = view_workspace(p.workspace, context.limits, vertex_count, face_count);
-  // Without this a run would wait forever for more room than the device's limits allow.
   const bool can_grow = ws.capacity < largest_capacity(context.limits);
   return {.vertex_count = vertex_count,
           .face_count = face_count,
-          .cull_tolerance = not_negative(options.cullTolerance),
-          .known_lower = not_negative(options.knownLower),
-          .limit = not_negative(options.limit),
-          .limit_up = not_negative(options.limitUp),
-          .sort_from = options.sortFrom,
+          .options = checked(options, can_grow),
           .switches = context.limits.switches,
           .wide = context.limits.wide,
-          .two_float = options.twoFloat != VK_FALSE,
-          .warm = options.warm != VK_FALSE,
-          .pauses = can_grow && options.pauseWhenFull != VK_FALSE,
           .has_a = has_a,
           .input_fault = layout_fault(p.a),
           .b = view_built(context, p.b),

@@ -64,10 +64,10 @@ void record_move(Recorder& rec, const Problem& from, const Problem& to) {
       control.buffer == from.ws.control.buffer && control.offset == from.ws.control.offset;
   if (!stays) record_copies(rec, from, to.ws);
   rec.fill(word_of(control, offsetof(gpu::Control, capacity)), to.ws.capacity);
-  rec.fill(word_of(control, offsetof(gpu::Control, pauses)), to.pauses ? 1u : 0u,
-           Order::kIndependent);
+  rec.fill(word_of(control, offsetof(gpu::Control, pauses)),
+           to.options.pauseWhenFull != VK_FALSE ? 1u : 0u, Order::kIndependent);
   rec.fill(word_of(control, offsetof(gpu::Control, known_lower)),
-           std::bit_cast<uint32_t>(to.known_lower), Order::kIndependent);
+           std::bit_cast<uint32_t>(to.options.knownLower), Order::kIndependent);
   rec.stage("move");
 }
 

@@ -44,15 +44,11 @@ void record_refit(Recorder& rec, const VkhMesh& b, const Hierarchy& hierarchy);
 // The inputs of a run.
 struct Problem {
   uint32_t vertex_count = 0, face_count = 0;  // of A
-  float cull_tolerance = 0, known_lower = 0, limit = 0, limit_up = 0;
-  uint32_t sort_from = 0;            // kSortFrom if 0
-  uint32_t switches = gpu::kUseAll;  // of the context,
-  bool wide = true;                  // and the kind of its device
-  bool two_float = false;
-  bool warm = false;  // the workspace holds an earlier run to start from
-  bool pauses = false;
-  bool has_a = true;                  // false: no mesh has its counts
-  uint32_t input_fault = gpu::kNone;  // of A: layout_fault
+  VkhRunOptions options = {};                 // as view_problem has checked them
+  uint32_t switches = gpu::kUseAll;           // of the context,
+  bool wide = true;                           // and the kind of its device
+  bool has_a = true;                          // false: no mesh has its counts
+  uint32_t input_fault = gpu::kNone;          // of A: layout_fault
   Hierarchy b;
   Workspace ws;
   Slice<gpu::Area> areas =
@@ -98,7 +94,7 @@ void record_wave(Recorder& rec, const Problem& p);
 // Sorts the places of the frontier's candidates into the order in which they are refined, if the
 // plan finds it worth it. Only the paper's presets need it.
 void record_order(Recorder& rec, const RunBuffers& run);
-// The run goes on in another workspace, or in its own; to.pauses holds from now on.
+// The run goes on in another workspace, or in its own; to's pauseWhenFull holds from now on.
 void record_move(Recorder& rec, const Problem& from, const Problem& to);
 // The cells of A to be bounded: `count` of `cells`, or, without a buffer, faces from `first` on.
 struct AskedCells {

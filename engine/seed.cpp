@@ -8,14 +8,14 @@ namespace {
 gpu::BeginPush begin_push(const Problem& p) {
   return {.capacity = p.ws.capacity,
           .face_count = p.face_count,
-          .cull_tolerance = p.cull_tolerance,
-          .known_lower = p.known_lower,
-          .limit = p.limit,
-          .limit_up = p.limit_up,
-          .two_float = p.two_float ? 1u : 0u,
-          .warm = p.warm ? 1u : 0u,
-          .sort_from = p.sort_from != 0 ? p.sort_from : gpu::kSortFrom,
-          .pauses = p.pauses ? 1u : 0u,
+          .cull_tolerance = p.options.cullTolerance,
+          .known_lower = p.options.knownLower,
+          .limit = p.options.limit,
+          .limit_up = p.options.limitUp,
+          .two_float = p.options.twoFloat != VK_FALSE ? 1u : 0u,
+          .warm = p.options.warm != VK_FALSE ? 1u : 0u,
+          .sort_from = p.options.sortFrom,
+          .pauses = p.options.pauseWhenFull != VK_FALSE ? 1u : 0u,
           .input_fault = p.input_fault};
 }
 
@@ -30,11 +30,12 @@ bool in_groups(const Problem& p) {
 void record_seed(Recorder& rec, const Problem& p) {
   const auto scope = rec.scope("seed");
   const RunBuffers run(p);
-  const uint32_t items = p.vertex_count + (p.warm ? 1u : 0u);
+  const bool warm = p.options.warm != VK_FALSE;
+  const uint32_t items = p.vertex_count + (warm ? 1u : 0u);
   const Given begin(run, begin_push(p));
   const Given faces(run, gpu::FacesPush{p.face_count, p.b.face_count});
-  const Given once(run, query_push(p, gpu::kAskVertices, p.vertex_count, p.warm));
-  const Given again(run, query_push(p, gpu::kAskVerticesAgain, p.vertex_count, p.warm));
+  const Given once(run, query_push(p, gpu::kAskVertices, p.vertex_count, warm));
+  const Given again(run, query_push(p, gpu::kAskVerticesAgain, p.vertex_count, warm));
   const Given corners(run, gpu::CountPush{p.face_count});
   // The fill is independent of record_load, which writes A's vertices and faces.
   rec.run<k::SeedBegin>(begin, Groups{1}, Order::kIndependent);

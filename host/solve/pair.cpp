@@ -78,6 +78,13 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
   const double weights = std::min(kRoundedPosition * size, kMostForWeights * tolerance);
   const double spare = tolerance * (1 - kKept) - 2 * pair.displacement -
                        (two_float ? floor + weights : kRoundedPosition * size);
+  VkhRunOptions asked{};
+  asked.cullTolerance = static_cast<float>(std::clamp(spare, floor, 1e30));
+  asked.knownLower = known_in_frame(pair, options.known_lower);
+  asked.limit = limit_in_frame(pair, options.limit.within);
+  asked.limitUp = limit_up_in_frame(pair, options.limit.beyond);
+  asked.sortFrom = options.sort_from;
+  asked.twoFloat = two_float ? VK_TRUE : VK_FALSE;
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
           .resident = pair.resident,
@@ -86,12 +93,7 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
           .start_memory_bytes = options.start_memory_bytes,
           .wave_limit = options.wave_limit,
           .multiwave = (switches & kSwitchMultiwave) != 0,
-          .sort_from = options.sort_from,
-          .cull_tolerance = static_cast<float>(std::clamp(spare, floor, 1e30)),
-          .known_lower = known_in_frame(pair, options.known_lower),
-          .limit = limit_in_frame(pair, options.limit.within),
-          .limit_up = limit_up_in_frame(pair, options.limit.beyond),
-          .two_float = two_float,
+          .options = asked,
           .stage_times = options.stage_times,
           .coverage = options.coverage,
           .survey = {},

@@ -224,13 +224,9 @@ VkDeviceSize PairBuffers::host_bytes(const RunInput& in) const {
 
 void PairBuffers::set_problem(const RunInput& in, VkDeviceSize bytes, bool may_grow) {
   problem_.workspace = {workspace_.handle(), 0, bytes};
+  problem_.options = in.options;
   problem_.options.size = sizeof(problem_.options);
-  problem_.options.cullTolerance = in.cull_tolerance;
-  problem_.options.knownLower = in.known_lower;
-  problem_.options.limit = in.limit;
-  problem_.options.limitUp = in.limit_up;
-  problem_.options.sortFrom = in.sort_from;
-  problem_.options.twoFloat = in.two_float ? VK_TRUE : VK_FALSE;
+  problem_.options.coverageBuffer = in.coverage ? areas_.handle() : VK_NULL_HANDLE;
   problem_.options.pauseWhenFull = may_grow && in.memory_bytes == 0 ? VK_TRUE : VK_FALSE;
   next_.reset();
   left_ = Buffer();
@@ -318,13 +314,11 @@ ResidentMesh PairBuffers::take_resident(VkhContext context, const MeshData& b,
 }
 
 void PairBuffers::place_areas(const RunInput& in, RunOutput& out, MemoryPolicy policy) {
-  problem_.options.coverageBuffer = VK_NULL_HANDLE;
   if (!in.coverage) return;
   out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
   take_buffer(areas_, device_, bytes, policy);
   grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
-  problem_.options.coverageBuffer = areas_.handle();
 }
 
 void PairBuffers::record_upload(VkCommandBuffer commands) const {

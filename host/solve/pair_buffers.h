@@ -59,10 +59,8 @@ struct RunInput {
                                            ///< run wants it
   uint64_t start_memory_bytes = 0;         ///< 0: the recommended size
   uint32_t wave_limit = UINT32_MAX;
-  bool multiwave = true;   ///< false: the host reads the report after every wave
-  uint32_t sort_from = 0;  ///< VkhRunOptions::sortFrom
-  float cull_tolerance = 0, known_lower = 0, limit = 0, limit_up = 0;
-  bool two_float = false;
+  bool multiwave = true;    ///< false: the host reads the report after every wave
+  VkhRunOptions options{};  ///< pauseWhenFull and what is of a buffer are the run's own
   bool stage_times = true;  ///< false: only the stages "hierarchy" and "solve"
   bool coverage = false;    ///< record what was closed; `switches` has VKH_CONTEXT_COVERAGE too
   /// Called at the end, with the report and a function that bounds cells; `switches` has
@@ -70,8 +68,8 @@ struct RunInput {
   std::function<void(const VkhReport&, const BoundCells&)> survey;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
-  /// Asked before each submission but the first, which is then short: the value of `known_lower`
-  /// from there on, if it is larger. Empty: it stays.
+  /// Asked before each submission but the first, which is then short: the value of
+  /// `options.knownLower` from there on, if it is larger. Empty: it stays.
   std::function<float()> known_since;
 };
 

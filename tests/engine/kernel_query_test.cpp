@@ -221,11 +221,13 @@ Seeded run_seed(KernelBench& bench, const Mesh& a, const Hierarchy& b, bool two_
   const uint32_t vertices = on.vertexCount, faces = on.faceCount;
   const auto memory = bench.garbage<uint32_t>(
       workspace_size(vertices, faces, 64, bench.context()->limits.switches) / 4);
+  VkhRunOptions options{};
+  options.cullTolerance = 1e-6f;
+  options.twoFloat = two_float ? VK_TRUE : VK_FALSE;
+  options.sortFrom = gpu::kSortFrom;
   const Problem p{.vertex_count = vertices,
                   .face_count = faces,
-                  .cull_tolerance = 1e-6f,
-                  .known_lower = 0,
-                  .two_float = two_float,
+                  .options = options,
                   .b = b,
                   .ws = view_workspace({memory.buffer, 0, memory.size}, bench.context()->limits,
                                        vertices, faces)};
