@@ -19,10 +19,11 @@ Opened open_one(const std::string& selector, const SolveOptions& options,
   return one;
 }
 
-// A device's name may have commas.
+// A device's name may have commas, which opening one finds out; a list of indices is none.
 bool is_one(const std::string& selector) {
   if (selector == "all") return false;
   if (selector.find(',') == std::string::npos) return true;
+  if (selector.find_first_not_of("0123456789,") == std::string::npos) return false;
   try {
     const Device device({.selector = selector});
     return true;
