@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "host/base/reject.h"
@@ -112,111 +113,136 @@ bool is_withheld(unsigned format, const char* record) {
   return (flags & (format < 6 ? 0x80 : 0x04)) != 0;
 }
 
-/// The largest sizes that roundings depend on.
-struct Largest {
-  glm::dvec3 product{}, place{};
+/// The least and the largest integer of each axis.
+struct Extremes {
+  std::array<int32_t, 3> least{INT32_MAX, INT32_MAX, INT32_MAX},
+      largest{INT32_MIN, INT32_MIN, INT32_MIN};
 
-  void see(const glm::dvec3& p, const glm::dvec3& x) {
-    for (int i = 0; i < 3; ++i) {
-      product[i] = std::max(product[i], std::abs(p[i]));
-      place[i] = std::max(place[i], std::abs(x[i]));
+  void see(const Extremes& other) {
+    for (size_t i = 0; i < 3; ++i) {
+      least[i] = std::min(least[i], other.least[i]);
+      largest[i] = std::max(largest[i], other.largest[i]);
     }
+  }
+  void see(size_t axis, int32_t number) {
+    least[axis] = std::min(least[axis], number);
+    largest[axis] = std::max(largest[axis], number);
   }
 };
 
 // Bounds how far a point is from n * scale + offset. With u = 2^-53, the product p is rounded by at
 // most u |p| + 2^-1075 and the sum x by at most u |x|, since |exact| <= |rounded| (1 + u) and a sum
 // of doubles has no underflow; the factor 1.01 covers (1 + u) and the roundings here, and 2^-1070
-// the least numbers.
-double delta_of(const Largest& largest) {
+// the least numbers. Rounded products and sums do not turn the integers' order around, so that the
+// extreme ones have the largest |p| and |x|.
+double delta_of(const LasHeader& header, const Extremes& extremes) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   double length = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double error = 1.01 * kUnit * (largest.product[i] + largest.place[i]) + 0x1p-1070;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<glm::length_t>(i);
+    double product = 0, place = 0;
+    for (const int32_t number : {extremes.least[i], extremes.largest[i]}) {
+      const double p = number * header.scale[axis];
+      product = std::max(product, std::abs(p));
+      place = std::max(place, std::abs(p + header.offset[axis]));
+    }
+    const double error = 1.01 * kUnit * (product + place) + 0x1p-1070;
     length = std::hypot(length, error);
   }
   return 1.01 * length;
 }
 
-/// Points of records that follow each other.
+/// Records that follow each other: their points stand where those of all records before begin.
 struct LasBlock {
-  std::vector<glm::dvec3> points;
+  size_t points = 0;
   FileFaces file_faces;
-  Largest largest;
+  Extremes extremes;
   uint64_t withheld = 0;
 };
 
-LasBlock read_block(const LasHeader& header, std::string_view bytes, bool keeps_withheld) {
+/// The points of a file, and all that is known of them.
+struct LasPoints {
+  std::vector<DVec3> points;
+  LasBlock all;
+};
+
+LasBlock read_block(const LasHeader& header, std::string_view bytes, bool keeps_withheld,
+                    DVec3* points) {
   LasBlock block;
-  block.points.reserve(bytes.size() / header.record_bytes);
   for (size_t at = 0; at < bytes.size(); at += header.record_bytes) {
     const char* const record = bytes.data() + at;
     if (is_withheld(header.format, record) && ++block.withheld > 0 && !keeps_withheld) {
-      block.file_faces.add(block.points.size(), 0);
+      block.file_faces.add(block.points, 0);
       continue;
     }
-    const glm::dvec3 numbers(load<int32_t>(record), load<int32_t>(record + 4),
-                             load<int32_t>(record + 8));
-    const glm::dvec3 product = numbers * header.scale;
-    block.points.push_back(product + header.offset);
-    block.largest.see(product, block.points.back());
+    DVec3& point = points[block.points++];
+    for (size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<glm::length_t>(i);
+      const auto number = load<int32_t>(record + 4 * i);
+      point[axis] = number * header.scale[axis] + header.offset[axis];
+      block.extremes.see(i, number);
+    }
   }
   return block;
 }
 
-std::vector<LasBlock> read_blocks(const MeshSource& source, const LasHeader& header,
-                                  const ThreadPool& pool) {
+// Closes the gaps that withheld points leave between blocks.
+LasPoints joined(std::vector<DVec3> points, const std::vector<LasBlock>& blocks, uint64_t rows) {
+  LasPoints read;
+  size_t end = 0;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const LasBlock& block = blocks[i];
+    const auto first = points.begin() + static_cast<std::ptrdiff_t>(i * rows);
+    if (end != i * rows)
+      std::copy(first, first + static_cast<std::ptrdiff_t>(block.points),
+                points.begin() + static_cast<std::ptrdiff_t>(end));
+    read.all.file_faces.append(block.file_faces, end);
+    read.all.extremes.see(block.extremes);
+    read.all.withheld += block.withheld;
+    end += block.points;
+  }
+  points.resize(end);
+  read.points = std::move(points);
+  return read;
+}
+
+LasPoints read_points(const MeshSource& source, const LasHeader& header, const ThreadPool& pool) {
   Windows windows(source);
   const uint64_t rows = std::max<uint64_t>(1, block_bytes_of(source) / header.record_bytes);
   std::vector<LasBlock> blocks((header.count + rows - 1) / rows);
+  std::vector<DVec3> points;
+  resize_together(pool, points, header.count);
   pool.for_each(blocks.size(), [&](size_t i) {
     const uint64_t first = i * rows, count = std::min(rows, header.count - first);
     const uint64_t begin = header.begin + first * header.record_bytes;
     Windows::Window window(windows);
     const auto bytes = window.read(begin, begin + count * header.record_bytes);
-    blocks[i] = read_block(header, bytes, source.limits.bodies == Bodies::kAll);
+    blocks[i] =
+        read_block(header, bytes, source.limits.bodies == Bodies::kAll, points.data() + first);
     count_read(source, bytes.size());
   });
-  return blocks;
-}
-
-LasBlock joined(const ThreadPool& pool, std::vector<LasBlock> blocks) {
-  std::vector<size_t> starts;
-  starts.reserve(blocks.size());
-  for (const LasBlock& block : blocks) starts.push_back(block.points.size());
-  LasBlock all;
-  resize_together(pool, all.points, starts_of(starts));
-  pool.for_each(blocks.size(), [&](size_t i) {
-    std::copy(blocks[i].points.begin(), blocks[i].points.end(),
-              all.points.begin() + static_cast<std::ptrdiff_t>(starts[i]));
-    blocks[i].points = {};
-  });
-  for (size_t i = 0; i < blocks.size(); ++i) {
-    all.file_faces.append(blocks[i].file_faces, starts[i]);
-    all.largest.see(blocks[i].largest.product, blocks[i].largest.place);
-    all.withheld += blocks[i].withheld;
-  }
-  return all;
+  return joined(std::move(points), blocks, rows);
 }
 
 Mesh read_las(const MeshSource& source) {
   const LasHeader header = read_las_header(source);
   FileMeshBuilder(source).check_room(header.count, header.count);
   const ThreadPool pool = pool_of(source);
-  LasBlock read = joined(pool, read_blocks(source, header, pool));
+  LasPoints read = read_points(source, header, pool);
+  const LasBlock& all = read.all;
   if (read.points.empty())
-    refuse(source, 107, read.withheld > 0 ? "no point that is not withheld" : "no point",
+    refuse(source, 107, all.withheld > 0 ? "no point that is not withheld" : "no point",
            "at least one point");
   Mesh mesh = make_points(source.name, std::move(read.points), pool);
-  mesh.file_faces = std::move(read.file_faces);
-  mesh.delta = delta_of(read.largest);
+  mesh.file_faces = all.file_faces;
+  mesh.delta = delta_of(header, all.extremes);
   const bool keeps = source.limits.bodies == Bodies::kAll;
-  if (read.withheld > 0)
+  if (all.withheld > 0)
     mesh.notes.push_back(
         note_of(NoteCode::kBodies,
                 (keeps ? "included, though withheld: " : "left out as withheld: ") +
-                    counted(read.withheld, "point"),
-                {static_cast<double>(read.withheld), "points"}));
+                    counted(all.withheld, "point"),
+                {static_cast<double>(all.withheld), "points"}));
   return mesh;
 }
 
