@@ -11,10 +11,10 @@
 
 namespace vkh {
 
-/// Ends an error about points alone: what was expected.
+/// Ends an error about points alone: what was expected, and the option for points.
 inline constexpr const char* kAMesh =
-    "a mesh: export the surface as triangles (STL, OBJ, PLY); or --points (a, b or both) of "
-    "distance, gate and batch, which measures points";
+    "a mesh of triangles (STL, OBJ, PLY), or --points a to measure the points; b if it is the "
+    "second file, both if both are points";
 /// Ends an error about faces in a file of points.
 inline constexpr const char* kPointsAlone =
     "points alone; a mesh is measured without --points, which never drops its faces";

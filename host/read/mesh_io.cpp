@@ -103,11 +103,13 @@ bool looks_like_obj(std::string_view head) {
   return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
 }
 
-// Recognises rows of numbers, perhaps behind a count.
+// Recognises rows of numbers, perhaps behind a count; of columns between commas the first number.
 bool looks_like_xyz(std::string_view head) {
   TextScanner scanner(head, "", '#', MixedLineEnds::kIgnored);
   double number = 0;
-  return scanner.next_full_line() && parse_number(scanner.word(), number);
+  if (!scanner.next_full_line()) return false;
+  const std::string_view word = scanner.word();
+  return parse_number(word.substr(0, word.find_first_of(",;")), number);
 }
 
 // Formats that hold points, besides those that hold faces, too.
@@ -197,6 +199,8 @@ RecognisedFile recognise_format(const MeshSource& file) {
   if (!parse && looks_like_obj(head)) parse = parse_obj;
   if (!parse) refuse_stranger(source.name, stranger_by_extension(extension));
   if (!parse && points && looks_like_xyz(head)) parse = parse_xyz;
+  if (!parse && looks_like_xyz(head))
+    reject(source.name, "byte 0", "rows of numbers (points, no faces)", kAMesh);
   if (!parse)
     reject(source.name, "byte 0", "neither content nor name tells what it is",
            points ? kExpectedPoints : kExpectedFormats);
