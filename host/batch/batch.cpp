@@ -223,7 +223,9 @@ class Batch {
                     .symmetric = running.entry.question.symmetric,
                     .options = {}};
     if (running.entry.question.align) {
-      pair.before = [this](Solver& solver, StreamPair& one) { fit(solver, one); };
+      pair.before = [this](Solver& solver, const PreparedMesh* b, StreamPair& one) {
+        fit(solver, b, one);
+      };
     } else {
       pair.options = options_of(running);
     }
@@ -243,9 +245,10 @@ class Batch {
   }
 
   // Runs on a worker's thread, before the pair's run. The time of a pair is for its run.
-  void fit(Solver& solver, StreamPair& pair) {
+  void fit(Solver& solver, const PreparedMesh* b, StreamPair& pair) {
     Running& one = running(pair.number);
-    EntryReader::fit(solver, {.goes_on = [this] { return goes_on(); }}, one.meshes, one.entry);
+    const Observer observer{.goes_on = [this] { return goes_on(); }};
+    EntryReader::fit(solver, observer, b, one.meshes, one.entry);
     pair.a = one.meshes.a;
     pair.options = options_of(one);
   }

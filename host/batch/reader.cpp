@@ -250,11 +250,11 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   return meshes;
 }
 
-void EntryReader::fit(Solver& solver, const Observer& observer, EntryMeshes& meshes,
-                      NamedEntry& entry) {
+void EntryReader::fit(Solver& solver, const Observer& observer, const PreparedMesh* prepared_b,
+                      EntryMeshes& meshes, NamedEntry& entry) {
   const auto start = Clock::now();
   auto moved = std::make_shared<Mesh>(*meshes.a);
-  fit_a(entry.question, solver, observer, {*moved, *meshes.b});
+  fit_a(entry.question, solver, observer, {*moved, *meshes.b, prepared_b});
   meshes.a = std::move(moved);
   const double read_ms = entry.known.waits.read;
   take(meshes, entry);

@@ -50,8 +50,10 @@ class EntryReader {
   NamedEntry name(const Entry& entry);
   /// Throws what read_mesh and take_meshes throw. Fills entry.known, unless a fit is asked for.
   EntryMeshes read(NamedEntry& entry);
-  /// Lays A onto B, and fills entry.known. Throws what fit_a and take_meshes throw.
-  static void fit(Solver& solver, const Observer& observer, EntryMeshes& meshes, NamedEntry& entry);
+  /// Lays A onto B, and fills entry.known. `prepared_b`: B on the device, or null. Throws what
+  /// fit_a and take_meshes throw.
+  static void fit(Solver& solver, const Observer& observer, const PreparedMesh* prepared_b,
+                  EntryMeshes& meshes, NamedEntry& entry);
 
  private:
   /// A mesh of several pairs, and its shape, which is found once.

@@ -128,9 +128,10 @@ void Flow::take(Running& running) const {
 }
 
 // Runs on a worker's thread, before the pair's run.
-void Flow::fit(Solver& solver, Running& running, StreamPair& pair) {
+void Flow::fit(Solver& solver, const PreparedMesh* b, Running& running, StreamPair& pair) {
   auto moved = std::make_shared<Mesh>(*running.a);
-  fit_a(asked_.question, solver, {.goes_on = [this] { return !is_over(); }}, {*moved, *running.b});
+  fit_a(asked_.question, solver, {.goes_on = [this] { return !is_over(); }},
+        {*moved, *running.b, b});
   running.a = std::move(moved);
   take(running);
   pair.a = running.a;
@@ -146,8 +147,8 @@ void Flow::push(size_t number, const std::shared_ptr<Running>& running) {
                    .symmetric = question.symmetric,
                    .options = {}};
   if (question.align) {
-    whole.before = [this, running](Solver& solver, StreamPair& pair) {
-      fit(solver, *running, pair);
+    whole.before = [this, running](Solver& solver, const PreparedMesh* b, StreamPair& pair) {
+      fit(solver, b, *running, pair);
     };
   } else {
     whole.options = solve_options(question, running->answer);

@@ -79,7 +79,7 @@ class Flow {
     Answer answer = {};
   };
   void take(Running& running) const;
-  void fit(Solver& solver, Running& running, StreamPair& pair);
+  void fit(Solver& solver, const PreparedMesh* b, Running& running, StreamPair& pair);
   void push(size_t number, const std::shared_ptr<Running>& running);
   void take_result(StreamResult&& result);
   void deliver(FlowResult&& result);

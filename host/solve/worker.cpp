@@ -58,18 +58,19 @@ void Worker::work() {
 }
 
 void Worker::solve_all(Group& group) {
+  std::vector<std::shared_ptr<const PreparedMesh>> prepared;
   for (WaitingPair& one : group) {
+    check_meshes(one.pair);
+    prepared.push_back(one.pair.shares_b ? device_.prepared.get(solver_, one.pair.b) : nullptr);
     if (!one.pair.before) continue;
-    one.pair.before(solver_, one.pair);
+    one.pair.before(solver_, prepared.back().get(), one.pair);
     one.pair.before = {};  // a pair that is tried again is as it was left
   }
-  for (const WaitingPair& one : group) check_meshes(one.pair);
-  std::vector<std::shared_ptr<const PreparedMesh>> prepared;
   std::vector<SolveOptions> options;
   std::vector<PairView> views;
   options.reserve(group.size());  // views refer to them
-  for (const WaitingPair& one : group) {
-    prepared.push_back(one.pair.shares_b ? device_.prepared.get(solver_, one.pair.b) : nullptr);
+  for (size_t i = 0; i < group.size(); ++i) {
+    const WaitingPair& one = group[i];
     options.push_back(one.pair.options);
     options.back().stage_times = false;
     options.back().progress = [this, &pair = one.pair](Progress p) {
@@ -78,7 +79,7 @@ void Worker::solve_all(Group& group) {
     };
     views.push_back({.a = *one.pair.a,
                      .b = *one.pair.b,
-                     .prepared = prepared.back().get(),
+                     .prepared = prepared[i].get(),
                      .options = &options.back()});
   }
   std::vector<StreamResult> results(group.size());

@@ -34,9 +34,10 @@ struct StreamPair {
   bool symmetric = false;
   SolveOptions options;  ///< `progress` is asked on the threads that run; Progress::pair is then
                          ///< `number`
-  /// Called before the pair's run, once, with the solver that will run it: it may change `a`,
-  /// `options` and `beside`. An exception from it is the pair's error.
-  std::function<void(Solver&, StreamPair&)> before = {};
+  /// Called before the pair's run, once, with the solver that will run it and the prepared `b`, or
+  /// null unless pairs share it: it may change `a`, `options` and `beside`. An exception from it is
+  /// the pair's error.
+  std::function<void(Solver&, const PreparedMesh*, StreamPair&)> before = {};
   /// Called after the pair's own run, with the solver that ran it, before it is delivered: for
   /// surveys and certificates. An exception from it is the pair's error.
   std::function<void(Solver&, StreamResult&)> beside = {};
