@@ -63,9 +63,9 @@ FlowQuestion asked_from(const Arguments& given) {
   FlowQuestion asked;
   asked.question = question_of("distances", given);
   asked.question.limits = limits_of(given);
-  if (is_given(given, "points"))
-    put_points("points", text_from("points", "None, 'a', 'b' or 'both'", given.at("points")),
-               asked.question);
+  const PointSides points = point_sides(given);
+  asked.question.points_a = points.a;
+  asked.question.points_b = points.b;
   asked.ahead = count_of(given, "ahead");
   asked.devices = devices_of(given);
   if (is_given(given, "against"))
@@ -113,8 +113,8 @@ void PythonStream::put(size_t index, const py::object& id, const py::object& a,
   const Call call;
   const std::shared_ptr<Flow> flow = flow_;
   if (flow == nullptr) return;
-  FlowPair pair{.number = index, .a = mesh_given("a", "A", a), .b = {}};
-  if (!b.is_none()) pair.b = mesh_given("b", "B", b);
+  FlowPair pair{.number = index, .a = mesh_given("a", "A", a, question_.points_a), .b = {}};
+  if (!b.is_none()) pair.b = mesh_given("b", "B", b, question_.points_b);
   if (!id.is_none()) ids_[index] = id;
   std::optional<WithoutGil> outside;
   if (!pair.a.file.empty() || !pair.b.file.empty()) outside.emplace();  // disks may be slow

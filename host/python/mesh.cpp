@@ -293,10 +293,27 @@ FileMesh mesh_from_state(const py::tuple& state) {
   return {std::make_shared<const Mesh>(std::move(mesh))};
 }
 
-MeshPointer points_of(const py::object& array) {
-  std::vector<DVec3> points = points_from(array);
+// The array of points of an object that has .vertices or .points, or the object.
+py::object points_array(const char* argument, const py::object& object) {
+  try {
+    return py::module_::import("vkhausdorff._meshes").attr("points")(object);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw py::value_error(std::string(argument) + ": " + std::string(py::str(error.value())));
+  }
+}
+
+MeshPointer points_of(const char* argument, const std::string& name, const py::object& object) {
+  std::vector<DVec3> points = points_from(points_array(argument, object));
   const WithoutGil outside;
-  return std::make_shared<const Mesh>(make_points("points", std::move(points)));
+  return std::make_shared<const Mesh>(make_points(name, std::move(points)));
+}
+
+void refuse_faces(const char* argument, const Mesh& mesh) {
+  if (!mesh.are_points)
+    throw py::value_error(std::string(argument) +
+                          ": a Mesh with faces; expected points alone, as read(path, points=True) "
+                          "returns them");
 }
 
 FileMesh read(const py::args& positional, const py::kwargs& named) {
@@ -310,7 +327,7 @@ FileMesh read(const py::args& positional, const py::kwargs& named) {
   if (is_path(path)) return {read_now(file_from("path", path), limits)};
   if (!limits.points)
     refuse_type("path", "the path of a mesh file; with points=True, or an array of points", path);
-  return {points_of(path)};
+  return {points_of("path", "points", path)};
 }
 
 /// A mesh whose coordinates are each within `delta` of their exact place.
@@ -405,10 +422,32 @@ uint64_t MeshGiven::bytes() const {
   return mesh_bytes(arrays.vertices.size(), arrays.faces.size());
 }
 
-MeshGiven mesh_given(const char* argument, const std::string& name, const py::object& object) {
-  if (py::isinstance<FileMesh>(object))
-    return {.mesh = made<FileMesh>(object, "Mesh").mesh, .file = {}, .arrays = {}};
+PointSides point_sides(const py::object& given) {
+  constexpr const char* kExpected = "True for a, 'a', 'b' or 'both', or None";
+  if (given.is_none()) return {};
+  if (is_bool(given)) return {.a = py::cast<bool>(given)};
+  const std::string text = text_from("points", kExpected, given);
+  if (text != "a" && text != "b" && text != "both") refuse_value("points", kExpected, given);
+  return {.a = text != "b", .b = text != "a"};
+}
+
+PointSides point_sides(const Arguments& given) {
+  const py::object* points = given.find("points");
+  return points == nullptr ? PointSides() : point_sides(*points);
+}
+
+MeshGiven mesh_given(const char* argument, const std::string& name, const py::object& object,
+                     bool are_points) {
+  if (py::isinstance<FileMesh>(object)) {
+    MeshPointer mesh = made<FileMesh>(object, "Mesh").mesh;
+    if (are_points) refuse_faces(argument, *mesh);
+    return {.mesh = std::move(mesh), .file = {}, .arrays = {}};
+  }
   if (is_path(object)) return {.mesh = {}, .file = file_from(argument, object), .arrays = {}};
+  if (are_points) {
+    std::vector<DVec3> points = points_from(points_array(argument, object));
+    return {.mesh = {}, .file = {}, .arrays = {name, std::move(points), {}}, .are_points = true};
+  }
   const py::tuple arrays = checked_arrays(argument, object);
   return {.mesh = {}, .file = {}, .arrays = raw_mesh_from(name, arrays[0], arrays[1])};
 }
@@ -436,6 +475,8 @@ MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
   if (!given.file.empty())
     return std::make_shared<const Mesh>(read_file(given.file, std::move(limits)));
   RawMesh& raw = given.arrays;
+  if (given.are_points)
+    return std::make_shared<const Mesh>(make_points(raw.name, std::move(raw.vertices)));
   return std::make_shared<const Mesh>(
       make_mesh(raw.name, std::move(raw.vertices), std::move(raw.faces)));
 }
@@ -454,8 +495,13 @@ std::optional<std::string> path_from(const char* argument, const py::object& giv
 
 MeshPointer mesh_of(const char* argument, const std::string& name, const py::object& object,
                     ReadLimits limits) {
-  if (py::isinstance<FileMesh>(object)) return made<FileMesh>(object, "Mesh").mesh;
+  if (py::isinstance<FileMesh>(object)) {
+    MeshPointer mesh = made<FileMesh>(object, "Mesh").mesh;
+    if (limits.points) refuse_faces(argument, *mesh);
+    return mesh;
+  }
   if (is_path(object)) return read_now(file_from(argument, object), std::move(limits));
+  if (limits.points) return points_of(argument, name, object);
   const py::tuple arrays = checked_arrays(argument, object);
   return std::make_shared<const Mesh>(mesh_from(name, arrays[0], arrays[1]));
 }
@@ -464,11 +510,20 @@ py::args spread(const py::args& positional, const py::kwargs& named,
                 const std::vector<const char*>& apart) {
   bool are_meshes = positional.size() == apart.size() / 2;
   for (size_t i = 0; i < apart.size(); ++i) are_meshes = are_meshes && !named.contains(apart[i]);
-  for (size_t i = 0; are_meshes && i < positional.size(); ++i) are_meshes = is_mesh(positional[i]);
+  const PointSides sides =
+      named.contains("points") ? point_sides(py::object(named["points"])) : PointSides();
+  const auto is_points = [&](size_t i) { return i == 0 ? sides.a : sides.b; };
+  for (size_t i = 0; are_meshes && i < positional.size(); ++i)
+    are_meshes = is_points(i) || is_mesh(positional[i]);
   if (!are_meshes) return positional;
   py::list values;
-  for (const py::handle given : positional) {
-    py::object object = py::reinterpret_borrow<py::object>(given);
+  for (size_t i = 0; i < positional.size(); ++i) {
+    py::object object = positional[i];
+    if (is_points(i)) {
+      values.append(object);
+      values.append(py::none());
+      continue;
+    }
     if (is_path(object)) object = py::cast(FileMesh{read_now(file_from("path", object))});
     const bool is_whole = py::isinstance<FileMesh>(object);
     const py::tuple arrays = is_whole ? py::make_tuple(object, py::none()) : arrays_of(object);
@@ -478,7 +533,11 @@ py::args spread(const py::args& positional, const py::kwargs& named,
   return py::args(py::tuple(values));
 }
 
-MeshPointer mesh_of(const std::string& name, const py::object& vertices, const py::object& faces) {
+MeshPointer mesh_of(const std::string& name, const py::object& vertices, const py::object& faces,
+                    bool are_points) {
+  const bool is_a = name == "A";
+  if (are_points && !faces.is_none()) refuse_type(is_a ? "fa" : "fb", "None beside points", faces);
+  if (are_points) return mesh_of(is_a ? "va" : "vb", name, vertices, ReadLimits{.points = true});
   if (faces.is_none() && py::isinstance<FileMesh>(vertices))
     return made<FileMesh>(vertices, "Mesh").mesh;
   return std::make_shared<const Mesh>(mesh_from(name, vertices, faces));

@@ -45,12 +45,25 @@ struct MeshGiven {
   MeshPointer mesh;  ///< a Mesh; otherwise
   std::string file;  ///< to be read; otherwise
   RawMesh arrays;
+  bool are_points = false;  ///< of arrays: the vertices are all, and no face is there
 
   uint64_t bytes() const;  ///< memory that it takes besides, about
 };
+/// Which meshes of a call are points alone.
+struct PointSides {
+  bool a = false, b = false;
+};
+/// Reads a value of the keyword points: None, False, True for A's, "a", "b" or "both".
+PointSides point_sides(const pybind11::object& given);
+/// Reads the keyword of a call that may have it.
+PointSides point_sides(const Arguments& given);
+
 /// Takes a Mesh, a path, (vertices, faces), or an object that has them. Throws a TypeError or
 /// ValueError for anything else. `argument` is the caller's name of it, `name` is "A" or "B".
-MeshGiven mesh_given(const char* argument, const std::string& name, const pybind11::object& object);
+/// `are_points`: takes an array of points, or an object that has .vertices or .points alone, in
+/// place of the last two.
+MeshGiven mesh_given(const char* argument, const std::string& name, const pybind11::object& object,
+                     bool are_points = false);
 /// Reads the keyword max_input.
 ReadLimits limits_of(const Arguments& given);
 /// Makes the mesh on any thread. Throws FileFault, what read_mesh and make_mesh throw.
@@ -63,7 +76,8 @@ MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b
 /// names `argument` for a path of no file.
 std::optional<std::string> path_from(const char* argument, const pybind11::object& given);
 
-/// Makes the mesh of such an argument now, within a Call. Ctrl-C works while a file is read.
+/// Makes the mesh of such an argument now, within a Call; points with limits.points. Ctrl-C works
+/// while a file is read.
 MeshPointer mesh_of(const char* argument, const std::string& name, const pybind11::object& object,
                     ReadLimits limits = {});
 
@@ -71,8 +85,8 @@ MeshPointer mesh_of(const char* argument, const std::string& name, const pybind1
 /// given so, for signatures that have these apart. `apart`: their names.
 pybind11::args spread(const pybind11::args& positional, const pybind11::kwargs& named,
                       const std::vector<const char*>& apart);
-/// Makes the mesh of arguments that were spread.
+/// Makes the mesh of arguments that were spread. Points have None as their faces.
 MeshPointer mesh_of(const std::string& name, const pybind11::object& vertices,
-                    const pybind11::object& faces);
+                    const pybind11::object& faces, bool are_points = false);
 
 }  // namespace vkh::python

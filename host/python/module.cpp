@@ -24,7 +24,7 @@ void define_distance(py::module_& m) {
       "         statistics=False, signed=False, bands=(), effort=None, survey_time=None,\n"
       "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
       "         align=False, on_progress=None,\n"
-      "         max_distance=None)\n--\n\n"
+      "         max_distance=None, points=None)\n--\n\n"
       "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
       "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
       "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
@@ -64,7 +64,9 @@ void define_distance(py::module_& m) {
       "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
       "stretches by more than 1e-6. The rounding of both widens the interval. align: then lay A "
       "onto\n"
-      "B as align() does; stats['transform'] has the matrix.");
+      "B as align() does; stats['transform'] has the matrix.\n\n"
+      "points: True or 'a': A is points alone, an array (n, 3), an object that has .vertices or\n"
+      ".points and no faces, or the path of such a file; 'b' says so of B, 'both' of both.");
 }
 
 py::list devices() {
@@ -132,9 +134,9 @@ void define_simplify(py::module_& m) {
 
 void define_align(py::module_& m) {
   m.def("align", align,
-        "align(a, b, *, device='')\n--\n\n"
+        "align(a, b, *, device='', points=None)\n--\n\n"
         "The rotation and shift that lay A onto B: a fit that is found, not proven the best.\n\n"
-        "a, b: meshes, as distance() takes them. Returns an Alignment, whose matrix is for\n"
+        "a, b, points: as distance() takes them. Returns an Alignment, whose matrix is for\n"
         "transform=; distance(a, b, align=True) does both. It begins where A lies, and with A's\n"
         "principal axes on B's; the nearest 80 % of A's samples decide, so that a scan may lack\n"
         "parts or have others. The same meshes give the same bits on the same device.");
@@ -213,7 +215,7 @@ void define_solver(py::module_& m) {
           "         signed=False, bands=(), effort=None, survey_time=None, certificate=None, "
           "unit_a=None,\n"
           "         unit_b=None, transform=None, scale=False, align=False, on_progress=None,\n"
-          "         max_distance=None)\n--\n\n"
+          "         max_distance=None, points=None)\n--\n\n"
           "As vkhausdorff.distance, from A to the Solver's B.")
       .def(
           "closest",

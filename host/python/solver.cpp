@@ -300,12 +300,13 @@ LevelsOptions levels_options(const Arguments& given) {
 }  // namespace
 
 py::object align(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{"align", {"a", "b", "device"}, 2, 2};
+  static const auto* signature = new Signature{"align", {"a", "b", "device", "points"}, 2, 2};
   const Call call;
   const Arguments given(*signature, positional, named);
   const std::shared_ptr<Session> session = session_of(given);
-  const MeshPointer a = mesh_of("a", "A", given.at("a"));
-  const MeshPointer b = mesh_of("b", "B", given.at("b"));
+  const PointSides points = point_sides(given);
+  const MeshPointer a = mesh_of("a", "A", given.at("a"), ReadLimits{.points = points.a});
+  const MeshPointer b = mesh_of("b", "B", given.at("b"), ReadLimits{.points = points.b});
   Alignment found;
   session->use([&](Solver& solver, const PreparedMesh*) {
     found = vkh::align(solver, *a, *b, {.goes_on = goes_on});
@@ -370,37 +371,42 @@ py::object simplified_levels(const py::args& positional, const py::kwargs& named
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "distance",
-      {"va",     "fa",         "vb",        "fb",      "tol",      "symmetric",   "device",
-       "time",   "waves",      "memory",    "disable", "progress", "enable",      "preset",
-       "field",  "statistics", "signed",    "bands",   "effort",   "survey_time", "certificate",
-       "unit_a", "unit_b",     "transform", "scale",   "align",    "on_progress", "max_distance"},
-      4,
-      6};
+  static const auto* signature =
+      new Signature{"distance",
+                    {"va",     "fa",          "vb",          "fb",           "tol",     "symmetric",
+                     "device", "time",        "waves",       "memory",       "disable", "progress",
+                     "enable", "preset",      "field",       "statistics",   "signed",  "bands",
+                     "effort", "survey_time", "certificate", "unit_a",       "unit_b",  "transform",
+                     "scale",  "align",       "on_progress", "max_distance", "points"},
+                    4,
+                    6};
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments arguments(*signature, all, named);
-  return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")),
-                   kept(mesh_of("B", arguments.at("vb"), arguments.at("fb")))},
-                  *session_of(arguments));
+  const PointSides points = point_sides(arguments);
+  return answered(
+      {"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa"), points.a),
+       kept(mesh_of("B", arguments.at("vb"), arguments.at("fb"), points.b))},
+      *session_of(arguments));
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "gate",
-      {"a",      "b",           "max",         "tol",         "symmetric",   "device",
-       "time",   "waves",       "memory",      "disable",     "progress",    "enable",
-       "preset", "field",       "statistics",  "signed",      "bands",       "area",
-       "effort", "survey_time", "certificate", "unit_a",      "unit_b",      "transform",
-       "scale",  "align",       "worst",       "on_progress", "max_distance"},
+      {"a",      "b",           "max",         "tol",         "symmetric",    "device",
+       "time",   "waves",       "memory",      "disable",     "progress",     "enable",
+       "preset", "field",       "statistics",  "signed",      "bands",        "area",
+       "effort", "survey_time", "certificate", "unit_a",      "unit_b",       "transform",
+       "scale",  "align",       "worst",       "on_progress", "max_distance", "points"},
       3,
       3};
   const Call call;
   const Arguments arguments(*signature, positional, named);
-  return answered({"gate", arguments, mesh_of("a", "A", arguments.at("a")),
-                   kept(mesh_of("b", "B", arguments.at("b")))},
-                  *session_of(arguments));
+  const PointSides points = point_sides(arguments);
+  return answered(
+      {"gate", arguments, mesh_of("a", "A", arguments.at("a"), ReadLimits{.points = points.a}),
+       kept(mesh_of("b", "B", arguments.at("b"), ReadLimits{.points = points.b}))},
+      *session_of(arguments));
 }
 
 Result metrics(const py::args& positional, const py::kwargs& named) {
@@ -480,18 +486,22 @@ std::shared_ptr<Session> PythonSolver::open_session() const {
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature{
       "Solver.distance",
-      {"va",      "fa",        "tol",    "time",        "waves",       "memory",
-       "disable", "progress",  "enable", "preset",      "field",       "statistics",
-       "signed",  "bands",     "effort", "survey_time", "certificate", "unit_a",
-       "unit_b",  "transform", "scale",  "align",       "on_progress", "max_distance"},
+      {"va",       "fa",          "tol",          "time",   "waves",      "memory",    "disable",
+       "progress", "enable",      "preset",       "field",  "statistics", "signed",    "bands",
+       "effort",   "survey_time", "certificate",  "unit_a", "unit_b",     "transform", "scale",
+       "align",    "on_progress", "max_distance", "points"},
       2,
       3};
   const Call call;
   const std::shared_ptr<Session> session = open_session();
   const py::args all = spread(positional, named, {"va", "fa"});
   const Arguments arguments(*signature, all, named);
-  return answered({"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa")), b_},
-                  *session, key_);
+  const PointSides points = point_sides(arguments);
+  if (points.b)
+    refuse_value("points", "True for a, 'a' or None: B is the Solver's", arguments.at("points"));
+  return answered(
+      {"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa"), points.a), b_},
+      *session, key_);
 }
 
 py::object PythonSolver::closest(const py::args& positional, const py::kwargs& named) {

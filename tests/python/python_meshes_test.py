@@ -108,8 +108,10 @@ class Meshes(unittest.TestCase):
             clouds = vkh.read(file, points=True), vkh.read(points, points=True)
             by_name = next(vkh.distances([(file, b)], points="a", tol=1e-6))
             self.assertIsInstance(next(vkh.distances([(file, b)])).error, ValueError)
-            with self.assertRaisesRegex(ValueError, "points.*expected a, b or both"):
+            with self.assertRaisesRegex(ValueError, "points: expected True for a, 'a', 'b' or 'both'"):
                 vkh.distances([(file, b)], points="c")
+            with_b = next(vkh.distances([file], against=b, points=True, tol=1e-6))
+            self.assertTrue(with_b.lower <= heights.max() <= with_b.upper)
             with self.assertRaisesRegex(ValueError, "faces in a file of points"):
                 vkh.read(obj(folder, "mesh.obj", PAIRS[0][0]), points=True)
         again = pickle.loads(pickle.dumps(clouds[0]))
@@ -132,6 +134,59 @@ class Meshes(unittest.TestCase):
             vkh.read(points)
         with self.assertRaisesRegex(ValueError, "no sides"):
             vkh.distance(b, clouds[0], signed=True)
+
+    def test_arrays_of_points(self):
+        """An array is the same cloud as read() makes of it, wherever a mesh goes."""
+        random = np.random.default_rng(41)
+        points = random.uniform(-1, 1, (60, 3))
+        vb, fb = np.float64([[-9, -9, 0], [9, -9, 0], [0, 9, 0]]), np.uint32([[0, 1, 2]])
+        b, cloud = (vb, fb), vkh.read(points, points=True)
+        truth = vkh.distance(cloud, b, field=True, statistics=True)
+        ends = (truth.lower, truth.upper)
+        holder = type("PointCloud", (), {"vertices": points})()
+        of_pyvista = type("PolyData", (), {"points": points, "regular_faces": np.zeros((0, 3), int)})()
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "scan.xyz"
+            file.write_text("".join("{!r} {!r} {!r}\n".format(*p) for p in points.tolist()))
+            for a in (points, points.tolist(), cloud, holder, of_pyvista, file, str(file)):
+                for side in (True, "a"):
+                    r = vkh.distance(a, b, points=side)
+                    self.assertEqual((r.lower, r.upper), ends)
+                    self.assertEqual(vkh.gate(a, b, 2.0, points=side).verdict, "pass")
+                    vkh.assert_within(a, b, 2.0, points=side)
+                found = next(vkh.distances([(a, b)], points=True, tol=1e-6))
+                self.assertEqual((found.lower, found.upper), ends)
+            proof = pathlib.Path(folder) / "out.vhc"
+            vkh.distance(points, b, points=True, certificate=proof)
+            self.assertGreater(proof.stat().st_size, 100)
+        self.assertEqual((vkh.distance(points, None, vb, fb, points=True).lower), ends[0])
+        r = vkh.distance(points, b, points=True, field=True, statistics=True)
+        self.assertTrue((r.field.upper == truth.field.upper).all())
+        self.assertEqual((r.survey.points, r.survey.mean.lower), (60, truth.survey.mean.lower))
+        with vkh.Solver(b) as solver:
+            r = solver.distance(points, points=True)
+            self.assertTrue(r.lower <= np.abs(points[:, 2]).max() <= r.upper)
+            with self.assertRaisesRegex(ValueError, "B is the Solver's"):
+                solver.distance(points, points="both")
+        both = vkh.distance(points, points + [0, 0, 0.5], points="both", tol=1e-3)
+        nearest = np.linalg.norm(points[:, None] - (points + [0, 0, 0.5])[None], axis=2).min(axis=1).max()
+        self.assertTrue(both.lower <= nearest * (1 + 1e-12) and nearest <= both.upper * (1 + 1e-12))
+        back = vkh.distance(b, points, points="b", tol=1e-2)
+        self.assertGreater(back.upper, 7)
+        self.assertEqual(np.shape(vkh.align(points, b, points=True).matrix), (4, 4))
+        mesh = vb + [0, 0, 1], fb
+        for a, message in (((vb, fb), "points|shape|array"), (type("Mesh", (), {"vertices": vb, "faces": fb})(), "va: expected points alone"),
+                           (np.zeros((0, 3)), "no point"), (np.full((1, 3), np.nan), "not finite")):
+            with self.assertRaisesRegex(ValueError, message):
+                vkh.distance(a, b, points=True)
+        with tempfile.TemporaryDirectory() as folder:
+            whole = vkh.read(obj(folder, "mesh.obj", mesh))
+            with self.assertRaisesRegex(ValueError, "a: a Mesh with faces"):
+                vkh.gate(whole, b, 1.0, points=True)
+        with self.assertRaises(TypeError):
+            vkh.distance(points, b)
+        with self.assertRaises(TypeError):
+            vkh.distance(points, b, points=1)
 
     def test_faces_of_the_file(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -19,7 +19,7 @@ __all__ = ["Alignment", "Closest", "Device", "DeviceError", "Field", "Interval",
 def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
          progress=None, enable=(), preset="", field=False, statistics=False, signed=False, bands=(), area=None,
          effort=None, survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,
-         align=False, worst=False, on_progress=None, max_distance=None):
+         align=False, worst=False, on_progress=None, max_distance=None, points=None):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
@@ -36,7 +36,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
                       disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
                       signed=signed, bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
                       unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale, align=align, worst=worst,
-                      on_progress=on_progress, max_distance=max_distance)
+                      on_progress=on_progress, max_distance=max_distance, points=points)
 
 
 def _say_area(r, max):

@@ -69,6 +69,18 @@ _Mesh = Union[
     PathLike[str],
 ]
 
+# Points alone, with points=: an array (n, 3), or an object that has .vertices or .points and no faces.
+class _WithVertices(Protocol):
+    @property
+    def vertices(self) -> Any: ...
+
+class _WithPoints(Protocol):
+    @property
+    def points(self) -> Any: ...
+
+_Measured = Union[_Mesh, npt.NDArray[Any], _WithVertices, _WithPoints]
+_Points = Union[bool, Literal["a", "b", "both"], None]
+
 class DeviceError(RuntimeError): ...
 
 class _Bounds(NamedTuple):
@@ -302,7 +314,7 @@ class Solver:
     @overload
     def distance(
         self,
-        a: _Mesh,
+        a: _Measured,
         /,
         *,
         tol: _Number | str = 1e-6,
@@ -327,6 +339,7 @@ class Solver:
         align: bool = False,
         on_progress: _OnProgress | None = None,
         max_distance: _Number | str | None = None,
+        points: Union[bool, Literal["a"], None] = None,
     ) -> Result: ...
     @overload
     def distance(
@@ -356,6 +369,7 @@ class Solver:
         align: bool = False,
         on_progress: _OnProgress | None = None,
         max_distance: _Number | str | None = None,
+        points: Union[bool, Literal["a"], None] = None,
     ) -> Result: ...
     def closest(self, points: npt.ArrayLike) -> Closest: ...
     def close(self) -> None: ...
@@ -367,8 +381,8 @@ class Solver:
 
 @overload
 def distance(
-    a: _Mesh,
-    b: _Mesh,
+    a: _Measured,
+    b: _Measured,
     /,
     *,
     tol: _Number | str = 1e-6,
@@ -395,6 +409,7 @@ def distance(
     align: bool = False,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
+    points: _Points = None,
 ) -> Result: ...
 @overload
 def distance(
@@ -427,8 +442,9 @@ def distance(
     align: bool = False,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
+    points: _Points = None,
 ) -> Result: ...
-def align(a: _Mesh, b: _Mesh, *, device: str | SupportsIndex | Device = "") -> Alignment: ...
+def align(a: _Measured, b: _Measured, *, device: str | SupportsIndex | Device = "", points: _Points = None) -> Alignment: ...
 def closest(b: _Mesh, points: npt.ArrayLike, *, device: str | SupportsIndex | Device = "") -> Closest: ...
 def simplify(
     a: _Mesh,
@@ -493,13 +509,13 @@ def distances(
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
     align: bool = False,
-    points: Literal["a", "b", "both"] | None = None,
+    points: _Points = None,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
 ) -> _Results: ...
 def gate(
-    a: _Mesh,
-    b: _Mesh,
+    a: _Measured,
+    b: _Measured,
     max: _Number | str | npt.ArrayLike,
     *,
     tol: _Number | str = 1e-7,
@@ -528,6 +544,7 @@ def gate(
     worst: bool = False,
     on_progress: _OnProgress | None = None,
     max_distance: _Number | str | None = None,
+    points: _Points = None,
 ) -> Result: ...
 class Metrics:
     """Figures of two surfaces, each an Interval with an estimate."""
@@ -578,7 +595,7 @@ def metrics(
     scale: bool = False,
     on_progress: _OnProgress | None = None,
 ) -> Metrics: ...
-def assert_within(a: _Mesh, b: _Mesh, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
+def assert_within(a: _Measured, b: _Measured, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str] | npt.NDArray[Any], *, max_input: SupportsIndex | str | None = None,
          polygons: Literal["refuse", "fan", "any"] = "refuse", bodies: Literal["solid", "all"] = "solid",
          points: bool = False) -> Mesh: ...

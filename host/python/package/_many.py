@@ -22,9 +22,8 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
     distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
     pays there. max_input, polygons and bodies are those of read(); field, statistics, signed, bands, effort, survey_time,
-    unit_a, unit_b, transform, scale, align and max_distance those of distance(), for each pair. points: 'a', 'b' or 'both', whose files are
-    points without faces. on_progress(fraction, lower, upper) is called as
-    each pair ends, on the thread of next(): the share of pairs that have ended, which comes to 1, and the interval of the
+    unit_a, unit_b, transform, scale, align, max_distance and points those of distance(), for each pair.
+    on_progress(fraction, lower, upper) is called as each pair ends, on the thread of next(): the share of pairs that have ended, which comes to 1, and the interval of the
     largest distance among them. Where pairs has no len(), the share is 0 until the last pair is taken. Return False to end.
 
     Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or

@@ -45,6 +45,18 @@ def _of_vtk(mesh):
     return vtk_to_numpy(mesh.GetPoints().GetData()), vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)
 
 
+def points(given):
+    """Returns the array of points of an object that has .vertices or .points and no triangles, or what was given."""
+    found = next((getattr(given, name) for name in ("vertices", "points") if hasattr(given, name)), None)
+    if found is None:
+        return given
+    faces = next((getattr(given, name) for name in ("faces", "triangles", "regular_faces") if hasattr(given, name)), ())
+    cells = getattr(given, "cells_dict", None) or {}
+    if len(faces if faces is not None else ()) or set(cells) - {"vertex"}:
+        raise ValueError("expected points alone, not a mesh with faces: give its array of points to measure these alone")
+    return found
+
+
 def arrays(mesh):
     """Returns (points, triangles), or (None, None) for an object of no such library."""
     if hasattr(mesh, "cells_dict") and hasattr(mesh, "points"):
